@@ -1,0 +1,377 @@
+"""The one description that every reader (URDF, SDF) produces and every consumer (physics, rendering, sensors) takes.
+
+Conventions: SI units, REP-103 axes. A :class:`Pose` ``X_AB`` gives the pose of frame B measured and expressed in A;
+``p`` is ``p_AB`` in metres, ``q`` the unit quaternion of ``R_AB`` in the order x, y, z, w.
+All records are frozen; they remember where they were written (:class:`Source`) so that a message can name file,
+line and element. Defaults are those of sdformat 1.7 and Gazebo Classic's ODE engine.
+"""
+from __future__ import annotations
+
+import xml.etree.ElementTree as ET
+from dataclasses import dataclass, field
+from typing import Optional, Tuple, Union
+
+Vec3 = Tuple[float, float, float]
+Quat = Tuple[float, float, float, float]
+
+
+@dataclass(frozen=True)
+class Source:
+    """Where an element was written."""
+
+    file: str = ""
+    line: int = 0
+    element: str = ""
+
+    def __str__(self) -> str:
+        place = self.file or "text"
+        if self.line:
+            place += f":{self.line}"
+        return f"{place} {self.element}".strip()
+
+
+@dataclass(frozen=True)
+class Problem:
+    """Something a reader noticed and went on (``warning``) or had to leave out (``error``)."""
+
+    severity: str  # "warning" | "error"
+    message: str
+    source: Source = Source()
+
+    def __str__(self) -> str:
+        return f"{self.source}: {self.message}" if self.source.file or self.source.element else self.message
+
+
+class DescriptionError(ValueError):
+    """The text cannot be turned into a model or world at all. One line, for a student to read."""
+
+
+@dataclass(frozen=True)
+class Pose:
+    """Rigid transform X_AB: ``p`` metres, ``q`` unit quaternion (x, y, z, w). See :mod:`ode_sim.math3` for operations."""
+
+    p: Vec3 = (0.0, 0.0, 0.0)
+    q: Quat = (0.0, 0.0, 0.0, 1.0)
+
+
+# ---------------------------------------------------------------------------------------------- geometry
+
+@dataclass(frozen=True)
+class Box:
+    size: Vec3 = (1.0, 1.0, 1.0)
+
+
+@dataclass(frozen=True)
+class Sphere:
+    radius: float = 1.0
+
+
+@dataclass(frozen=True)
+class Cylinder:
+    """Axis along z, centred on the origin."""
+
+    radius: float = 1.0
+    length: float = 1.0
+
+
+@dataclass(frozen=True)
+class Capsule:
+    """Axis along z; ``length`` is that of the cylindrical part."""
+
+    radius: float = 1.0
+    length: float = 1.0
+
+
+@dataclass(frozen=True)
+class Plane:
+    """Infinite for collision; ``size`` (x, y) is what is drawn."""
+
+    normal: Vec3 = (0.0, 0.0, 1.0)
+    size: Tuple[float, float] = (1.0, 1.0)
+
+
+@dataclass(frozen=True)
+class Mesh:
+    """``path`` is a resolved absolute file name ('' when it could not be found; ``uri`` says what was asked for)."""
+
+    path: str
+    uri: str = ""
+    scale: Vec3 = (1.0, 1.0, 1.0)
+    submesh: str = ""
+    center: bool = False
+
+
+@dataclass(frozen=True)
+class Heightmap:
+    path: str
+    uri: str = ""
+    size: Vec3 = (1.0, 1.0, 1.0)
+    pos: Vec3 = (0.0, 0.0, 0.0)
+    sampling: int = 2
+
+
+@dataclass(frozen=True)
+class Polyline:
+    """Extruded along z from 0 to ``height``."""
+
+    points: Tuple[Tuple[float, float], ...] = ()
+    height: float = 1.0
+
+
+Geometry = Union[Box, Sphere, Cylinder, Capsule, Plane, Mesh, Heightmap, Polyline, None]
+
+# ---------------------------------------------------------------------------------------------- looks
+
+Rgba = Tuple[float, float, float, float]
+
+
+@dataclass(frozen=True)
+class Material:
+    """Colours 0..1; ``None`` = not given. ``name`` is a Gazebo script name such as ``Gazebo/Red`` (already resolved into
+    the colours where known); ``texture`` an absolute image file, '' if none."""
+
+    name: str = ""
+    ambient: Optional[Rgba] = None
+    diffuse: Optional[Rgba] = None
+    specular: Optional[Rgba] = None
+    emissive: Optional[Rgba] = None
+    texture: str = ""
+
+
+@dataclass(frozen=True)
+class Visual:
+    name: str
+    pose: Pose  # X_LV, in the link frame
+    geometry: Geometry
+    material: Optional[Material] = None  # None: the mesh's own, or white
+    transparency: float = 0.0
+    cast_shadows: bool = True
+    laser_retro: float = 0.0
+    source: Source = Source()
+
+
+# ---------------------------------------------------------------------------------------------- physics
+
+@dataclass(frozen=True)
+class Surface:
+    mu: float = 1.0
+    mu2: float = 1.0
+    fdir1: Vec3 = (0.0, 0.0, 0.0)
+    slip1: float = 0.0
+    slip2: float = 0.0
+    torsional_mu: Optional[float] = None
+    kp: float = 1e12
+    kd: float = 1.0
+    max_vel: float = 0.01
+    min_depth: float = 0.0
+    restitution: float = 0.0
+    bounce_threshold: float = 1e5
+    collide_bitmask: int = 0xFFFF
+    collide_without_contact: bool = False
+
+
+@dataclass(frozen=True)
+class Collision:
+    name: str
+    pose: Pose  # X_LC, in the link frame
+    geometry: Geometry
+    surface: Surface = Surface()
+    max_contacts: int = 10
+    laser_retro: float = 0.0
+    source: Source = Source()
+
+
+@dataclass(frozen=True)
+class Inertial:
+    """``pose`` is X_LI: its origin is the centre of mass, its axes those of the tensor (kg m^2 about the CoM)."""
+
+    mass: float = 1.0
+    pose: Pose = Pose()
+    ixx: float = 1.0
+    ixy: float = 0.0
+    ixz: float = 0.0
+    iyy: float = 1.0
+    iyz: float = 0.0
+    izz: float = 1.0
+
+
+@dataclass(frozen=True)
+class Plugin:
+    """``filename`` and ``name`` have surrounding white space removed. ``element`` is the whole ``<plugin>`` element."""
+
+    name: str
+    filename: str
+    element: ET.Element = field(compare=False)
+    source: Source = Source()
+
+
+@dataclass(frozen=True)
+class Sensor:
+    """``type`` as in SDF (camera, depth, multicamera, ray, gpu_ray, imu, contact, force_torque ...). ``element`` is the
+    whole ``<sensor>`` element in SDF form: each sensor reads its own block from it."""
+
+    name: str
+    type: str
+    pose: Pose  # X_LS, in the link frame
+    element: ET.Element = field(compare=False)
+    update_rate: float = 0.0  # Hz of sim time, 0 = every step
+    always_on: bool = False
+    plugins: Tuple[Plugin, ...] = ()
+    source: Source = Source()
+
+
+@dataclass(frozen=True)
+class Light:
+    name: str
+    type: str = "point"  # point | directional | spot
+    pose: Pose = Pose()
+    diffuse: Rgba = (1.0, 1.0, 1.0, 1.0)
+    specular: Rgba = (0.1, 0.1, 0.1, 1.0)
+    direction: Vec3 = (0.0, 0.0, -1.0)
+    range: float = 10.0
+    constant: float = 1.0
+    linear: float = 1.0
+    quadratic: float = 0.0
+    spot: Vec3 = (0.0, 0.0, 0.0)  # inner angle, outer angle (rad), falloff
+    cast_shadows: bool = False
+    source: Source = Source()
+
+
+@dataclass(frozen=True)
+class Link:
+    name: str
+    pose: Pose = Pose()  # X_ML, in the model frame
+    inertial: Inertial = Inertial()
+    collisions: Tuple[Collision, ...] = ()
+    visuals: Tuple[Visual, ...] = ()
+    sensors: Tuple[Sensor, ...] = ()
+    lights: Tuple[Light, ...] = ()
+    gravity: bool = True
+    self_collide: Optional[bool] = None  # None: the model's
+    kinematic: bool = False
+    linear_decay: float = 0.0
+    angular_decay: float = 0.0
+    source: Source = Source()
+
+
+@dataclass(frozen=True)
+class Axis:
+    """``xyz`` is a unit vector expressed in the joint frame. Angles rad, lengths m; effort N m or N; -1 = unlimited."""
+
+    xyz: Vec3 = (0.0, 0.0, 1.0)
+    lower: float = -1e16
+    upper: float = 1e16
+    effort: float = -1.0
+    velocity: float = -1.0
+    damping: float = 0.0
+    friction: float = 0.0
+    spring_reference: float = 0.0
+    spring_stiffness: float = 0.0
+
+
+@dataclass(frozen=True)
+class Mimic:
+    joint: str
+    multiplier: float = 1.0
+    offset: float = 0.0
+
+
+@dataclass(frozen=True)
+class Joint:
+    """``type``: revolute (URDF continuous is revolute with +-1e16), prismatic, fixed, ball, universal, revolute2,
+    screw, gearbox. ``pose`` is X_CJ, the joint frame in the **child** link frame. ``parent`` may be ``world``."""
+
+    name: str
+    type: str
+    parent: str
+    child: str
+    pose: Pose = Pose()
+    axes: Tuple[Axis, ...] = ()
+    limit_erp: float = 0.2
+    limit_cfm: float = 0.0
+    provide_feedback: bool = False
+    implicit_spring_damper: bool = False
+    fudge_factor: float = 1.0
+    mimic: Optional[Mimic] = None  # from URDF; Gazebo drops it, a plugin may ask for it
+    urdf_type: str = ""  # 'continuous' is told from 'revolute' by this; '' when the source was SDF
+    source: Source = Source()
+
+
+@dataclass(frozen=True)
+class Model:
+    name: str
+    pose: Pose = Pose()  # X_WM
+    links: Tuple[Link, ...] = ()
+    joints: Tuple[Joint, ...] = ()
+    plugins: Tuple[Plugin, ...] = ()
+    static: bool = False
+    self_collide: bool = False
+    allow_auto_disable: bool = True
+    source: Source = Source()
+
+
+@dataclass(frozen=True)
+class Physics:
+    max_step_size: float = 0.001  # s
+    real_time_update_rate: float = 1000.0  # Hz of wall time, 0 = as fast as possible
+    real_time_factor: float = 1.0  # stored, not enforced (as Gazebo Classic)
+    max_contacts: int = 20
+    solver: str = "quick"
+    iters: int = 50
+    precon_iters: int = 0
+    sor: float = 1.3
+    cfm: float = 0.0
+    erp: float = 0.2
+    contact_max_correcting_vel: float = 100.0
+    contact_surface_layer: float = 0.001
+
+
+@dataclass(frozen=True)
+class LinkState:
+    name: str
+    pose: Pose  # X_WL
+    linear: Vec3 = (0.0, 0.0, 0.0)
+    angular: Vec3 = (0.0, 0.0, 0.0)
+
+
+@dataclass(frozen=True)
+class ModelState:
+    name: str
+    pose: Optional[Pose] = None  # X_WM
+    scale: Vec3 = (1.0, 1.0, 1.0)
+    links: Tuple[LinkState, ...] = ()
+
+
+@dataclass(frozen=True)
+class WorldState:
+    """The first ``<state>`` of a world file."""
+
+    sim_time: float = 0.0
+    iterations: int = 0
+    models: Tuple[ModelState, ...] = ()
+    light_poses: Tuple[Tuple[str, Pose], ...] = ()
+    deletions: Tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Scene:
+    ambient: Rgba = (0.4, 0.4, 0.4, 1.0)
+    background: Rgba = (0.7, 0.7, 0.7, 1.0)
+    shadows: bool = True
+    grid: bool = True
+    sky: bool = False
+
+
+@dataclass(frozen=True)
+class World:
+    name: str = "default"
+    gravity: Vec3 = (0.0, 0.0, -9.8)
+    magnetic_field: Vec3 = (5.5645e-6, 22.8758e-6, -42.3884e-6)
+    physics: Physics = Physics()
+    scene: Scene = Scene()
+    models: Tuple[Model, ...] = ()
+    lights: Tuple[Light, ...] = ()
+    plugins: Tuple[Plugin, ...] = ()
+    state: Optional[WorldState] = None
+    spherical_coordinates: Tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)  # lat, lon (deg), elevation (m), heading (deg)
+    source: Source = Source()
