@@ -1,0 +1,43 @@
+# xacro_add_xacro_file(INPUT [OUTPUT] [REMAP a:=b ...] [DEPENDS ...]): build rule from a xacro file to XML.
+# Sets <OUTPUT> in the caller's XACRO_OUTPUT_FILE, as upstream does.
+include(CMakeParseArguments)
+function(xacro_add_xacro_file input)
+  cmake_parse_arguments(_XACRO "INORDER" "OUTPUT" "REMAP;DEPENDS" ${ARGN})
+  get_filename_component(_input "${input}" ABSOLUTE)
+  set(_output "${_XACRO_OUTPUT}")
+  if(NOT _output)
+    list(GET _XACRO_UNPARSED_ARGUMENTS 0 _output)
+  endif()
+  if(NOT _output)
+    get_filename_component(_output "${input}" NAME)
+    string(REGEX REPLACE "\\.xacro$" "" _output "${_output}")
+  endif()
+  get_filename_component(_output "${_output}" ABSOLUTE BASE_DIR "${CMAKE_CURRENT_BINARY_DIR}")
+  add_custom_command(OUTPUT ${_output}
+    COMMAND ${CATKIN_ENV} xacro -o ${_output} ${_input} ${_XACRO_REMAP}
+    DEPENDS ${_input} ${_XACRO_DEPENDS}
+    COMMENT "xacro: generating ${_output} from ${input}")
+  set(XACRO_OUTPUT_FILE ${_output} PARENT_SCOPE)
+endfunction()
+
+function(xacro_install target)
+  cmake_parse_arguments(_XACRO "" "DESTINATION" "" ${ARGN})
+  install(FILES ${_XACRO_UNPARSED_ARGUMENTS} DESTINATION ${_XACRO_DESTINATION})
+endfunction()
+
+# xacro_add_files(files... [INORDER] [INSTALL DESTINATION d] [TARGET t] [REMAP ...] [DEPENDS ...])
+function(xacro_add_files)
+  cmake_parse_arguments(_XACRO "INORDER;INSTALL" "OUTPUT;DESTINATION;TARGET" "REMAP;DEPENDS" ${ARGN})
+  if(NOT _XACRO_TARGET)
+    set(_XACRO_TARGET ${PROJECT_NAME}_xacro_generated_to_devel_space_)
+  endif()
+  set(_outputs)
+  foreach(_file ${_XACRO_UNPARSED_ARGUMENTS})
+    xacro_add_xacro_file(${_file} OUTPUT "${_XACRO_OUTPUT}" REMAP ${_XACRO_REMAP} DEPENDS ${_XACRO_DEPENDS})
+    list(APPEND _outputs ${XACRO_OUTPUT_FILE})
+  endforeach()
+  add_custom_target(${_XACRO_TARGET} ALL DEPENDS ${_outputs})
+  if(_XACRO_INSTALL)
+    install(FILES ${_outputs} DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION}/${_XACRO_DESTINATION})
+  endif()
+endfunction()

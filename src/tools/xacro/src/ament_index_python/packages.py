@@ -1,0 +1,27 @@
+"""The one function of ament_index_python that xacro's ``$(find pkg)`` calls, answered from ROS_PACKAGE_PATH."""
+import rospkg
+
+_rospack = None
+
+
+class PackageNotFoundError(KeyError):
+    """No package of that name; prints as one plain line."""
+
+    def __str__(self) -> str:
+        return str(self.args[0])
+
+
+def get_package_share_directory(package_name: str) -> str:
+    """Directory of a ROS 1 package.
+
+    :raises PackageNotFoundError: naming the package and what to do.
+    """
+    global _rospack
+    if _rospack is None:
+        _rospack = rospkg.RosPack()
+    try:
+        return _rospack.get_path(package_name)
+    except rospkg.ResourceNotFound as error:
+        raise PackageNotFoundError(
+            f"package '{error.args[0]}' not found: is it built, and has its workspace's devel/setup.bash been sourced in "
+            f"this shell?") from None

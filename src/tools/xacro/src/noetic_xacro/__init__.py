@@ -1,0 +1,1 @@
+"""Command line of xacro with errors that name file and line."""

@@ -1,0 +1,110 @@
+"""``xacro FILE [a:=b ...]`` as in ROS Noetic: PyPI's xacro, ``$(find pkg)`` through rospkg, errors with file and line.
+
+PyPI's xacro reads with minidom, which forgets line numbers. The parser here notes file and line on each element, clones
+keep them, and a failing run reports the innermost element that was being expanded.
+"""
+from __future__ import annotations
+
+import os
+import sys
+import xml.dom.expatbuilder
+import xml.dom.minidom
+from typing import Optional
+from xml.parsers.expat import ExpatError
+
+import xacro
+import xacro.cli
+from ament_index_python.packages import PackageNotFoundError
+
+_PLACE = "xacro_place"  # attribute set on DOM elements: "file:line"
+
+
+class _PlacedBuilder(xml.dom.expatbuilder.ExpatBuilderNS):
+    """minidom's builder, noting on every element where its start tag stands."""
+
+    def __init__(self, file_name: str):
+        super().__init__()
+        self._file_name = file_name
+
+    def start_element_handler(self, name, attributes):
+        super().start_element_handler(name, attributes)
+        setattr(self.curNode, _PLACE, f"{self._file_name}:{self.getParser().CurrentLineNumber}")
+
+
+def _parse(inp, filename: Optional[str] = None) -> xml.dom.minidom.Document:
+    """Replacement of ``xacro.parse``: same contract, with places."""
+    if inp is None:
+        path = os.path.join(xacro.root_dir, filename)
+        try:
+            with open(path, "rb") as file:
+                data = file.read()
+        except OSError as error:
+            xacro.filestack.pop()
+            raise xacro.XacroException(f"{error.strerror}: {path}", exc=error) from error
+    elif isinstance(inp, (str, bytes)):
+        path, data = filename or "text", inp
+    elif hasattr(inp, "read"):
+        path, data = filename or getattr(inp, "name", "text"), inp.read()
+    else:
+        return inp
+    return _PlacedBuilder(path).parseString(data)
+
+
+def _keep_place_in_clones() -> None:
+    original = xml.dom.minidom._clone_node
+
+    def clone_node(node, deep, new_owner_document):
+        clone = original(node, deep, new_owner_document)
+        if hasattr(node, _PLACE):
+            setattr(clone, _PLACE, getattr(node, _PLACE))
+        return clone
+
+    xml.dom.minidom._clone_node = clone_node
+
+
+def _place_of(error: BaseException) -> str:
+    """Place of the innermost element that the failing call chain was working on, '' if unknown."""
+    place = ""
+    trace = error.__traceback__
+    while trace is not None:
+        for value in trace.tb_frame.f_locals.values():
+            if isinstance(value, xml.dom.minidom.Element) and hasattr(value, _PLACE):
+                place = getattr(value, _PLACE)
+        trace = trace.tb_next
+    return place
+
+
+def _fail(message: str, verbosity: int, error: BaseException) -> None:
+    print(f"xacro: error: {message}", file=sys.stderr)
+    if verbosity > 0:
+        xacro.print_location()
+    if verbosity > 1:
+        raise error
+    sys.exit(2)
+
+
+def main() -> None:
+    """Expand one file to standard output or to ``-o FILE``. Exit code 2 on any error, as upstream."""
+    options, file_name = xacro.cli.process_args(sys.argv[1:])
+    xacro.parse = _parse
+    _keep_place_in_clones()
+    if options.root_dir:
+        xacro.root_dir = options.root_dir
+    try:
+        doc = xacro.process_file(file_name, **vars(options))
+        text = " ".join(sorted(set(xacro.all_includes))) if options.just_deps else doc.toprettyxml(indent="  ")
+        if options.output:
+            with xacro.open_output(options.output) as out:
+                out.write(text)
+        else:
+            sys.stdout.write(text)
+    except ExpatError as error:
+        file = (xacro.filestack or [file_name])[-1]
+        _fail(f"{file}:{error.lineno}: not well-formed XML: {error}", options.verbosity, error)
+    except BrokenPipeError:
+        os._exit(1)  # the reader went away (`xacro f | head`): nothing to report, nothing left to flush
+    except Exception as error:  # noqa: BLE001  expressions in a xacro file may raise anything
+        place = _place_of(error)
+        cause = getattr(error, "exc", None)
+        message = str(cause if isinstance(cause, PackageNotFoundError) else error) or repr(error)
+        _fail(f"{place}: {message}" if place else message, options.verbosity, error)

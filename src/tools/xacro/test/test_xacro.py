@@ -1,0 +1,67 @@
+"""The xacro commands as a student types them."""
+import os
+import subprocess
+
+import pytest
+
+HERE = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+HEADER = '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
+
+
+def run(path, *arguments, command="xacro"):
+    return subprocess.run([os.path.join(HERE, command), str(path), *arguments], capture_output=True, text=True)
+
+
+@pytest.fixture
+def write(tmp_path):
+    def write_file(body, name="r.xacro", header=HEADER):
+        path = tmp_path / name
+        path.write_text(header + body + "\n</robot>\n")
+        return path
+    return write_file
+
+
+@pytest.mark.parametrize("command", ["xacro", "xacro.py"])
+def test_expands_macros_arguments_and_expressions(write, command):
+    path = write('<xacro:arg name="n" default="a"/><xacro:macro name="m" params="v"><link name="${v}_$(arg n)"/>'
+                 '</xacro:macro><xacro:m v="${1+1}"/>')
+    result = run(path, "--inorder", "n:=b", command=command)
+    assert result.returncode == 0 and '<link name="2_b"/>' in result.stdout
+
+
+def test_find_goes_through_rospkg(write):
+    result = run(write('<link name="$(find xacro)"/>'))
+    assert f'<link name="{HERE}"/>' in result.stdout
+
+
+def test_unknown_package_is_named_with_place_and_remedy(write):
+    path = write('<link name="a"/>\n<xacro:include filename="$(find no_such_pkg)/a.xacro"/>')
+    result = run(path)
+    assert result.returncode == 2
+    assert f"{path}:3: package 'no_such_pkg' not found" in result.stderr and "Traceback" not in result.stderr
+
+
+def test_error_inside_an_included_macro_names_its_own_file_and_line(write):
+    write('\n<xacro:macro name="m">\n<link name="${nope}"/></xacro:macro>', name="inner.xacro")
+    outer = write('<xacro:include filename="inner.xacro"/>\n<xacro:m/>')
+    result = run(outer)
+    assert result.returncode == 2 and "inner.xacro:4: name 'nope' is not defined" in result.stderr
+
+
+def test_malformed_xml_names_file_and_line(write):
+    path = write("<link>\n</lnk>")
+    result = run(path)
+    assert result.returncode == 2 and f"{path}:3: not well-formed XML" in result.stderr
+
+
+def test_missing_file(tmp_path):
+    result = run(tmp_path / "none.xacro")
+    assert result.returncode == 2 and "No such file" in result.stderr and "Traceback" not in result.stderr
+
+
+def test_output_option_and_old_namespaces(write, tmp_path):
+    path = write('<xacro:property name="x" value="3"/><link name="${x}"/>',
+                 header='<robot name="r" xmlns:xacro="http://ros.org/wiki/xacro">\n')
+    out = tmp_path / "out.urdf"
+    assert run(path, "-o", str(out)).returncode == 0
+    assert '<link name="3"/>' in out.read_text()
