@@ -1,0 +1,151 @@
+"""Runs the workspace's tests: pytest for ROS-free code, rostest for whatever talks ROS; two jobs at a time.
+
+Every ``test/test_*.py`` below src/ is pytest's, every ``test/*.test`` is rostest's (on a master of its own). Closes with
+one line ``N passed, M failed``; the output of what failed is printed in full, and kept with the rest in --logs.
+"""
+from __future__ import annotations
+
+import argparse
+import concurrent.futures
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import xml.etree.ElementTree as ET
+from dataclasses import dataclass
+from pathlib import Path
+from typing import List
+
+ROOT = Path(__file__).resolve().parent.parent
+TIME_LIMIT = 300  # s for one file; a test that takes longer hangs
+
+
+@dataclass
+class Job:
+    package: Path
+    kind: str
+    path: Path
+
+    @property
+    def name(self) -> str:
+        return f"{self.package.name}/{self.path.relative_to(self.package)}"
+
+
+@dataclass
+class Result:
+    job: Job
+    passed: int
+    failed: int
+    skipped: int
+    seconds: float
+    output: str
+
+
+def find_jobs(packages: List[str], kind: str) -> List[Job]:
+    """All test files, the slow kind first so that the two workers end together."""
+    jobs: List[Job] = []
+    for manifest in sorted([*(ROOT / "src").rglob("package.xml"), *(ROOT / "docs").rglob("package.xml")]):
+        package = manifest.parent
+        if packages and package.name not in packages:
+            continue
+        test = package / "test"
+        if not test.is_dir():
+            continue
+        if kind in ("rostest", "all"):
+            jobs += [Job(package, "rostest", path) for path in sorted(test.rglob("*.test"))]
+        if kind in ("pytest", "all") and any(test.rglob("test_*.py")):
+            jobs.append(Job(package, "pytest", test))
+    if not packages and kind in ("pytest", "all"):
+        jobs.append(Job(ROOT, "pytest", ROOT / "scripts" / "test_workspace.py"))
+    return sorted(jobs, key=lambda job: job.kind != "rostest")
+
+
+def count(report: Path) -> tuple:
+    """(passed, failed, skipped) from a JUnit file; a missing one counts as one failure."""
+    try:
+        root = ET.parse(report).getroot()
+    except (OSError, ET.ParseError):
+        return 0, 1, 0
+    suites = [root] if root.tag == "testsuite" else list(root.iter("testsuite"))
+    total = failed = skipped = 0
+    for suite in suites:
+        total += int(suite.get("tests", 0))
+        failed += int(suite.get("failures", 0)) + int(suite.get("errors", 0))
+        skipped += int(suite.get("skipped", suite.get("skip", 0)) or 0)
+    return total - failed - skipped, failed, skipped
+
+
+def run(job: Job, scratch: Path) -> Result:
+    """One file in a session of its own; whatever it leaves behind is ended and counts as a failure."""
+    home = Path(tempfile.mkdtemp(prefix=job.package.name + "_", dir=scratch))
+    environment = dict(os.environ, ROS_HOME=str(home), ROS_TEST_RESULTS_DIR=str(home / "results"),
+                       PYTHONDONTWRITEBYTECODE="1")
+    if job.kind == "pytest":
+        command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "--durations=5", "--durations-min=2",
+                   f"--junitxml={home / 'report.xml'}", str(job.path)]
+    else:
+        command = ["rostest", str(job.path)]
+    start = time.monotonic()
+    process = subprocess.Popen(command, cwd=home, env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                               stderr=subprocess.STDOUT, text=True, errors="replace", start_new_session=True)
+    try:
+        output, _ = process.communicate(timeout=TIME_LIMIT)
+    except subprocess.TimeoutExpired:
+        os.killpg(process.pid, signal.SIGKILL)
+        output, _ = process.communicate()
+        output += f"\n{job.name}: stopped after {TIME_LIMIT} s\n"
+    seconds = time.monotonic() - start
+    if job.kind == "pytest":
+        passed, failed, skipped = count(home / "report.xml")
+    else:
+        reports = sorted((home / "results").rglob("*.xml"))
+        summary = [r for r in reports if r.name.startswith("rostest-")] or reports
+        passed = failed = skipped = 0
+        for report in summary or [home / "none.xml"]:
+            p, f, s = count(report)
+            passed, failed, skipped = passed + p, failed + f, skipped + s
+    if process.returncode != 0 and failed == 0:
+        failed += 1
+        output += f"\n{job.name}: exit code {process.returncode}\n"
+    if passed + failed == 0:
+        failed += 1
+        output += f"\n{job.name}: no test ran\n"
+    (scratch / (job.name.replace("/", "__") + ".log")).write_text(output)
+    return Result(job, passed, failed, skipped, seconds, output)
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("packages", nargs="*", help="only these packages")
+    parser.add_argument("-k", "--kind", choices=["all", "pytest", "rostest"], default="all")
+    parser.add_argument("-j", "--jobs", type=int, default=min(2, os.cpu_count() or 1))
+    parser.add_argument("--logs", default=None, help="keep all output in this folder")
+    options = parser.parse_args()
+    scratch = Path(options.logs or tempfile.mkdtemp(prefix="noetic_labs_test_")).resolve()
+    scratch.mkdir(parents=True, exist_ok=True)
+    jobs = find_jobs(options.packages, options.kind)
+    if not jobs:
+        print(f"no tests found for {' '.join(options.packages) or 'any package'}", file=sys.stderr)
+        return 1
+    passed = failed = skipped = 0
+    start = time.monotonic()
+    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+        for future in concurrent.futures.as_completed([pool.submit(run, job, scratch) for job in jobs]):
+            result = future.result()
+            passed, failed, skipped = passed + result.passed, failed + result.failed, skipped + result.skipped
+            mark = "FAIL" if result.failed else "ok"
+            print(f"{mark:4} {result.job.kind:7} {result.job.name:70} {result.passed:4} passed {result.seconds:6.1f} s", flush=True)
+            if result.failed:
+                print(result.output, flush=True)
+    print(f"{time.monotonic() - start:.0f} s in all, logs in {scratch}")
+    if not failed and not options.logs:
+        shutil.rmtree(scratch, ignore_errors=True)
+    print(f"{passed} passed, {failed} failed, {skipped} skipped")
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

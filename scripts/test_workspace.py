@@ -1,0 +1,77 @@
+"""The house rules that a machine can check: import directions, launch arguments, node script sizes, manifests."""
+import ast
+import subprocess
+import xml.etree.ElementTree as ET
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+PACKAGES = {path.parent.name: path.parent for path in sorted((ROOT / "src").rglob("package.xml"))}
+ROS_MODULES = {"rospy", "roslib", "rosgraph", "rospkg", "tf", "tf2_ros", "genpy", "catkin"}
+
+
+def tracked(pattern):
+    """Files that git knows below src/, so that build products and caches do not count."""
+    out = subprocess.run(["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard", "--", pattern], cwd=ROOT,
+                         capture_output=True, text=True, check=True).stdout
+    return [ROOT / name for name in out.split("\0") if name and (ROOT / name).is_file()]
+
+
+def imports(path):
+    """Top-level module names imported anywhere in a Python file."""
+    names = set()
+    for node in ast.walk(ast.parse(path.read_text(), str(path))):
+        if isinstance(node, ast.Import):
+            names |= {alias.name.split(".")[0] for alias in node.names}
+        elif isinstance(node, ast.ImportFrom) and node.level == 0 and node.module:
+            names.add(node.module.split(".")[0])
+    return names
+
+
+def python_files(package):
+    return [p for p in tracked(f"{PACKAGES[package].relative_to(ROOT)}/src/*.py")]
+
+
+def room(package):
+    return PACKAGES[package].relative_to(ROOT / "src").parts[0]
+
+
+def test_ode_sim_imports_no_ros():
+    for path in python_files("ode_sim"):
+        assert not imports(path) & (ROS_MODULES | (set(PACKAGES) - {"ode_sim"})), path
+
+
+@pytest.mark.parametrize("package", sorted(PACKAGES))
+def test_imports_point_one_way(package):
+    """Control knows neither the simulator nor hardware; tools know none of them; nobody imports a lab."""
+    forbidden = {"control": {"simulation", "hardware", "labs"}, "tools": {"simulation", "control", "hardware", "labs"},
+                 "simulation": {"hardware", "labs"}, "hardware": {"simulation", "labs"}, "labs": set()}
+    own = room(package)
+    for path in python_files(package):
+        for name in imports(path) & set(PACKAGES):
+            assert room(name) not in forbidden.get(own, set()), f"{path} imports {name}"
+            assert own == "labs" or room(name) != "labs", f"{path} imports {name}"
+
+
+@pytest.mark.parametrize("package", sorted(PACKAGES))
+def test_manifest_is_complete(package):
+    root = ET.parse(PACKAGES[package] / "package.xml").getroot()
+    assert root.get("format") in ("2", "3") and root.findtext("name") == package
+    assert len(root.findtext("description").strip()) > 15 and "TODO" not in ET.tostring(root, "unicode")
+    assert root.findtext("license") == "BSD-3-Clause"
+
+
+def test_node_scripts_are_short():
+    for path in tracked("src/*/scripts/*"):
+        if path.read_bytes()[:2] == b"#!" and b"python" in path.read_bytes().split(b"\n", 1)[0]:
+            assert len(path.read_text().splitlines()) <= 20, path
+
+
+def test_launch_arguments_are_documented():
+    for path in tracked("src/*.launch"):
+        if "/test/" in str(path):
+            continue
+        for arg in ET.parse(path).getroot().findall("arg"):
+            assert arg.get("value") is not None or (arg.get("default") is not None and arg.get("doc")), \
+                f"{path}: argument {arg.get('name')} needs a default and a doc"
