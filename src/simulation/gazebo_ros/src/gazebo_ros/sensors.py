@@ -1,0 +1,151 @@
+"""The part that all sensors share: where the sensor is, and when it measures.
+
+A sensor plugin says what it measures and whether anybody wants it::
+
+    class Range(SensorPlugin):
+        def load(self, server, sensor, sdf):
+            self.publisher = rospy.Publisher(...)
+            sensor.connect(self.measure, wanted=lambda: self.publisher.get_num_connections() > 0)
+
+        def measure(self, sensor):      # physics thread, after a step; sensor.measurement_time is the stamp
+            ...
+
+An unwanted sensor costs one comparison a step, and nothing at all is measured.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Callable, List
+
+import rospy
+
+_NS = 1_000_000_000
+
+
+def _always() -> bool:
+    return True
+
+
+class UpdateRate:
+    """Gazebo's rate rule, in integer nanoseconds of sim time.
+
+    A sensor is due when the time since its last update plus the delay carried over reaches the period. What is late is
+    carried over, so that 30 Hz on a 1 ms step gives 30 updates a second; a delay of a whole period or more is forgotten.
+
+    :param rate: Hz; 0 or less = every step
+    """
+
+    def __init__(self, rate: float):
+        self.rate = rate
+        self.last_ns = 0
+        self._delay_ns = 0
+
+    @property
+    def rate(self) -> float:
+        """Hz of sim time, 0 = every step."""
+        return self._rate
+
+    @rate.setter
+    def rate(self, rate: float) -> None:
+        self._rate = max(rate, 0.0)
+        self.period_ns = round(_NS / rate) if rate > 0 else 0
+
+    def due(self, now_ns: int) -> bool:
+        """Whether an update is due at ``now_ns``; does not take it."""
+        if now_ns <= self.last_ns:
+            if now_ns < self.last_ns:  # time went back: a reset
+                self.reset()
+            return False
+        return now_ns - self.last_ns + self._delay_ns >= self.period_ns
+
+    def take(self, now_ns: int) -> None:
+        """The update at ``now_ns`` happens."""
+        delay = max(0, now_ns - self.last_ns + self._delay_ns - self.period_ns)
+        self._delay_ns = delay if delay < self.period_ns else 0
+        self.last_ns = now_ns
+
+    def reset(self) -> None:
+        self.last_ns = 0
+        self._delay_ns = 0
+
+
+@dataclass
+class _Consumer:
+    measure: Callable[[Sensor], None]
+    wanted: Callable[[], bool]
+
+
+class Sensor:
+    """A sensor on a link of a simulated model.
+
+    ``description``
+        ``ode_sim.description.Sensor``: name, type, pose X_LS, element (the ``<sensor>`` element), update_rate, always_on
+    ``link``, ``model``
+        the handles it is mounted on
+    ``measurement_time``, ``measurement_ns``
+        sim time of the newest update (``rospy.Time``, int nanoseconds)
+    """
+
+    def __init__(self, description, link):
+        self.description = description
+        self.link = link
+        self.model = link.model
+        self.update_rate = UpdateRate(description.update_rate)
+        self.measurement_ns = 0
+        self.update_count = 0
+        self._consumers: List[_Consumer] = []
+
+    @property
+    def name(self) -> str:
+        return self.description.name
+
+    @property
+    def scoped_name(self) -> str:
+        """``model::link::sensor``"""
+        return f"{self.link.scoped_name}::{self.description.name}"
+
+    @property
+    def type(self) -> str:
+        return self.description.type
+
+    @property
+    def measurement_time(self) -> rospy.Time:
+        return rospy.Time(*divmod(self.measurement_ns, _NS))
+
+    @property
+    def active(self) -> bool:
+        """Somebody wants its measurements."""
+        return any(consumer.wanted() for consumer in self._consumers)
+
+    def connect(self, measure: Callable[[Sensor], None], wanted: Callable[[], bool] = _always) -> None:
+        """Call ``measure(sensor)`` in the physics thread at every update while ``wanted()`` is true.
+
+        ``wanted`` is only asked when an update is due. It usually tells whether a topic has subscribers.
+        """
+        self._consumers.append(_Consumer(measure, wanted))
+
+    def disconnect_all(self) -> None:
+        self._consumers.clear()
+
+    def update(self, now_ns: int) -> None:
+        """After a step: measure if an update is due and wanted. Physics thread.
+
+        An exception of a consumer disconnects that consumer and is raised.
+        """
+        if not self._consumers or not self.update_rate.due(now_ns):
+            return
+        wanting = [consumer for consumer in self._consumers if consumer.wanted()]
+        if not wanting:
+            return
+        self.update_rate.take(now_ns)
+        self.measurement_ns = now_ns
+        self.update_count += 1
+        for consumer in wanting:
+            try:
+                consumer.measure(self)
+            except Exception:
+                self._consumers.remove(consumer)
+                raise
+
+    def reset(self) -> None:
+        self.update_rate.reset()
