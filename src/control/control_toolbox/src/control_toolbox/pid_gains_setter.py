@@ -1,0 +1,31 @@
+"""Service to set the gains of one or several Pids in one call."""
+from __future__ import annotations
+
+from typing import Any, List
+
+from control_toolbox.srv import SetPidGains, SetPidGainsResponse
+
+from .pid import Pid
+
+
+class PidGainsSetter:
+    """Offers ``set_gains`` (control_toolbox/SetPidGains) in a namespace; the gains are kept as parameters there.
+
+    :param nh: controller_interface.NodeHandle of the namespace; it owns the service.
+    """
+
+    def __init__(self, nh: Any, *pids: Pid):
+        self._nh = nh
+        self._pids: List[Pid] = list(pids)
+        nh.service("set_gains", SetPidGains, self._set)
+
+    def add(self, pid: Pid) -> None:
+        self._pids.append(pid)
+
+    def _set(self, request: Any) -> SetPidGainsResponse:
+        clamp = abs(request.i_clamp)
+        for pid in self._pids:
+            pid.set_gains(request.p, request.i, request.d, clamp, -clamp, request.antiwindup)
+        for name in ("p", "i", "d", "i_clamp", "antiwindup"):
+            self._nh.set_param(name, getattr(request, name))
+        return SetPidGainsResponse()

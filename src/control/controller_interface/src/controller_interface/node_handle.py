@@ -1,0 +1,126 @@
+"""A namespace, with what a controller makes in it: parameters, publishers, subscribers, services."""
+from __future__ import annotations
+
+from typing import Any, Callable, List, Optional
+
+import rosgraph
+import rospy
+
+_KINDS = {float: "a number", int: "a whole number", bool: "true or false", str: "a text", list: "a list", dict: "a map"}
+_REQUIRED = object()
+
+
+class ParameterError(Exception):
+    """A parameter is missing or of the wrong kind; the line says where it was looked up and what was there."""
+
+
+class NodeHandle:
+    """Names relative to ``namespace``; remembers what is made through it, until ``shutdown``.
+
+    :param namespace: absolute, or relative to the namespace of the process; "" is the latter.
+    """
+
+    def __init__(self, namespace: str = "", _owned: Optional[List[Any]] = None):
+        self.namespace = rospy.resolve_name(namespace or rospy.get_namespace()).rstrip("/") or "/"
+        self._owned = [] if _owned is None else _owned
+
+    def sub(self, name: str) -> "NodeHandle":
+        """A handle one level down; what it makes goes when this handle is shut down."""
+        return NodeHandle(self._join(name), self._owned)
+
+    def resolve(self, name: str) -> str:
+        """Absolute name, remappings applied."""
+        return rospy.resolve_name(self._join(name))
+
+    def _join(self, name: str) -> str:
+        if not name:
+            return self.namespace
+        return name if name[0] in "/~" else f"{self.namespace.rstrip('/')}/{name}"
+
+    # -- parameters -------------------------------------------------------------------------------------------------
+
+    def has_param(self, name: str) -> bool:
+        return rospy.has_param(self._join(name))
+
+    def param(self, name: str, default: Any) -> Any:
+        """Value of a parameter, or ``default``. A float default accepts whole numbers.
+
+        :raises ParameterError: the value is there and of another kind than the default.
+        """
+        kind = None if default is None else type(default)
+        return self._get(name, default, kind if kind in _KINDS else None)
+
+    def get_param(self, name: str, kind: Optional[type] = None) -> Any:
+        """Value of a required parameter.
+
+        :param kind: float (whole numbers accepted), int, bool, str, list or dict; None takes anything.
+        :raises ParameterError: missing, or of another kind.
+        """
+        return self._get(name, _REQUIRED, kind)
+
+    def strings(self, name: str) -> List[str]:
+        """A required non-empty list of texts (joint names).
+
+        :raises ParameterError: missing, empty, or something else than texts in it.
+        """
+        value = self.get_param(name, list)
+        if not value or not all(isinstance(entry, str) for entry in value):
+            raise ParameterError(f"parameter {self._join(name)} must be a non-empty list of names, it is {value!r}")
+        return value
+
+    def _get(self, name: str, default: Any, kind: Optional[type]) -> Any:
+        value = rospy.get_param(self._join(name), default)
+        if value is _REQUIRED:
+            raise ParameterError(f"parameter {self._join(name)} is not set; {self.describe()}")
+        if kind is None or value is default:
+            return value
+        if kind is float and isinstance(value, int) and not isinstance(value, bool):
+            return float(value)
+        if not isinstance(value, kind) or (kind is int and isinstance(value, bool)):
+            raise ParameterError(f"parameter {self._join(name)} must be {_KINDS.get(kind, kind.__name__)}, "
+                                 f"it is {value!r}")
+        return value
+
+    def describe(self) -> str:
+        """What the parameter server has in this namespace, for messages: '/a/b has: joint, type'."""
+        value = rospy.get_param(self.namespace, None)
+        if value is None:
+            return f"there are no parameters in {self.namespace}"
+        if not isinstance(value, dict):
+            return f"{self.namespace} is not a namespace but the value {value!r}"
+        return f"{self.namespace} has: {', '.join(sorted(value)) or 'nothing'}"
+
+    def set_param(self, name: str, value: Any) -> None:
+        rospy.set_param(self._join(name), value)
+
+    def search_param(self, name: str) -> Optional[str]:
+        """Absolute name of the closest parameter ``name`` here or in a namespace above, or None."""
+        found = rosgraph.Master(self.namespace).searchParam(name)
+        return found or None
+
+    # -- communication ------------------------------------------------------------------------------------------------
+
+    def publisher(self, name: str, message_type: type, queue_size: int = 1, latch: bool = False) -> rospy.Publisher:
+        return self.own(rospy.Publisher(self.resolve(name), message_type, queue_size=queue_size, latch=latch))
+
+    def subscriber(self, name: str, message_type: type, callback: Callable, queue_size: int = 1) -> rospy.Subscriber:
+        """``callback`` runs in a thread of rospy: it should only store a value."""
+        return self.own(rospy.Subscriber(self.resolve(name), message_type, callback, queue_size=queue_size))
+
+    def service(self, name: str, service_type: type, callback: Callable) -> rospy.Service:
+        return self.own(rospy.Service(self.resolve(name), service_type, callback))
+
+    def own(self, thing: Any) -> Any:
+        """Release ``thing`` (by its unregister() or shutdown()) together with the rest. :return: ``thing``."""
+        self._owned.append(thing)
+        return thing
+
+    def shutdown(self) -> None:
+        """Unregister everything made through this handle, last first."""
+        while self._owned:
+            thing = self._owned.pop()
+            release = getattr(thing, "unregister", None) or thing.shutdown
+            try:
+                release()
+            except (OSError, rospy.ROSException) as error:  # the master has gone: nothing is left to unregister from
+                rospy.logdebug("releasing %s: %s", thing, error)

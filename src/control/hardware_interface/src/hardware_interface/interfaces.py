@@ -1,0 +1,139 @@
+"""Named collections of handles, and the claims that controllers lay on them.
+
+``type_name`` is the C++ name that users see in list_controllers and write (with a slash) in transmissions.
+"""
+from __future__ import annotations
+
+from typing import Any, Dict, List, Set
+
+import rospy
+
+
+class ResourceError(Exception):
+    """A joint, actuator or sensor is not there; the line says which interface was asked and what it has."""
+
+
+class HardwareInterface:
+    """Handles by name. ``claiming`` interfaces note which resources a controller has taken."""
+
+    type_name = "hardware_interface::HardwareInterface"
+    claiming = False
+
+    def __init__(self, *handles: Any):
+        self._handles: Dict[str, Any] = {}
+        self._claims: Set[str] = set()
+        for handle in handles:
+            self.register_handle(handle)
+
+    def register_handle(self, handle: Any) -> None:
+        """Add a handle under its name. A second one of the same name replaces the first, with a warning."""
+        if handle.name in self._handles:
+            rospy.logwarn("Replacing previously registered handle '%s' in '%s'.", handle.name, self.type_name)
+        self._handles[handle.name] = handle
+
+    def get_handle(self, name: str) -> Any:
+        """The handle of resource ``name``; claims it when the interface is one that commands.
+
+        :raises ResourceError: no such resource.
+        """
+        try:
+            handle = self._handles[name]
+        except KeyError:
+            raise ResourceError(f"Could not find resource '{name}' in '{self.type_name}'; it has: "
+                                f"{', '.join(self.names()) or 'none'}") from None
+        if self.claiming:
+            self.claim(name)
+        return handle
+
+    def names(self) -> List[str]:
+        """Resource names, sorted."""
+        return sorted(self._handles)
+
+    def __contains__(self, name: str) -> bool:
+        return name in self._handles
+
+    def claim(self, resource: str) -> None:
+        self._claims.add(resource)
+
+    def clear_claims(self) -> None:
+        self._claims.clear()
+
+    @property
+    def claims(self) -> Set[str]:
+        """Resources claimed since clear_claims()."""
+        return set(self._claims)
+
+    @classmethod
+    def merged(cls, interfaces: List["HardwareInterface"]) -> "HardwareInterface":
+        """One interface with the handles of several of the same type."""
+        result = cls()
+        for interface in interfaces:
+            for handle in interface._handles.values():
+                result.register_handle(handle)
+        return result
+
+
+class JointStateInterface(HardwareInterface):
+    type_name = "hardware_interface::JointStateInterface"
+
+
+class JointCommandInterface(HardwareInterface):
+    """Base of the interfaces with one command per joint."""
+
+    type_name = "hardware_interface::JointCommandInterface"
+    claiming = True
+
+
+class PositionJointInterface(JointCommandInterface):
+    type_name = "hardware_interface::PositionJointInterface"
+
+
+class VelocityJointInterface(JointCommandInterface):
+    type_name = "hardware_interface::VelocityJointInterface"
+
+
+class EffortJointInterface(JointCommandInterface):
+    type_name = "hardware_interface::EffortJointInterface"
+
+
+class PosVelJointInterface(HardwareInterface):
+    type_name = "hardware_interface::PosVelJointInterface"
+    claiming = True
+
+
+class PosVelAccJointInterface(HardwareInterface):
+    type_name = "hardware_interface::PosVelAccJointInterface"
+    claiming = True
+
+
+class PositionVelocityTorqueGainsJointInterface(HardwareInterface):
+    type_name = "hardware_interface::PositionVelocityTorqueGainsJointInterface"
+    claiming = True
+
+
+class ActuatorStateInterface(HardwareInterface):
+    type_name = "hardware_interface::ActuatorStateInterface"
+
+
+class PositionActuatorInterface(HardwareInterface):
+    type_name = "hardware_interface::PositionActuatorInterface"
+
+
+class VelocityActuatorInterface(HardwareInterface):
+    type_name = "hardware_interface::VelocityActuatorInterface"
+
+
+class EffortActuatorInterface(HardwareInterface):
+    type_name = "hardware_interface::EffortActuatorInterface"
+
+
+class ImuSensorInterface(HardwareInterface):
+    type_name = "hardware_interface::ImuSensorInterface"
+
+
+class ForceTorqueSensorInterface(HardwareInterface):
+    type_name = "hardware_interface::ForceTorqueSensorInterface"
+
+
+class JointModeInterface(HardwareInterface):
+    type_name = "hardware_interface::JointModeInterface"

@@ -1,0 +1,314 @@
+"""The joint trajectory controller; what it writes to the hardware is left to its variants."""
+from __future__ import annotations
+
+import math
+import threading
+from typing import Any, List, Optional, Tuple
+
+import rospy
+from control_msgs.msg import (FollowJointTrajectoryAction, FollowJointTrajectoryFeedback, FollowJointTrajectoryResult,
+                              JointTrajectoryControllerState)
+from control_msgs.srv import QueryTrajectoryState, QueryTrajectoryStateResponse
+from controller_interface import Controller, NodeHandle, ParameterError
+from controller_interface.robot_description import joint_types
+from realtime_tools import RateGate, RealtimeActionServer, RealtimeGoal, RealtimePublisher
+from trajectory_msgs.msg import JointTrajectory
+
+from . import tolerances
+from .segment import Segment, active_index, shortest_angular_distance, stop_segment
+from .splice import Command, InvalidTrajectory, check_times, map_joints, splice
+
+Result = FollowJointTrajectoryResult
+
+
+class JointTrajectoryController(Controller):
+    """Follows trajectories on the joints of parameter ``joints``.
+
+    Threads: ``update`` runs in the control loop; commands, goals and queries come in threads of rospy. They parse on
+    their own time and hold ``_lock`` only to join the new motion to the running one, so the loop waits microseconds.
+    """
+
+    # set by a variant whose output depends on the state error
+    feeds_back = False
+
+    # -- what a variant adds ------------------------------------------------------------------------------------------
+
+    def init_output(self, handles: List[Any], controller_nh: NodeHandle) -> None:
+        """Read the variant's parameters."""
+
+    def start_output(self) -> None:
+        """Write the first command; the joints are to stay where they are."""
+
+    def write_output(self, desired: List[Tuple[float, float, float]], errors: List[Tuple[float, float]],
+                     period: float) -> None:
+        """Write the commands of this cycle.
+
+        :param desired: position, velocity, acceleration of each joint
+        :param errors: position and velocity error of each joint; empty unless ``feeds_back``
+        """
+        raise NotImplementedError
+
+    # -- life-cycle -----------------------------------------------------------------------------------------------------
+
+    def init(self, hw, root_nh: NodeHandle, controller_nh: NodeHandle) -> None:
+        self._name = controller_nh.namespace
+        self._joints = controller_nh.strings("joints")
+        repeated = sorted({joint for joint in self._joints if self._joints.count(joint) > 1})
+        if repeated:
+            raise ParameterError(f"parameter {self._name}/joints names {', '.join(repeated)} more than once")
+        state_rate = _positive(controller_nh, "state_publish_rate", 50.0)
+        self._monitor_period = 1.0 / _positive(controller_nh, "action_monitor_rate", 20.0)
+        self._stop_duration = controller_nh.param("stop_trajectory_duration", 0.0)
+        if not 0.0 <= self._stop_duration < math.inf:
+            raise ParameterError(f"parameter {self._name}/stop_trajectory_duration must not be negative, it is "
+                                 f"{self._stop_duration}")
+        self._partial = controller_nh.param("allow_partial_joints_goal", False)
+        try:
+            self._tolerances = tolerances.from_parameters(self._joints, controller_nh.param("constraints", {}))
+        except ValueError as error:
+            raise ParameterError(f"{self._name}: {error}") from None
+        types = joint_types(root_nh, self._joints)
+        self._continuous = [kind == "continuous" for kind in types]
+        # the difference of two angles is the short way round; of two lengths it is just their difference
+        self._angular = [kind != "prismatic" for kind in types]
+
+        handles = [hw.get_handle(joint) for joint in self._joints]
+        self._states = [handle.state for handle in handles]
+        self.init_output(handles, controller_nh)
+
+        self._lock = threading.Lock()
+        self._running = False
+        self._time = self._uptime = self._period = 0.0
+        self._goal: Optional[RealtimeGoal] = None
+        self._done = [False] * len(self._joints)
+        self._follow([[stop_segment(0.0, 0.0, 0.0, 0.0, None, t)] for t in self._tolerances])
+
+        self._gate = RateGate(state_rate)
+        self._state_publisher = RealtimePublisher(controller_nh, "state", JointTrajectoryControllerState, queue_size=1)
+        controller_nh.subscriber("command", JointTrajectory, self._on_command, queue_size=1)
+        controller_nh.service("query_state", QueryTrajectoryState, self._on_query)
+        controller_nh.own(RealtimeActionServer(controller_nh.resolve("follow_joint_trajectory"),
+                                               FollowJointTrajectoryAction, self._on_goal, self._on_cancel))
+
+    def starting(self, time: float) -> None:
+        with self._lock:
+            self._time, self._uptime, self._period = time, 0.0, 0.0
+            self._next_monitor = 0.0
+            self._known = self._hold_measured(None)
+            if not self._known:
+                rospy.logerr("%s: the hardware reports no position for %s yet; waiting for it before moving", self._name,
+                             ", ".join(s.name for s in self._states if not math.isfinite(s.position)))
+            self._gate.restart(0.0)
+            self._running = True
+        self.start_output()
+
+    def stopping(self, time: float) -> None:
+        with self._lock:
+            self._running = False
+            goal, self._goal = self._goal, None
+        if goal is not None:
+            goal.cancelled(text="The controller was stopped")
+
+    def aborting(self, time: float) -> None:
+        self.stopping(time)
+
+    # -- the loop ---------------------------------------------------------------------------------------------------------
+
+    def update(self, time: float, period: float) -> None:
+        with self._lock:
+            self._time, self._period = time, period
+            self._uptime = uptime = self._uptime + period
+            if not self._known:
+                self._known = self._hold_measured(None)
+                if not self._known:
+                    return
+            trajectory, cursor, next_start, goal = self._trajectory, self._cursor, self._next_start, self._goal
+
+        publish = self._gate.due(uptime)
+        report = goal is not None and uptime >= self._next_monitor
+        need_errors = self.feeds_back or goal is not None or publish
+        desired = []
+        errors = []
+        for joint, segments in enumerate(trajectory):
+            if uptime >= next_start[joint]:
+                index = cursor[joint] = active_index(segments, uptime)
+                next_start[joint] = segments[index + 1].start if index + 1 < len(segments) else math.inf
+            segment = segments[cursor[joint]]
+            point = segment.sample(uptime)
+            desired.append(point)
+            if not need_errors:
+                continue
+            state = self._states[joint]
+            error = point[0] - state.position
+            if self._angular[joint] and not -math.pi < error <= math.pi:
+                error = shortest_angular_distance(state.position, point[0]) if math.isfinite(error) else error
+            velocity_error = point[1] - state.velocity
+            errors.append((error, velocity_error))
+            if goal is not None and segment.goal is goal:
+                if uptime < segment.end:
+                    broken = segment.tolerances.path.violation(error, velocity_error)
+                    if broken:
+                        self._abort(goal, Result.PATH_TOLERANCE_VIOLATED, joint, "path", error, broken)
+                        goal = None
+                elif next_start[joint] == math.inf:
+                    broken = segment.tolerances.goal.violation(error, velocity_error)
+                    if not broken:
+                        self._done[joint] = True
+                    elif not self._done[joint] and uptime >= segment.end + segment.tolerances.goal_time:
+                        self._abort(goal, Result.GOAL_TOLERANCE_VIOLATED, joint, "goal", error, broken)
+                        goal = None
+        self.write_output(desired, errors, period)
+
+        if goal is not None and all(self._done) and self._release(goal):
+            goal.succeed(Result(error_code=Result.SUCCESSFUL))
+        elif report and goal is not None:
+            self._next_monitor = max(self._next_monitor + self._monitor_period, uptime)
+            goal.feedback(self._fill(FollowJointTrajectoryFeedback(), desired, errors))
+        if publish and (not self._state_publisher.has_subscribers or self._state_publisher.publish(
+                self._fill(JointTrajectoryControllerState(), desired, errors))):
+            self._gate.passed()
+
+    def _fill(self, message, desired, errors):
+        """State and feedback messages carry the same fields."""
+        segment = self._trajectory[0][self._cursor[0]]
+        elapsed = self._uptime - segment.start
+        message.header.stamp = rospy.Time.from_sec(self._time)
+        message.joint_names = self._joints
+        message.desired.positions, message.desired.velocities, message.desired.accelerations = map(list, zip(*desired))
+        message.desired.time_from_start = rospy.Duration.from_sec(segment.point_time)
+        message.actual.positions = [state.position for state in self._states]
+        message.actual.velocities = [state.velocity for state in self._states]
+        message.actual.time_from_start = rospy.Duration.from_sec(segment.point_time + elapsed)
+        message.error.positions, message.error.velocities = map(list, zip(*errors))
+        message.error.time_from_start = rospy.Duration.from_sec(-elapsed)
+        return message
+
+    def _abort(self, goal: RealtimeGoal, code: int, joint: int, phase: str, error: float, broken: str) -> None:
+        """End the goal; the joints follow the trajectory to its end all the same."""
+        if self._release(goal):
+            text = f"{self._joints[joint]} {phase} error {error:.6f}: {broken}"
+            goal.abort(Result(error_code=code, error_string=text), text)
+
+    def _release(self, goal: RealtimeGoal) -> bool:
+        """Let go of the active goal; False if a thread of rospy was quicker."""
+        with self._lock:
+            if self._goal is not goal:
+                return False
+            self._goal = None
+            self._done = [False] * len(self._joints)
+            return True
+
+    # -- motions (called with _lock held) -----------------------------------------------------------------------------
+
+    def _follow(self, trajectory: List[List[Segment]]) -> None:
+        self._trajectory = trajectory
+        self._cursor = [0] * len(trajectory)
+        self._next_start = [segments[1].start if len(segments) > 1 else math.inf for segments in trajectory]
+
+    def _hold_measured(self, goal: Optional[RealtimeGoal]) -> bool:
+        """Rest where the joints are now; False when the hardware does not say where that is."""
+        positions = [state.position for state in self._states]
+        if not all(map(math.isfinite, positions)):
+            return False
+        self._follow([[stop_segment(self._uptime, position, 0.0, 0.0, goal, default)]
+                      for position, default in zip(positions, self._tolerances)])
+        return True
+
+    def _hold(self, goal: Optional[RealtimeGoal]) -> None:
+        """Stop, on behalf of ``goal``."""
+        if self._stop_duration == 0.0:
+            self._hold_measured(goal)
+            return
+        states = [segments[max(active_index(segments, self._uptime), 0)].sample(self._uptime)
+                  for segments in self._trajectory]
+        self._follow([[stop_segment(self._uptime, position, velocity, self._stop_duration, goal, default)]
+                      for (position, velocity, _), default in zip(states, self._tolerances)])
+
+    # -- commands, in threads of rospy ------------------------------------------------------------------------------------
+
+    def _on_command(self, message: JointTrajectory) -> None:
+        try:
+            replaced = self._take(message, None, self._tolerances, named=False)
+        except InvalidTrajectory as error:
+            rospy.logerr("%s: %s", self._name, error)
+            return
+        if replaced is not None:
+            replaced.cancel(text="Replaced by a trajectory from the command topic")
+
+    def _on_goal(self, goal: RealtimeGoal) -> None:
+        try:
+            wanted = tolerances.overridden(self._tolerances, self._joints, goal.goal)
+            replaced = self._take(goal.goal.trajectory, goal, wanted, named=True)
+        except (InvalidTrajectory, ValueError) as error:
+            rospy.logerr("%s: %s", self._name, error)
+            goal.reject(Result(error_code=getattr(error, "code", Result.INVALID_GOAL), error_string=str(error)), str(error))
+            return
+        if replaced is not None:
+            replaced.cancel(text="Replaced by another goal")
+
+    def _take(self, message: JointTrajectory, goal: Optional[RealtimeGoal], wanted, named: bool) -> Optional[RealtimeGoal]:
+        """Join a message to the running motion. :return: the goal it replaces.
+
+        :param named: whether an empty trajectory must name the joints, as that of an action goal
+        :raises InvalidTrajectory: the motion goes on as it was
+        """
+        if not self._running:
+            raise InvalidTrajectory(Result.INVALID_GOAL, "Can't accept new commands. Controller is not running; start it "
+                                                         "with controller_manager first")
+        if not self._known:
+            raise InvalidTrajectory(Result.INVALID_GOAL, "The hardware has not reported where the joints are yet")
+        command = None
+        if message.points:
+            if not named:
+                check_times([point.time_from_start.to_sec() for point in message.points])
+            columns = map_joints(message.joint_names, self._joints, self._partial)
+            stamp = message.header.stamp.to_sec()
+            now = self._time + self._period
+            command = Command(message, columns, now - stamp if stamp else 0.0)
+        elif named:
+            map_joints(message.joint_names, self._joints, self._partial)
+        with self._lock:
+            if command is None:
+                self._hold(goal)
+            else:
+                next_uptime = self._uptime + self._period
+                start = next_uptime + (stamp - self._time - self._period if stamp else 0.0)
+                self._follow(splice(self._trajectory, command, start, self._uptime, next_uptime, self._continuous,
+                                    wanted, goal))
+            replaced, self._goal = self._goal, goal
+            self._done = [False] * len(self._joints)
+            self._next_monitor = self._uptime
+        if command is not None and command.first > (0 if stamp or command.times[0] != 0.0 else 1):
+            rospy.logwarn("%s: Dropping first %d trajectory point(s) out of %d, as they occur before the current time.",
+                          self._name, command.first, len(command.times))
+        if goal is not None:
+            goal.accept()
+        return replaced
+
+    def _on_cancel(self, goal_id: str) -> None:
+        with self._lock:
+            goal = self._goal
+            if goal is None or goal.id != goal_id:
+                return
+            self._goal = None
+            self._hold(None)
+        goal.cancel(text="Cancelled by a client")
+
+    def _on_query(self, request) -> QueryTrajectoryStateResponse:
+        with self._lock:
+            if not self._running:
+                raise rospy.ServiceException(f"{self._name}: Can't sample trajectory. Controller is not running.")
+            trajectory = self._trajectory
+            time = self._uptime + request.time.to_sec() - self._time
+        if any(active_index(segments, time) < 0 for segments in trajectory):
+            raise rospy.ServiceException(f"{self._name}: the requested time {request.time.to_sec():.3f} s is before the "
+                                         "current trajectory")
+        samples = [segments[active_index(segments, time)].sample(time) for segments in trajectory]
+        return QueryTrajectoryStateResponse(self._joints, *map(list, zip(*samples)))
+
+
+def _positive(nh: NodeHandle, name: str, default: float) -> float:
+    value = nh.param(name, default)
+    if not 0.0 < value < math.inf:
+        raise ParameterError(f"parameter {nh.resolve(name)} must be a positive number of Hz, it is {value}")
+    return value

@@ -1,0 +1,88 @@
+"""How far a joint may be from its trajectory: parameters, overridden by what an action goal asks for."""
+from __future__ import annotations
+
+import math
+from typing import Dict, List, NamedTuple, Optional, Sequence
+
+
+class StateTolerance(NamedTuple):
+    """Largest allowed errors in rad or m and its derivatives; 0 or less is no limit."""
+
+    position: float = 0.0
+    velocity: float = 0.0
+    acceleration: float = 0.0
+
+    def violation(self, position_error: float, velocity_error: float) -> Optional[str]:
+        """What is over its limit, in words, or None. A NaN error is over any limit.
+
+        The acceleration of joints is not measured: its error counts as 0, which no tolerance forbids.
+        """
+        if self.position > 0.0 and not abs(position_error) <= self.position:
+            return f"position error {position_error:.6g} is over the tolerance {self.position:g}"
+        if self.velocity > 0.0 and not abs(velocity_error) <= self.velocity:
+            return f"velocity error {velocity_error:.6g} is over the tolerance {self.velocity:g}"
+        return None
+
+
+class JointTolerances(NamedTuple):
+    """Tolerances of one joint on its way and at its goal.
+
+    :param goal_time: seconds that the joint may take after the end of its trajectory to come inside ``goal``
+    """
+
+    path: StateTolerance = StateTolerance()
+    goal: StateTolerance = StateTolerance()
+    goal_time: float = 0.0
+
+
+def from_parameters(joints: Sequence[str], constraints: Dict) -> List[JointTolerances]:
+    """Tolerances of ``joints`` from the ``constraints`` parameters.
+
+    :raises ValueError: a value that is not a number
+    """
+    stopped = _number(constraints, "stopped_velocity_tolerance", 0.01, "constraints")
+    goal_time = _number(constraints, "goal_time", 0.0, "constraints")
+    result = []
+    for joint in joints:
+        values = constraints.get(joint, {})
+        if not isinstance(values, dict):
+            raise ValueError(f"constraints/{joint} must hold 'trajectory' and 'goal', it is {values!r}")
+        result.append(JointTolerances(
+            StateTolerance(position=_number(values, "trajectory", 0.0, f"constraints/{joint}")),
+            StateTolerance(position=_number(values, "goal", 0.0, f"constraints/{joint}"), velocity=stopped),
+            goal_time))
+    return result
+
+
+def _number(values: Dict, key: str, default: float, where: str) -> float:
+    value = values.get(key, default)
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or math.isnan(value):
+        raise ValueError(f"{where}/{key} must be a number, it is {value!r}")
+    return float(value)
+
+
+def overridden(defaults: Sequence[JointTolerances], joints: Sequence[str], goal) -> List[JointTolerances]:
+    """``defaults`` with what a FollowJointTrajectoryGoal says: positive replaces, negative switches off, 0 keeps.
+
+    :raises ValueError: a NaN tolerance, which nothing would ever violate
+    """
+    path = {t.name: t for t in goal.path_tolerance}
+    end = {t.name: t for t in goal.goal_tolerance}
+    for kind, tolerances in (("path", path), ("goal", end)):
+        for tolerance in tolerances.values():
+            if any(math.isnan(v) for v in (tolerance.position, tolerance.velocity, tolerance.acceleration)):
+                raise ValueError(f"{kind}_tolerance of joint '{tolerance.name}' is NaN; use -1 to switch it off")
+    goal_time = goal.goal_time_tolerance.to_sec()
+    return [JointTolerances(_override(default.path, path.get(joint)), _override(default.goal, end.get(joint)),
+                            _pick(default.goal_time, goal_time)) for default, joint in zip(defaults, joints)]
+
+
+def _override(default: StateTolerance, message) -> StateTolerance:
+    if message is None:
+        return default
+    return StateTolerance(_pick(default.position, message.position), _pick(default.velocity, message.velocity),
+                          _pick(default.acceleration, message.acceleration))
+
+
+def _pick(default: float, value: float) -> float:
+    return default if value == 0.0 else max(value, 0.0)

@@ -1,0 +1,4 @@
+"""Publishing from a control loop without blocking it."""
+from .publisher import RateGate, RealtimePublisher
+
+__all__ = ["RateGate", "RealtimePublisher"]

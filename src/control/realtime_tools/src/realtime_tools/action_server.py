@@ -1,0 +1,107 @@
+"""Action server whose goals are finished by a control loop without blocking it."""
+from __future__ import annotations
+
+import queue
+import threading
+from typing import Callable
+
+import actionlib
+import rospy
+from actionlib_msgs.msg import GoalStatus
+
+
+class RealtimeGoal:
+    """A goal of a RealtimeActionServer.
+
+    ``accept``, ``reject`` and ``cancel`` publish at once and belong in ROS callbacks; ``succeed``, ``abort`` and
+    ``feedback`` are realtime safe: the server's own thread publishes.
+
+    :ivar goal: the goal message
+    """
+
+    def __init__(self, handle, outbox: queue.SimpleQueue):
+        self.goal = handle.get_goal()
+        self.id = handle.get_goal_id().id
+        self._handle = handle
+        self._outbox = outbox
+
+    def accept(self) -> None:
+        self._handle.set_accepted()
+
+    def reject(self, result=None, text: str = "") -> None:
+        self._handle.set_rejected(result, text)
+
+    def cancel(self, result=None, text: str = "") -> None:
+        """To PREEMPTED (or RECALLED when it was never accepted); a finished goal stays as it is."""
+        if self._unfinished():
+            self._handle.set_canceled(result, text)
+
+    def succeed(self, result, text: str = "") -> None:
+        self._outbox.put(lambda: self._unfinished() and self._handle.set_succeeded(result, text))
+
+    def abort(self, result, text: str = "") -> None:
+        self._outbox.put(lambda: self._unfinished() and self._handle.set_aborted(result, text))
+
+    def feedback(self, feedback) -> None:
+        """Sent only while the goal is ACTIVE."""
+        self._outbox.put(lambda: self._status() == GoalStatus.ACTIVE and self._handle.publish_feedback(feedback))
+
+    def _status(self) -> int:
+        return self._handle.get_goal_status().status
+
+    def _unfinished(self) -> bool:
+        return self._status() in (GoalStatus.PENDING, GoalStatus.ACTIVE, GoalStatus.PREEMPTING, GoalStatus.RECALLING)
+
+
+class RealtimeActionServer:
+    """Serves an action from its own thread.
+
+    :param name: resolved name of the action
+    :param action: action type, such as ``control_msgs.msg.FollowJointTrajectoryAction``
+    :param on_goal: called with a RealtimeGoal in a ROS thread; must accept or reject it
+    :param on_cancel: called with the id of a goal that a client wants cancelled
+    """
+
+    def __init__(self, name: str, action: type, on_goal: Callable[[RealtimeGoal], None],
+                 on_cancel: Callable[[str], None]):
+        self._outbox: queue.SimpleQueue = queue.SimpleQueue()
+        self._server = _Server(name, action, lambda handle: on_goal(RealtimeGoal(handle, self._outbox)),
+                               lambda handle: on_cancel(handle.get_goal_id().id), auto_start=False)
+        self._thread = threading.Thread(target=self._publish, name=f"action {name}", daemon=True)
+        self._thread.start()
+        self._server.start()
+
+    def shutdown(self) -> None:
+        """Publish what is outstanding and take the action off the graph."""
+        self._outbox.put(None)
+        self._thread.join()
+        self._server.stop()
+
+    def _publish(self) -> None:
+        while True:
+            job = self._outbox.get()
+            if job is None:
+                return
+            try:
+                job()
+            except rospy.ROSException as error:  # a topic closed at shutdown
+                rospy.logdebug("action server: %s", error)
+
+
+class _Server(actionlib.ActionServer):
+    """actionlib's server; its status timer survives a simulation clock that jumps back."""
+
+    def initialize(self):
+        super().initialize()
+        if self.status_timer is not None:
+            self.status_timer.shutdown()
+            period = rospy.Duration(1.0 / self.status_frequency)
+            self.status_timer = rospy.Timer(period, self.publish_status_async, reset=True)
+
+    def stop(self):
+        with self.lock:
+            self.started = False
+            if self.status_timer is not None:  # None when the parameter actionlib_status_frequency is 0
+                self.status_timer.shutdown()
+            for topic in (self.goal_sub, self.cancel_sub, self.status_pub, self.feedback_pub, self.result_pub):
+                topic.unregister()

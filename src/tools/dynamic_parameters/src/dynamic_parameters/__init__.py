@@ -1,0 +1,29 @@
+"""dynamic_reconfigure servers from a plain Python table.
+
+No .cfg file, no generated code; ``rosrun dynamic_reconfigure dynparam``, ``dynamic_reconfigure.client`` and
+rqt_reconfigure see no difference::
+
+    from dynamic_parameters import Parameter, Server
+
+    TABLE = [
+        Parameter("time_step", float, 0.001, 0.0, 10.0, "Simulation time step in seconds"),
+        Parameter("max_contacts", int, 20, 0, 100, "Contacts per collision pair"),
+        Parameter("friction_model", str, "pyramid", description="...", enum={"pyramid": "two axes", "cone": "one"}),
+        Parameter("auto_disable", bool, False, description="..."),
+    ]
+
+    def changed(config, level):           # config: dict name -> value with the new, clamped values
+        world.dt = config["time_step"]    # return a dict to correct values, or None to accept them
+
+    server = Server("/gazebo", TABLE, changed, initial={"time_step": world.dt})
+    server.update({"time_step": 0.002})   # the program changed something itself: tell the clients
+    server.shutdown()
+
+Offered in the namespace: latched topics ``parameter_descriptions`` and ``parameter_updates``, service
+``set_parameters``; the values are kept on the parameter server. A value that is already there when the server starts
+wins over the table's default, but ``initial`` wins over both. ``changed`` is called once at start with level -1, then
+in a service thread at every change with the or-ed levels of the parameters that changed.
+"""
+from .server import Parameter, Server
+
+__all__ = ["Parameter", "Server"]
