@@ -1,0 +1,1 @@
+"""Robot simulation without ROS: descriptions, physics, sensors, rendering."""
