@@ -9,14 +9,14 @@ import rospy
 from control_msgs.msg import (FollowJointTrajectoryAction, FollowJointTrajectoryFeedback, FollowJointTrajectoryResult,
                               JointTrajectoryControllerState)
 from control_msgs.srv import QueryTrajectoryState, QueryTrajectoryStateResponse
-from controller_interface import Controller, NodeHandle, ParameterError
-from controller_interface.robot_description import joint_types
-from realtime_tools import RateGate, RealtimeActionServer, RealtimeGoal, RealtimePublisher
+from controller_interface import Controller, NodeHandle, ParameterError, RateGate, RealtimePublisher
+from realtime_tools.action_server import RealtimeActionServer, RealtimeGoal
 from trajectory_msgs.msg import JointTrajectory
+from urdf_geometry_parser import robot_geometry
 
 from . import tolerances
 from .segment import Segment, active_index, shortest_angular_distance, stop_segment
-from .splice import Command, InvalidTrajectory, check_times, map_joints, splice
+from .splice import Command, InvalidTrajectory, map_joints, splice
 
 Result = FollowJointTrajectoryResult
 
@@ -67,7 +67,8 @@ class JointTrajectoryController(Controller):
             self._tolerances = tolerances.from_parameters(self._joints, controller_nh.param("constraints", {}))
         except ValueError as error:
             raise ParameterError(f"{self._name}: {error}") from None
-        types = joint_types(root_nh, self._joints)
+        robot = robot_geometry(root_nh)
+        types = [robot.joint(joint).type for joint in self._joints]
         self._continuous = [kind == "continuous" for kind in types]
         # the difference of two angles is the short way round; of two lengths it is just their difference
         self._angular = [kind != "prismatic" for kind in types]
@@ -107,7 +108,7 @@ class JointTrajectoryController(Controller):
             self._running = False
             goal, self._goal = self._goal, None
         if goal is not None:
-            goal.cancelled(text="The controller was stopped")
+            goal.cancel(text="The controller was stopped")
 
     def aborting(self, time: float) -> None:
         self.stopping(time)
@@ -122,7 +123,8 @@ class JointTrajectoryController(Controller):
                 self._known = self._hold_measured(None)
                 if not self._known:
                     return
-            trajectory, cursor, next_start, goal = self._trajectory, self._cursor, self._next_start, self._goal
+            trajectory, cursor, next_start = self._trajectory, self._cursor, self._next_start
+            goal, done = self._goal, self._done
 
         publish = self._gate.due(uptime)
         report = goal is not None and uptime >= self._next_monitor
@@ -153,26 +155,26 @@ class JointTrajectoryController(Controller):
                 elif next_start[joint] == math.inf:
                     broken = segment.tolerances.goal.violation(error, velocity_error)
                     if not broken:
-                        self._done[joint] = True
-                    elif not self._done[joint] and uptime >= segment.end + segment.tolerances.goal_time:
+                        done[joint] = True
+                    elif not done[joint] and uptime >= segment.end + segment.tolerances.goal_time:
                         self._abort(goal, Result.GOAL_TOLERANCE_VIOLATED, joint, "goal", error, broken)
                         goal = None
         self.write_output(desired, errors, period)
 
-        if goal is not None and all(self._done) and self._release(goal):
+        first = trajectory[0][cursor[0]]
+        if goal is not None and all(done) and self._release(goal):
             goal.succeed(Result(error_code=Result.SUCCESSFUL))
         elif report and goal is not None:
             self._next_monitor = max(self._next_monitor + self._monitor_period, uptime)
-            goal.feedback(self._fill(FollowJointTrajectoryFeedback(), desired, errors))
+            goal.feedback(self._fill(FollowJointTrajectoryFeedback(), time, uptime, first, desired, errors))
         if publish and (not self._state_publisher.has_subscribers or self._state_publisher.publish(
-                self._fill(JointTrajectoryControllerState(), desired, errors))):
+                self._fill(JointTrajectoryControllerState(), time, uptime, first, desired, errors))):
             self._gate.passed()
 
-    def _fill(self, message, desired, errors):
+    def _fill(self, message, time: float, uptime: float, segment: Segment, desired, errors):
         """State and feedback messages carry the same fields."""
-        segment = self._trajectory[0][self._cursor[0]]
-        elapsed = self._uptime - segment.start
-        message.header.stamp = rospy.Time.from_sec(self._time)
+        elapsed = uptime - segment.start
+        message.header.stamp = rospy.Time.from_sec(time)
         message.joint_names = self._joints
         message.desired.positions, message.desired.velocities, message.desired.accelerations = map(list, zip(*desired))
         message.desired.time_from_start = rospy.Duration.from_sec(segment.point_time)
@@ -195,7 +197,6 @@ class JointTrajectoryController(Controller):
             if self._goal is not goal:
                 return False
             self._goal = None
-            self._done = [False] * len(self._joints)
             return True
 
     # -- motions (called with _lock held) -----------------------------------------------------------------------------
@@ -245,6 +246,7 @@ class JointTrajectoryController(Controller):
             return
         if replaced is not None:
             replaced.cancel(text="Replaced by another goal")
+        goal.accept()
 
     def _take(self, message: JointTrajectory, goal: Optional[RealtimeGoal], wanted, named: bool) -> Optional[RealtimeGoal]:
         """Join a message to the running motion. :return: the goal it replaces.
@@ -258,15 +260,11 @@ class JointTrajectoryController(Controller):
         if not self._known:
             raise InvalidTrajectory(Result.INVALID_GOAL, "The hardware has not reported where the joints are yet")
         command = None
-        if message.points:
-            if not named:
-                check_times([point.time_from_start.to_sec() for point in message.points])
+        if message.points or named:
             columns = map_joints(message.joint_names, self._joints, self._partial)
+        if message.points:
             stamp = message.header.stamp.to_sec()
-            now = self._time + self._period
-            command = Command(message, columns, now - stamp if stamp else 0.0)
-        elif named:
-            map_joints(message.joint_names, self._joints, self._partial)
+            command = Command(message, columns, self._time + self._period - stamp if stamp else 0.0)
         with self._lock:
             if command is None:
                 self._hold(goal)
@@ -278,11 +276,10 @@ class JointTrajectoryController(Controller):
             replaced, self._goal = self._goal, goal
             self._done = [False] * len(self._joints)
             self._next_monitor = self._uptime
+        # a first point at 0 s that starts at once says where the motion begins: nobody misses it
         if command is not None and command.first > (0 if stamp or command.times[0] != 0.0 else 1):
             rospy.logwarn("%s: Dropping first %d trajectory point(s) out of %d, as they occur before the current time.",
                           self._name, command.first, len(command.times))
-        if goal is not None:
-            goal.accept()
         return replaced
 
     def _on_cancel(self, goal_id: str) -> None:

@@ -9,14 +9,14 @@ import actionlib
 import rospy
 from actionlib_msgs.msg import GoalStatus
 
+_UNFINISHED = (GoalStatus.PENDING, GoalStatus.ACTIVE, GoalStatus.PREEMPTING, GoalStatus.RECALLING)
+
 
 class RealtimeGoal:
-    """A goal of a RealtimeActionServer.
-
-    ``accept``, ``reject`` and ``cancel`` publish at once and belong in ROS callbacks; ``succeed``, ``abort`` and
-    ``feedback`` are realtime safe: the server's own thread publishes.
+    """A goal of a RealtimeActionServer. All methods are realtime safe: the server's own thread publishes, in order.
 
     :ivar goal: the goal message
+    :ivar id: its identity, text
     """
 
     def __init__(self, handle, outbox: queue.SimpleQueue):
@@ -26,31 +26,30 @@ class RealtimeGoal:
         self._outbox = outbox
 
     def accept(self) -> None:
-        self._handle.set_accepted()
+        self._outbox.put(self._handle.set_accepted)
 
     def reject(self, result=None, text: str = "") -> None:
-        self._handle.set_rejected(result, text)
+        self._finish(self._handle.set_rejected, result, text)
 
     def cancel(self, result=None, text: str = "") -> None:
-        """To PREEMPTED (or RECALLED when it was never accepted); a finished goal stays as it is."""
-        if self._unfinished():
-            self._handle.set_canceled(result, text)
+        """To PREEMPTED."""
+        self._finish(self._handle.set_canceled, result, text)
 
     def succeed(self, result, text: str = "") -> None:
-        self._outbox.put(lambda: self._unfinished() and self._handle.set_succeeded(result, text))
+        self._finish(self._handle.set_succeeded, result, text)
 
     def abort(self, result, text: str = "") -> None:
-        self._outbox.put(lambda: self._unfinished() and self._handle.set_aborted(result, text))
+        self._finish(self._handle.set_aborted, result, text)
 
     def feedback(self, feedback) -> None:
         """Sent only while the goal is ACTIVE."""
         self._outbox.put(lambda: self._status() == GoalStatus.ACTIVE and self._handle.publish_feedback(feedback))
 
+    def _finish(self, transition, result, text: str) -> None:
+        self._outbox.put(lambda: self._status() in _UNFINISHED and transition(result, text))
+
     def _status(self) -> int:
         return self._handle.get_goal_status().status
-
-    def _unfinished(self) -> bool:
-        return self._status() in (GoalStatus.PENDING, GoalStatus.ACTIVE, GoalStatus.PREEMPTING, GoalStatus.RECALLING)
 
 
 class RealtimeActionServer:
@@ -58,7 +57,7 @@ class RealtimeActionServer:
 
     :param name: resolved name of the action
     :param action: action type, such as ``control_msgs.msg.FollowJointTrajectoryAction``
-    :param on_goal: called with a RealtimeGoal in a ROS thread; must accept or reject it
+    :param on_goal: called with a RealtimeGoal in a ROS thread; is to accept or reject it
     :param on_cancel: called with the id of a goal that a client wants cancelled
     """
 

@@ -1,0 +1,82 @@
+"""What the trajectory controllers write to each kind of joint."""
+from __future__ import annotations
+
+import math
+
+from control_toolbox import load_pid
+from hardware_interface import (EffortJointInterface, PosVelAccJointInterface, PosVelJointInterface,
+                                PositionJointInterface, VelocityJointInterface)
+
+from .controller import JointTrajectoryController
+
+
+class PositionTrajectoryController(JointTrajectoryController):
+    """Desired positions."""
+
+    interface = PositionJointInterface
+
+    def init_output(self, handles, controller_nh):
+        self._handles = handles
+
+    def start_output(self):
+        for handle in self._handles:
+            if math.isfinite(handle.position):
+                handle.command = handle.position
+
+    def write_output(self, desired, errors, period):
+        for handle, point in zip(self._handles, desired):
+            handle.command = point[0]
+
+
+class PosVelTrajectoryController(JointTrajectoryController):
+    """Desired positions and velocities."""
+
+    interface = PosVelJointInterface
+
+    def init_output(self, handles, controller_nh):
+        self._handles = handles
+
+    def write_output(self, desired, errors, period):
+        for handle, point in zip(self._handles, desired):
+            handle.command_position, handle.command_velocity, _ = point
+
+
+class PosVelAccTrajectoryController(PosVelTrajectoryController):
+    """Desired positions, velocities and accelerations."""
+
+    interface = PosVelAccJointInterface
+
+    def write_output(self, desired, errors, period):
+        for handle, point in zip(self._handles, desired):
+            handle.command_position, handle.command_velocity, handle.command_acceleration = point
+
+
+class _FeedbackTrajectoryController(JointTrajectoryController):
+    """PID on the position error (parameters ``gains/JOINT``) plus ``velocity_ff/JOINT`` times the desired velocity."""
+
+    feeds_back = True
+
+    def init_output(self, handles, controller_nh):
+        self._outputs = [(handle, load_pid(controller_nh.sub(f"gains/{handle.name}")),
+                          controller_nh.param(f"velocity_ff/{handle.name}", 0.0)) for handle in handles]
+
+    def start_output(self):
+        for handle, pid, _ in self._outputs:
+            pid.reset()
+            handle.command = 0.0
+
+    def write_output(self, desired, errors, period):
+        for (handle, pid, velocity_ff), point, error in zip(self._outputs, desired, errors):
+            handle.command = velocity_ff * point[1] + pid.compute_command(error[0], period, error[1])
+
+
+class VelocityTrajectoryController(_FeedbackTrajectoryController):
+    """Velocities."""
+
+    interface = VelocityJointInterface
+
+
+class EffortTrajectoryController(_FeedbackTrajectoryController):
+    """Torques or forces."""
+
+    interface = EffortJointInterface
