@@ -101,12 +101,12 @@ def run(job: Job, scratch: Path) -> Result:
     if job.kind == "pytest":
         passed, failed, skipped = count(home / "report.xml")
     else:
-        reports = sorted((home / "results").rglob("*.xml"))
-        summary = [r for r in reports if r.name.startswith("rostest-")] or reports
-        passed = failed = skipped = 0
-        for report in summary or [home / "none.xml"]:
-            p, f, s = count(report)
-            passed, failed, skipped = passed + p, failed + f, skipped + s
+        # rosunit-*.xml hold the test cases; rostest-*.xml also knows of test nodes that died without a report.
+        results = home / "results"
+        cases = [count(report) for report in sorted(results.rglob("rosunit-*.xml"))]
+        nodes = [count(report) for report in sorted(results.rglob("rostest-*.xml"))] or [(0, 1, 0)]
+        passed, skipped = sum(c[0] for c in cases), sum(c[2] for c in cases)
+        failed = max(sum(c[1] for c in cases), sum(n[1] for n in nodes))
     if process.returncode != 0 and failed == 0:
         failed += 1
         output += f"\n{job.name}: exit code {process.returncode}\n"

@@ -1,0 +1,177 @@
+"""``rosrun rviz_offscreen screenshot``: PNG pictures of what RViz shows, without a display."""
+from __future__ import annotations
+
+import argparse
+import contextlib
+import ctypes.util
+import json
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+from typing import Dict, Iterator, List, Optional
+
+import rosgraph
+import rospkg
+import rospy
+import yaml
+
+from .display import DisplayError, die_with_parent, private_display
+from .views import View, ViewError, parse_view
+
+
+class ScreenshotError(RuntimeError):
+    """No picture; one line saying why and what to do."""
+
+
+def parser() -> argparse.ArgumentParser:
+    p = argparse.ArgumentParser(prog="screenshot", description=__doc__)
+    p.add_argument("--config", "-d", default="", help="RViz configuration (default: RViz's own default.rviz)")
+    p.add_argument("--output", "-o", default="rviz.png", help="PNG to write; with several views -NAME or -NUMBER is added")
+    p.add_argument("--view", action="append", default=[], metavar="VIEW",
+                   help="front, back, left, right, top, iso, or [NAME:]yaw=..,pitch=..,distance=..,x=..,y=..,z=..; repeatable")
+    p.add_argument("--window", action="store_true", help="the whole window instead of the 3D view alone")
+    p.add_argument("--size", default="1280x800", help="WIDTHxHEIGHT in pixels (default 1280x800)")
+    p.add_argument("--backend", choices=["xvfb", "osmesa"], default="xvfb",
+                   help="xvfb: a private X server with Mesa's software OpenGL; osmesa: no X server at all")
+    p.add_argument("--fixed-frame", "-f", default="", help="fixed frame instead of the configuration's")
+    p.add_argument("--timeout", type=float, default=15.0, help="seconds to wait until every display is drawn (default 15)")
+    p.add_argument("--anti-aliasing", action="store_true", help="smooth edges (xvfb only; about eight times the work)")
+    return p
+
+
+def output_paths(output: str, views: List[View]) -> List[str]:
+    """One path per view: ``output`` itself for one, ``stem-NAME.png`` for several."""
+    output = os.path.abspath(output)
+    if len(views) < 2:
+        return [output]
+    stem, extension = os.path.splitext(output)
+    return [f"{stem}-{view.name or number}{extension or '.png'}" for number, view in enumerate(views, 1)]
+
+
+def check_config(path: str) -> None:
+    """RViz itself shows its default for a file that it cannot use."""
+    try:
+        with open(path) as file:
+            content = yaml.safe_load(file)
+    except OSError as error:
+        raise ScreenshotError(f"RViz configuration {path}: {error.strerror}") from error
+    except (yaml.YAMLError, UnicodeDecodeError) as error:
+        raise ScreenshotError(f"RViz configuration {path} is not YAML: {' '.join(str(error).split())}") from error
+    if not isinstance(content, dict) or "Visualization Manager" not in content:
+        raise ScreenshotError(f"{path} is not an RViz configuration: it has no 'Visualization Manager'")
+
+
+def find_shim() -> str:
+    """The preloaded library of the OSMesa back-end, in the devel or install space."""
+    for prefix in os.environ.get("CMAKE_PREFIX_PATH", "").split(":"):
+        path = os.path.join(prefix, "lib", "libglx_on_osmesa.so")
+        if os.path.exists(path):
+            return path
+    raise ScreenshotError("libglx_on_osmesa.so is not built: run catkin build rviz_offscreen and source devel/setup.bash")
+
+
+@contextlib.contextmanager
+def backend(name: str, size: str) -> Iterator[Dict[str, str]]:
+    """Environment variables for RViz's process, while the back-end stands."""
+    if name == "xvfb":
+        with private_display(f"{size}x24") as variables:
+            yield {**variables, "QT_QPA_PLATFORM": "xcb"}
+    else:
+        if not ctypes.util.find_library("OSMesa"):
+            raise ScreenshotError("libOSMesa is not installed; run scripts/setup (Debian package libosmesa6-dev)")
+        yield {"LD_PRELOAD": f"{find_shim()} libOSMesa.so.8", "QT_QPA_PLATFORM": "offscreen", "DISPLAY": ""}
+
+
+def take(config: str, views: List[View], output: str, *, size: str = "1280x800", window: bool = False, fixed_frame: str = "",
+         timeout: float = 15.0, backend_name: str = "xvfb", anti_aliasing: bool = False) -> dict:
+    """Take the pictures.
+
+    :param views: [] for the configuration's own view.
+    :returns: ``pictures`` (paths), ``not_ok`` (display name -> status of displays not drawn in time), ``seconds`` to the first picture.
+    :raises ScreenshotError: no picture.
+    """
+    views = views or [View("")]
+    config = os.path.abspath(config) if config else os.path.join(rospkg.RosPack().get_path("rviz"), "default.rviz")
+    check_config(config)
+    try:
+        width, height = (int(v) for v in size.lower().split("x"))
+    except ValueError:
+        width = height = 0
+    if not (16 <= width <= 8192 and 16 <= height <= 8192):
+        raise ScreenshotError(f"--size {size}: expected WIDTHxHEIGHT, each from 16 to 8192 pixels")
+    paths = output_paths(output, views)
+    for path in paths:
+        folder = os.path.dirname(path)
+        if not os.path.isdir(folder):
+            raise ScreenshotError(f"no folder {folder} for {os.path.basename(path)}")
+    if not rosgraph.is_master_online():
+        # RViz itself would open a dialog that ignores Ctrl-C.
+        raise ScreenshotError(f"no ROS master at {os.environ.get('ROS_MASTER_URI')}: start roscore or a launch file first")
+    job = {"config": config, "window": window, "size": [width, height], "fixed_frame": fixed_frame, "timeout": timeout,
+           "anti_aliasing": anti_aliasing,
+           "pictures": [{"path": p, "view": v.values} for p, v in zip(paths, views)]}
+    with tempfile.TemporaryDirectory(prefix="rviz_offscreen_") as home, backend(backend_name, f"{width}x{height}") as variables:
+        # RViz writes ~/.rviz on exit; a picture must neither read nor change the user's.
+        environment = {**os.environ, **variables, "HOME": home, "ROS_LOG_DIR": home, "XDG_RUNTIME_DIR": home,
+                       "QT_LOGGING_RULES": "*=false"}
+        result = run_grabber(job, environment, timeout + 45)
+    return {"pictures": paths, **result}
+
+
+def run_grabber(job: dict, environment: Dict[str, str], limit: float) -> dict:
+    """Run :mod:`.grab` in a process of its own, so that a crash of RViz or OpenGL is only an exit code here."""
+    reading, writing = os.pipe()
+
+    def prepare() -> None:
+        die_with_parent()
+        os.dup2(writing, 3)
+
+    process = subprocess.Popen([sys.executable, "-m", "rviz_offscreen.grab"], stdin=subprocess.PIPE, env=environment,
+                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, preexec_fn=prepare, close_fds=False)
+    os.close(writing)
+    try:
+        output, _ = process.communicate(json.dumps(job).encode(), timeout=limit)
+    except subprocess.TimeoutExpired:
+        process.kill()
+        process.communicate()
+        raise ScreenshotError(f"RViz did not finish within {limit:.0f} s") from None
+    except BaseException:
+        process.kill()
+        process.wait()
+        raise
+    with os.fdopen(reading) as answers:
+        answer = answers.readline()
+    if answer:
+        return json.loads(answer)
+    text = output.decode(errors="replace")
+    lines = [line for line in text.splitlines() if line.strip()]
+    if process.returncode < 0:
+        name = signal.Signals(-process.returncode).name
+        raise ScreenshotError(f"RViz crashed ({name}); its last line: {lines[-1] if lines else 'none'} - is OpenGL there? "
+                              f"(Debian packages libgl1-mesa-dri, libosmesa6)")
+    raise ScreenshotError(f"RViz ended with code {process.returncode}; its last line: {lines[-1] if lines else 'none'}")
+
+
+def main(argv: Optional[List[str]] = None) -> int:
+    """Exit code 0: all drawn; 1: no picture; 3: pictures written though some display was not ready."""
+    options = parser().parse_args(rospy.myargv(sys.argv if argv is None else argv)[1:])
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
+    try:
+        result = take(options.config, [parse_view(text) for text in options.view], options.output, size=options.size,
+                      window=options.window, fixed_frame=options.fixed_frame, timeout=options.timeout,
+                      backend_name=options.backend, anti_aliasing=options.anti_aliasing)
+    except (ScreenshotError, DisplayError, ViewError) as error:
+        print(f"screenshot: {error}", file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        return 130
+    for path in result["pictures"]:
+        print(path)
+    if result["not_ok"]:
+        waiting = ", ".join(f"{name} ({status})" for name, status in sorted(result["not_ok"].items()))
+        print(f"screenshot: not ready after {options.timeout:g} s: {waiting}; is their topic published and their frame in tf?",
+              file=sys.stderr)
+        return 3
+    return 0

@@ -1,0 +1,99 @@
+#!/usr/bin/env python3
+"""The screenshot command on a running system: a cross of coloured boxes whose pixels are known by geometry."""
+import math
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+import rosgraph
+import rostest
+from PIL import Image
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+CONFIG = os.path.join(HERE, "cross.rviz")
+WIDTH, HEIGHT, DISTANCE = 640, 480, 3.0
+FOCAL = HEIGHT / 2 / math.tan(0.7853982 / 2)  # RViz's vertical field of view is 45 degrees
+BACKGROUND = (48, 48, 48)
+
+
+def screenshot(*arguments, **environment):
+    return subprocess.run(["rosrun", "rviz_offscreen", "screenshot", *arguments], capture_output=True, text=True,
+                          env={**os.environ, **environment})
+
+
+def pixel_of(y, z):
+    """Pixel (column, row) of the front face point (x 0.1, y, z) seen from +x, pitch 0."""
+    return round(WIDTH / 2 + FOCAL * y / (DISTANCE - 0.1)), round(HEIGHT / 2 - FOCAL * z / (DISTANCE - 0.1))
+
+
+class Screenshot(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.mkdtemp()
+
+    def picture(self, backend, *arguments):
+        path = os.path.join(self.folder, backend + ".png")
+        result = screenshot("--config", CONFIG, "--output", path, "--size", f"{WIDTH}x{HEIGHT}", "--backend", backend,
+                            "--view", "front:pitch=0,distance=3", *arguments)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return np.asarray(Image.open(path).convert("RGB")).astype(int)
+
+    def test_boxes_stand_where_geometry_says_with_both_backends(self):
+        pictures = {backend: self.picture(backend) for backend in ("xvfb", "osmesa")}
+        for backend, picture in pictures.items():
+            for (y, z), dominant in (((0, 0), 2), ((0.5, 0), 0), ((0, 0.5), 1)):
+                column, row = pixel_of(y, z)
+                value = picture[row, column]
+                self.assertEqual(int(np.argmax(value)), dominant, f"{backend} at {(y, z)}: {value}")
+                self.assertGreater(value[dominant], 200)
+                self.assertLess(sorted(value)[1], 20)
+            for y, z in ((-0.5, 0), (0, -0.5), (0.5, 0.5)):
+                column, row = pixel_of(y, z)
+                self.assertEqual(tuple(picture[row, column]), BACKGROUND, backend)
+        different = np.abs(pictures["xvfb"] - pictures["osmesa"]).max(axis=2) > 8
+        self.assertLess(different.mean(), 0.001, "the two back-ends draw the same picture")
+
+    def test_several_views_and_the_whole_window(self):
+        path = os.path.join(self.folder, "v.png")
+        result = screenshot("-d", CONFIG, "-o", path, "--window", "--view", "top", "--view", "yaw=1")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(result.stdout.split(), [os.path.join(self.folder, n) for n in ("v-top.png", "v-2.png")])
+        window = np.asarray(Image.open(os.path.join(self.folder, "v-2.png")).convert("RGB"))
+        self.assertEqual(window.shape, (800, 1280, 3))
+        self.assertGreater(window[:40].mean(), 180, "the light menu and tool bars are there")
+        self.assertTrue((window == BACKGROUND).all(axis=2).mean() > 0.3, "and the dark 3D view")
+
+    def test_no_node_is_left_in_the_graph(self):
+        self.picture("xvfb")
+        nodes = {n for group in rosgraph.Master("/test").getSystemState() for _, names in group for n in names}
+        self.assertFalse([n for n in nodes if "rviz" in n])
+
+    def test_what_is_not_drawn_is_named(self):
+        path = os.path.join(self.folder, "n.png")
+        result = screenshot("-d", CONFIG, "-o", path, "-f", "nowhere", "--timeout", "1")
+        self.assertEqual(result.returncode, 3)
+        self.assertIn("RobotModel (Error)", result.stderr)
+        self.assertTrue(os.path.getsize(path))
+
+    def test_bad_input_is_one_line(self):
+        not_rviz = os.path.join(self.folder, "x.rviz")
+        with open(not_rviz, "w") as file:
+            file.write("a: 1\n")
+        for arguments, words in ((("-d", "/nowhere.rviz"), "No such file"), (("-d", not_rviz), "not an RViz configuration"),
+                                 (("--size", "0x5"), "--size 0x5"), (("--view", "bogus"), "--view bogus"),
+                                 (("-o", "/nowhere/a.png"), "no folder /nowhere")):
+            result = screenshot(*arguments)
+            self.assertEqual(result.returncode, 1)
+            self.assertIn(words, result.stderr)
+            self.assertEqual(len(result.stderr.strip().splitlines()), 1, result.stderr)
+
+    def test_no_master_is_said_and_does_not_hang(self):
+        result = screenshot(ROS_MASTER_URI="http://localhost:1")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("no ROS master at http://localhost:1", result.stderr)
+
+
+if __name__ == "__main__":
+    rostest.rosrun("rviz_offscreen", "screenshot", Screenshot, sys.argv)
