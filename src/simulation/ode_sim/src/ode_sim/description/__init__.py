@@ -1,0 +1,18 @@
+"""URDF and SDF to the records of :mod:`ode_sim.description.model`, by Gazebo Classic's rules.
+
+======================  =================================================================
+``load``                the functions below
+``urdf``                URDF to SDF, as sdformat 9 converts it
+``sdf``, ``sdf_*``      SDF to records; ``population``: many copies of a model
+``materials``           Gazebo's colours, OGRE material scripts
+``finder``              ``model://``, ``package://``, Gazebo's search paths
+``xmlsource``           XML elements that know their line
+======================  =================================================================
+"""
+# math3 needs model, and the readers need math3: model comes first so that either may be imported first
+from ode_sim.description.model import DescriptionError, Problem
+from ode_sim.description.finder import ResourceFinder
+from ode_sim.description.load import load_world, read_light, read_model, read_sdf_model, read_urdf, root_kind
+
+__all__ = ["DescriptionError", "Problem", "ResourceFinder", "load_world", "read_light", "read_model", "read_sdf_model",
+           "read_urdf", "root_kind"]

@@ -1,0 +1,165 @@
+"""Finds the files that worlds and robots name, in Gazebo Classic's search order. Never uses the network."""
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import Callable, Iterable, List, Optional
+from urllib.parse import unquote
+
+from ode_sim.description.model import DescriptionError
+from ode_sim.description.xmlsource import parse_xml, text_of
+
+STOCK_VARIABLE = "ODE_SIM_STOCK_PATH"
+_NEWEST_SDF = (1, 7)
+
+
+def _entries(variable: str) -> List[str]:
+    return [entry for entry in os.environ.get(variable, "").split(":") if entry]
+
+
+def find_ros_package(name: str) -> Optional[str]:
+    """Directory of a ROS package below ROS_PACKAGE_PATH, by its folder name; None if there is none."""
+    for root in _entries("ROS_PACKAGE_PATH"):
+        for folder, folders, files in os.walk(root):
+            if "package.xml" in files:
+                if os.path.basename(folder) == name:
+                    return folder
+                folders.clear()
+            folders[:] = [f for f in folders if not f.startswith(".")]
+    return None
+
+
+class ResourceFinder:
+    """Resolves ``model://``, ``file://``, ``package://`` and relative names to absolute paths.
+
+    :param model_paths: directories of models behind those of the environment (``gazebo_model_path`` exports).
+    :param resource_paths: the same for worlds and media (``gazebo_media_path`` exports).
+    :param package_path: ``f(package name) -> directory or None``; by default a search below ROS_PACKAGE_PATH.
+    :param stock: directory with the simulator's own ``models``, ``worlds`` and ``media``, searched last so that a
+        course's own model of the same name wins; by default $ODE_SIM_STOCK_PATH, else the package ``gazebo_ros``.
+    :param environment: read GAZEBO_MODEL_PATH, GAZEBO_RESOURCE_PATH and ~/.gazebo/models.
+    """
+
+    def __init__(self, model_paths: Optional[Iterable[str]] = None, resource_paths: Optional[Iterable[str]] = None,
+                 package_path: Optional[Callable[[str], Optional[str]]] = None, stock: Optional[str] = None,
+                 environment: bool = True):
+        self._package_path = package_path or find_ros_package
+        if stock is None:
+            stock = os.environ.get(STOCK_VARIABLE) or self._package_path("gazebo_ros") or ""
+        self.stock = str(stock)
+        models = [os.path.expanduser("~/.gazebo/models")] + _entries("GAZEBO_MODEL_PATH") if environment else []
+        resources = _entries("GAZEBO_RESOURCE_PATH") if environment else []
+        models += [str(path) for path in model_paths or ()]
+        resources += [str(path) for path in resource_paths or ()]
+        if self.stock:
+            models.append(os.path.join(self.stock, "models"))
+            resources.append(self.stock)
+        self.model_paths: List[str] = list(dict.fromkeys(models))
+        self.resource_paths: List[str] = list(dict.fromkeys(resources))
+
+    # ------------------------------------------------------------------ names to files
+
+    def find(self, uri: str, base: str = "") -> Optional[str]:
+        """Absolute path of an existing file or directory, or None.
+
+        :param base: directory of the file that says so; a relative name is tried there first.
+        """
+        uri = uri.strip()
+        scheme, _, rest = uri.partition("://")
+        if not rest:
+            return self._find_relative(uri, base)
+        rest = unquote(rest)
+        if scheme == "model":
+            return self._first(os.path.join(path, rest) for path in self.model_paths)
+        if scheme == "package":
+            package, _, inside = rest.partition("/")
+            folder = self._package_path(package)
+            found = self._first([os.path.join(folder, inside)]) if folder else None
+            # URDF meshes that name a package of models: Gazebo turns package:// into model://
+            return found or self._first(os.path.join(path, rest) for path in self.model_paths)
+        if scheme == "file":
+            return self._find_relative(rest, base)
+        return None
+
+    def searched(self, uri: str) -> str:
+        """Where :meth:`find` looked for ``uri``, for a message."""
+        scheme, _, rest = uri.strip().partition("://")
+        if scheme == "model" and rest:
+            return ":".join(self.model_paths) or "no model path is set"
+        if scheme == "package" and rest:
+            package = rest.partition("/")[0]
+            folder = self._package_path(package)
+            return folder if folder else f"there is no ROS package '{package}'"
+        if scheme in ("http", "https"):
+            return "the network is never used; put the model into ~/.gazebo/models and name it model://..."
+        if os.path.isabs(rest or uri):
+            return "as an absolute path"
+        return ":".join([os.getcwd()] + self.resource_paths)
+
+    def find_world(self, name: str) -> Optional[str]:
+        """A world file by path, URI, or name relative to the resource paths (``worlds/empty.world``)."""
+        found = self.find(name)
+        return found if found and os.path.isfile(found) else None
+
+    def _find_relative(self, name: str, base: str) -> Optional[str]:
+        if os.path.isabs(name):
+            return self._first([name] + [path + name for path in self.model_paths])
+        candidates = [os.path.join(base, name)] if base else []
+        candidates.append(os.path.join(os.getcwd(), name))
+        for path in self.resource_paths:
+            candidates += [os.path.join(path, name), os.path.join(path, "models", name),
+                           os.path.join(path, "media/models", name), os.path.join(path, "Media/models", name)]
+        return self._first(candidates)
+
+    @staticmethod
+    def _first(candidates: Iterable[str]) -> Optional[str]:
+        for candidate in candidates:
+            if os.path.exists(candidate):
+                return os.path.abspath(candidate)
+        return None
+
+    # ------------------------------------------------------------------ models
+
+    def find_model_sdf(self, uri: str, base: str = "") -> Optional[str]:
+        """The SDF file of a model directory, chosen by its model.config, or of a URI that names a file.
+
+        :raises DescriptionError: the directory is there, but its model.config or SDF file is not usable.
+        """
+        found = self.find(uri, base)
+        if found is None or os.path.isfile(found):
+            return found
+        folder = Path(found)
+        for name in ("model.config", "manifest.xml"):
+            if (folder / name).is_file():
+                return str(self._sdf_of_config(folder / name))
+        if (folder / "model.sdf").is_file():
+            return str(folder / "model.sdf")
+        raise DescriptionError(f"{folder}: no model.config, so '{uri}' is not a model directory")
+
+    @staticmethod
+    def _sdf_of_config(config: Path) -> Path:
+        root = parse_xml(config.read_bytes(), str(config))
+        best, best_version = None, (-1, -1)
+        for entry in root.iter("sdf"):
+            try:
+                version = tuple(int(part) for part in (entry.get("version") or "1.0").split("."))
+            except ValueError:
+                continue
+            if best_version < version <= _NEWEST_SDF:
+                best, best_version = text_of(entry), version
+        if not best:
+            raise DescriptionError(f"{config}: no <sdf version='1.7'> or older entry; name the model's SDF file in one")
+        file = config.parent / best
+        if not file.is_file():
+            raise DescriptionError(f"{config}: names '{best}', which is not there")
+        return file
+
+    def stock_models(self) -> List[str]:
+        """Names of the models that come with the simulator."""
+        folder = Path(self.stock) / "models"
+        return sorted(f.parent.name for f in folder.glob("*/model.config")) if self.stock else []
+
+    def stock_worlds(self) -> List[str]:
+        """Names of the worlds that come with the simulator, such as ``worlds/empty.world``."""
+        folder = Path(self.stock) / "worlds"
+        return sorted(f"worlds/{f.name}" for f in folder.glob("*.world")) if self.stock else []

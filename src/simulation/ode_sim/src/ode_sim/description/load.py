@@ -1,0 +1,120 @@
+"""Text or files to worlds, models and lights: the front door of the readers."""
+from __future__ import annotations
+
+import os
+from dataclasses import replace
+from typing import List, Optional, Tuple
+
+from ode_sim.description.finder import ResourceFinder
+from ode_sim.description.model import DescriptionError, Light, Model, Problem, World
+from ode_sim.description.sdf import SdfReader
+from ode_sim.description.sdf_document import ENTITIES, first_entity, parse_sdf
+from ode_sim.description.urdf import urdf_to_model
+from ode_sim.description.xmlsource import parse_xml, source_of
+
+
+def load_world(path_or_text: str, finder: Optional[ResourceFinder] = None) -> Tuple[World, List[Problem]]:
+    """A world from XML text (it starts with ``<``), a path, a URI, or a name such as ``worlds/empty.world``.
+
+    :returns: the world, and what was noticed while reading it, in file order.
+    :raises DescriptionError: no such file, not XML, or no ``<world>`` in it.
+    """
+    finder = finder or ResourceFinder()
+    if path_or_text.lstrip("\ufeff \t\r\n").startswith("<"):
+        file, text = "", path_or_text
+    else:
+        file = finder.find_world(path_or_text) or ""
+        if not file:
+            known = ", ".join(finder.stock_worlds())
+            raise DescriptionError(f"cannot find world '{path_or_text}' (searched {finder.searched(path_or_text)})"
+                                   + (f"; worlds that come with the simulator: {known}" if known else ""))
+        text = _read(file)
+    root = parse_sdf(text, file)
+    world = root.find("world")
+    if world is None:
+        raise DescriptionError(f"{source_of(root)}: holds no <world>")
+    reader = SdfReader(finder, os.path.dirname(file))
+    return reader.world(world), reader.problems
+
+
+def root_kind(text: str, finder: Optional[ResourceFinder] = None) -> str:
+    """What a text to spawn is: ``urdf``, ``model``, ``light`` or ``actor``.
+
+    :raises DescriptionError: none of these, or not XML.
+    """
+    if parse_xml(text).tag == "robot":
+        return "urdf"
+    return _entity(SdfReader(finder), text, "").tag
+
+
+def read_model(text: str, *, name: Optional[str] = None, finder: Optional[ResourceFinder] = None,
+               file: str = "") -> Tuple[Model, List[Problem]]:
+    """A model from URDF or SDF text, whichever it is.
+
+    :param name: takes the place of the one in the text.
+    :param file: where the text is from: for messages, and for file names relative to it.
+    """
+    root = parse_xml(text, file)
+    if root.tag == "robot":
+        return read_urdf(text, name=name, finder=finder, file=file)
+    if root.tag in ("sdf", "gazebo", "model", "world"):
+        return read_sdf_model(text, name=name, finder=finder, file=file)
+    raise DescriptionError(f"{source_of(root)}: neither URDF nor SDF; expected <robot> or <sdf> as the root element")
+
+
+def read_urdf(text: str, *, name: Optional[str] = None, finder: Optional[ResourceFinder] = None,
+              file: str = "") -> Tuple[Model, List[Problem]]:
+    """A model from URDF text, by Gazebo's conversion rules."""
+    reader = SdfReader(finder, os.path.dirname(file))
+    model = urdf_to_model(parse_xml(text, file), reader)
+    return (replace(model, name=name) if name else model), reader.problems
+
+
+def read_sdf_model(text: str, *, name: Optional[str] = None, finder: Optional[ResourceFinder] = None,
+                   file: str = "") -> Tuple[Model, List[Problem]]:
+    """The first model of SDF text: ``<sdf><model>``, or in a ``<world>``, there also by ``<include>``."""
+    reader = SdfReader(finder, os.path.dirname(file))
+    element = _entity(reader, text, file)
+    if element.tag != "model":
+        raise DescriptionError(f"{source_of(element)}: is no <model>")
+    model = reader.model(element)
+    return (replace(model, name=name) if name else model), reader.problems
+
+
+def read_light(text: str, *, name: Optional[str] = None, finder: Optional[ResourceFinder] = None,
+               file: str = "") -> Tuple[Light, List[Problem]]:
+    """The first light of SDF text."""
+    reader = SdfReader(finder, os.path.dirname(file))
+    element = _entity(reader, text, file)
+    if element.tag != "light":
+        raise DescriptionError(f"{source_of(element)}: is no <light>")
+    light = reader.light(element)
+    return (replace(light, name=name) if name else light), reader.problems
+
+
+def _entity(reader: SdfReader, text: str, file: str):
+    """The first model or light, an ``<include>`` resolved."""
+    root = parse_sdf(text, file)
+    element = _first_with_include(root)
+    if element is None or element.tag != "include":
+        return first_entity(root)
+    included = reader.include(element)
+    if included is None:
+        raise DescriptionError(str(reader.problems[-1]))
+    return included
+
+
+def _first_with_include(root):
+    for parent in [root] + root.findall("world"):
+        for element in parent:
+            if element.tag in ENTITIES + ("include",):
+                return element
+    return None
+
+
+def _read(file: str) -> bytes:
+    try:
+        with open(file, "rb") as stream:
+            return stream.read()
+    except OSError as error:
+        raise DescriptionError(f"cannot read {file}: {error.strerror}") from None

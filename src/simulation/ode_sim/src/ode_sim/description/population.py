@@ -1,0 +1,55 @@
+"""``<population>``: many copies of one model spread over a region."""
+from __future__ import annotations
+
+import math
+import random
+import xml.etree.ElementTree as ET
+from typing import Iterator, Optional
+
+from ode_sim import math3
+from ode_sim.description.model import Pose
+from ode_sim.description.xmlsource import child, clone, text_of
+
+
+def population(reader, element: ET.Element, template: Optional[ET.Element]) -> Iterator[ET.Element]:
+    """Model elements named ``<model>_clone_<i>``; random places are the same in every run.
+
+    :param reader: the :class:`~ode_sim.description.sdf.SdfReader` that reads the numbers and takes the warnings.
+    :param template: the ``<model>`` to copy; None if there is none, or it could not be included.
+    """
+    if template is None:
+        reader.warn(element, "a population needs a <model> or <include>; left out")
+        return
+    count = max(0, int(reader.number(element, "model_count", 1)))
+    kind = text_of(element.find("distribution/type")) or "random"
+    x_wr = reader.pose(element.find("pose"))
+    size = reader.vector(element, "box/size", (1.0, 1.0, 1.0))
+    radius = reader.number(element, "cylinder/radius", 1.0) if element.find("cylinder") is not None else None
+    rows, cols = (int(reader.number(element, f"distribution/{tag}", 1)) for tag in ("rows", "cols"))
+    step = reader.vector(element, "distribution/step", (0.5, 0.5, 0.0))
+    rng = random.Random(f"population {element.get('name')}")
+    name = template.get("name") or "model"
+    for i in range(rows * cols if kind == "grid" else count):
+        fraction = (i + 0.5) / count if count else 0.0
+        if kind == "grid":
+            row, col = divmod(i, cols)
+            p = ((col - 0.5 * (cols - 1)) * step[0], (row - 0.5 * (rows - 1)) * step[1], 0.0)
+        elif kind.startswith("linear-") and kind[-1] in "xyz":
+            p = tuple((fraction - 0.5) * size[k] if "xyz"[k] == kind[-1] else 0.0 for k in range(3))
+        elif radius is not None:
+            r, turn = radius * math.sqrt(rng.random()), rng.uniform(-math.pi, math.pi)
+            p = (r * math.cos(turn), r * math.sin(turn), 0.0)
+        elif kind == "uniform":  # near-square cells over the region
+            cells = math.ceil(math.sqrt(count))
+            row, col = divmod(i, cells)
+            p = (((col + 0.5) / cells - 0.5) * size[0], ((row + 0.5) / cells - 0.5) * size[1], 0.0)
+        else:
+            p = tuple(rng.uniform(-0.5, 0.5) * side for side in size)
+        copy = clone(template)
+        copy.set("name", f"{name}_clone_{i}")
+        x_rm = math3.compose(Pose(p), reader.pose(template.find("pose")))
+        x_wm = math3.compose(x_wr, x_rm)
+        for old in copy.findall("pose"):
+            copy.remove(old)
+        child(copy, "pose", " ".join(repr(v) for v in (*x_wm.p, *x_wm.q)), {"rotation_format": "quat_xyzw"})
+        yield copy

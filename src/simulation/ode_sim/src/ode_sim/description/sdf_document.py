@@ -1,0 +1,48 @@
+"""SDF text to its root element, in the form of SDF 1.7 where older versions mean something else."""
+from __future__ import annotations
+
+from typing import Tuple, Union
+
+from ode_sim.description.model import DescriptionError
+from ode_sim.description.xmlsource import Element, child, parse_xml, source_of
+
+ENTITIES = ("model", "light", "actor")
+
+
+def parse_sdf(text: Union[str, bytes], file: str = "") -> Element:
+    """The ``<sdf>`` element (``<gazebo>`` in files before 1.3, or a bare ``<world>``, ``<model>``, ``<light>``).
+
+    :raises DescriptionError: not XML, or not SDF.
+    """
+    root = parse_xml(text, file)
+    if root.tag in ENTITIES + ("world",):
+        wrapper = Element("sdf", {"version": "1.6"})
+        wrapper.file, wrapper.line = root.file, root.line
+        wrapper.append(root)
+        return wrapper
+    if root.tag not in ("sdf", "gazebo"):
+        raise DescriptionError(f"{source_of(root)}: not SDF; expected <sdf version='1.6'> as the root element")
+    if _version(root) <= (1, 4):
+        for axis in list(root.iter("axis")) + list(root.iter("axis2")):
+            if axis.find("use_parent_model_frame") is None:
+                child(axis, "use_parent_model_frame", "1")
+    return root
+
+
+def _version(root: Element) -> Tuple[int, ...]:
+    try:
+        return tuple(int(part) for part in root.get("version", "1.6").split("."))
+    except ValueError:
+        raise DescriptionError(f"{source_of(root)}: '{root.get('version')}' is no SDF version; use 1.4 to 1.7") from None
+
+
+def first_entity(root: Element) -> Element:
+    """The first model, light or actor of an ``<sdf>`` element, also when it lies in a ``<world>``.
+
+    :raises DescriptionError: there is none.
+    """
+    for parent in [root] + root.findall("world"):
+        for element in parent:
+            if element.tag in ENTITIES:
+                return element
+    raise DescriptionError(f"{source_of(root)}: holds no <model>, <light> or <actor>")

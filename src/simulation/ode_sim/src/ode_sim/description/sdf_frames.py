@@ -1,0 +1,81 @@
+"""Poses of SDF that refer to named frames (``frame`` up to SDF 1.6, ``relative_to`` in 1.7)."""
+from __future__ import annotations
+
+import xml.etree.ElementTree as ET
+from typing import Dict, Optional, Sequence, Tuple
+
+from ode_sim import math3
+from ode_sim.description.model import DescriptionError, Pose
+from ode_sim.description.xmlsource import source_of, text_of
+
+Nested = Tuple[str, ET.Element, Dict[str, Pose]]  # name, element, X_S of its own frames
+
+
+def relative_to(pose: Optional[ET.Element]) -> str:
+    """The frame a ``<pose>`` names, '' for the usual one."""
+    if pose is None:
+        return ""
+    return (pose.get("relative_to") or pose.get("frame") or "").strip()
+
+
+def model_frames(reader, model: ET.Element, nested: Sequence[Nested]) -> Dict[str, Pose]:
+    """X_M of a model's links, joints, frames and nested models, whatever their poses refer to.
+
+    :param reader: the :class:`~ode_sim.description.sdf.SdfReader` that reads the numbers and takes the warnings.
+    :raises DescriptionError: the poses refer to each other in a circle.
+    """
+    return _Solver(reader, model, nested).resolved()
+
+
+class _Solver:
+    def __init__(self, reader, model: ET.Element, nested: Sequence[Nested]):
+        self._reader = reader
+        self._entries: Dict[str, Tuple[Pose, str, Optional[ET.Element]]] = {}  # name -> X_RF, name of R, element
+        self._solved: Dict[str, Pose] = {"__model__": math3.IDENTITY}
+        for sub, element, frames in nested:
+            self._add(sub, element.find("pose"), "__model__")
+            for name, x_sf in frames.items():
+                if name != "__model__":
+                    self._entries[f"{sub}::{name}"] = (x_sf, sub, None)
+        for tag in ("link", "joint", "frame"):
+            for element in model.findall(tag):
+                usual = "__model__"
+                if tag == "joint":
+                    usual = text_of(element.find("child")) or text_of(element.find("child/link"))
+                elif tag == "frame":
+                    usual = (element.get("attached_to") or "").strip() or "__model__"
+                self._add(element.get("name") or "", element.find("pose"), usual)
+
+    def _add(self, name: str, pose: Optional[ET.Element], usual: str) -> None:
+        if name not in self._entries:  # links win over joints of the same name, as old files have them
+            self._entries[name] = (self._reader.pose(pose), relative_to(pose) or usual, pose)
+
+    def resolved(self) -> Dict[str, Pose]:
+        for name in self._entries:
+            self._solve(name, ())
+        return self._solved
+
+    def _solve(self, name: str, path: Tuple[str, ...]) -> Pose:
+        if name in self._solved:
+            return self._solved[name]
+        x_rf, reference, element = self._entries[name]
+        if reference in path or reference == name:
+            raise DescriptionError(f"{source_of(element) if element is not None else name}: the pose refers to itself "
+                                   f"({' > '.join(path + (name, reference))})")
+        if reference in self._entries or reference in self._solved:
+            x_rf = math3.compose(self._solve(reference, path + (name,)), x_rf)
+        elif reference != "world":  # what old files call the frame of the model
+            self._reader.warn(element, f"there is no frame '{reference}'; using that of the model")
+        self._solved[name] = x_rf
+        return x_rf
+
+
+def world_frames(reader, world: ET.Element) -> Dict[str, Pose]:
+    """X_W of the ``<frame>``s of a world, as far as they refer to earlier ones."""
+    frames: Dict[str, Pose] = {}
+    for element in world.findall("frame"):
+        pose = element.find("pose")
+        reference = relative_to(pose) or element.get("attached_to", "")
+        x = reader.pose(pose)
+        frames[element.get("name") or ""] = math3.compose(frames[reference], x) if reference in frames else x
+    return frames

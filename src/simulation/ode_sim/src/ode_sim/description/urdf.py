@@ -1,0 +1,393 @@
+"""URDF to SDF by the conversion rules of sdformat 9, then read by the SDF reader.
+
+The rules that matter to a robot: a fixed joint is removed and its child lumped into the parent (unless the joint says
+otherwise); a link without mass takes its sub-tree with it; ``<gazebo reference>`` extensions are applied on top.
+Children are taken in the order of their joints' names, as urdfdom keeps them.
+"""
+from __future__ import annotations
+
+import math
+import xml.etree.ElementTree as ET
+from dataclasses import dataclass, field, replace
+from typing import Dict, List, Optional, Tuple
+
+from ode_sim import math3
+from ode_sim.description import urdf_extensions as extensions
+from ode_sim.description.model import DescriptionError, Mimic, Model, Pose, Vec3
+from ode_sim.description.xmlsource import Element, child, clone, source_of
+
+_JOINT_TYPES = ("revolute", "continuous", "prismatic", "fixed", "floating", "planar")
+_LUMP = extensions.LUMP
+
+
+@dataclass
+class _Mass:
+    mass: float
+    com: Vec3  # in the link frame
+    inertia: math3.Mat3  # about the centre of mass, in the axes of the link frame
+
+
+@dataclass
+class _Shape:
+    """A ``<visual>`` or ``<collision>`` in the link it ended up in."""
+
+    element: ET.Element
+    name: str  # '' until it is lumped
+    pose: Pose
+
+
+@dataclass
+class _UrdfLink:
+    name: str
+    element: ET.Element
+    inertial: Optional[_Mass] = None
+    raw_inertial: Optional[Tuple[Pose, ET.Element]] = None  # as written, while nothing was lumped in
+    visuals: List[_Shape] = field(default_factory=list)
+    collisions: List[_Shape] = field(default_factory=list)
+    parent_joint: Optional["_UrdfJoint"] = None
+    child_joints: List["_UrdfJoint"] = field(default_factory=list)
+    lumped_into: Optional["_UrdfLink"] = None
+
+
+@dataclass
+class _UrdfJoint:
+    name: str
+    element: ET.Element
+    type: str
+    parent: _UrdfLink
+    child: _UrdfLink
+    pose: Pose  # X_PC
+
+
+def urdf_to_model(robot: ET.Element, reader) -> Model:
+    """The :class:`Model` of a ``<robot>`` element.
+
+    :param reader: the :class:`~ode_sim.description.sdf.SdfReader` that reads the converted text and takes the warnings.
+    :raises DescriptionError: what urdfdom would refuse as well: no tree, a missing name, a limit, a number.
+    """
+    return _Conversion(robot, reader).model()
+
+
+def _attribute(element: ET.Element, key: str) -> str:
+    value = (element.get(key) or "").strip()
+    if not value:
+        raise DescriptionError(f"{source_of(element)}: attribute '{key}' is missing")
+    return value
+
+
+def _floats(element: ET.Element, key: str, default: Optional[Tuple[float, ...]]) -> Tuple[float, ...]:
+    """The numbers of an attribute; ``default`` None: it must be there (one number)."""
+    text = (element.get(key) or "").strip()
+    if not text:
+        if default is None:
+            raise DescriptionError(f"{source_of(element)}: attribute '{key}' is missing; it is a number")
+        return default
+    count = len(default) if default is not None else 1
+    try:
+        values = tuple(float(word) for word in text.split())
+    except ValueError:
+        values = ()
+    if len(values) != count or any(math.isnan(value) for value in values):
+        raise DescriptionError(f"{source_of(element)}: {key}='{text}' is not "
+                               + ("a number" if count == 1 else f"{count} numbers"))
+    return values
+
+
+def _origin(parent: ET.Element) -> Pose:
+    origin = parent.find("origin")
+    if origin is None:
+        return math3.IDENTITY
+    xyz, rpy = _floats(origin, "xyz", (0.0, 0.0, 0.0)), _floats(origin, "rpy", (0.0, 0.0, 0.0))
+    if not all(math.isfinite(value) for value in xyz + rpy):
+        raise DescriptionError(f"{source_of(origin)}: the pose must be finite")
+    return math3.from_rpy(*xyz, *rpy)
+
+
+def _write_pose(parent: ET.Element, pose: Pose) -> None:
+    """As a quaternion (the SDF 1.9 form), so that nothing is rounded on the way to the SDF reader."""
+    child(parent, "pose", " ".join(repr(v) for v in (*pose.p, *pose.q)), {"rotation_format": "quat_xyzw"})
+
+
+class _Conversion:
+    def __init__(self, robot: ET.Element, reader):
+        self.robot = robot
+        self.reader = reader
+        self.extensions = extensions.Extensions(robot, reader)
+        self.links: Dict[str, _UrdfLink] = {}
+        self.joints: Dict[str, _UrdfJoint] = {}
+
+    # ------------------------------------------------------------------ reading
+
+    def model(self) -> Model:
+        name = _attribute(self.robot, "name")
+        root = self._tree()
+        self._reduce(root)
+        sdf = Element("model", {"name": name})
+        sdf.file, sdf.line = getattr(self.robot, "file", ""), getattr(self.robot, "line", 0)
+        if root.name == "world":
+            for joint in root.child_joints:
+                self._convert(sdf, joint.child)
+        else:
+            self._convert(sdf, root)
+        self.extensions.insert_in_model(sdf)
+        if self.robot.find("origin") is not None:
+            _write_pose(sdf, _origin(self.robot))
+        if sdf.find("link") is None:
+            raise DescriptionError(
+                f"{source_of(root.element)}: robot '{name}' has no link with a mass that could be simulated; give the "
+                "root link an <inertial>, or join one that has it by a fixed joint")
+        model = self.reader.model(sdf)
+        return replace(model, joints=tuple(self._with_urdf_facts(joint) for joint in model.joints))
+
+    def _with_urdf_facts(self, joint):
+        urdf = self.joints.get(joint.name)
+        if urdf is None:
+            return joint
+        mimic = urdf.element.find("mimic")
+        return replace(joint, urdf_type=urdf.type, mimic=None if mimic is None else Mimic(
+            _attribute(mimic, "joint"), _floats(mimic, "multiplier", (1.0,))[0], _floats(mimic, "offset", (0.0,))[0]))
+
+    def _tree(self) -> _UrdfLink:
+        for element in self.robot.findall("link"):
+            name = _attribute(element, "name")
+            if name in self.links:
+                raise DescriptionError(f"{source_of(element)}: a link named '{name}' is there already")
+            self.links[name] = self._link(name, element)
+        if not self.links:
+            raise DescriptionError(f"{source_of(self.robot)}: has no <link>")
+        for element in self.robot.findall("joint"):
+            joint = self._joint(element)
+            self.joints[joint.name] = joint
+        for _, joint in sorted(self.joints.items()):
+            if joint.child.parent_joint is not None:
+                raise DescriptionError(f"{source_of(joint.element)}: link '{joint.child.name}' is the child of joint "
+                                       f"'{joint.child.parent_joint.name}' already; a robot must be a tree")
+            joint.child.parent_joint = joint
+            joint.parent.child_joints.append(joint)
+        roots = [link for link in self.links.values() if link.parent_joint is None]
+        if len(roots) != 1:
+            what = "no root link, its joints form a circle" if not roots else \
+                "several root links (" + ", ".join(link.name for link in roots) + "), join them"
+            raise DescriptionError(f"{source_of(self.robot)}: {what}; a robot must be a tree")
+        return roots[0]
+
+    def _link(self, name: str, element: ET.Element) -> _UrdfLink:
+        link = _UrdfLink(name, element)
+        inertial = element.find("inertial")
+        if inertial is not None:
+            mass, tensor = inertial.find("mass"), inertial.find("inertia")
+            for part, tag in ((mass, "mass"), (tensor, "inertia")):
+                if part is None:
+                    raise DescriptionError(f"{source_of(inertial)} of link '{name}': <{tag}> is missing")
+            kilograms = _floats(mass, "value", None)[0]
+            i = {key: _floats(tensor, key, None)[0] for key in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")}
+            if not all(math.isfinite(value) for value in (kilograms, *i.values())):
+                raise DescriptionError(f"{source_of(inertial)} of link '{name}': mass and inertia must be finite")
+            if kilograms > 0.0:
+                pose = _origin(inertial)
+                rows = ((i["ixx"], i["ixy"], i["ixz"]), (i["ixy"], i["iyy"], i["iyz"]), (i["ixz"], i["iyz"], i["izz"]))
+                link.inertial = _Mass(kilograms, pose.p, math3.rotate_inertia(pose.q, rows))
+                link.raw_inertial = (pose, inertial)
+            elif kilograms < 0.0:
+                self.reader.warn(mass, f"link '{name}' has the negative mass {kilograms:g} kg; it counts as massless")
+        link.visuals = [self._shape(visual, name) for visual in element.findall("visual")]
+        link.collisions = [self._shape(collision, name) for collision in element.findall("collision")]
+        return link
+
+    @staticmethod
+    def _shape(element: ET.Element, link: str) -> _Shape:
+        geometry = element.find("geometry")
+        if geometry is None or len(geometry) == 0:
+            raise DescriptionError(f"{source_of(element)} of link '{link}': <geometry> with a shape is missing")
+        return _Shape(element, (element.get("name") or "").strip(), _origin(element))
+
+    def _joint(self, element: ET.Element) -> _UrdfJoint:
+        name, kind = _attribute(element, "name"), _attribute(element, "type")
+        if name in self.joints:
+            raise DescriptionError(f"{source_of(element)}: a joint named '{name}' is there already")
+        if kind not in _JOINT_TYPES:
+            raise DescriptionError(f"{source_of(element)}: unknown type '{kind}'; use one of {', '.join(_JOINT_TYPES)}")
+        ends = []
+        for tag in ("parent", "child"):
+            end = element.find(tag)
+            if end is None:
+                raise DescriptionError(f"{source_of(element)}: <{tag} link='...'/> is missing")
+            link = _attribute(end, "link")
+            if link not in self.links:
+                raise DescriptionError(f"{source_of(element)}: {tag} link '{link}' is not in the robot")
+            ends.append(self.links[link])
+        if kind in ("revolute", "prismatic") and element.find("limit") is None:
+            raise DescriptionError(f"{source_of(element)}: a {kind} joint needs <limit lower upper effort velocity/>"
+                                   + ("; or make it continuous" if kind == "revolute" else ""))
+        return _UrdfJoint(name, element, kind, ends[0], ends[1], _origin(element))
+
+    # ------------------------------------------------------------------ lumping
+
+    def _lumps(self, joint: Optional[_UrdfJoint]) -> bool:
+        return (joint is not None and joint.type == "fixed" and joint.parent.name != "world"
+                and not self.extensions.keeps_fixed_joint(joint.name))
+
+    def _reduce(self, link: _UrdfLink) -> None:
+        for joint in list(link.child_joints):
+            self._reduce(joint.child)
+        joint = link.parent_joint
+        if self._lumps(joint):
+            self._lump(link, joint.parent, joint.pose)
+
+    def _lump(self, link: _UrdfLink, parent: _UrdfLink, x_pl: Pose) -> None:
+        link.lumped_into = parent
+        self.extensions.move(link.name, parent.name, x_pl)
+        if link.inertial is not None:
+            parent.inertial = _combined(parent.inertial, link.inertial, x_pl)
+            parent.raw_inertial = None
+        for mine, theirs in ((link.visuals, parent.visuals), (link.collisions, parent.collisions)):
+            for shape in mine:
+                theirs.append(_Shape(shape.element, shape.name or link.name, math3.compose(x_pl, shape.pose)))
+        for joint in link.child_joints:
+            if joint.child.lumped_into is None:
+                joint.parent, joint.pose = parent, math3.compose(x_pl, joint.pose)
+
+    # ------------------------------------------------------------------ writing
+
+    def _convert(self, sdf: Element, link: _UrdfLink, x_mp: Pose = math3.IDENTITY) -> None:
+        """Append ``link`` and what hangs on it to the model; ``x_mp`` is the pose of its parent link."""
+        joint = link.parent_joint
+        if link.lumped_into is not None:  # its joints hang on the link that took it in, whose pose x_mp is
+            for child_joint in link.child_joints:
+                self._convert(sdf, child_joint.child, x_mp)
+            return
+        x_ml = math3.compose(x_mp, joint.pose) if joint is not None else x_mp
+        if link.inertial is None:
+            self._drop(link)
+            return
+        if joint is not None:
+            self._write_joint(sdf, joint)
+        self._write_link(sdf, link, x_ml)
+        for child_joint in link.child_joints:
+            self._convert(sdf, child_joint.child, x_ml)
+
+    def _drop(self, link: _UrdfLink) -> None:
+        def below(top: _UrdfLink) -> List[str]:
+            return [name for joint in top.child_joints for name in [joint.child.name] + below(joint.child)]
+
+        others = below(link)
+        joint = link.parent_joint
+        self.reader.warn(link.element, f"link '{link.name}' has no mass, so it is left out"
+                         + (f" and with it {', '.join(others)}" if others else "")
+                         + (f" (joint '{joint.name}' too)" if joint is not None else "")
+                         + f"; to keep {'them' if others else 'it'}, give '{link.name}' an <inertial> with a mass"
+                         + ("" if joint is None else " or make the joint fixed"))
+
+    def _write_link(self, sdf: Element, link: _UrdfLink, x_ml: Pose) -> None:
+        element = child(sdf, "link", attrib={"name": link.name}, like=link.element)
+        _write_pose(element, x_ml)
+        inertial = child(element, "inertial")
+        if link.raw_inertial is not None:
+            pose, raw = link.raw_inertial
+            values = {key: raw.find("inertia").get(key) for key in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")}
+        else:
+            pose, (a, b, c) = Pose(link.inertial.com), link.inertial.inertia
+            values = {"ixx": repr(a[0]), "ixy": repr(a[1]), "ixz": repr(a[2]), "iyy": repr(b[1]), "iyz": repr(b[2]),
+                      "izz": repr(c[2])}
+        _write_pose(inertial, pose)
+        child(inertial, "mass", repr(link.inertial.mass))
+        inertia = child(inertial, "inertia")
+        for key, value in values.items():
+            child(inertia, key, value)
+        for kind, shapes in (("collision", link.collisions), ("visual", link.visuals)):
+            for i, shape in enumerate(shapes):
+                name = f"{shape.name or link.name}_{kind}" + (f"_{i}" if i else "")
+                if not name.startswith(link.name):
+                    name = link.name + _LUMP + name
+                self._write_shape(element, link, shape, kind, name)
+        self.extensions.insert_in_link(element, link.name)
+
+    def _write_shape(self, parent: Element, link: _UrdfLink, shape: _Shape, kind: str, name: str) -> None:
+        element = child(parent, kind, attrib={"name": name}, like=shape.element)
+        _write_pose(element, shape.pose)
+        geometry = child(element, "geometry")
+        given = next(iter(shape.element.find("geometry")))
+        form = child(geometry, given.tag, like=given)
+        if given.tag == "box":
+            child(form, "size", " ".join(repr(v) for v in _floats(given, "size", (0.0, 0.0, 0.0))))
+        elif given.tag in ("cylinder", "capsule"):
+            child(form, "radius", repr(_floats(given, "radius", None)[0]))
+            child(form, "length", repr(_floats(given, "length", None)[0]))
+        elif given.tag == "sphere":
+            child(form, "radius", repr(_floats(given, "radius", None)[0]))
+        elif given.tag == "mesh":
+            child(form, "uri", _attribute(given, "filename"))
+            child(form, "scale", " ".join(repr(v) for v in _scale(given)))
+        else:
+            raise DescriptionError(f"{source_of(given)} of link '{link.name}': unknown shape; use box, cylinder, sphere "
+                                   "or mesh")
+        if kind == "collision":
+            self.extensions.insert_in_collision(element, link.name)
+        else:
+            self.extensions.insert_in_visual(element, link.name)
+
+    def _write_joint(self, sdf: Element, joint: _UrdfJoint) -> None:
+        if joint.type in ("floating", "planar"):
+            return
+        kind = "revolute" if joint.type == "continuous" else joint.type
+        as_revolute = kind == "fixed" and self.extensions.fixed_as_revolute(joint.name)
+        element = child(sdf, "joint", attrib={"name": joint.name, "type": "revolute" if as_revolute else kind},
+                        like=joint.element)
+        child(element, "parent", joint.parent.name)
+        child(element, "child", joint.child.name)
+        if kind != "fixed" or as_revolute:
+            self._write_axis(child(element, "axis"), joint, as_revolute)
+        self.extensions.insert_in_joint(element, joint.name)
+
+    def _write_axis(self, axis: Element, joint: _UrdfJoint, as_revolute: bool) -> None:
+        given = joint.element.find("axis")
+        xyz = _floats(given, "xyz", (1.0, 0.0, 0.0)) if given is not None else (1.0, 0.0, 0.0)
+        limit = child(axis, "limit")
+        dynamics = child(axis, "dynamics")
+        if as_revolute:
+            child(axis, "xyz", "0 0 1")
+            child(limit, "lower", "0")
+            child(limit, "upper", "0")
+            return
+        child(axis, "xyz", " ".join(repr(v) for v in xyz))
+        if joint.element.find("dynamics") is not None:
+            for key in ("damping", "friction"):
+                child(dynamics, key, repr(_floats(joint.element.find("dynamics"), key, (0.0,))[0]))
+        limits = joint.element.find("limit")
+        if limits is None:
+            return
+        if joint.type != "continuous":
+            lower, upper = _floats(limits, "lower", (0.0,))[0], _floats(limits, "upper", (0.0,))[0]
+            if lower > upper:
+                self.reader.warn(limits, f"joint '{joint.name}': lower limit {lower:g} is above upper limit {upper:g}; "
+                                         "switching the two")
+                lower, upper = upper, lower
+            child(limit, "lower", repr(lower))
+            child(limit, "upper", repr(upper))
+        for key in ("effort", "velocity"):
+            if not (limits.get(key) or "").strip():
+                raise DescriptionError(f"{source_of(limits)} of joint '{joint.name}': attribute '{key}' is missing")
+            child(limit, key, repr(_floats(limits, key, None)[0]))
+
+
+def _scale(mesh: ET.Element) -> Tuple[float, ...]:
+    """Three numbers; one stands for all three axes."""
+    words = (mesh.get("scale") or "1 1 1").split()
+    return _floats(mesh, "scale", (1.0, 1.0, 1.0)) if len(words) != 1 else _floats(mesh, "scale", None) * 3
+
+
+def _combined(parent: Optional[_Mass], lumped: _Mass, x_pl: Pose) -> _Mass:
+    """Both bodies as one, in the frame of the parent."""
+    moved = _Mass(lumped.mass, math3.transform(x_pl, lumped.com), math3.rotate_inertia(x_pl.q, lumped.inertia))
+    if parent is None:
+        return moved
+    mass = parent.mass + moved.mass
+    com = math3.scale(math3.add(math3.scale(parent.com, parent.mass), math3.scale(moved.com, moved.mass)), 1.0 / mass)
+    rows = [[0.0] * 3 for _ in range(3)]
+    for body in (parent, moved):
+        d = math3.sub(body.com, com)
+        square = math3.dot(d, d)
+        for i in range(3):
+            for j in range(3):
+                rows[i][j] += body.inertia[i][j] + body.mass * ((square if i == j else 0.0) - d[i] * d[j])
+    return _Mass(mass, com, tuple(tuple(row) for row in rows))

@@ -1,0 +1,205 @@
+"""``<gazebo>`` extensions of a URDF: what they say about links and joints, and where it goes in the SDF."""
+from __future__ import annotations
+
+import xml.etree.ElementTree as ET
+from dataclasses import dataclass, field
+from typing import Dict, List, Optional
+
+from ode_sim import math3
+from ode_sim.description.model import Pose
+from ode_sim.description.xmlsource import Element, child, clone, is_true, text_of
+
+LUMP = "_fixed_joint_lump__"
+_MATERIAL_SCRIPT = "file://media/materials/scripts/gazebo.material"
+
+# tag -> path below the element it is inserted in
+_COLLISION_TAGS = {
+    "mu1": "surface/friction/ode/mu", "mu2": "surface/friction/ode/mu2", "fdir1": "surface/friction/ode/fdir1",
+    "kp": "surface/contact/ode/kp", "kd": "surface/contact/ode/kd", "maxVel": "surface/contact/ode/max_vel",
+    "minDepth": "surface/contact/ode/min_depth", "maxContacts": "max_contacts", "laserRetro": "laser_retro",
+}
+_JOINT_TAGS = {
+    "stopCfm": "physics/ode/limit/cfm", "stopErp": "physics/ode/limit/erp", "fudgeFactor": "physics/ode/fudge_factor",
+    "provideFeedback": "physics/provide_feedback",
+    "implicitSpringDamper": "physics/ode/implicit_spring_damper", "cfmDamping": "physics/ode/implicit_spring_damper",
+    "springReference": "axis/dynamics/spring_reference", "springStiffness": "axis/dynamics/spring_stiffness",
+}
+_LINK_TAGS = {"selfCollide": "self_collide"}
+_OWN_MEANING = ("material", "visual", "collision", "turnGravityOff", "dampingFactor", "static", "canonicalBody",
+                "preserveFixedJoint", "disableFixedJointLumping")
+_MOVED_WITH_POSE = ("sensor", "light", "projector")
+
+
+@dataclass
+class _Extension:
+    """One ``<gazebo reference>`` block. ``origin`` stays the link it was written for when that one is lumped."""
+
+    origin: str
+    values: Dict[str, ET.Element] = field(default_factory=dict)  # known tags
+    in_visual: List[ET.Element] = field(default_factory=list)
+    in_collision: List[ET.Element] = field(default_factory=list)
+    others: List[Element] = field(default_factory=list)  # copied verbatim
+
+
+class Extensions:
+    """All ``<gazebo>`` blocks of a robot, by the link or joint they refer to; '' for the robot itself."""
+
+    def __init__(self, robot: ET.Element, reader):
+        self._reader = reader
+        self._blocks: Dict[str, List[_Extension]] = {}
+        known = set(_COLLISION_TAGS) | set(_JOINT_TAGS) | set(_LINK_TAGS) | set(_OWN_MEANING)
+        names = {e.get("name") for e in robot if e.tag in ("link", "joint")}
+        for block in robot.findall("gazebo"):
+            reference = (block.get("reference") or "").strip()
+            if reference and reference not in names:
+                reader.warn(block, f"refers to '{reference}', which is no link or joint of the robot; ignored")
+            extension = _Extension(reference)
+            for element in block:
+                if element.tag in ("visual", "collision") and reference:
+                    (extension.in_visual if element.tag == "visual" else extension.in_collision).extend(element)
+                elif element.tag in known:
+                    extension.values[element.tag] = element
+                else:
+                    extension.others.append(clone(element))
+            self._blocks.setdefault(reference, []).append(extension)
+
+    # ------------------------------------------------------------------ fixed joints
+
+    def keeps_fixed_joint(self, joint: str) -> bool:
+        return self._flag(joint, "preserveFixedJoint") or self._flag(joint, "disableFixedJointLumping")
+
+    def fixed_as_revolute(self, joint: str) -> bool:
+        """The old opt-out: a revolute joint with limits 0, 0. The newer one wins."""
+        return self._flag(joint, "disableFixedJointLumping") and not self._flag(joint, "preserveFixedJoint")
+
+    def _flag(self, reference: str, tag: str) -> bool:
+        return any(is_true(text_of(block.values.get(tag))) for block in self._blocks.get(reference, ()))
+
+    def move(self, link: str, parent: str, x_pl: Pose) -> None:
+        """``link`` is lumped into ``parent`` at ``x_pl``: what it has goes along, names of it follow."""
+        for block in self._blocks.pop(link, []):
+            for element in block.others:
+                if element.tag in _MOVED_WITH_POSE:
+                    self._move_pose(element, x_pl)
+                for contact in element.findall("contact/collision"):
+                    if text_of(contact) == link + "_collision":
+                        contact.text = f"{parent}_collision_{link}"
+            self._blocks.setdefault(parent, []).append(block)
+        for blocks in self._blocks.values():
+            for block in blocks:
+                for element in block.others:
+                    self._rename(element, link, parent, x_pl)
+
+    def _move_pose(self, element: Element, x_pl: Pose) -> None:
+        old = element.find("pose")
+        if old is not None and old.get("relative_to"):
+            return
+        pose = math3.compose(x_pl, self._reader.pose(old))
+        if old is not None:
+            element.remove(old)
+        child(element, "pose", " ".join(repr(v) for v in (*pose.p, *pose.q)), {"rotation_format": "quat_xyzw"})
+
+    def _rename(self, element: Element, link: str, parent: str, x_pl: Pose) -> None:
+        """References to a link that is gone, in plugins and joints written beside the links."""
+        if element.tag == "plugin":
+            for tag in ("bodyName", "frameName"):
+                named = element.find(tag)
+                if named is not None and text_of(named) == link:
+                    element.remove(named)
+                    child(element, tag, parent)
+                    self._move_offset(element, x_pl)
+        elif element.tag == "joint":
+            for tag in ("parent", "child"):
+                named = element.find(tag)
+                if named is not None and text_of(named) == link:
+                    named.text = parent
+        elif element.tag == "gripper":
+            for named in element.findall("gripper_link") + element.findall("palm_link"):
+                if text_of(named) == link:
+                    named.text = parent
+
+    def _move_offset(self, plugin: Element, x_pl: Pose) -> None:
+        xyz, rpy = ((0.0, 0.0, 0.0),) * 2
+        for tag in ("xyzOffset", "rpyOffset"):
+            old = plugin.find(tag)
+            if old is not None:
+                values = self._reader.numbers(old, (0.0, 0.0, 0.0))
+                xyz, rpy = (values, rpy) if tag == "xyzOffset" else (xyz, values)
+                plugin.remove(old)
+        pose = math3.compose(x_pl, math3.from_rpy(*xyz, *rpy))
+        child(plugin, "xyzOffset", " ".join(repr(v) for v in pose.p))
+        child(plugin, "rpyOffset", " ".join(repr(v) for v in math3.to_rpy(pose)))
+
+    # ------------------------------------------------------------------ insertion
+
+    def insert_in_model(self, model: Element) -> None:
+        for block in self._blocks.get("", ()):
+            if "static" in block.values:
+                self._set(model, "static", "1" if is_true(text_of(block.values["static"])) else "0")
+            model.extend(block.others)
+
+    def insert_in_link(self, element: Element, link: str) -> None:
+        for block in self._blocks.get(link, ()):
+            if "turnGravityOff" in block.values and block.origin == link:
+                keeps = text_of(block.values["turnGravityOff"]).lower() in ("false", "no", "0")
+                self._set(element, "gravity", "1" if keeps else "0")
+            if "dampingFactor" in block.values:
+                for tag in ("linear", "angular"):
+                    self._set(element, "velocity_decay/" + tag, text_of(block.values["dampingFactor"]))
+            self._insert(element, block, _LINK_TAGS)
+            element.extend(block.others)
+
+    def insert_in_collision(self, element: Element, link: str) -> None:
+        for block in self._blocks_for(element, link, "_collision"):
+            self._insert_blobs(element, block.in_collision, "surface")
+            self._insert(element, block, _COLLISION_TAGS)
+
+    def insert_in_visual(self, element: Element, link: str) -> None:
+        for block in self._blocks_for(element, link, "_visual"):
+            self._insert_blobs(element, block.in_visual, "material")
+            name = text_of(block.values.get("material"))
+            if name:
+                self._set(element, "material/script/name", name)
+                self._set(element, "material/script/uri", _MATERIAL_SCRIPT)
+        if element.find("material") is None and element.find("geometry/mesh") is None:
+            self._set(element, "material/script/name", "Gazebo/White")
+            self._set(element, "material/script/uri", _MATERIAL_SCRIPT)
+
+    def insert_in_joint(self, element: Element, joint: str) -> None:
+        for block in self._blocks.get(joint, ()):
+            self._insert(element, block, _JOINT_TAGS)
+            element.extend(block.others)
+
+    def _blocks_for(self, element: Element, link: str, suffix: str) -> List[_Extension]:
+        """Those of the link that the shape was written in: its name tells, as in sdformat."""
+        name = element.get("name") or ""
+        lumped = LUMP in name
+        return [block for block in self._blocks.get(link, ())
+                if (f"{LUMP}{block.origin}{suffix}" in name if lumped else block.origin == link)]
+
+    @staticmethod
+    def _insert_blobs(element: Element, blobs: List[ET.Element], replacing: str) -> None:
+        for blob in blobs:
+            if blob.tag == replacing:
+                for old in element.findall(replacing):
+                    element.remove(old)
+            element.append(clone(blob))
+
+    def _insert(self, element: Element, block: _Extension, tags: Dict[str, str]) -> None:
+        for tag, path in tags.items():
+            if tag in block.values:
+                self._set(element, path, text_of(block.values[tag]), block.values[tag])
+
+    def _set(self, element: Element, path: str, text: str, like: Optional[ET.Element] = None) -> None:
+        """Give the element at ``path`` this text, made if it is not there."""
+        tags = path.split("/")
+        for tag in tags[:-1]:
+            found = element.find(tag)
+            element = found if found is not None else child(element, tag)
+        old = element.find(tags[-1])
+        if old is not None:
+            if text_of(old) != text:
+                self._reader.warn(like, f"<{like.tag if like is not None else tags[-1]}> is given twice; "
+                                        f"'{text}' takes the place of '{text_of(old)}'")
+            element.remove(old)
+        child(element, tags[-1], text, like=like)
