@@ -1,0 +1,56 @@
+"""Actuator types: factors between bus counts and SI units."""
+from __future__ import annotations
+
+from dataclasses import MISSING, dataclass, fields
+from typing import Any, Mapping
+
+
+class ConfigError(ValueError):
+    """Something in the configuration is wrong; one line: which parameter, what, and what to write instead."""
+
+
+@dataclass(frozen=True)
+class Coefficients:
+    """One row of ``actuator_coefficient``.
+
+    :ivar act2pos: rad per encoder count
+    :ivar act2vel: rad/s per rpm (or per count, for ``cheetah``)
+    :ivar act2effort: Nm per count
+    :ivar effort2act: counts per Nm
+    :ivar max_out: largest magnitude of a command, counts; 0 leaves the limit to the frame
+    :ivar counts_per_turn: counts that one turn of the encoder is worth
+    :ivar act2pos_offset: rad; likewise the other offsets in their unit
+    """
+
+    act2pos: float
+    act2vel: float
+    act2effort: float
+    effort2act: float
+    max_out: float
+    pos2act: float = 0.0
+    vel2act: float = 0.0
+    act2pos_offset: float = 0.0
+    act2vel_offset: float = 0.0
+    act2effort_offset: float = 0.0
+    kp2act: float = 0.0
+    kd2act: float = 0.0
+    counts_per_turn: float = 8192.0
+
+    @classmethod
+    def from_params(cls, type_name: str, params: Mapping[str, Any]) -> "Coefficients":
+        """Coefficients from a parameter mapping.
+
+        :raises ConfigError: a required factor is missing or a value is no number.
+        """
+        values = {}
+        for field in fields(cls):
+            if field.name not in params:
+                if field.default is MISSING:
+                    raise ConfigError(f"actuator_coefficient/{type_name} has no '{field.name}': add it, or load "
+                                      "rm_hw/config/actuator_coefficient.yaml")
+                continue
+            value = params[field.name]
+            if isinstance(value, bool) or not isinstance(value, (int, float)):
+                raise ConfigError(f"actuator_coefficient/{type_name}/{field.name} is {value!r}: write a number")
+            values[field.name] = float(value)
+        return cls(**values)
