@@ -8,50 +8,7 @@ import pathlib
 import sys
 
 import numpy as np
-import trimesh
-
-TURN_FROM_Z = {"x": [0, 1, 0], "y": [1, 0, 0]}  # axis to turn a solid about that was made along z
-
-
-def box(low, high):
-    """A box from corner `low` to corner `high`, (3,) each."""
-    return trimesh.creation.box(bounds=[low, high])
-
-
-def _along(mesh, axis, centre):
-    """Turns a mesh made along z to `axis` and moves its origin to `centre`."""
-    if axis in TURN_FROM_Z:
-        mesh.apply_transform(trimesh.transformations.rotation_matrix(np.pi / 2, TURN_FROM_Z[axis]))
-    mesh.apply_translation(centre)
-    return mesh
-
-
-def rod(axis, radius, start, end, centre, sections=32):
-    """A cylinder along `axis` from coordinate `start` to `end`; `centre` (3,) gives the other two coordinates."""
-    point = np.array(centre, dtype=float)
-    point["xyz".index(axis)] = (start + end) / 2
-    return _along(trimesh.creation.cylinder(radius, end - start, sections=sections), axis, point)
-
-
-def ring(axis, inner, outer, start, end, centre, sections=32):
-    """A hollow cylinder, arguments as for `rod`."""
-    point = np.array(centre, dtype=float)
-    point["xyz".index(axis)] = (start + end) / 2
-    return _along(trimesh.creation.annulus(inner, outer, end - start, sections=sections), axis, point)
-
-
-def hull(*parts):
-    """The convex hull of several parts: plates with round ends, tapering bodies."""
-    return trimesh.convex.convex_hull(np.vstack([part.vertices for part in parts]))
-
-
-def mirrored(part, axis):
-    """The part and its mirror image in the plane through the origin normal to `axis`."""
-    scale = np.ones(3)
-    scale["xyz".index(axis)] = -1
-    twin = part.copy()
-    twin.apply_transform(np.diag([*scale, 1.0]))
-    return [part, twin]
+from lab_tools.meshes import box, hull, mirrored, ring, rod, save_stl
 
 
 def base_link():
@@ -105,7 +62,7 @@ def base_turn_table_rot():
 
 
 def dyn():
-    """A bus servo, 50 x 32 x 40: horn and idler on the z axis, body towards +x. Returned in centimetres."""
+    """A bus servo, 50 x 32 x 40: horn and idler on the z axis, body towards +x."""
     def slab(z0, z1, inset):
         return hull(*(rod("z", 3, z0, z1, (x, y, 0), 16)
                       for x in (-8.5 + inset, 35.5 - inset) for y in (-13 + inset, 13 - inset)))
@@ -117,10 +74,7 @@ def dyn():
     idler = [rod("z", 8, -18.4, -17, (0, 0, 0), 32), rod("z", 3, -19, -18.4, (0, 0, 0), 24)]
     ears = [rod("z", 2.4, -17.6, 18.6, (x, y, 0), 16) for x in (14, 33) for y in (-12.5, 12.5)]
     plug = [box((18, -6, 18), (30, 6, 19)), box((18, -6, -18), (30, 6, -17))]
-    parts = body + [seam] + horn + idler + ears + plug
-    for part in parts:
-        part.apply_scale(0.1)
-    return parts
+    return body + [seam] + horn + idler + ears + plug
 
 
 def f4_n_f3():
@@ -176,7 +130,7 @@ PARTS = (base_link, base_turn, base_turn_table_rot, dyn, f4_n_f3, wrist, the_cra
 def main(directory):
     directory.mkdir(parents=True, exist_ok=True)
     for part in PARTS:
-        trimesh.util.concatenate(part()).export(directory / (part.__name__ + ".stl"))
+        save_stl(directory / (part.__name__ + ".stl"), part(), scale=0.1 if part is dyn else 1.0)
 
 
 if __name__ == "__main__":

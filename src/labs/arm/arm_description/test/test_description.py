@@ -7,7 +7,7 @@ import xml.etree.ElementTree as ET
 import numpy as np
 import pytest
 import trimesh
-from trimesh.transformations import euler_matrix, rotation_matrix, translation_matrix
+from lab_tools.urdf import check, expand, numbers, pose_of
 
 PACKAGE = pathlib.Path(__file__).resolve().parents[1]
 MOVING = ("j0", "j1", "j2", "j3")
@@ -26,31 +26,7 @@ BOUNDS = {
 
 
 def xacro(*arguments):
-    """The URDF text that xacro makes of arm.urdf.xacro with `arguments`, run where the file lies."""
-    return subprocess.run(["xacro", "arm.urdf.xacro", *arguments], cwd=PACKAGE / "urdf", check=True,
-                          capture_output=True, text=True).stdout
-
-
-def numbers(text):
-    return [float(word) for word in text.split()]
-
-
-def frame_origin(robot, link, angle):
-    """Where the origin of `link` is in base_link (m) with all moving joints at `angle` (rad)."""
-    by_child = {joint.find("child").get("link"): joint for joint in robot.findall("joint")}
-    pose = np.eye(4)  # X_link
-    while link != "base_link":
-        joint = by_child[link]
-        origin = joint.find("origin")
-        step = np.eye(4)
-        if origin is not None:
-            step = translation_matrix(numbers(origin.get("xyz", "0 0 0"))) @ \
-                euler_matrix(*numbers(origin.get("rpy", "0 0 0")), "sxyz")
-        if joint.get("type") == "revolute":
-            step = step @ rotation_matrix(angle, numbers(joint.find("axis").get("xyz")))
-        pose = step @ pose
-        link = joint.find("parent").get("link")
-    return pose[:3, 3]
+    return expand(PACKAGE / "urdf" / "arm.urdf.xacro", *arguments)
 
 
 @pytest.fixture(scope="module")
@@ -63,8 +39,9 @@ def robot():
     (0.0, "dyn4", (0.0017, 0.0048, 0.3240)), (0.0, "crawer_base", (0.0007, -0.0102, 0.3875)),
     (1.0, "dyn3", (0.0783, -0.0454, 0.1618)), (1.0, "dyn4", (0.1644, -0.0984, 0.1158)),
     (1.0, "crawer_base", (0.1590, -0.0959, 0.0508))])
-def test_frames(robot, angle, link, origin):
-    assert frame_origin(robot, link, angle) == pytest.approx(origin, abs=6e-5)  # the figures have four decimals
+def test_frames(angle, link, origin):
+    pose = pose_of(xacro(), link, "base_link", dict.fromkeys(MOVING, angle))
+    assert pose[:3, 3] == pytest.approx(origin, abs=6e-5)  # the figures have four decimals
 
 
 def test_four_joints_with_limits(robot):
@@ -97,9 +74,7 @@ def test_hardware_interface_reaches_every_transmission():
 
 @pytest.mark.parametrize("bolted", ["true", "false"])
 def test_check_urdf_accepts(tmp_path, bolted):
-    path = tmp_path / "arm.urdf"
-    path.write_text(xacro("bolted:=" + bolted))
-    subprocess.run(["check_urdf", path], check=True, capture_output=True)
+    check(xacro("bolted:=" + bolted), tmp_path)
 
 
 def test_plain_urdf_is_in_step():

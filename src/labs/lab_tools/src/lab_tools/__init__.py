@@ -1,0 +1,1 @@
+"""Tools of the lab packages: `meshes` draws them, `urdf` looks into descriptions."""
