@@ -1,0 +1,160 @@
+"""What a camera is: a frozen record, read from the ``<camera>`` element of a sensor or written by hand."""
+from __future__ import annotations
+
+import math
+import xml.etree.ElementTree as ET
+from dataclasses import dataclass
+from typing import Optional, Tuple
+
+import numpy as np
+
+from ode_sim.description.model import Pose, Vec3
+from ode_sim.math3 import compose, from_rpy
+
+MAX_SIZE = 8192  # pixels along a side; llvmpipe's largest texture is 16384, and a frame of 8192x8192 is 268 MB
+_MAX_PIXELS = 64_000_000
+
+ENCODINGS = {
+    "L8": "mono8", "L_INT8": "mono8", "L16": "mono16", "L_INT16": "mono16", "R8G8B8": "rgb8", "RGB_INT8": "rgb8",
+    "B8G8R8": "bgr8", "BGR_INT8": "bgr8", "R16G16B16": "rgb16", "RGB_INT16": "rgb16", "BAYER_RGGB8": "bayer_rggb8",
+    "BAYER_BGGR8": "bayer_bggr8", "BAYER_GBRG8": "bayer_gbrg8", "BAYER_GRBG8": "bayer_grbg8",
+}
+
+
+class CameraError(ValueError):
+    """A camera that cannot be made; one line naming the value and what is allowed."""
+
+
+@dataclass(frozen=True)
+class Distortion:
+    """Brown's lens model with OpenCV's meaning of the coefficients: ``k1 k2 k3`` radial, ``p1 p2`` tangential;
+    ``center`` in fractions of the image. ``crop``: no black border, the picture is filled with what is really there."""
+
+    k1: float = 0.0
+    k2: float = 0.0
+    k3: float = 0.0
+    p1: float = 0.0
+    p2: float = 0.0
+    center: Tuple[float, float] = (0.5, 0.5)
+    crop: bool = True
+
+    def __bool__(self) -> bool:
+        return any((self.k1, self.k2, self.k3, self.p1, self.p2))
+
+
+@dataclass(frozen=True)
+class Camera:
+    """A pinhole that looks along +x, with +y to the left and +z up.
+
+    :param width, height: pixels. :param hfov: horizontal field of view, rad. :param near, far: clip distances, m.
+    :param format: SDF pixel format, see :data:`ENCODINGS`.
+    :param noise_mean, noise_stddev: of the Gaussian added to each pixel, in fractions of full scale.
+    :param pose: X_LC in the frame of ``link``, or X_WC when ``link`` is empty. :param link: scoped, ``model::link``.
+    """
+
+    name: str = "camera"
+    width: int = 320
+    height: int = 240
+    hfov: float = 1.047
+    near: float = 0.1
+    far: float = 100.0
+    format: str = "R8G8B8"
+    noise_mean: float = 0.0
+    noise_stddev: float = 0.0
+    distortion: Distortion = Distortion()
+    pose: Pose = Pose()
+    link: str = ""
+
+    def __post_init__(self):
+        if not (1 <= self.width <= MAX_SIZE and 1 <= self.height <= MAX_SIZE) or self.width * self.height > _MAX_PIXELS:
+            raise CameraError(f"image of {self.width}x{self.height} pixels; width and height must be 1 to {MAX_SIZE}, "
+                              f"together at most {_MAX_PIXELS // 1_000_000} million pixels")
+        if not 1e-3 <= self.hfov <= math.radians(175):
+            raise CameraError(f"horizontal_fov {self.hfov:g} rad; it must be between 0.001 and 3.05")
+        if not 0 < self.near < self.far < math.inf:
+            raise CameraError(f"clip near {self.near:g} m, far {self.far:g} m; near must be above 0 and below far")
+        if self.format not in ENCODINGS:
+            raise CameraError(f"unknown image format '{self.format}'; use one of {', '.join(ENCODINGS)}")
+        if not (self.noise_stddev >= 0 and math.isfinite(self.noise_stddev) and math.isfinite(self.noise_mean)):
+            raise CameraError(f"noise mean {self.noise_mean:g}, stddev {self.noise_stddev:g}; stddev must not be negative")
+
+    @property
+    def focal_length(self) -> float:
+        """Pixels; the same along both axes."""
+        return self.width / (2.0 * math.tan(self.hfov / 2.0))
+
+    @property
+    def encoding(self) -> str:
+        """sensor_msgs name of :attr:`format`."""
+        return ENCODINGS[self.format]
+
+    def project(self, p_C: np.ndarray) -> np.ndarray:
+        """Pixel coordinates (N,2) (column, row; whole numbers at pixel centres) of points (N,3) in the camera frame."""
+        p_C = np.atleast_2d(np.asarray(p_C, float))
+        f = self.focal_length
+        return np.stack([(self.width - 1) / 2 - f * p_C[:, 1] / p_C[:, 0],
+                         (self.height - 1) / 2 - f * p_C[:, 2] / p_C[:, 0]], axis=1)
+
+
+def _number(element: Optional[ET.Element], path: str, default: float) -> float:
+    text = element.findtext(path) if element is not None else None
+    if text is None or not text.strip():
+        return default
+    try:
+        return float(text.split()[0])
+    except ValueError:
+        raise CameraError(f"<{path.rpartition('/')[2]}> is '{text.strip()}', not a number") from None
+
+
+def _pixels(element: Optional[ET.Element], path: str, default: int) -> int:
+    value = _number(element, path, default)
+    if not math.isfinite(value):
+        raise CameraError(f"<{path.rpartition('/')[2]}> is {value}, not a number of pixels")
+    return int(value)
+
+
+def _pose(text: Optional[str]) -> Pose:
+    """Of the six numbers of a ``<pose>`` (m, rad); missing ones are 0."""
+    try:
+        values = [float(word) for word in (text or "").split()][:6]
+    except ValueError:
+        raise CameraError(f"<pose> is '{text.strip()}'; six numbers are needed") from None
+    return from_rpy(*values)
+
+
+def read_distortion(element: Optional[ET.Element]) -> Distortion:
+    """From a ``<distortion>`` element (None: no distortion)."""
+    center = ((element.findtext("center") if element is not None else None) or "0.5 0.5").split()
+    try:
+        cx, cy = (float(word) for word in center[:2])
+    except ValueError:
+        raise CameraError(f"<distortion><center> is '{' '.join(center)}'; two numbers are needed") from None
+    return Distortion(*(_number(element, key, 0.0) for key in ("k1", "k2", "k3", "p1", "p2")), center=(cx, cy))
+
+
+def read_camera(element: ET.Element, sensor_pose: Pose = Pose(), link: str = "", name: str = "") -> Camera:
+    """A camera from the ``<camera>`` element of a sensor.
+
+    :param sensor_pose: X_LS of the sensor in its link. :param link: scoped link name.
+    :raises CameraError: a value that no camera can have.
+    """
+    pose = compose(sensor_pose, _pose(element.findtext("pose")))
+    noise = element.find("noise")
+    noisy = noise is not None and (noise.findtext("type") or noise.get("type") or "gaussian").strip() != "none"
+    return Camera(
+        name=name or element.get("name") or "camera",
+        width=_pixels(element, "image/width", 320), height=_pixels(element, "image/height", 240),
+        hfov=_number(element, "horizontal_fov", 1.047),
+        near=_number(element, "clip/near", 0.1), far=_number(element, "clip/far", 100.0),
+        format=(element.findtext("image/format") or "R8G8B8").strip(),
+        noise_mean=_number(noise, "mean", 0.0) if noisy else 0.0,
+        noise_stddev=_number(noise, "stddev", 0.0) if noisy else 0.0,
+        distortion=read_distortion(element.find("distortion")), pose=pose, link=link)
+
+
+def look_at(eye: Vec3, target: Vec3) -> Pose:
+    """X_WC of a camera at ``eye`` that looks at ``target`` with its horizon level (both (3,), m, world frame)."""
+    forward = np.asarray(target, float) - np.asarray(eye, float)
+    yaw = math.atan2(forward[1], forward[0])
+    pitch = math.atan2(-forward[2], math.hypot(forward[0], forward[1]))
+    return from_rpy(*(float(v) for v in eye), 0.0, pitch, yaw)

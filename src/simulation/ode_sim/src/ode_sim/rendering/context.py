@@ -1,0 +1,90 @@
+"""Headless OpenGL contexts: EGL first (a GPU where there is one, else Mesa's llvmpipe), OSMesa as the second back-end.
+
+Both give a :class:`moderngl.Context` of OpenGL 3.3 core, so the renderer has one code path.
+"""
+from __future__ import annotations
+
+import ctypes
+import ctypes.util
+import os
+
+BACKENDS = ("auto", "egl", "osmesa")
+_GL_VERSION = 330
+
+
+class RenderingUnavailable(RuntimeError):
+    """No OpenGL on this machine; one line saying what was tried and what to install."""
+
+
+class _OsmesaContext:
+    """What moderngl asks of a context provider, over libOSMesa. All drawing goes to framebuffer objects; the default
+    buffer that OSMesa insists on is a token one."""
+
+    _FORMAT, _RGBA, _PROFILE, _CORE, _MAJOR, _MINOR, _UBYTE = 0x22, 0x1908, 0x33, 0x34, 0x36, 0x37, 0x1401
+    _SIZE = 4
+
+    def __init__(self, **_moderngl_settings):
+        self._lib = lib = ctypes.CDLL(ctypes.util.find_library("OSMesa") or "libOSMesa.so.8")
+        lib.OSMesaCreateContextAttribs.restype = ctypes.c_void_p
+        lib.OSMesaCreateContextAttribs.argtypes = [ctypes.POINTER(ctypes.c_int), ctypes.c_void_p]
+        lib.OSMesaMakeCurrent.argtypes = [ctypes.c_void_p, ctypes.c_void_p, ctypes.c_uint, ctypes.c_int, ctypes.c_int]
+        lib.OSMesaGetProcAddress.restype = ctypes.c_void_p
+        lib.OSMesaDestroyContext.argtypes = [ctypes.c_void_p]
+        wanted = (self._FORMAT, self._RGBA, self._PROFILE, self._CORE, self._MAJOR, 3, self._MINOR, 3, 0)
+        self._handle = lib.OSMesaCreateContextAttribs((ctypes.c_int * len(wanted))(*wanted), None)
+        if not self._handle:
+            raise RenderingUnavailable("OSMesa has no OpenGL 3.3")
+        self._buffer = (ctypes.c_ubyte * (4 * self._SIZE * self._SIZE))()
+        self.__enter__()
+
+    def load(self, name: str) -> int:
+        """Address of the GL function ``name``, 0 if there is none."""
+        return self._lib.OSMesaGetProcAddress(name.encode()) or 0
+
+    def __enter__(self):
+        if not self._lib.OSMesaMakeCurrent(self._handle, self._buffer, self._UBYTE, self._SIZE, self._SIZE):
+            raise RenderingUnavailable("OSMesa could not make its context current")
+        return self
+
+    def __exit__(self, *_exc):
+        pass
+
+    def release(self):
+        self._lib.OSMesaDestroyContext(self._handle)
+
+
+def _create_osmesa(moderngl):
+    """moderngl finds providers by name in glcontext; OSMesa is lent to that look-up for the length of one call."""
+    import glcontext
+    original = glcontext.get_backend_by_name
+    glcontext.get_backend_by_name = lambda name: _OsmesaContext if name == "osmesa" else original(name)
+    try:
+        return moderngl.create_context(standalone=True, backend="osmesa", require=_GL_VERSION)
+    finally:
+        glcontext.get_backend_by_name = original
+
+
+def create_context(backend: str = "auto"):
+    """A current, headless ``moderngl.Context``.
+
+    :param backend: ``egl``, ``osmesa`` or ``auto`` (EGL, then OSMesa; the environment variable ``ODE_SIM_GL``
+        overrides ``auto``).
+    :raises RenderingUnavailable: no back-end works; the message says why for each.
+    """
+    if backend == "auto":
+        backend = os.environ.get("ODE_SIM_GL", "") or "auto"
+    if backend not in BACKENDS:
+        raise RenderingUnavailable(f"unknown OpenGL back-end '{backend}' (ODE_SIM_GL); use one of {', '.join(BACKENDS)}")
+    try:
+        import moderngl
+    except ImportError as error:
+        raise RenderingUnavailable(f"no OpenGL: {error}; install python3-moderngl") from error
+    reasons = []
+    for name in ("egl", "osmesa") if backend == "auto" else (backend,):
+        try:
+            if name == "osmesa":
+                return _create_osmesa(moderngl)
+            return moderngl.create_context(standalone=True, backend="egl", require=_GL_VERSION)
+        except Exception as error:  # moderngl, glcontext and ctypes each raise types of their own
+            reasons.append(f"{name}: {str(error).strip().splitlines()[0] if str(error).strip() else type(error).__name__}")
+    raise RenderingUnavailable(f"no OpenGL ({'; '.join(reasons)}); install libegl1 with libgl1-mesa-dri, or libosmesa6")
