@@ -3,7 +3,8 @@
 ======================  =================================================================
 ``load``                the functions below
 ``urdf``                URDF to SDF, as sdformat 9 converts it
-``sdf``, ``sdf_*``      SDF to records; ``population``: many copies of a model
+``sdf``                 worlds of SDF; built on ``sdf_model``, ``sdf_shapes``, ``sdf_values``, ``sdf_frames``,
+                        ``sdf_document``, ``population``
 ``materials``           Gazebo's colours, OGRE material scripts
 ``finder``              ``model://``, ``package://``, Gazebo's search paths
 ``xmlsource``           XML elements that know their line

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
-from typing import Callable, Iterable, List, Optional
+from typing import Callable, Iterable, List, Optional, Tuple
 from urllib.parse import unquote
 
 from ode_sim.description.model import DescriptionError
@@ -70,36 +70,41 @@ class ResourceFinder:
             return self._find_relative(uri, base)
         rest = unquote(rest)
         if scheme == "model":
-            return self._first(os.path.join(path, rest) for path in self.model_paths)
+            return self._in_models(rest)
+        if scheme in ("http", "https"):  # of the model databases only what is here under the same name
+            name = rest.rstrip("/").rpartition("/")[2]
+            return self._in_models(name) or self._in_models(name.lower().replace(" ", "_"))
         if scheme == "package":
             package, _, inside = rest.partition("/")
             folder = self._package_path(package)
             found = self._first([os.path.join(folder, inside)]) if folder else None
             # URDF meshes that name a package of models: Gazebo turns package:// into model://
-            return found or self._first(os.path.join(path, rest) for path in self.model_paths)
+            return found or self._in_models(rest)
         if scheme == "file":
             return self._find_relative(rest, base)
         return None
 
-    def searched(self, uri: str) -> str:
+    def explain(self, uri: str) -> str:
         """Where :meth:`find` looked for ``uri``, for a message."""
         scheme, _, rest = uri.strip().partition("://")
-        if scheme == "model" and rest:
-            return ":".join(self.model_paths) or "no model path is set"
         if scheme == "package" and rest:
             package = rest.partition("/")[0]
             folder = self._package_path(package)
-            return folder if folder else f"there is no ROS package '{package}'"
-        if scheme in ("http", "https"):
-            return "the network is never used; put the model into ~/.gazebo/models and name it model://..."
+            return f"searched {folder}" if folder else f"there is no ROS package '{package}'"
+        if scheme in ("http", "https", "model") and rest:
+            return ("" if scheme == "model" else "the network is never used; ") + "searched " + \
+                (":".join(self.model_paths) or "nothing, GAZEBO_MODEL_PATH is empty")
         if os.path.isabs(rest or uri):
-            return "as an absolute path"
-        return ":".join([os.getcwd()] + self.resource_paths)
+            return "no such file"
+        return "searched " + ":".join([os.getcwd()] + self.resource_paths)
 
     def find_world(self, name: str) -> Optional[str]:
         """A world file by path, URI, or name relative to the resource paths (``worlds/empty.world``)."""
         found = self.find(name)
         return found if found and os.path.isfile(found) else None
+
+    def _in_models(self, name: str) -> Optional[str]:
+        return self._first(os.path.join(path, name.lstrip("/")) for path in self.model_paths) if name else None
 
     def _find_relative(self, name: str, base: str) -> Optional[str]:
         if os.path.isabs(name):
@@ -139,16 +144,17 @@ class ResourceFinder:
     @staticmethod
     def _sdf_of_config(config: Path) -> Path:
         root = parse_xml(config.read_bytes(), str(config))
-        best, best_version = None, (-1, -1)
+        entries: List[Tuple[Tuple[int, ...], str]] = []
         for entry in root.iter("sdf"):
             try:
                 version = tuple(int(part) for part in (entry.get("version") or "1.0").split("."))
             except ValueError:
                 continue
-            if best_version < version <= _NEWEST_SDF:
-                best, best_version = text_of(entry), version
-        if not best:
-            raise DescriptionError(f"{config}: no <sdf version='1.7'> or older entry; name the model's SDF file in one")
+            entries.append((version, text_of(entry)))
+        if not entries:
+            raise DescriptionError(f"{config}: has no <sdf version='1.6'>model.sdf</sdf> entry")
+        supported = [entry for entry in entries if entry[0] <= _NEWEST_SDF]
+        best = max(supported)[1] if supported else min(entries)[1]  # a newer one is read as far as it is known
         file = config.parent / best
         if not file.is_file():
             raise DescriptionError(f"{config}: names '{best}', which is not there")

@@ -26,7 +26,7 @@ def load_world(path_or_text: str, finder: Optional[ResourceFinder] = None) -> Tu
         file = finder.find_world(path_or_text) or ""
         if not file:
             known = ", ".join(finder.stock_worlds())
-            raise DescriptionError(f"cannot find world '{path_or_text}' (searched {finder.searched(path_or_text)})"
+            raise DescriptionError(f"cannot find world '{path_or_text}' ({finder.explain(path_or_text)})"
                                    + (f"; worlds that come with the simulator: {known}" if known else ""))
         text = _read(file)
     root = parse_sdf(text, file)

@@ -1,0 +1,318 @@
+"""Models of SDF: links, joints, sensors, nested and included models."""
+from __future__ import annotations
+
+import math
+import os
+import xml.etree.ElementTree as ET
+from dataclasses import dataclass, field, replace
+from typing import Dict, Iterator, List, Optional, Tuple
+
+from ode_sim import math3
+from ode_sim.description.model import (
+    Axis, Collision, DescriptionError, Inertial, Joint, Link, Model, Plugin, Pose, Sensor, Surface, Visual)
+from ode_sim.description.sdf_document import first_entity, parse_sdf
+from ode_sim.description.sdf_frames import model_frames, relative_to
+from ode_sim.description.sdf_shapes import SdfShapes
+from ode_sim.description.xmlsource import is_true, source_of, text_of
+
+_JOINT_AXES = {"revolute": 1, "prismatic": 1, "fixed": 0, "ball": 0, "universal": 2, "revolute2": 2, "screw": 1,
+                "gearbox": 2, "piston": 1}
+_OLD_JOINT_TYPES = {"hinge": "revolute", "slider": "prismatic", "hinge2": "revolute2"}
+
+
+@dataclass
+class _Parts:
+    """A model while it is read: everything in its own frame M, nested models already merged in as ``sub::x``."""
+
+    name: str
+    element: ET.Element
+    pose: Pose  # of M in whatever it is part of
+    links: List[Link] = field(default_factory=list)
+    joints: List[Joint] = field(default_factory=list)
+    plugins: List[Plugin] = field(default_factory=list)
+    frames: Dict[str, Pose] = field(default_factory=dict)  # X_M of links, joints, frames, for relative_to
+
+
+class SdfModels(SdfShapes):
+    """Reads ``<model>`` and what an ``<include>`` stands for."""
+
+    def model(self, element: ET.Element) -> Model:
+        parts = self._parts(element)
+        static = self.boolean(element, "static", False)
+        if not parts.links:
+            raise DescriptionError(f"{source_of(element)}: has no <link>; a model needs at least one")
+        for i, link in enumerate(parts.links):
+            parts.links[i] = self._with_checked_inertial(link, static)
+        return Model(name=parts.name, pose=parts.pose, links=tuple(parts.links), joints=tuple(parts.joints),
+                     plugins=tuple(parts.plugins), static=static,
+                     self_collide=self.boolean(element, "self_collide", False),
+                     allow_auto_disable=self.boolean(element, "allow_auto_disable", True), source=source_of(element))
+
+    def _with_checked_inertial(self, link: Link, static: bool) -> Link:
+        """What never moves may have any mass, as saved worlds do; what moves needs one that ODE can use."""
+        i = link.inertial
+        finite = all(math.isfinite(v) for v in (i.mass, i.ixx, i.ixy, i.ixz, i.iyy, i.iyz, i.izz))
+        if finite and i.mass > 0.0:
+            return link
+        if static:
+            return replace(link, inertial=Inertial())
+        raise DescriptionError(f"{link.source}: " + (
+            "mass and inertia must be finite numbers" if not finite else
+            f"mass {i.mass:g} kg; a link of a model that moves needs a positive mass"))
+
+    def _parts(self, element: ET.Element) -> _Parts:
+        name = element.get("name") or "__default__"
+        parts = _Parts(name, element, self.pose(element.find("pose")))
+        nested = [self._parts(child) for child in element.findall("model")]
+        for include in element.findall("include"):
+            included = self.include(include, getattr(element, "include_chain", ()))
+            if included is not None and included.tag == "model":
+                nested.append(self._parts(included))
+            elif included is not None:
+                self.warn(include, "only a model can be included into a model; left out")
+        parts.frames = model_frames(self, element, [(sub.name, sub.element, sub.frames) for sub in nested])
+        for link in element.findall("link"):
+            if any(link.get("name") == other.name for other in parts.links):
+                self.warn(link, "a link of this name is there already; this one is left out", "error")
+                continue
+            parts.links.append(self._link(link, parts.frames))
+        for joint in element.findall("joint"):
+            if any(joint.get("name") == other.name for other in parts.joints):
+                self.warn(joint, "a joint of this name is there already; this one is left out", "error")
+            else:
+                parts.joints += self._joint(joint, parts, nested)
+        for sub in nested:
+            self._merge(parts, sub)
+        parts.plugins += self.plugins(element)
+        for gripper in element.findall("gripper"):
+            self.warn(gripper, "the gripper element has no effect here; contact friction holds what is gripped")
+        return parts
+
+    @staticmethod
+    def _merge(parts: _Parts, sub: _Parts) -> None:
+        x_ms = parts.frames[sub.name]
+
+        def scoped(name: str) -> str:
+            return name if name == "world" else f"{sub.name}::{name}"
+
+        for link in sub.links:
+            parts.links.append(replace(link, name=scoped(link.name), pose=math3.compose(x_ms, link.pose)))
+        for joint in sub.joints:
+            parts.joints.append(replace(joint, name=scoped(joint.name), parent=scoped(joint.parent),
+                                        child=scoped(joint.child)))
+        parts.plugins += sub.plugins
+
+    def plugins(self, parent: ET.Element) -> List[Plugin]:
+        return [Plugin(name=(p.get("name") or "").strip(), filename=(p.get("filename") or "").strip(), element=p,
+                       source=source_of(p)) for p in parent.findall("plugin")]
+
+    # ------------------------------------------------------------------ links
+
+    def _link(self, element: ET.Element, frames: Dict[str, Pose]) -> Link:
+        name = element.get("name") or ""
+        x_ml = frames[name]
+
+        def in_link(child: ET.Element) -> Pose:
+            pose = child.find("pose")
+            x = self.pose(pose)
+            frame = relative_to(pose)
+            if not frame or frame == name:
+                return x
+            if frame not in frames:
+                self.warn(pose, f"there is no frame '{frame}'; using that of link '{name}'")
+                return x
+            return math3.compose(math3.relative(x_ml, frames[frame]), x)
+
+        collide = element.find("self_collide")
+        return Link(
+            name=name, pose=x_ml, inertial=self._inertial(element.find("inertial"), in_link),
+            collisions=tuple(self._unique(element, "collision", lambda e: self._collision(e, in_link(e)))),
+            visuals=tuple(self._unique(element, "visual", lambda e: self._visual(e, in_link(e)))),
+            sensors=tuple(self._unique(element, "sensor", lambda e: self._sensor(e, in_link(e)))),
+            lights=tuple(self._unique(element, "light", lambda e: replace(self.light(e), pose=in_link(e)))),
+            gravity=self.boolean(element, "gravity", True),
+            self_collide=is_true(text_of(collide)) if collide is not None else None,
+            kinematic=self.boolean(element, "kinematic", False),
+            linear_decay=self.number(element, "velocity_decay/linear", 0.0),
+            angular_decay=self.number(element, "velocity_decay/angular", 0.0),
+            source=source_of(element))
+
+    def _unique(self, parent: ET.Element, tag: str, read) -> Iterator:
+        """Children of one kind, with names made unique: Gazebo would drop the second of a name."""
+        seen: Dict[str, int] = {}
+        for element in parent.findall(tag):
+            item = read(element)
+            count = seen.get(item.name, 0)
+            seen[item.name] = count + 1
+            if count:
+                self.warn(element, f"the name is used twice in this link; renamed '{item.name}_{count}'")
+                item = replace(item, name=f"{item.name}_{count}")
+            yield item
+
+    def _inertial(self, element: Optional[ET.Element], in_link) -> Inertial:
+        if element is None:
+            return Inertial()
+        values = {key: self.number(element, "inertia/" + key, default, nan=True) for key, default in (
+            ("ixx", 1.0), ("ixy", 0.0), ("ixz", 0.0), ("iyy", 1.0), ("iyz", 0.0), ("izz", 1.0))}
+        return Inertial(mass=self.number(element, "mass", 1.0, nan=True), pose=in_link(element), **values)
+
+    def _collision(self, element: ET.Element, pose: Pose) -> Collision:
+        return Collision(name=element.get("name") or "", pose=pose, geometry=self.geometry(element),
+                         surface=self._surface(element.find("surface")),
+                         max_contacts=int(self.number(element, "max_contacts", 10)),
+                         laser_retro=self.number(element, "laser_retro", 0.0), source=source_of(element))
+
+    def _visual(self, element: ET.Element, pose: Pose) -> Visual:
+        return Visual(name=element.get("name") or "", pose=pose, geometry=self.geometry(element),
+                      material=self.material(element.find("material")),
+                      transparency=self.number(element, "transparency", 0.0),
+                      cast_shadows=self.boolean(element, "cast_shadows", True),
+                      laser_retro=self.number(element, "laser_retro", 0.0), source=source_of(element))
+
+    def _sensor(self, element: ET.Element, pose: Pose) -> Sensor:
+        return Sensor(name=element.get("name") or "", type=(element.get("type") or "").strip(), pose=pose,
+                      element=element, update_rate=self.number(element, "update_rate", 0.0),
+                      always_on=self.boolean(element, "always_on", False), plugins=tuple(self.plugins(element)),
+                      source=source_of(element))
+
+    def _surface(self, element: Optional[ET.Element]) -> Surface:
+        if element is None:
+            return Surface()
+        default = Surface()
+        ode = element.find("friction/ode")
+        contact = element.find("contact/ode")
+        torsion = element.find("friction/torsional/coefficient")
+        bitmask = text_of(element.find("contact/collide_bitmask"))
+        try:
+            collide_bitmask = int(bitmask, 0) if bitmask else default.collide_bitmask
+        except ValueError:
+            self.warn(element.find("contact/collide_bitmask"), f"'{bitmask}' is no integer; using 65535")
+            collide_bitmask = default.collide_bitmask
+        return Surface(
+            mu=self.number(ode, "mu", default.mu), mu2=self.number(ode, "mu2", default.mu2),
+            fdir1=self.vector(ode, "fdir1", default.fdir1),
+            slip1=self.number(ode, "slip1", 0.0), slip2=self.number(ode, "slip2", 0.0),
+            torsional_mu=self.numbers(torsion, (1.0,))[0] if torsion is not None else None,
+            kp=self.number(contact, "kp", default.kp), kd=self.number(contact, "kd", default.kd),
+            max_vel=self.number(contact, "max_vel", default.max_vel),
+            min_depth=self.number(contact, "min_depth", default.min_depth),
+            restitution=self.number(element, "bounce/restitution_coefficient", default.restitution),
+            bounce_threshold=self.number(element, "bounce/threshold", default.bounce_threshold),
+            collide_bitmask=collide_bitmask,
+            collide_without_contact=self.boolean(element, "contact/collide_without_contact", False))
+
+    # ------------------------------------------------------------------ joints
+
+    def _joint(self, element: ET.Element, parts: _Parts, nested: List[_Parts]) -> List[Joint]:
+        name = element.get("name") or ""
+        kind = (element.get("type") or "").strip()
+        kind = _OLD_JOINT_TYPES.get(kind, kind)
+        if kind not in _JOINT_AXES:
+            self.warn(element, f"unknown joint type '{kind}'; use one of {', '.join(_JOINT_AXES)}; "
+                               "the joint is left out", "error")
+            return []
+        parent, child = (text_of(element.find(tag)) or text_of(element.find(tag + "/link"))
+                         for tag in ("parent", "child"))
+        known = {link.get("name") for link in parts.element.findall("link")}
+        known |= {f"{sub.name}::{link.name}" for sub in nested for link in sub.links}
+        for role, link in (("parent", parent), ("child", child)):
+            if link not in known and link != "world":
+                self.warn(element, f"{role} link '{link}' is not in model '{parts.name}'; the joint is left out", "error")
+                return []
+        if child == "world" or parent == child:
+            self.warn(element, f"cannot join '{parent}' to '{child}'; the joint is left out", "error")
+            return []
+        pose = element.find("pose")
+        reference = relative_to(pose) or child
+        if reference not in parts.frames:
+            self.warn(pose, f"there is no frame '{reference}'; using that of the child link")
+            reference = child
+        x_mj = math3.compose(parts.frames[reference], self.pose(pose))
+        x_cj = math3.relative(parts.frames[child], x_mj)
+        return [Joint(
+            name=name, type=kind, parent=parent, child=child, pose=x_cj,
+            axes=tuple(self._axes(element, kind, parts.frames, x_mj)),
+            limit_erp=self.number(element, "physics/ode/limit/erp", 0.2),
+            limit_cfm=self.number(element, "physics/ode/limit/cfm", 0.0),
+            provide_feedback=self.boolean(element, "physics/provide_feedback",
+                                          self.boolean(element, "physics/ode/provide_feedback", False)),
+            implicit_spring_damper=self.boolean(element, "physics/ode/implicit_spring_damper",
+                                                self.boolean(element, "physics/ode/cfm_damping", False)),
+            fudge_factor=self.number(element, "physics/ode/fudge_factor", 1.0), source=source_of(element))]
+
+    def _axes(self, element: ET.Element, kind: str, frames: Dict[str, Pose], x_mj: Pose) -> Iterator[Axis]:
+        tags = ("axis", "axis2")[:_JOINT_AXES[kind]]
+        if kind == "revolute2" and element.find("axis2") is None:
+            self.warn(element, "a revolute2 joint needs an <axis2>; using the z axis")
+        for tag in tags:
+            axis = element.find(tag)
+            if axis is None:
+                yield Axis()
+                continue
+            xyz_element = axis.find("xyz")
+            xyz = self.numbers(xyz_element, (0.0, 0.0, 1.0))
+            if math3.norm(xyz) == 0.0:
+                self.warn(axis, "the axis has no length; using 0 0 1")
+                xyz = (0.0, 0.0, 1.0)
+            expressed_in = (xyz_element.get("expressed_in") or "").strip() if xyz_element is not None else ""
+            if not expressed_in and self._in_model_frame(axis):
+                expressed_in = "__model__"
+            if expressed_in in frames:
+                in_model = math3.rotate(frames[expressed_in], xyz)
+                xyz = math3.quat_rotate(math3.quat_inverse(x_mj.q), in_model)
+            elif expressed_in:
+                self.warn(axis, f"there is no frame '{expressed_in}'; using that of the joint")
+            lower, upper = self.number(axis, "limit/lower", -1e16), self.number(axis, "limit/upper", 1e16)
+            if lower > upper:
+                self.warn(axis, f"lower limit {lower:g} is above upper limit {upper:g}; switching the two")
+                lower, upper = upper, lower
+            yield Axis(xyz=math3.unit(xyz), lower=max(lower, -1e16), upper=min(upper, 1e16),
+                       effort=self.number(axis, "limit/effort", -1.0),
+                       velocity=self.number(axis, "limit/velocity", -1.0),
+                       damping=self.number(axis, "dynamics/damping", 0.0),
+                       friction=self.number(axis, "dynamics/friction", 0.0),
+                       spring_reference=self.number(axis, "dynamics/spring_reference", 0.0),
+                       spring_stiffness=self.number(axis, "dynamics/spring_stiffness", 0.0))
+
+    @staticmethod
+    def _in_model_frame(axis: ET.Element) -> bool:
+        """How SDF 1.5 and 1.6 say it; up to 1.4 it is always so, and ``parse_sdf`` has inserted the element."""
+        return is_true(text_of(axis.find("use_parent_model_frame")))
+
+    # ------------------------------------------------------------------ include
+
+    def include(self, include: ET.Element, chain: Tuple[str, ...] = ()) -> Optional[ET.Element]:
+        """The model, light or actor that an ``<include>`` stands for, changed as it says; None with a warning.
+
+        :param chain: URIs that led here, outermost first.
+        """
+        uri = text_of(include.find("uri"))
+        if uri in chain:
+            self.warn(include, f"'{uri}' includes itself ({' > '.join(chain + (uri,))}); left out", "error")
+            return None
+        try:
+            file = self.finder.find_model_sdf(uri, os.path.dirname(getattr(include, "file", "")) or self.base)
+            if file is None:
+                self.warn_missing(include, uri, "left out")
+                return None
+            with open(file, "rb") as stream:
+                element = first_entity(parse_sdf(stream.read(), file))
+        except (DescriptionError, OSError) as error:
+            self.warn(include, f"{error}; '{uri}' is left out", "error")
+            return None
+        element.include_chain = chain + (uri,)
+        return self._changed(element, include)
+
+    @staticmethod
+    def _changed(element: ET.Element, include: ET.Element) -> ET.Element:
+        name = text_of(include.find("name"))
+        if name:
+            element.set("name", name)
+        for tag in ("pose", "static"):
+            override = include.find(tag)
+            if override is not None:
+                for old in element.findall(tag):
+                    element.remove(old)
+                element.insert(0, override)
+        element.extend(include.findall("plugin"))
+        return element

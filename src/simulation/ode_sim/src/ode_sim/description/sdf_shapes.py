@@ -1,0 +1,100 @@
+"""Shapes, looks and lights of SDF."""
+from __future__ import annotations
+
+import math
+import os
+import xml.etree.ElementTree as ET
+from dataclasses import replace
+from typing import Optional, Tuple
+
+from ode_sim import math3
+from ode_sim.description import materials
+from ode_sim.description.model import (
+    Box, Capsule, Cylinder, DescriptionError, Geometry, Heightmap, Light, Material, Mesh, Plane, Polyline, Sphere)
+from ode_sim.description.sdf_values import SdfValues
+from ode_sim.description.xmlsource import source_of, text_of
+
+
+class SdfShapes(SdfValues):
+    """Reads ``<geometry>``, ``<material>`` and ``<light>``."""
+
+    def geometry(self, parent: ET.Element) -> Geometry:
+        element = parent.find("geometry")
+        shape = next((child for child in element if child.tag != "empty"), None) if element is not None else None
+        if shape is None:
+            return None
+        if shape.tag == "box":
+            return Box(self._positive(shape, self.vector(shape, "size", (1.0, 1.0, 1.0))))
+        if shape.tag == "sphere":
+            return Sphere(*self._positive(shape, (self.number(shape, "radius", 1.0),)))
+        if shape.tag in ("cylinder", "capsule"):
+            kind = Cylinder if shape.tag == "cylinder" else Capsule
+            return kind(*self._positive(shape, (self.number(shape, "radius", 1.0), self.number(shape, "length", 1.0))))
+        if shape.tag == "plane":
+            normal = math3.unit(self.vector(shape, "normal", (0.0, 0.0, 1.0)))
+            return Plane(normal if any(normal) else (0.0, 0.0, 1.0), self.vector(shape, "size", (1.0, 1.0)))
+        if shape.tag == "mesh":
+            return self._mesh(shape)
+        if shape.tag == "heightmap":
+            uri = text_of(shape.find("uri"))
+            return Heightmap(self._file(shape, uri), uri, self.vector(shape, "size", (1.0, 1.0, 1.0)),
+                             self.vector(shape, "pos", (0.0, 0.0, 0.0)), int(self.number(shape, "sampling", 2)))
+        if shape.tag == "polyline":
+            return Polyline(tuple(self.numbers(p, (0.0, 0.0)) for p in shape.findall("point")),
+                            self.number(shape, "height", 1.0))
+        self.warn(shape, "this kind of geometry is not known here; left out")
+        return None
+
+    @staticmethod
+    def _positive(shape: ET.Element, sizes: Tuple[float, ...]) -> Tuple[float, ...]:
+        if any(size < 0.0 or not math.isfinite(size) for size in sizes):
+            raise DescriptionError(f"{source_of(shape)}: size {' '.join(f'{s:g}' for s in sizes)}; "
+                                   "sizes must be positive")
+        return sizes
+
+    def _mesh(self, shape: ET.Element) -> Mesh:
+        uri = text_of(shape.find("uri")) or text_of(shape.find("filename"))
+        return Mesh(path=self._file(shape, uri), uri=uri, scale=self.vector(shape, "scale", (1.0, 1.0, 1.0)),
+                    submesh=text_of(shape.find("submesh/name")), center=self.boolean(shape, "submesh/center", False))
+
+    def _file(self, element: ET.Element, uri: str) -> str:
+        """Absolute path of a mesh or image, '' with a warning if it is not there."""
+        found = self.finder.find(uri, os.path.dirname(getattr(element, "file", "")) or self.base) if uri else None
+        if found and os.path.isfile(found):
+            return found
+        self.warn_missing(element, uri, "this shape is left out")
+        return ""
+
+    def material(self, element: Optional[ET.Element]) -> Optional[Material]:
+        if element is None:
+            return None
+        name = text_of(element.find("script/name"))
+        known = materials.gazebo_material(name, self.finder) if name else None
+        if name and known is None:
+            uris = [text_of(uri) for uri in element.findall("script/uri")]
+            places = [self.finder.find(uri, self.base) for uri in uris]
+            known = materials.script_material(name, [place for place in places if place])
+            if known is None and name not in self._missing:
+                self._missing.add(name)
+                self.warn(element, f"there is no material '{name}'"
+                          + (f" in {', '.join(uris)}" if uris else "") + "; using white")
+        colours = {tag: self.rgba(element, tag) for tag in ("ambient", "diffuse", "specular", "emissive")}
+        given = {tag: colour for tag, colour in colours.items() if colour is not None}
+        if known is None and not given:
+            return Material(name) if name else None
+        return replace(known or Material(name), **given)
+
+    def light(self, element: ET.Element) -> Light:
+        default = Light(name="")
+        return Light(
+            name=element.get("name") or "", type=(element.get("type") or "point").strip(),
+            pose=self.pose(element.find("pose")), diffuse=self.rgba(element, "diffuse", default.diffuse),
+            specular=self.rgba(element, "specular", default.specular),
+            direction=self.vector(element, "direction", default.direction),
+            range=self.number(element, "attenuation/range", default.range),
+            constant=self.number(element, "attenuation/constant", default.constant),
+            linear=self.number(element, "attenuation/linear", default.linear),
+            quadratic=self.number(element, "attenuation/quadratic", default.quadratic),
+            spot=(self.number(element, "spot/inner_angle", 0.0), self.number(element, "spot/outer_angle", 0.0),
+                  self.number(element, "spot/falloff", 0.0)),
+            cast_shadows=self.boolean(element, "cast_shadows", False), source=source_of(element))
