@@ -15,7 +15,7 @@ An unwanted sensor costs one comparison a step, and nothing at all is measured.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Callable, List
+from typing import Any, Callable, List
 
 import rospy
 
@@ -73,6 +73,7 @@ class UpdateRate:
 class _Consumer:
     measure: Callable[[Sensor], None]
     wanted: Callable[[], bool]
+    owner: Any
 
 
 class Sensor:
@@ -86,13 +87,15 @@ class Sensor:
         sim time of the newest update (``rospy.Time``, int nanoseconds)
     """
 
-    def __init__(self, description, link):
+    def __init__(self, description, link, report: Callable[[Any, Exception], None]):
         self.description = description
         self.link = link
         self.model = link.model
         self.update_rate = UpdateRate(description.update_rate)
         self.measurement_ns = 0
         self.update_count = 0
+        self.owner: Any = None  # the plugin being loaded: what it connects is its own
+        self._report = report
         self._consumers: List[_Consumer] = []
 
     @property
@@ -122,15 +125,15 @@ class Sensor:
 
         ``wanted`` is only asked when an update is due. It usually tells whether a topic has subscribers.
         """
-        self._consumers.append(_Consumer(measure, wanted))
+        self._consumers = self._consumers + [_Consumer(measure, wanted, self.owner)]
 
-    def disconnect_all(self) -> None:
-        self._consumers.clear()
+    def disconnect_owner(self, owner: Any) -> None:
+        self._consumers = [consumer for consumer in self._consumers if consumer.owner is not owner]
 
     def update(self, now_ns: int) -> None:
         """After a step: measure if an update is due and wanted. Physics thread.
 
-        An exception of a consumer disconnects that consumer and is raised.
+        An exception of a consumer disconnects its plugin and is reported; the others go on.
         """
         if not self._consumers or not self.update_rate.due(now_ns):
             return
@@ -143,9 +146,9 @@ class Sensor:
         for consumer in wanting:
             try:
                 consumer.measure(self)
-            except Exception:
-                self._consumers.remove(consumer)
-                raise
+            except Exception as error:  # a plugin may raise anything; it must not take the world down
+                self.disconnect_owner(consumer.owner)
+                self._report(consumer.owner, error)
 
     def reset(self) -> None:
         self.update_rate.reset()

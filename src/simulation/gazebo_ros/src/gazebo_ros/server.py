@@ -4,68 +4,129 @@ from __future__ import annotations
 import queue
 import threading
 from concurrent.futures import Future
-from typing import Any, Callable, List, Optional, Tuple
+from typing import Any, Callable, Dict, List, Optional, Tuple
 
 import rospy
+from ode_sim.description import model as d
 
+from gazebo_ros.plugin import ModelPlugin, PluginError, SensorPlugin, WorldPlugin
+from gazebo_ros.plugin_host import PluginHost, PluginInstance, ResolvedPlugin, plugin_sdf
+from gazebo_ros.sensors import Sensor
 from gazebo_ros.throttle import Throttle
 
 _NS = 1_000_000_000
-
-
-class Connection:
-    """A callback of the step loop; :meth:`disconnect` ends it."""
-
-    __slots__ = ("f", "owner", "_disconnect")
-
-    def __init__(self, f: Callable[[], None], owner: Any, disconnect: Callable[[Connection], None]):
-        self.f = f
-        self.owner = owner
-        self._disconnect = disconnect
-
-    def disconnect(self) -> None:
-        self._disconnect(self)
-
-
-class CallbackList:
-    """Callbacks in connection order. May change while it is being called; the change counts from the next step on."""
-
-    def __init__(self):
-        self.connections: Tuple[Connection, ...] = ()
-
-    def connect(self, f: Callable[[], None], owner: Any = None) -> Connection:
-        connection = Connection(f, owner, self.disconnect)
-        self.connections += (connection,)
-        return connection
-
-    def disconnect(self, connection: Connection) -> None:
-        self.connections = tuple(c for c in self.connections if c is not connection)
-
-    def disconnect_owner(self, owner: Any) -> None:
-        self.connections = tuple(c for c in self.connections if c.owner is not owner)
 
 
 class Stopped(RuntimeError):
     """The simulator is shutting down; the call was not made."""
 
 
+class Connection:
+    """A callback of the step loop; :meth:`disconnect` ends it."""
+
+    __slots__ = ("f", "owner", "_callbacks")
+
+    def __init__(self, f: Callable[[], None], owner: Optional[PluginInstance], callbacks: CallbackList):
+        self.f = f
+        self.owner = owner
+        self._callbacks = callbacks
+
+    def disconnect(self) -> None:
+        self._callbacks.disconnect(self)
+
+
+class CallbackList:
+    """Callbacks in connection order, of any thread. A change counts from the next step on."""
+
+    def __init__(self):
+        self.connections: Tuple[Connection, ...] = ()
+        self._lock = threading.Lock()
+
+    def connect(self, f: Callable[[], None], owner: Optional[PluginInstance] = None) -> Connection:
+        connection = Connection(f, owner, self)
+        with self._lock:
+            self.connections += (connection,)
+        return connection
+
+    def disconnect(self, connection: Connection) -> None:
+        with self._lock:
+            self.connections = tuple(c for c in self.connections if c is not connection)
+
+    def disconnect_owner(self, owner: PluginInstance) -> None:
+        with self._lock:
+            self.connections = tuple(c for c in self.connections if c.owner is not owner)
+
+    def call(self) -> None:
+        for connection in self.connections:
+            try:
+                connection.f()
+            except Exception as error:  # a plugin may raise anything; it must not take the world down
+                self.disconnect(connection)
+                if connection.owner is None:
+                    rospy.logerr("the simulator's own callback %r failed and is switched off: %r", connection.f, error)
+                else:
+                    connection.owner.report(error)
+
+
+class ResolvedModel:
+    """Plugin classes of a model that is about to be spawned, imported outside the physics thread."""
+
+    def __init__(self, model: d.Model, host: PluginHost):
+        where = f"model {model.name}"
+        self.plugins = [host.resolve(plugin, where) for plugin in model.plugins]
+        self.sensor_plugins = {(link.name, sensor.name): [host.resolve(plugin, where) for plugin in sensor.plugins]
+                               for link in model.links for sensor in link.sensors}
+
+
+class _ModelRuntime:
+    """Sensors and plugins of one model, in load order."""
+
+    def __init__(self):
+        self.sensors: List[Sensor] = []
+        self.plugins: List[PluginInstance] = []
+
+
 class Server:
     """One simulated world, stepped in one thread.
 
     ``world``
-        ``ode_sim.World``. Only the physics thread may touch it: inside step callbacks, ``load``, ``reset`` and
-        ``shutdown`` of plugins, and functions given to :meth:`call`.
+        ``ode_sim.World``. Only the physics thread may touch it: step callbacks, ``load``, ``reset`` and ``shutdown`` of
+        plugins, and functions given to :meth:`call`.
+    ``description``
+        ``ode_sim.description.World`` it was made from
+    ``finder``
+        ``ode_sim.description.ResourceFinder`` with the search paths of the environment and of ROS packages
+    ``lockstep``
+        physics waits for every sensor (``--lockstep``): a camera must not drop a frame
+    ``ros_time``
+        let ``rospy.Time.now()`` of this process be :meth:`now` (off when /use_sim_time is false)
     """
 
-    def __init__(self, world, throttle: Optional[Throttle] = None):
+    def __init__(self, world, description: d.World, finder, host: PluginHost, *, paused: bool = False,
+                 lockstep: bool = False, iterations: int = 0, ros_time: bool = True):
         self.world = world
-        self.throttle = throttle or Throttle(world.physics.real_time_update_rate)
-        self.paused = False
+        self.description = description
+        self.finder = finder
+        self.lockstep = lockstep
+        self.throttle = Throttle(world.physics.real_time_update_rate)
+        self.paused = paused
+        self.stepped = CallbackList()  # called when a run of steps ends: pause, end of a step request
+        self._host = host
+        self._ros_time = ros_time
+        self._iterations_left = iterations or None
+        self._requested_steps = 0
+        self._request: Optional[Future] = None
+        self._stopping = False
         self._calls: queue.SimpleQueue = queue.SimpleQueue()
         self._thread: Optional[int] = None
         self._before = CallbackList()
         self._after = CallbackList()
-        self._now = rospy.Time(*divmod(world.time_ns, _NS))
+        self._world_plugins: List[PluginInstance] = []
+        self._models: Dict[str, _ModelRuntime] = {}
+        self._sensors: Tuple[Sensor, ...] = ()
+        self._set_now()
+        world.before_step.append(self._begin_step)
+        world.after_step.append(self._end_step)
 
     # ------------------------------------------------------------------------------------------ for plugins
 
@@ -92,4 +153,278 @@ class Server:
             return f()
         future: Future = Future()
         self._calls.put((f, future))
+        if self._stopping:  # the loop may have emptied the queue for the last time
+            self._refuse_calls()
         return future.result()
+
+    @property
+    def throttled(self) -> bool:
+        """Steps are paced by wall time, not taken as fast as possible."""
+        return not self._requested_steps and self.throttle.rate > 0.0
+
+    @property
+    def sensors(self) -> Tuple[Sensor, ...]:
+        """All sensors that have a plugin, in load order."""
+        return self._sensors
+
+    # ------------------------------------------------------------------------------------------ the loop
+
+    def run(self, ready: Callable[[], None] = lambda: None) -> None:
+        """Load the plugins of the world file, then step until :meth:`stop` or until ``iterations`` are done.
+
+        :param ready: called once, before the first step
+        """
+        self._thread = threading.get_ident()
+        try:
+            self._load_world_plugins()
+            ready()
+            self.throttle.restart()
+            while not self._stopping:
+                self._turn()
+        finally:
+            self._stopping = True
+            self._shutdown()
+
+    def stop(self) -> None:
+        """End :meth:`run` after the current step. Any thread."""
+        self._stopping = True
+        self._calls.put((_nothing, Future()))  # wakes the loop
+
+    def _turn(self) -> None:
+        """One step, or one piece of waiting for it."""
+        if not self._calls.empty():
+            self._run_call(*self._calls.get())
+        elif self._requested_steps:
+            self._step()
+            self._requested_steps -= 1
+            if not self._requested_steps:
+                self._finish_request()
+        elif self.paused:
+            self._run_call(*self._calls.get())
+        else:
+            self.throttle.rate = self.world.physics.real_time_update_rate
+            delay = self.throttle.delay()
+            if delay > 0.0:
+                try:
+                    call = self._calls.get(timeout=delay)
+                except queue.Empty:
+                    return
+                self._run_call(*call)
+            else:
+                self.throttle.stepped()
+                self._step()
+
+    def _step(self) -> None:
+        self.world.step(1)
+        if self._iterations_left is not None:
+            self._iterations_left -= 1
+            if not self._iterations_left:
+                rospy.loginfo("%d iterations done: the simulator ends", self.world.iterations)
+                self._stopping = True
+
+    def _begin_step(self, world) -> None:
+        self._set_now()
+        self._before.call()
+
+    def _end_step(self, world) -> None:
+        if self._sensors:
+            now_ns = world.time_ns
+            for sensor in self._sensors:
+                sensor.update(now_ns)
+        self._after.call()
+        if world.messages:
+            for line in world.messages:
+                rospy.logwarn("%s", line)
+            world.messages.clear()
+
+    def _set_now(self) -> None:
+        self._now = rospy.Time(*divmod(self.world.time_ns, _NS))
+        if self._ros_time:
+            rospy.rostime._set_rostime(self._now)
+
+    @staticmethod
+    def _run_call(f: Callable[[], Any], future: Future) -> None:
+        try:
+            future.set_result(f())
+        except Exception as error:  # raised again in the thread that called
+            future.set_exception(error)
+
+    def _refuse_calls(self) -> None:
+        while True:
+            try:
+                _, future = self._calls.get_nowait()
+            except queue.Empty:
+                return
+            future.set_exception(Stopped("the simulator is shutting down"))
+
+    # ------------------------------------------------------------------------------------------ pause, step, reset
+
+    def pause(self) -> None:
+        """Physics thread."""
+        self.paused = True
+        self.stepped.call()
+
+    def unpause(self) -> None:
+        """Physics thread."""
+        self.paused = False
+        self.throttle.restart()
+
+    def request_steps(self, count: int) -> Future:
+        """Take ``count`` steps as fast as possible though paused. Physics thread.
+
+        :returns: done when the last step is; cancelled by a second request's refusal or the end of the simulator
+        :raises ValueError: not paused, or a request is still running
+        """
+        if not self.paused:
+            raise ValueError("the simulation is running; pause it first (pause_physics)")
+        if self._request is not None:
+            raise ValueError("another step request is still running")
+        if count < 1:
+            raise ValueError("steps must be at least 1")
+        self._requested_steps = count
+        self._request = Future()
+        return self._request
+
+    def _finish_request(self) -> None:
+        request, self._request = self._request, None
+        self.stepped.call()
+        request.set_result(None)
+
+    def reset_world(self) -> None:
+        """Model poses back to the initial ones, velocities zero; time and joint angles stay. Physics thread."""
+        self.world.reset_poses()
+        self._reset_plugins([])
+
+    def reset_simulation(self) -> None:
+        """Time and all poses back to the start. Physics thread."""
+        self.world.reset()
+        self._set_now()
+        self.throttle.restart()
+        for sensor in self._sensors:
+            sensor.reset()
+        self._reset_plugins(self._world_plugins)
+
+    def _reset_plugins(self, world_plugins: List[PluginInstance]) -> None:
+        for instance in world_plugins:
+            instance.attempt(instance.plugin.reset)
+        for runtime in self._models.values():
+            for instance in runtime.plugins:
+                instance.attempt(instance.plugin.reset)
+
+    # ------------------------------------------------------------------------------------------ models
+
+    def resolve(self, model: d.Model) -> ResolvedModel:
+        """Import the plugin classes of a model. Any thread but the physics one: imports may take long."""
+        return ResolvedModel(model, self._host)
+
+    def spawn(self, model: d.Model, resolved: ResolvedModel):
+        """Put a model into the world and start its plugins. Physics thread.
+
+        :returns: ``ode_sim.ModelHandle``
+        """
+        handle = self.world.spawn(model)
+        self._load_model_plugins(handle, resolved)
+        return handle
+
+    def remove(self, name: str) -> None:
+        """Shut a model's plugins down and take it out of the world. Physics thread."""
+        runtime = self._models.pop(name, None)
+        if runtime:
+            gone = set(map(id, runtime.sensors))
+            self._sensors = tuple(sensor for sensor in self._sensors if id(sensor) not in gone)
+            for instance in runtime.plugins:
+                self._end_plugin(instance)
+        self.world.remove(name)
+
+    def _load_world_plugins(self) -> None:
+        resolved = [self._host.resolve(plugin, f"world {self.description.name}") for plugin in self.description.plugins]
+        models = [(handle, self.resolve(handle.description)) for handle in self.world.models.values()]
+        for plugin in filter(None, resolved):
+            self._start(plugin, WorldPlugin, self._world_plugins)
+        for handle, plugins in models:
+            self._load_model_plugins(handle, plugins)
+
+    def _load_model_plugins(self, handle, resolved: ResolvedModel) -> None:
+        """Sensors first, in link order, then the model's own plugins in file order, as Gazebo."""
+        runtime = self._models[handle.name] = _ModelRuntime()
+        for link in handle.links.values():
+            for description in link.description.sensors:
+                plugins = resolved.sensor_plugins.get((link.name, description.name), [])
+                sensor = Sensor(description, link, PluginInstance.report)
+                for plugin in filter(None, plugins):
+                    self._start(plugin, SensorPlugin, runtime.plugins, sensor)
+                if any(plugins):
+                    runtime.sensors.append(sensor)
+                    self._sensors += (sensor,)
+        for plugin in filter(None, resolved.plugins):
+            self._start(plugin, ModelPlugin, runtime.plugins, handle)
+
+    def _start(self, resolved: ResolvedPlugin, base: type, started: List[PluginInstance], *subject: Any) -> None:
+        """Load one plugin; a failure leaves it out with one line.
+
+        :param subject: what the plugin is attached to: a model handle, a Sensor, or nothing for the world
+        """
+        instance = PluginInstance(resolved)
+        if not isinstance(instance.plugin, base):
+            instance.report(PluginError(f"is no {base.__name__}: it cannot be used in this place of the file"))
+            return
+        for thing in subject:
+            if isinstance(thing, Sensor):
+                thing.owner = instance
+        if instance.attempt(instance.plugin.load, ServerView(self, instance), *subject, plugin_sdf(resolved)):
+            started.append(instance)
+        else:
+            self._disconnect(instance)
+            for thing in subject:
+                if isinstance(thing, Sensor):
+                    thing.disconnect_owner(instance)
+
+    def _disconnect(self, instance: PluginInstance) -> None:
+        self._before.disconnect_owner(instance)
+        self._after.disconnect_owner(instance)
+        self.stepped.disconnect_owner(instance)
+
+    def _end_plugin(self, instance: PluginInstance) -> None:
+        self._disconnect(instance)
+        instance.attempt(instance.plugin.shutdown)
+
+    def _shutdown(self) -> None:
+        if self._request is not None:
+            self._request.set_exception(Stopped("the simulator is shutting down"))
+        self._refuse_calls()
+        for runtime in self._models.values():
+            for instance in runtime.plugins:
+                self._end_plugin(instance)
+        for instance in self._world_plugins:
+            self._end_plugin(instance)
+        self._models.clear()
+
+
+class ServerView:
+    """What a plugin sees of the :class:`Server`: step callbacks made through it end with the plugin."""
+
+    def __init__(self, server: Server, owner: PluginInstance):
+        self._server = server
+        self._owner = owner
+        self.world = server.world
+        self.description = server.description
+        self.finder = server.finder
+        self.lockstep = server.lockstep
+        self.now = server.now
+        self.call = server.call
+
+    @property
+    def paused(self) -> bool:
+        return self._server.paused
+
+    def before_step(self, f: Callable[[], None]) -> Connection:
+        """See :meth:`Server.before_step`."""
+        return self._server._before.connect(f, self._owner)
+
+    def after_step(self, f: Callable[[], None]) -> Connection:
+        """See :meth:`Server.after_step`."""
+        return self._server._after.connect(f, self._owner)
+
+
+def _nothing() -> None:
+    """Put into the call queue to wake the loop."""

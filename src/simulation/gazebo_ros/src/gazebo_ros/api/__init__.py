@@ -1,0 +1,1 @@
+"""Topics, services and parameters of the node ``gazebo``, one module per subject."""

@@ -1,0 +1,59 @@
+"""geometry_msgs to and from poses and vectors; frames named by entities."""
+from __future__ import annotations
+
+from typing import Any, Tuple
+
+from geometry_msgs.msg import Pose as PoseMsg, Quaternion, Point, Twist, Vector3
+from ode_sim import math3
+from ode_sim.description.model import Pose, Vec3
+
+from gazebo_ros.api.handlers import Refused, finite
+
+WORLD_NAMES = ("", "world", "map", "/map")  # when no entity has that name
+
+
+def pose_msg(pose: Pose) -> PoseMsg:
+    return PoseMsg(Point(*pose.p), Quaternion(*pose.q))
+
+
+def pose_of(message: PoseMsg, what: str = "pose") -> Pose:
+    """With the quaternion normalised; all zeros mean no rotation.
+
+    :raises Refused: a number is not finite
+    """
+    p, q = message.position, message.orientation
+    finite(what, p.x, p.y, p.z, q.x, q.y, q.z, q.w)
+    return Pose((p.x, p.y, p.z), math3.quat_normalize((q.x, q.y, q.z, q.w)))
+
+
+def vector_of(message: Any, what: str) -> Vec3:
+    """Of a Vector3 or Point.
+
+    :raises Refused: a number is not finite
+    """
+    finite(what, message.x, message.y, message.z)
+    return (message.x, message.y, message.z)
+
+
+def twist_msg(linear: Vec3, angular: Vec3) -> Twist:
+    return Twist(Vector3(*linear), Vector3(*angular))
+
+
+def entity_twist(entity: Any) -> Tuple[Vec3, Vec3]:
+    """(linear, angular) of a model (its first link's) or link handle, at its origin, world axes."""
+    if hasattr(entity, "links"):
+        linear, angular = entity.twist()
+    else:
+        linear, angular = entity.linear_velocity(), entity.angular_velocity()
+    return tuple(linear), tuple(angular)
+
+
+def frame_entity(world: Any, name: str, what: str) -> Any:
+    """The entity that ``name`` stands for, None for the world.
+
+    :raises Refused: there is none
+    """
+    entity = world.find_entity(name) if name else None
+    if entity is None and name not in WORLD_NAMES:
+        raise Refused(f"{what} '{name}' not found: it must be the name of a model, of a link (as model::link), or 'world'")
+    return entity

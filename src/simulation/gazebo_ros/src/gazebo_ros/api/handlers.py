@@ -1,0 +1,59 @@
+"""What every service of the node shares: run in the physics thread, answer with success and one line."""
+from __future__ import annotations
+
+import math
+from typing import Any, Callable, Iterable
+
+import rospy
+
+from gazebo_ros.server import Server, Stopped
+
+
+class Refused(Exception):
+    """The request cannot be met; the text says why and what to do."""
+
+
+def advertise(server: Server, name: str, service: type, f: Callable[[Any, Any], str],
+              in_physics_thread: bool = True) -> rospy.Service:
+    """Offer ``~name``. ``f(request, response)`` fills the response and returns the status line.
+
+    A :class:`Refused` becomes ``success=false``; so does what nobody foresaw, with an ERROR line. Responses without a
+    ``success`` field carry no answer at all, so a refusal is logged instead.
+    """
+    prefix = "".join(word.capitalize() for word in name.split("_"))
+
+    def handle(request: Any) -> Any:
+        response = service._response_class()
+        try:
+            status = server.call(lambda: f(request, response)) if in_physics_thread else f(request, response)
+            success = True
+        except (Refused, Stopped) as error:
+            status, success = f"{prefix}: {error}", False
+        except Exception as error:  # the answer must reach the client, and the server must go on
+            status, success = f"{prefix}: internal error, {type(error).__name__}: {error}", False
+            rospy.logerr("%s", status)
+        if hasattr(response, "success"):
+            response.success, response.status_message = success, status
+        elif not success:
+            rospy.logwarn("%s", status)
+        return response
+
+    return rospy.Service(f"~{name}", service, handle)
+
+
+def finite(what: str, *values: float) -> None:
+    """
+    :raises Refused: a value is NaN or infinite
+    """
+    for value in values:
+        if not math.isfinite(value):
+            raise Refused(f"{what} holds {value}; give finite numbers")
+
+
+def listing(names: Iterable[str], limit: int = 12) -> str:
+    """``a, b, c`` for a message; long lists end in a count."""
+    names = list(names)
+    if not names:
+        return "none"
+    more = f" and {len(names) - limit} more" if len(names) > limit else ""
+    return ", ".join(names[:limit]) + more

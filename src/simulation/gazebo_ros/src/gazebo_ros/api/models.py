@@ -1,0 +1,180 @@
+"""State and properties of models and links."""
+from __future__ import annotations
+
+from collections import Counter
+from typing import Any, Tuple
+
+import rospy
+from gazebo_msgs.msg import LinkState, ModelState
+from gazebo_msgs.srv import (DeleteModel, GetLinkProperties, GetLinkState, GetModelProperties, GetModelState,
+                             GetWorldProperties, SetLinkProperties, SetLinkState, SetModelConfiguration, SetModelState)
+from geometry_msgs.msg import Point, Pose as PoseMsg, Quaternion
+from ode_sim import math3
+from ode_sim.description.model import Inertial, Pose, Vec3
+
+from gazebo_ros.api.geometry import entity_twist, frame_entity, pose_msg, pose_of, twist_msg, vector_of
+from gazebo_ros.api.handlers import Refused, advertise, finite, listing
+from gazebo_ros.server import Server, Stopped
+
+
+class ModelServices:
+    def __init__(self, server: Server):
+        self._server = server
+        self._world = server.world
+        self._state_calls: Counter = Counter()  # get_model_state numbers its answers per model
+        for name, service, f in (
+                ("delete_model", DeleteModel, self._delete_model),
+                ("get_model_properties", GetModelProperties, self._get_model_properties),
+                ("get_model_state", GetModelState, self._get_model_state),
+                ("get_world_properties", GetWorldProperties, self._get_world_properties),
+                ("get_link_properties", GetLinkProperties, self._get_link_properties),
+                ("get_link_state", GetLinkState, self._get_link_state),
+                ("set_link_properties", SetLinkProperties, self._set_link_properties),
+                ("set_model_state", SetModelState, lambda request, _: self._set_model_state(request.model_state)),
+                ("set_link_state", SetLinkState, lambda request, _: self._set_link_state(request.link_state)),
+                ("set_model_configuration", SetModelConfiguration, self._set_model_configuration)):
+            advertise(server, name, service, f)
+        rospy.Subscriber("~set_model_state", ModelState, self._on_message, (self._set_model_state, "set_model_state"),
+                         queue_size=10)
+        rospy.Subscriber("~set_link_state", LinkState, self._on_message, (self._set_link_state, "set_link_state"),
+                         queue_size=10)
+
+    def _on_message(self, message: Any, how: Tuple) -> None:
+        f, topic = how
+        try:
+            self._server.call(lambda: f(message))
+        except Refused as error:
+            rospy.logwarn_throttle(1.0, "message on ~%s: %s" % (topic, error))
+        except Stopped:
+            return
+
+    # ------------------------------------------------------------------------------------------ look-up
+
+    def _model(self, name: str):
+        entity = self._world.models.get(name)
+        if entity is None:
+            raise Refused(f"model [{name}] does not exist; there are: {listing(self._world.models)}")
+        return entity
+
+    def _link(self, name: str, what: str = "link"):
+        link = self._world.find_link(name)
+        if link is None:
+            raise Refused(f"{what} [{name}] not found; name it as model::link, as in the topic link_states")
+        return link
+
+    # ------------------------------------------------------------------------------------------ models
+
+    def _delete_model(self, request, response) -> str:
+        self._model(request.model_name)
+        self._server.remove(request.model_name)
+        return "DeleteModel: successfully deleted model"
+
+    def _get_model_properties(self, request, response) -> str:
+        model = self._model(request.model_name)
+        response.body_names = list(model.links)
+        response.geom_names = [c.name for link in model.links.values() for c in link.description.collisions]
+        response.joint_names = list(model.joints)
+        response.is_static = model.static
+        return "GetModelProperties: got properties"
+
+    def _get_model_state(self, request, response) -> str:
+        model = self._model(request.model_name)
+        frame = frame_entity(self._world, request.relative_entity_name, "relative_entity_name")
+        self._state_calls[request.model_name] += 1
+        response.header.seq = self._state_calls[request.model_name]
+        response.header.stamp = rospy.Time.now()
+        response.header.frame_id = request.relative_entity_name
+        response.pose, response.twist = _relative_state(model, frame)
+        return "GetModelState: got properties"
+
+    def _set_model_state(self, state) -> str:
+        model = self._model(state.model_name)
+        frame = frame_entity(self._world, state.reference_frame, "reference_frame")
+        pose = pose_of(state.pose)
+        linear, angular = vector_of(state.twist.linear, "twist"), vector_of(state.twist.angular, "twist")
+        if frame is not None:
+            x_wf = frame.pose
+            pose = math3.compose(x_wf, pose)
+            linear, angular = math3.rotate(x_wf, linear), math3.rotate(x_wf, angular)
+        model.pose = pose
+        model.set_twist(linear, angular)
+        return "SetModelState: set model state done"
+
+    def _set_model_configuration(self, request, response) -> str:
+        model = self._model(request.model_name)
+        if len(request.joint_names) != len(request.joint_positions):
+            raise Refused(f"{len(request.joint_names)} joint names but {len(request.joint_positions)} positions")
+        finite("joint_positions", *request.joint_positions)
+        joints = {alias: joint for joint in model.joints.values() for alias in (joint.name, joint.scoped_name)}
+        for name, position in zip(request.joint_names, request.joint_positions):
+            if name in joints and joints[name].axis_count:
+                joints[name].set_position(position)
+        return "SetModelConfiguration: success"
+
+    def _get_world_properties(self, request, response) -> str:
+        response.sim_time = self._world.time
+        response.model_names = list(self._world.models)
+        response.rendering_enabled = True
+        return "GetWorldProperties: got properties"
+
+    # ------------------------------------------------------------------------------------------ links
+
+    def _get_link_state(self, request, response) -> str:
+        link = self._link(request.link_name)
+        frame = frame_entity(self._world, request.reference_frame, "reference_frame")
+        state = response.link_state
+        state.link_name, state.reference_frame = request.link_name, request.reference_frame
+        state.pose, state.twist = _relative_state(link, frame)
+        return "GetLinkState: got state"
+
+    def _set_link_state(self, state) -> str:
+        link = self._link(state.link_name)
+        frame = frame_entity(self._world, state.reference_frame, "reference_frame")
+        if frame is not None and hasattr(frame, "links"):
+            raise Refused(f"reference_frame [{state.reference_frame}] is a model; name a link of it as model::link")
+        pose = pose_of(state.pose)
+        linear, angular = vector_of(state.twist.linear, "twist"), vector_of(state.twist.angular, "twist")
+        if frame is not None:  # velocities as Gazebo takes them: relative, but in world axes
+            pose = math3.compose(frame.pose, pose)
+            linear = math3.sub(linear, tuple(frame.linear_velocity()))
+            angular = math3.sub(angular, tuple(frame.angular_velocity()))
+        link.pose = pose
+        link.set_twist(linear, angular)
+        return "SetLinkState: success"
+
+    def _get_link_properties(self, request, response) -> str:
+        link = self._link(request.link_name)
+        inertial = link.inertia
+        response.com = PoseMsg(Point(*inertial.pose.p), Quaternion(0, 0, 0, 1))
+        response.gravity_mode = link.gravity
+        response.mass = link.mass
+        response.ixx, response.ixy, response.ixz = inertial.ixx, inertial.ixy, inertial.ixz
+        response.iyy, response.iyz, response.izz = inertial.iyy, inertial.iyz, inertial.izz
+        return "GetLinkProperties: got properties"
+
+    def _set_link_properties(self, request, response) -> str:
+        link = self._link(request.link_name)
+        r = request
+        finite("the request", r.mass, r.ixx, r.ixy, r.ixz, r.iyy, r.iyz, r.izz)
+        if not r.mass > 0.0:
+            raise Refused(f"mass {r.mass:g} kg; it must be positive")
+        if not (r.ixx > 0.0 and r.iyy > 0.0 and r.izz > 0.0):
+            raise Refused(f"moments of inertia {r.ixx:g} {r.iyy:g} {r.izz:g} kg m^2; they must be positive")
+        com = pose_of(r.com, "com")
+        link.set_inertial(Inertial(r.mass, Pose(com.p), r.ixx, r.ixy, r.ixz, r.iyy, r.iyz, r.izz))
+        link.gravity = r.gravity_mode
+        return "SetLinkProperties: properties set"
+
+
+def _relative_state(entity: Any, frame: Any) -> Tuple[PoseMsg, Any]:
+    """Pose and twist of ``entity`` in ``frame`` (None = world); the frame's rotation adds no velocity, as in Gazebo."""
+    pose = entity.pose
+    linear, angular = entity_twist(entity)
+    if frame is not None:
+        x_wf = frame.pose
+        frame_linear, frame_angular = entity_twist(frame)
+        pose = math3.relative(x_wf, pose)
+        back = math3.quat_inverse(x_wf.q)
+        linear = math3.quat_rotate(back, math3.sub(linear, frame_linear))
+        angular = math3.quat_rotate(back, math3.sub(angular, frame_angular))
+    return pose_msg(pose), twist_msg(linear, angular)

@@ -1,0 +1,106 @@
+"""Physics parameters: the services and dynamic_reconfigure."""
+from __future__ import annotations
+
+from typing import Any, Dict
+
+import rospy
+from dynamic_parameters import Parameter, Server as ParameterServer
+from gazebo_msgs.msg import ODEPhysics
+from gazebo_msgs.srv import GetPhysicsProperties, SetPhysicsProperties
+
+from gazebo_ros.api.geometry import vector_of
+from gazebo_ros.api.handlers import Refused, advertise, finite
+from gazebo_ros.server import Server, Stopped
+
+PARAMETERS = (
+    Parameter("time_step", float, 0.001, 0.0, 10.0, "Length of a physics step, s"),
+    Parameter("max_update_rate", float, 60.0, 0.0, 1000.0, "Steps per wall second, 0 = as fast as possible"),
+    Parameter("gravity_x", float, 0.0, -100.0, 100.0, "m/s^2"),
+    Parameter("gravity_y", float, 0.0, -100.0, 100.0, "m/s^2"),
+    Parameter("gravity_z", float, -9.8, -100.0, 100.0, "m/s^2"),
+    Parameter("auto_disable_bodies", bool, False, description="Let resting bodies sleep"),
+    Parameter("sor_pgs_precon_iters", int, 0, 0, 10000, "Preconditioning iterations of the quick solver"),
+    Parameter("sor_pgs_iters", int, 20, 0, 10000, "Iterations of the quick solver"),
+    Parameter("sor_pgs_w", float, 1.3, 0.0, 5.0, "Over-relaxation of the quick solver"),
+    Parameter("sor_pgs_rms_error_tol", float, -1.0, -1.0, 10000.0, "Not used by ODE's quick solver"),
+    Parameter("cfm", float, 0.0, 0.0, 10.0, "Global constraint force mixing"),
+    Parameter("erp", float, 0.2, 0.0, 10.0, "Global error reduction"),
+    Parameter("contact_surface_layer", float, 0.001, 0.0, 10.0, "Penetration left alone, m"),
+    Parameter("contact_max_correcting_vel", float, 100.0, 0.0, 1e7, "m/s"),
+    Parameter("max_contacts", int, 100, 0, 10_000_000, "Contacts per pair of shapes"),
+)
+
+
+class PhysicsServices:
+    """Values act at once, also while paused."""
+
+    def __init__(self, server: Server):
+        self._server = server
+        self._world = server.world
+        self._auto_disable = False
+        self._parameters = None
+        advertise(server, "get_physics_properties", GetPhysicsProperties, self._get)
+        advertise(server, "set_physics_properties", SetPhysicsProperties, self._set)
+
+    def start_reconfigure(self) -> None:
+        """Offer the parameters through dynamic_reconfigure, starting from the live values."""
+        self._parameters = ParameterServer("~", PARAMETERS, self._on_reconfigure, initial=self._values())
+        rospy.loginfo("Physics dynamic reconfigure ready.")
+
+    def _values(self) -> Dict[str, Any]:
+        physics, gravity = self._world.physics, self._world.gravity
+        return {"time_step": physics.max_step_size, "max_update_rate": physics.real_time_update_rate,
+                "gravity_x": gravity[0], "gravity_y": gravity[1], "gravity_z": gravity[2],
+                "auto_disable_bodies": self._auto_disable, "sor_pgs_precon_iters": physics.precon_iters,
+                "sor_pgs_iters": physics.iters, "sor_pgs_w": physics.sor, "sor_pgs_rms_error_tol": 0.0,
+                "cfm": physics.cfm, "erp": physics.erp, "contact_surface_layer": physics.contact_surface_layer,
+                "contact_max_correcting_vel": physics.contact_max_correcting_vel, "max_contacts": physics.max_contacts}
+
+    def _apply(self, values: Dict[str, Any]) -> None:
+        """Check all, then set all.
+
+        :raises Refused: a value that no simulation can run with
+        """
+        finite("the request", *(value for value in values.values() if isinstance(value, float)))
+        if not values["time_step"] > 0.0:
+            raise Refused(f"time_step {values['time_step']:g} s; it must be positive")
+        if values["max_update_rate"] < 0.0:
+            raise Refused(f"max_update_rate {values['max_update_rate']:g} Hz; it must be 0 (no limit) or more")
+        physics = self._world.physics
+        physics.max_step_size = values["time_step"]
+        physics.real_time_update_rate = values["max_update_rate"]
+        self._world.gravity = (values["gravity_x"], values["gravity_y"], values["gravity_z"])
+        self._auto_disable = values["auto_disable_bodies"]
+        physics.precon_iters = values["sor_pgs_precon_iters"]
+        physics.iters = values["sor_pgs_iters"]
+        physics.sor = values["sor_pgs_w"]
+        physics.cfm = values["cfm"]
+        physics.erp = values["erp"]
+        physics.contact_surface_layer = values["contact_surface_layer"]
+        physics.contact_max_correcting_vel = values["contact_max_correcting_vel"]
+        physics.max_contacts = values["max_contacts"]
+
+    def _get(self, request, response) -> str:
+        values = self._values()
+        response.time_step, response.max_update_rate = values["time_step"], values["max_update_rate"]
+        response.pause = self._server.paused
+        response.gravity.x, response.gravity.y, response.gravity.z = self._world.gravity
+        response.ode_config = ODEPhysics(**{name: values[name] for name in ODEPhysics.__slots__})
+        return "GetPhysicsProperties: got properties"
+
+    def _set(self, request, response) -> str:
+        x, y, z = vector_of(request.gravity, "gravity")
+        values = {name: getattr(request.ode_config, name) for name in ODEPhysics.__slots__}
+        self._apply({**values, "time_step": request.time_step, "max_update_rate": request.max_update_rate,
+                     "gravity_x": x, "gravity_y": y, "gravity_z": z})
+        return "SetPhysicsProperties: physics engine updated"
+
+    def _on_reconfigure(self, config: Dict[str, Any], level: int) -> Dict[str, Any]:
+        if level == -1:  # the call at start
+            return config
+        try:
+            self._server.call(lambda: self._apply(config))
+        except (Refused, Stopped) as error:
+            rospy.logwarn("dynamic_reconfigure of the physics: %s; nothing is changed", error)
+            return self._values()
+        return config

@@ -1,0 +1,112 @@
+"""~spawn_urdf_model and ~spawn_sdf_model."""
+from __future__ import annotations
+
+import xml.etree.ElementTree as ET
+from dataclasses import replace
+from typing import List
+
+import rospy
+from gazebo_msgs.srv import SpawnModel
+from ode_sim import math3, mesh
+from ode_sim.description import DescriptionError, Problem, read_light, read_model, root_kind
+from ode_sim.description.model import Light, Mesh, Model, Plugin, Pose
+
+from gazebo_ros.api.geometry import frame_entity, pose_of
+from gazebo_ros.api.handlers import Refused, advertise
+from gazebo_ros.server import Server
+
+
+class SpawnServices:
+    """Reading XML, loading meshes and importing plugins is done in the service's thread; the physics thread only puts the
+    finished model into the world, so that robots that are already there run on."""
+
+    def __init__(self, server: Server):
+        self._server = server
+        advertise(server, "spawn_urdf_model", SpawnModel, self._spawn_urdf, in_physics_thread=False)
+        advertise(server, "spawn_sdf_model", SpawnModel, self._spawn, in_physics_thread=False)
+
+    def _spawn_urdf(self, request, response) -> str:
+        return self._spawn(request, response, urdf_only=True)
+
+    def _spawn(self, request, response, urdf_only: bool = False) -> str:
+        try:
+            kind = root_kind(request.model_xml, self._server.finder)
+            if urdf_only and kind != "urdf":
+                raise Refused(f"the text is a <{kind}> in SDF, not a URDF <robot>; use spawn_sdf_model (spawn_model -sdf)")
+            if kind == "actor":
+                raise Refused("actors are not simulated here; spawn a <model> or <light>")
+            x_fe = pose_of(request.initial_pose, "initial_pose")
+            if kind == "light":
+                self._spawn_light(request, x_fe)
+            else:
+                self._spawn_model(request, x_fe)
+        except DescriptionError as error:
+            raise Refused(f"model '{request.model_name}': {error}") from error
+        return "SpawnModel: Successfully spawned entity"
+
+    def _spawn_model(self, request, x_fe: Pose) -> None:
+        server = self._server
+        model, problems = read_model(request.model_xml, name=request.model_name or None, finder=server.finder)
+        _warn(problems, f"model {model.name}")
+        set_robot_namespace(model, request.robot_namespace)
+        _load_meshes(model)
+        resolved = server.resolve(model)
+
+        def put() -> None:
+            world = server.world
+            if model.name in world.models:
+                raise Refused("Failure - entity already exists. A model of that name is in the world: "
+                              f"'{model.name}'; delete it first (delete_model) or choose another name")
+            server.spawn(replace(model, pose=self._world_pose(request, x_fe, model.pose)), resolved)
+
+        server.call(put)
+
+    def _spawn_light(self, request, x_fe: Pose) -> None:
+        light, problems = read_light(request.model_xml, name=request.model_name or None, finder=self._server.finder)
+        _warn(problems, f"light {light.name}")
+
+        def put() -> None:
+            lights = self._server.world.lights
+            if light.name in lights:
+                raise Refused(f"Failure - entity already exists. A light of that name is in the world: '{light.name}'")
+            lights[light.name] = replace(light, pose=self._world_pose(request, x_fe, light.pose))
+
+        self._server.call(put)
+
+    def _world_pose(self, request, x_fe: Pose, x_em: Pose) -> Pose:
+        """X_WM: reference frame F, requested pose E in it, and the pose in the text on top."""
+        frame = frame_entity(self._server.world, request.reference_frame, "reference_frame")
+        x_we = x_fe if frame is None else math3.compose(frame.pose, x_fe)
+        return math3.compose(x_we, x_em)
+
+
+def plugins_of(model: Model) -> List[Plugin]:
+    """Those of the model and of its sensors."""
+    return list(model.plugins) + [plugin for link in model.links for sensor in link.sensors
+                                  for plugin in sensor.plugins]
+
+
+def set_robot_namespace(model: Model, namespace: str) -> None:
+    """Give every plugin without a ``<robotNamespace>`` this one (nothing for an empty namespace)."""
+    if not namespace:
+        return
+    for plugin in plugins_of(model):
+        if plugin.element.find("robotNamespace") is None:
+            ET.SubElement(plugin.element, "robotNamespace").text = namespace
+
+
+def _load_meshes(model: Model) -> None:
+    """Into the cache of ode_sim; what is wrong with a mesh is said by the world that would use it."""
+    for link in model.links:
+        for collision in link.collisions:
+            if isinstance(collision.geometry, Mesh) and collision.geometry.path:
+                try:
+                    mesh.load(collision.geometry)
+                except DescriptionError:
+                    continue
+
+
+def _warn(problems: List[Problem], what: str) -> None:
+    for problem in problems:
+        log = rospy.logerr if problem.severity == "error" else rospy.logwarn
+        log("%s: %s", what, problem)

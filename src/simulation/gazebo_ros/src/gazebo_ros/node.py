@@ -1,0 +1,168 @@
+"""The node ``gazebo``: from the command line to a running world, and to its end."""
+from __future__ import annotations
+
+import os
+import signal
+import sys
+import threading
+import time
+import traceback
+from typing import List, Optional, Tuple
+
+import ode_sim
+import rosgraph
+import rospkg
+import rospy
+from ode_sim.description import DescriptionError, Problem, ResourceFinder, load_world
+from plugin_loader import exported_values
+from std_msgs.msg import Bool
+
+from gazebo_ros import command_line
+from gazebo_ros.api.clock import ClockPublisher
+from gazebo_ros.api.forces import ForceJobs
+from gazebo_ros.api.joints import JointServices
+from gazebo_ros.api.lights import LightServices
+from gazebo_ros.api.metrics import MetricsPublisher
+from gazebo_ros.api.models import ModelServices
+from gazebo_ros.api.physics import PhysicsServices
+from gazebo_ros.api.spawning import SpawnServices
+from gazebo_ros.api.states import StatePublishers
+from gazebo_ros.api.stepping import SteppingServices
+from gazebo_ros.plugin_host import PluginHost, library_key
+from gazebo_ros.server import Server
+
+BUILTIN = ["libgazebo_ros_api_plugin.so", "libgazebo_ros_paths_plugin.so"]
+_EMPTY_WORLD = "worlds/empty.world"
+_LAST_RESORT = 1.5  # s from a signal to the end of the process, whatever a plugin does
+
+
+def main() -> int:
+    """Run the server; the exit code of the process."""
+    ending = _Ending()
+    options = command_line.parse(rospy.myargv()[1:])
+    _wait_for_master(ending)
+    if not rosgraph.Master("/gazebo").hasParam("/use_sim_time"):
+        rosgraph.Master("/gazebo").setParam("/use_sim_time", True)
+    # rospy's own clock would come from the /clock that this node publishes: the server sets it instead, without the detour
+    rospy.init_node("gazebo", disable_rostime=True, disable_signals=True,
+                    log_level=rospy.DEBUG if options.verbose else rospy.INFO)
+    rospy.on_shutdown(ending.request)
+    for line in command_line.remarks(options):
+        rospy.logwarn("%s", line)
+    server = make_server(options)
+    ending.follow(server)
+    physics = _PhysicsThread(server)
+    physics.start()
+    while physics.is_alive():
+        physics.join(1.0)
+    rospy.signal_shutdown("the simulator ended")
+    return 1 if physics.failed else 0
+
+
+class _Ending:
+    """Turns SIGINT, SIGTERM and a ROS shutdown into the orderly end of the step loop, in bounded time."""
+
+    def __init__(self):
+        self.requested = False
+        self._server: Optional[Server] = None
+        signal.signal(signal.SIGINT, lambda number, frame: self.request())
+        signal.signal(signal.SIGTERM, lambda number, frame: self.request())
+
+    def follow(self, server: Server) -> None:
+        self._server = server
+        if self.requested:
+            server.stop()
+
+    def request(self) -> None:
+        if self.requested:
+            return
+        self.requested = True
+        timer = threading.Timer(_LAST_RESORT, os._exit, (0,))
+        timer.daemon = True
+        timer.start()
+        if self._server is None:
+            os._exit(0)  # nothing has been started yet
+        self._server.stop()
+
+
+def _wait_for_master(ending: _Ending) -> None:
+    warned = False
+    while not rosgraph.is_master_online() and not ending.requested:
+        if not warned:
+            print(f"gzserver: no ROS master at {rosgraph.get_master_uri()}; waiting for one (start roscore)",
+                  file=sys.stderr, flush=True)
+            warned = True
+        time.sleep(0.5)
+
+
+def make_finder(rospack: rospkg.RosPack) -> ResourceFinder:
+    """Search paths: the environment's, then what packages export for gazebo_ros."""
+    def package(name: str) -> Optional[str]:
+        try:
+            return rospack.get_path(name)
+        except rospkg.ResourceNotFound:
+            return None
+
+    def exported(attribute: str) -> List[str]:
+        return [path for value in exported_values("gazebo_ros", attribute, rospack) for path in value.split(":") if path]
+
+    return ResourceFinder(exported("gazebo_model_path"), exported("gazebo_media_path"), package)
+
+
+def _load_world(name: str, finder: ResourceFinder) -> Tuple[object, List[Problem]]:
+    """The description of a world; the empty one, with one line, when that cannot be had."""
+    try:
+        return load_world(name, finder)
+    except DescriptionError as error:
+        rospy.logerr("%s. Using %s instead.", error, _EMPTY_WORLD)
+        return load_world(_EMPTY_WORLD, finder)
+
+
+def make_server(options) -> Server:
+    """The world, its node and everything the node offers; plugins are started by ``Server.run``."""
+    rospack = rospkg.RosPack()
+    finder = make_finder(rospack)
+    description, problems = _load_world(options.world, finder)
+    world = ode_sim.World(description, seed=options.seed or 0)
+    for problem in list(problems) + list(world.problems):
+        (rospy.logerr if problem.severity == "error" else rospy.logwarn)("%s", problem)
+    host = PluginHost(rospack, BUILTIN)
+    for library in options.server_plugin:
+        if library_key(library) not in map(library_key, BUILTIN):
+            rospy.logwarn("system plugin %s is not known here and is left out; known: %s", library, ", ".join(BUILTIN))
+    sim_time = bool(rospy.get_param("/use_sim_time", True))
+    server = Server(world, description, finder, host, paused=options.pause, lockstep=options.lockstep,
+                    iterations=options.iters, ros_time=sim_time)
+    ClockPublisher(server, int(rospy.get_param("~pub_clock_frequency", 0)))
+    if rospy.get_param("~enable_ros_network", True):
+        _offer_api(server)
+    rospy.loginfo("Finished loading Gazebo ROS API Plugin.")
+    return server
+
+
+def _offer_api(server: Server) -> None:
+    ForceJobs(server)  # first of the step callbacks after /clock: controllers come later and see what they add
+    StatePublishers(server)
+    MetricsPublisher(server)
+    ModelServices(server)
+    JointServices(server)
+    LightServices(server)
+    SpawnServices(server)
+    SteppingServices(server)
+    PhysicsServices(server).start_reconfigure()
+
+
+class _PhysicsThread(threading.Thread):
+    def __init__(self, server: Server):
+        super().__init__(name="physics", daemon=True)
+        self.failed = False
+        self._server = server
+        self._ready = rospy.Publisher("~ready", Bool, queue_size=1, latch=True)
+
+    def run(self) -> None:
+        try:
+            self._server.run(lambda: self._ready.publish(True))
+        except Exception as error:  # the end of the simulation, but the user must read why
+            self.failed = True
+            rospy.logfatal("the simulation broke down: %s: %s", type(error).__name__, error)
+            rospy.logdebug("%s", traceback.format_exc())

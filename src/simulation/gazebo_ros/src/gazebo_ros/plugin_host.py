@@ -1,0 +1,98 @@
+"""Plugins by library name: finding the class, starting it, and saying in one line what went wrong."""
+from __future__ import annotations
+
+import os
+import traceback
+from dataclasses import dataclass
+from typing import Any, Callable, Dict, List, Optional
+
+import rospkg
+import rospy
+from ode_sim.description import model as d
+from plugin_loader import PluginClass, PluginError, find_plugins
+
+from gazebo_ros.sdf_element import SdfElement
+
+
+def library_key(filename: str) -> str:
+    """What is compared of a library file name: no directory, no ``lib``, no ``.so``, no blanks.
+
+    >>> library_key(" /opt/gazebo/libgazebo_ros_camera.so ")
+    'gazebo_ros_camera'
+    """
+    name = os.path.basename(filename.strip())
+    name = name[:-3] if name.endswith(".so") else name
+    return name[3:] if name.startswith("lib") else name
+
+
+@dataclass(frozen=True)
+class ResolvedPlugin:
+    """A ``<plugin>`` element with the class that its library name stands for."""
+
+    description: d.Plugin
+    cls: type
+    label: str  # for messages: <plugin name> (<library>) of model <m>
+
+
+class PluginInstance:
+    """A started plugin."""
+
+    def __init__(self, resolved: ResolvedPlugin):
+        self.label = resolved.label
+        self.plugin = resolved.cls()
+
+    def report(self, error: Exception) -> None:
+        """One ERROR line; the traceback goes to the log file only."""
+        reason = str(error) if isinstance(error, PluginError) else f"{type(error).__name__}: {error}"
+        rospy.logerr("%s: %s", self.label, reason)
+        rospy.logdebug("%s", "".join(traceback.format_exception(error)))
+
+    def attempt(self, f: Callable[..., Any], *args: Any) -> bool:
+        """Call into the plugin; an exception is reported. Returns whether it went well."""
+        try:
+            f(*args)
+        except Exception as error:  # a plugin may raise anything; it must not take the world down
+            self.report(error)
+            return False
+        return True
+
+
+class PluginHost:
+    """The plugin classes that packages export for ``gazebo_ros``.
+
+    :param builtin: library names that the server itself stands for, accepted silently
+    """
+
+    def __init__(self, rospack: Optional[rospkg.RosPack] = None, builtin: List[str] = ()):
+        found, problems = find_plugins("gazebo_ros", rospack=rospack)
+        for line in problems:
+            rospy.logwarn("%s", line)
+        self._classes: Dict[str, PluginClass] = {library_key(name): plugin for name, plugin in found.items()}
+        self._names = sorted(found)
+        self._builtin = {library_key(name) for name in builtin}
+
+    def resolve(self, plugin: d.Plugin, where: str) -> Optional[ResolvedPlugin]:
+        """Import the class of a ``<plugin>``. Unknown or broken ones are one WARN or ERROR line, and None.
+
+        May take long (imports): not for the physics thread.
+
+        :param where: ``model 'arm'`` or ``world 'default'``, for messages
+        """
+        key = library_key(plugin.filename)
+        label = f"plugin {plugin.name} ({plugin.filename or 'no filename'}) of {where}"
+        if key in self._builtin:
+            return None
+        if key not in self._classes:
+            rospy.logwarn("%s is not known here and is left out. Known libraries: %s", label,
+                          ", ".join(self._names) or "none (is a workspace with gazebo_plugins sourced?)")
+            return None
+        try:
+            return ResolvedPlugin(plugin, self._classes[key].load(), label)
+        except PluginError as error:
+            rospy.logerr("%s: %s", label, error)
+            return None
+
+
+def plugin_sdf(resolved: ResolvedPlugin) -> SdfElement:
+    """The ``<plugin>`` element; values that cannot be read are warned about in the plugin's name."""
+    return SdfElement(resolved.description.element, lambda line: rospy.logwarn("%s: %s", resolved.label, line))

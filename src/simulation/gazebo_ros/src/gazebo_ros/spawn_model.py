@@ -1,0 +1,171 @@
+"""spawn_model: puts a robot or an object into the running simulator."""
+from __future__ import annotations
+
+import argparse
+import math
+import sys
+import xml.etree.ElementTree as ET
+from typing import List
+
+import rosgraph
+import rospy
+from gazebo_msgs.msg import ModelStates
+from gazebo_msgs.srv import DeleteModel
+from geometry_msgs.msg import Point, Pose, Quaternion
+from std_srvs.srv import Empty
+
+from gazebo_ros import gazebo_interface
+
+_DATABASE = ('<sdf version="1.4"><world name="default"><include><uri>model://{}</uri></include></world></sdf>')
+
+
+class Failure(Exception):
+    """One line for the user."""
+
+
+def parse(arguments: List[str]) -> argparse.Namespace:
+    parser = argparse.ArgumentParser(prog="spawn_model", description="Spawn a model in the simulator.")
+    form = parser.add_mutually_exclusive_group(required=True)
+    form.add_argument("-urdf", action="store_true", help="the text is URDF")
+    form.add_argument("-sdf", action="store_true", help="the text is SDF")
+    source = parser.add_mutually_exclusive_group(required=True)
+    source.add_argument("-file", metavar="FILE", help="read the text from a file")
+    source.add_argument("-param", metavar="NAME", help="read the text from a ROS parameter")
+    source.add_argument("-database", metavar="MODEL", help="a model of the model path, by its directory's name")
+    source.add_argument("-stdin", action="store_true", help="read the text from standard input")
+    parser.add_argument("-model", required=True, metavar="NAME", help="name of the new model")
+    parser.add_argument("-reference_frame", default="", metavar="ENTITY", help="the pose counts from this model or link")
+    parser.add_argument("-gazebo_namespace", default="/gazebo", metavar="NS", help="namespace of the simulator's services")
+    parser.add_argument("-robot_namespace", default=rospy.get_namespace(), metavar="NS", help="namespace for its plugins")
+    parser.add_argument("-unpause", action="store_true", help="unpause the simulation afterwards")
+    parser.add_argument("-wait", metavar="MODEL", help="wait until this model exists")
+    for name in "xyz":
+        parser.add_argument(f"-{name}", type=float, default=0.0, help="m")
+    for name, angle in (("R", "roll"), ("P", "pitch"), ("Y", "yaw")):
+        parser.add_argument(f"-{name}", type=float, default=0.0, help=f"{angle}, rad")
+    parser.add_argument("-J", dest="joints", nargs=2, action="append", default=[], metavar=("JOINT", "POSITION"),
+                        help="initial position of a joint, rad or m; may be repeated")
+    parser.add_argument("-package_to_model", action="store_true", help="turn package:// of meshes into model://")
+    parser.add_argument("-b", action="store_true", dest="bond", help="stay, and delete the model when ended")
+    options = parser.parse_args(arguments)
+    for joint in options.joints:
+        try:
+            joint[1] = float(joint[1])
+        except ValueError:
+            parser.error(f"argument -J: position of joint {joint[0]} is '{joint[1]}', a number is needed")
+    return options
+
+
+def pose_of(options: argparse.Namespace) -> Pose:
+    """From x y z (m) and roll, pitch, yaw (rad)."""
+    (cr, sr), (cp, sp), (cy, sy) = ((math.cos(angle / 2), math.sin(angle / 2))
+                                    for angle in (options.R, options.P, options.Y))
+    return Pose(Point(options.x, options.y, options.z),
+                Quaternion(sr * cp * cy - cr * sp * sy, cr * sp * cy + sr * cp * sy,
+                           cr * cp * sy - sr * sp * cy, cr * cp * cy + sr * sp * sy))
+
+
+def model_text(options: argparse.Namespace) -> str:
+    """The XML to send, from wherever the options say.
+
+    :raises Failure: not there, or not XML
+    """
+    if options.file:
+        try:
+            with open(options.file, encoding="utf-8") as stream:
+                text, where = stream.read(), options.file
+        except (OSError, UnicodeDecodeError) as error:
+            raise Failure(f"cannot read {options.file}: {error}") from error
+    elif options.param:
+        where = f"parameter {rospy.resolve_name(options.param)}"
+        try:
+            text = rospy.get_param(options.param)
+        except KeyError:
+            raise Failure(f"{where} is not set; load the robot first, as in "
+                          f"<param name=\"{options.param}\" command=\"$(find xacro)/xacro ...\"/>") from None
+    elif options.database:
+        text, where = _DATABASE.format(options.database), "-database"
+    else:
+        text, where = sys.stdin.read(), "standard input"
+    try:
+        root = ET.fromstring(text)
+    except (ET.ParseError, TypeError, ValueError) as error:
+        raise Failure(f"{where} is not well-formed XML: {error}") from error
+    if options.package_to_model:
+        for mesh in root.iter("mesh"):
+            name = mesh.get("filename", "")
+            if name.startswith("package://"):
+                mesh.set("filename", "model://" + name[len("package://"):])
+    return ET.tostring(root, encoding="unicode")
+
+
+def wait_for_model(name: str, gazebo_namespace: str) -> None:
+    rospy.loginfo("Waiting for model %s before spawning", name)
+    there = [False]
+
+    def look(message: ModelStates) -> None:
+        there[0] = there[0] or name in message.name
+
+    subscriber = rospy.Subscriber(gazebo_namespace + "/model_states", ModelStates, look)
+    rate = rospy.Rate(10)
+    while not there[0] and not rospy.is_shutdown():
+        rate.sleep()
+    subscriber.unregister()
+
+
+def spawn(options: argparse.Namespace) -> None:
+    """
+    :raises Failure: it did not work; the simulator's own reason has been logged
+    """
+    text = model_text(options)
+    if options.wait:
+        wait_for_model(options.wait, options.gazebo_namespace)
+    client = gazebo_interface.spawn_urdf_model_client if options.urdf else gazebo_interface.spawn_sdf_model_client
+    if not client(options.model, text, options.robot_namespace, pose_of(options), options.reference_frame,
+                  options.gazebo_namespace):
+        raise Failure(f"model {options.model} was not spawned")
+    if options.joints:
+        names, positions = zip(*options.joints)
+        if not gazebo_interface.set_model_configuration_client(options.model, options.param or "", list(names),
+                                                               list(positions), options.gazebo_namespace):
+            raise Failure(f"model {options.model} is spawned, but its joints were not set")
+    if options.unpause:
+        _unpause(options.gazebo_namespace)
+
+
+def _unpause(gazebo_namespace: str) -> None:
+    name = gazebo_namespace + "/unpause_physics"
+    rospy.wait_for_service(name)
+    try:
+        rospy.ServiceProxy(name, Empty)()
+    except rospy.ServiceException as error:
+        raise Failure(f"the simulation was not unpaused: {error}") from error
+
+
+def _delete(options: argparse.Namespace) -> None:
+    """At the end of ``-b``; the simulator may be gone already."""
+    try:
+        rospy.ServiceProxy(options.gazebo_namespace + "/delete_model", DeleteModel)(options.model)
+    except (rospy.ServiceException, rospy.ROSException) as error:
+        rospy.loginfo("model %s was not deleted: %s", options.model, error)
+
+
+def main() -> int:
+    """Exit code: 0 spawned, 1 not, 2 wrong options."""
+    options = parse(rospy.myargv()[1:])
+    if not rosgraph.is_master_online():
+        print(f"spawn_model: no ROS master at {rosgraph.get_master_uri()}; start the simulator first", file=sys.stderr)
+        return 1
+    rospy.init_node("spawn_model", anonymous=True)
+    try:
+        spawn(options)
+    except Failure as error:
+        rospy.logerr("Spawn service failed: %s", error)
+        return 1
+    except rospy.ROSInterruptException:
+        return 1
+    if options.bond:
+        rospy.on_shutdown(lambda: _delete(options))
+        rospy.loginfo("Model %s stays until this node ends", options.model)
+        rospy.spin()
+    return 0
