@@ -14,6 +14,12 @@ class ParameterError(Exception):
     """A parameter is missing or of the wrong kind; the line says where it was looked up and what was there."""
 
 
+def to_stamp(time: float) -> rospy.Time:
+    """``time`` (s) of the control loop as a message stamp, rounded to the nanosecond."""
+    secs, nsecs = divmod(round(time * 1e9), 1000000000)
+    return rospy.Time(secs, nsecs)
+
+
 class NodeHandle:
     """Names relative to ``namespace``; remembers what is made through it, until ``shutdown``.
 
@@ -101,7 +107,9 @@ class NodeHandle:
     # -- communication ------------------------------------------------------------------------------------------------
 
     def publisher(self, name: str, message_type: type, queue_size: int = 1, latch: bool = False) -> rospy.Publisher:
-        return self.own(rospy.Publisher(self.resolve(name), message_type, queue_size=queue_size, latch=latch))
+        """Small messages leave at once (no Nagle delay: it makes a 50 Hz topic stutter by 40 ms)."""
+        return self.own(rospy.Publisher(self.resolve(name), message_type, queue_size=queue_size, latch=latch,
+                                        tcp_nodelay=True))
 
     def subscriber(self, name: str, message_type: type, callback: Callable, queue_size: int = 1) -> rospy.Subscriber:
         """``callback`` runs in a thread of rospy: it should only store a value."""

@@ -1,0 +1,64 @@
+"""The controller types that packages export, found when first needed."""
+from __future__ import annotations
+
+import difflib
+import importlib
+import sys
+import threading
+from typing import Dict, List, Optional, Set
+
+import rospy
+from controller_interface import ControllerBase
+from plugin_loader import PluginClass, PluginError, find_plugins
+
+
+class ControllerTypes:
+    """Python classes exported for ``controller_interface``. Thread-safe."""
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._known: Optional[Dict[str, PluginClass]] = None
+        self._imported: Set[str] = set()
+
+    def _plugins(self) -> Dict[str, PluginClass]:
+        with self._lock:
+            if self._known is None:
+                self._known, problems = find_plugins("controller_interface")
+                for problem in problems:
+                    rospy.logwarn("controller types: %s", problem)
+            return self._known
+
+    def all(self) -> List[PluginClass]:
+        """Types that can be loaded here, by name."""
+        return [plugin for _, plugin in sorted(self._plugins().items()) if not plugin.compiled]
+
+    def find(self, name: str) -> Optional[PluginClass]:
+        return self._plugins().get(name)
+
+    def suggestion(self, name: str) -> str:
+        """', did you mean X?' or ''."""
+        close = difflib.get_close_matches(name, [plugin.name for plugin in self.all()], n=1, cutoff=0.75)
+        return f" (did you mean '{close[0]}'?)" if close else ""
+
+    def create(self, plugin: PluginClass) -> ControllerBase:
+        """An instance of the class.
+
+        :raises PluginError: it cannot be imported or is no controller.
+        """
+        controller = plugin.load()()
+        self._imported.add(plugin.type.rpartition(".")[0])
+        if not isinstance(controller, ControllerBase):
+            raise PluginError(f"'{plugin.name}' of package {plugin.package} is no controller: {plugin.type} must derive "
+                              f"from controller_interface.Controller or MultiInterfaceController")
+        return controller
+
+    def reload(self) -> None:
+        """Forget what was found, and import the controllers' modules anew, so that edited files take effect."""
+        with self._lock:
+            self._known = None
+            modules, self._imported = self._imported, set()
+        for name in sorted(modules):
+            try:
+                importlib.reload(sys.modules[name])
+            except Exception as error:  # the edited file may be broken in any way; the old module stays
+                rospy.logerr("module %s cannot be reloaded: %s: %s", name, type(error).__name__, error)

@@ -1,0 +1,259 @@
+"""Handles that change a joint's command so that it keeps its limits. Called every cycle, before the hardware writes.
+
+Each takes ``dt``, the s since the last cycle. The arithmetic avoids calls: these run for every joint, 1000 times a
+second and more.
+"""
+from __future__ import annotations
+
+import time
+from math import inf
+from typing import Dict
+
+import rospy
+from hardware_interface import JointHandle
+
+from .limits import JointLimits, SoftJointLimits
+
+#: s between two warnings about the same joint
+_WARN_PERIOD = 5.0
+
+
+class JointLimitsError(Exception):
+    """A handle needs limits that the joint does not have."""
+
+
+class _LimitHandle:
+    __slots__ = ("joint", "limits", "_state", "_previous", "_warned")
+
+    requires: "tuple[str, ...]" = ()
+
+    def __init__(self, joint: JointHandle, limits: JointLimits):
+        self.joint = joint
+        self.limits = limits
+        self._state = joint.state
+        self._warned = -inf
+        for kind in self.requires:
+            if not getattr(limits, f"has_{kind}_limits"):
+                raise JointLimitsError(f"Cannot enforce limits for joint '{joint.name}': it has no {kind} limits "
+                                       f"specification")
+        self.reset()
+
+    @property
+    def name(self) -> str:
+        return self.joint.name
+
+    def reset(self) -> None:
+        """Forget the last command (after the robot was moved by other means)."""
+        self._previous = 0.0
+
+    def enforce_limits(self, dt: float) -> None:
+        raise NotImplementedError
+
+    def _bad_command(self, command: float, held: float) -> float:
+        """What to command instead of something that is no number; warns."""
+        now = time.monotonic()
+        if now - self._warned >= _WARN_PERIOD:
+            self._warned = now
+            rospy.logwarn("Joint '%s' was commanded %s, which is no usable number; holding %g. Look at the controller "
+                          "or the message that it was sent.", self.name, command, held)
+        return held
+
+    @staticmethod
+    def _velocity_bound(limits: JointLimits) -> float:
+        return limits.max_velocity if limits.has_velocity_limits else inf
+
+
+def _position_bounds(limits: JointLimits) -> "tuple[float, float]":
+    return (limits.min_position, limits.max_position) if limits.has_position_limits else (-inf, inf)
+
+
+class _PositionHandle(_LimitHandle):
+    """``_previous`` is the last output; None until the first cycle, which starts from the measured position."""
+
+    __slots__ = ()
+
+    def reset(self) -> None:
+        self._previous = None
+
+    def _finish(self, low: float, high: float, previous: float) -> None:
+        command = self.joint.command
+        output = low if command < low else command
+        output = high if output > high else output
+        if output - output != 0.0:  # NaN, or an infinity that no limit caught
+            output = self._bad_command(command, previous)
+        self.joint.command = self._previous = output
+
+
+class PositionJointSaturationHandle(_PositionHandle):
+    """Keeps positions inside the limits and their steps within the velocity limit."""
+
+    __slots__ = ("_low", "_high", "_velocity")
+
+    def __init__(self, joint: JointHandle, limits: JointLimits):
+        super().__init__(joint, limits)
+        self._low, self._high = _position_bounds(limits)
+        self._velocity = self._velocity_bound(limits)
+
+    def enforce_limits(self, dt: float) -> None:
+        previous = self._previous
+        if previous is None:
+            previous = self._state.position
+        step = self._velocity * dt
+        low, high = previous - step, previous + step
+        self._finish(low if low > self._low else self._low, high if high < self._high else self._high, previous)
+
+
+def _sat(value: float, low: float, high: float) -> float:
+    return low if value < low else high if value > high else value
+
+
+class PositionJointSoftLimitsHandle(_PositionHandle):
+    """Slows a joint down on its way to the soft limits, and keeps it inside the hard ones."""
+
+    __slots__ = ("_low", "_high", "_velocity", "_soft_low", "_soft_high", "_gain")
+    requires = ("velocity",)
+
+    def __init__(self, joint: JointHandle, limits: JointLimits, soft: SoftJointLimits):
+        super().__init__(joint, limits)
+        self._low, self._high = _position_bounds(limits)
+        self._velocity = limits.max_velocity
+        self._soft_low, self._soft_high = soft.min_position, soft.max_position
+        self._gain = soft.k_position
+
+    def enforce_limits(self, dt: float) -> None:
+        previous = self._previous
+        if previous is None:
+            previous = self._state.position
+        limit = self._velocity
+        if self.limits.has_position_limits:
+            slowest = _sat(-self._gain * (previous - self._soft_low), -limit, limit)
+            fastest = _sat(-self._gain * (previous - self._soft_high), -limit, limit)
+        else:
+            slowest, fastest = -limit, limit
+        low, high = previous + slowest * dt, previous + fastest * dt
+        self._finish(low if low > self._low else self._low, high if high < self._high else self._high, previous)
+
+
+class VelocityJointSaturationHandle(_LimitHandle):
+    """Keeps velocities within the limit, and their steps within the acceleration limit if there is one."""
+
+    __slots__ = ("_limit", "_acceleration")
+    requires = ("velocity",)
+
+    def __init__(self, joint: JointHandle, limits: JointLimits):
+        super().__init__(joint, limits)
+        self._limit = limits.max_velocity
+        self._acceleration = limits.max_acceleration if limits.has_acceleration_limits else inf
+
+    def enforce_limits(self, dt: float) -> None:
+        command = self.joint.command
+        low, high = -self._limit, self._limit
+        if self._acceleration < inf:
+            step = self._acceleration * dt
+            low, high = max(self._previous - step, low), min(self._previous + step, high)
+        if command != command:
+            command = self._bad_command(command, self._previous)
+        self.joint.command = self._previous = min(max(command, low), high)
+
+
+class VelocityJointSoftLimitsHandle(_LimitHandle):
+    """Slows a velocity-commanded joint down on its way to the soft position limits."""
+
+    __slots__ = ("_limit", "_acceleration", "_soft_low", "_soft_high", "_gain")
+
+    def __init__(self, joint: JointHandle, limits: JointLimits, soft: SoftJointLimits):
+        super().__init__(joint, limits)
+        self._limit = self._velocity_bound(limits)
+        self._acceleration = limits.max_acceleration if limits.has_acceleration_limits else inf
+        self._soft_low, self._soft_high = soft.min_position, soft.max_position
+        self._gain = soft.k_position
+
+    def enforce_limits(self, dt: float) -> None:
+        limit, state = self._limit, self._state
+        low, high = -limit, limit
+        if self.limits.has_position_limits:
+            low = _sat(-self._gain * (state.position - self._soft_low), -limit, limit)
+            high = _sat(-self._gain * (state.position - self._soft_high), -limit, limit)
+        if self._acceleration < inf:
+            step = self._acceleration * dt
+            low, high = max(state.velocity - step, low), min(state.velocity + step, high)
+        command = self.joint.command
+        output = min(max(command, low), high)
+        if command != command or output - output != 0.0:
+            output = min(max(self._bad_command(command, self._previous), low), high)
+        self.joint.command = self._previous = output
+
+
+class _EffortHandle(_LimitHandle):
+    __slots__ = ()
+    requires = ("velocity", "effort")
+
+    def _finish(self, low: float, high: float) -> None:
+        command = self.joint.command
+        if command != command:
+            command = self._bad_command(command, self._previous)
+        self.joint.command = self._previous = min(max(command, low), high)
+
+
+class EffortJointSaturationHandle(_EffortHandle):
+    """Keeps efforts within the limit, and lets none push further out of the position or velocity limits."""
+
+    __slots__ = ("_low", "_high", "_velocity", "_effort")
+
+    def __init__(self, joint: JointHandle, limits: JointLimits):
+        super().__init__(joint, limits)
+        self._low, self._high = _position_bounds(limits)
+        self._velocity = limits.max_velocity
+        self._effort = limits.max_effort
+
+    def enforce_limits(self, dt: float) -> None:
+        state = self._state
+        low, high = -self._effort, self._effort
+        if state.position < self._low or state.velocity < -self._velocity:
+            low = 0.0
+        if state.position > self._high or state.velocity > self._velocity:
+            high = 0.0
+        self._finish(low, high)
+
+
+class EffortJointSoftLimitsHandle(_EffortHandle):
+    """Brakes an effort-commanded joint on its way to the soft position limits."""
+
+    __slots__ = ("_velocity", "_effort", "_soft")
+
+    def __init__(self, joint: JointHandle, limits: JointLimits, soft: SoftJointLimits):
+        super().__init__(joint, limits)
+        self._velocity = limits.max_velocity
+        self._effort = limits.max_effort
+        self._soft = soft
+
+    def enforce_limits(self, dt: float) -> None:
+        state, soft, limit, effort = self._state, self._soft, self._velocity, self._effort
+        slowest, fastest = -limit, limit
+        if self.limits.has_position_limits:
+            slowest = _sat(-soft.k_position * (state.position - soft.min_position), -limit, limit)
+            fastest = _sat(-soft.k_position * (state.position - soft.max_position), -limit, limit)
+        self._finish(_sat(-soft.k_velocity * (state.velocity - slowest), -effort, effort),
+                     _sat(-soft.k_velocity * (state.velocity - fastest), -effort, effort))
+
+
+class JointLimitsInterface:
+    """Limit handles of one kind, enforced together in the order of their joints' names."""
+
+    def __init__(self) -> None:
+        self._handles: Dict[str, _LimitHandle] = {}
+
+    def register_handle(self, handle: _LimitHandle) -> None:
+        self._handles[handle.name] = handle
+        self._handles = dict(sorted(self._handles.items()))
+
+    def names(self) -> "list[str]":
+        return list(self._handles)
+
+    def enforce_limits(self, dt: float) -> None:
+        for handle in self._handles.values():
+            handle.enforce_limits(dt)
+
+    def reset(self) -> None:
+        for handle in self._handles.values():
+            handle.reset()

@@ -1,0 +1,4 @@
+"""Controllers for joints that take position commands."""
+from .controllers import JointGroupPositionController, JointPositionController
+
+__all__ = ["JointGroupPositionController", "JointPositionController"]
