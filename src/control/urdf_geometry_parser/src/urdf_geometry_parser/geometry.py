@@ -1,4 +1,4 @@
-"""Joints and wheels of a URDF. Knows no ROS."""
+"""Joints and wheels of a URDF."""
 from __future__ import annotations
 
 import math
@@ -6,11 +6,13 @@ import xml.etree.ElementTree as ET
 from dataclasses import dataclass
 from typing import Dict, Sequence, Tuple
 
+from controller_interface import ParameterError
+
 Vector = Tuple[float, float, float]
 
 
-class GeometryError(Exception):
-    """The URDF does not say what was asked; one line with the joint or link and what was found."""
+class GeometryError(ParameterError):
+    """The URDF in robot_description does not say what was asked; one line with the joint or link and what was found."""
 
 
 @dataclass(frozen=True)

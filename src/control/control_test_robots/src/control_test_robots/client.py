@@ -1,0 +1,106 @@
+"""What tests of controllers do again and again: wait for something in simulated time, send, load, switch."""
+from __future__ import annotations
+
+import time as wall
+from typing import Any, Callable, List, Sequence
+
+import rospy
+from controller_manager_msgs.srv import (ListControllers, LoadController, SwitchController, SwitchControllerRequest,
+                                         UnloadController)
+from std_srvs.srv import Empty
+
+
+def wait_until(condition: Callable[[], Any], what: str, timeout: float = 10.0) -> Any:
+    """Poll ``condition`` until it is true. :return: its value.
+
+    :param timeout: s of simulated time, and of wall time too should the clock stand still
+    :raises AssertionError: it never came true; ``what`` says what was waited for
+    """
+    deadline, wall_deadline = None, wall.monotonic() + 30.0
+    while not rospy.is_shutdown():
+        value = condition()
+        if value:
+            return value
+        now = rospy.get_time()
+        if deadline is None and now > 0.0:
+            deadline = now + timeout
+        if (deadline is not None and now > deadline) or wall.monotonic() > wall_deadline:
+            raise AssertionError(f"waited in vain for {what}")
+        wall.sleep(0.002)
+    raise AssertionError(f"shut down while waiting for {what}")
+
+
+def sim_sleep(seconds: float) -> None:
+    """Let ``seconds`` of simulated time pass."""
+    end = rospy.get_time() + seconds
+    wait_until(lambda: rospy.get_time() >= end, f"{seconds} s to pass", seconds + 10.0)
+
+
+class Topic:
+    """Messages of a topic since the last ``clear``."""
+
+    def __init__(self, name: str, message_type: type):
+        self.messages: List[Any] = []
+        self.name = name
+        self._subscriber = rospy.Subscriber(name, message_type, lambda message: self.messages.append(message),
+                                            tcp_nodelay=True)
+
+    @property
+    def last(self) -> Any:
+        return self.messages[-1]
+
+    def clear(self) -> None:
+        self.messages = []
+
+    def next(self, timeout: float = 10.0) -> Any:
+        """Wait for a message that comes after this call."""
+        messages = self.messages
+        count = len(messages)
+        wait_until(lambda: len(messages) > count, f"a message on {self.name}", timeout)
+        return messages[-1]
+
+    def close(self) -> None:
+        self._subscriber.unregister()
+
+
+def publisher(name: str, message_type: type) -> rospy.Publisher:
+    """A publisher that is connected to its subscriber."""
+    result = rospy.Publisher(name, message_type, queue_size=10)
+    wait_until(lambda: result.get_num_connections() > 0, f"a subscriber of {name}", 30.0)
+    return result
+
+
+def load(*names: str) -> None:
+    for name in names:
+        assert _call("load_controller", LoadController, name=name).ok, f"controller {name} did not load"
+
+
+def unload(*names: str) -> None:
+    for name in names:
+        assert _call("unload_controller", UnloadController, name=name).ok, f"controller {name} did not unload"
+
+
+def loads(name: str) -> bool:
+    """Whether a controller can be loaded."""
+    return _call("load_controller", LoadController, name=name).ok
+
+
+def switch(start: Sequence[str] = (), stop: Sequence[str] = ()) -> None:
+    assert _call("switch_controller", SwitchController, start_controllers=list(start), stop_controllers=list(stop),
+                 strictness=SwitchControllerRequest.STRICT).ok, f"controllers did not switch to {start} from {stop}"
+
+
+def controller_state(name: str) -> str:
+    return next((c.state for c in _call("list_controllers", ListControllers).controller if c.name == name), "")
+
+
+def set_faults(**faults: dict) -> None:
+    """Give joints of the test robot faults (see robot.Faults); all others have none."""
+    rospy.set_param("/test_robot/faults", faults)
+    rospy.wait_for_service("/test_robot/apply_faults", 30.0)
+    rospy.ServiceProxy("/test_robot/apply_faults", Empty)()
+
+
+def _call(manager_service: str, kind: type, **request: Any) -> Any:
+    rospy.wait_for_service("/controller_manager/" + manager_service, 30.0)
+    return rospy.ServiceProxy("/controller_manager/" + manager_service, kind)(**request)
