@@ -1,0 +1,156 @@
+"""libgazebo_ros_imu.so (model plugin) and libgazebo_ros_imu_sensor.so (sensor plugin): sensor_msgs/Imu.
+
+The two differ upstream and packages know it: the model plugin's acceleration is the bare derivative of velocity (0 at
+rest), the sensor's includes the reaction to gravity (+9.8 along z at rest).
+"""
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from geometry_msgs.msg import Quaternion, Vector3
+from gazebo_ros import SdfElement
+from gazebo_ros.plugin import ModelPlugin, SensorPlugin
+from ode_sim import math3
+from sensor_msgs.msg import Imu
+from std_srvs.srv import Empty, EmptyResponse
+
+from gazebo_plugins.ros_side import Noise, RateGate, Topics, diagonal, find_link, required, subscribed
+
+
+class Differentiator:
+    """Acceleration of a link's origin in the world frame, by the difference of its velocity between two calls."""
+
+    def __init__(self, link):
+        self._link = link
+        self._last = None  # (time_ns, velocity)
+
+    def __call__(self, time_ns: int) -> np.ndarray:
+        """(3,) m/s^2; zero at the first call and after time went back."""
+        velocity = np.array(self._link.linear_velocity())
+        last, self._last = self._last, (time_ns, velocity)
+        if last is None or time_ns <= last[0]:
+            return np.zeros(3)
+        return (velocity - last[1]) / ((time_ns - last[0]) * 1e-9)
+
+
+class ImuPlugin(ModelPlugin):
+    """Orientation, rates and acceleration of one link, expressed as upstream does (see docs/differences.md)."""
+
+    def load(self, server, model, sdf) -> None:
+        self.server = server
+        self.topics = Topics(sdf, model.name, "C")
+        self.link = find_link(model, server.world, sdf)
+        self.offset = math3.quat_from_rpy(*sdf.get("rpyOffset", (0.0, 0.0, 0.0)))
+        sigma = sdf.get("gaussianNoise", 0.0)
+        self.noise = Noise(server.world.rng(f"{model.name}/imu/{self.link.name}"), sigma)
+        self.acceleration = Differentiator(self.link)
+        message = self.message = Imu()
+        message.header.frame_id = sdf.get("frameName", "") or self.link.name
+        for name in ("orientation_covariance", "angular_velocity_covariance", "linear_acceleration_covariance"):
+            setattr(message, name, diagonal((sigma * sigma,) * 3))
+        self.publisher = self.topics.publisher(sdf.get("topicName", "/default_imu") or "/default_imu", Imu)
+        service = sdf.get("serviceName", "/default_imu")
+        if service:
+            self.topics.service(service, Empty, lambda _: EmptyResponse())
+        self.gate = RateGate(sdf.get("updateRate", 0.0))
+        server.after_step(self.step)
+
+    def step(self) -> None:
+        now = self.server.now()
+        if not self.publisher.get_num_connections() or not self.gate.open(now):
+            return
+        q_WL = math3.quat_multiply(self.offset, self.link.pose.q)
+        q_LW = math3.quat_inverse(q_WL)
+        message = self.message
+        message.header.stamp = now
+        message.orientation = Quaternion(*q_WL)
+        message.angular_velocity = Vector3(*self.noise.vector(math3.quat_rotate(q_LW, self.link.angular_velocity())))
+        acceleration = tuple(self.acceleration(now.to_nsec()))
+        message.linear_acceleration = Vector3(*self.noise.vector(math3.quat_rotate(q_LW, acceleration)))
+        self.publisher.publish(message)
+
+    def shutdown(self) -> None:
+        self.topics.close()
+
+
+class AxisNoise:
+    """SDF's ``<noise>`` of one axis: value + bias + N(mean, stddev), the bias drawn once, optionally wandering."""
+
+    def __init__(self, sdf: SdfElement, rng):
+        noise = sdf.child("noise") if sdf else None
+        self._rng = rng
+        get = noise.get if noise else (lambda tag, default: default)
+        active = bool(noise) and (noise.attrib.get("type") or get("type", "none")) != "none"
+        self.mean, self.sigma = (get("mean", 0.0), get("stddev", 0.0)) if active else (0.0, 0.0)
+        self.bias = 0.0
+        bias_sigma = get("bias_stddev", 0.0)
+        if active and bias_sigma:
+            self.bias = (get("bias_mean", 0.0) + bias_sigma * rng.standard_normal()) * (1 if rng.random() < 0.5 else -1)
+        self.walk_sigma = get("dynamic_bias_stddev", 0.0) if active else 0.0
+        self.walk_time = get("dynamic_bias_correlation_time", 0.0)
+        self.precision = get("precision", 0.0) if active else 0.0
+
+    def __call__(self, value: float, dt: float) -> float:
+        """:param dt: seconds since the last value"""
+        if self.walk_sigma and self.walk_time > 0.0 and dt > 0.0:  # first-order Gauss-Markov process
+            decay = math.exp(-dt / self.walk_time)
+            sigma = self.walk_sigma * math.sqrt(-self.walk_time / 2 * math.expm1(-2 * dt / self.walk_time))
+            self.bias = decay * self.bias + sigma * self._rng.standard_normal()
+        value += self.bias + self.mean
+        if self.sigma:
+            value += self.sigma * self._rng.standard_normal()
+        return round(value / self.precision) * self.precision if self.precision > 0.0 else value
+
+
+class ImuSensor(SensorPlugin):
+    """Rates and accelerations in the sensor frame; orientation in the world frame, or relative to the first one."""
+
+    def load(self, server, sensor, sdf) -> None:
+        self.world, self.sensor = server.world, sensor
+        self.topics = Topics(sdf, sensor.model.name, "D")
+        rng = server.world.rng(sensor.scoped_name)
+        imu = SdfElement(sensor.description.element).child("imu")
+        groups = [imu and imu.child(tag) for tag in ("angular_velocity", "linear_acceleration")]
+        self.axis_noise = [[AxisNoise(group and group.child(axis), rng) for axis in "xyz"] for group in groups]
+        sigma = sdf.get("gaussianNoise", 0.0)
+        self.noise = Noise(rng, sigma)
+        self.offset = math3.quat_from_rpy(*sdf.get("rpyOffset", (0.0, 0.0, 0.0)))
+        message = self.message = Imu()
+        message.header.frame_id = required(sdf, "frameName")
+        for name in ("orientation_covariance", "angular_velocity_covariance", "linear_acceleration_covariance"):
+            setattr(message, name, diagonal((sigma * sigma,) * 3))
+        self.reference = math3.quat_inverse(self._orientation()) if sdf.get("initialOrientationAsReference", False) else None
+        self.acceleration = Differentiator(sensor.link)
+        self.last_ns = 0
+        self.gate = RateGate(sdf.get("updateRateHZ", 1.0) if sdf.has("updateRateHZ") else sensor.description.update_rate)
+        self.server = server
+        self.publisher = self.topics.publisher(sdf.get("topicName", "imu_data") or "imu_data", Imu)
+        sensor.connect(self.measure, subscribed(self.publisher))
+
+    def _orientation(self):
+        return math3.quat_multiply(self.sensor.link.pose.q, self.sensor.description.pose.q)
+
+    def measure(self, sensor) -> None:
+        now_ns = sensor.measurement_ns
+        acceleration_W = self.acceleration(now_ns) - np.asarray(self.world.gravity)
+        if not self.gate.open(self.server.now()):
+            return
+        dt, self.last_ns = (now_ns - self.last_ns) * 1e-9, now_ns
+        q_WS = self._orientation()
+        q_SW = math3.quat_inverse(q_WS)
+        rates = math3.quat_rotate(q_SW, sensor.link.angular_velocity())
+        acceleration = math3.quat_rotate(q_SW, tuple(acceleration_W))
+        rates = [noise(value, dt) for noise, value in zip(self.axis_noise[0], rates)]
+        acceleration = [noise(value, dt) for noise, value in zip(self.axis_noise[1], acceleration)]
+        orientation = math3.quat_multiply(self.reference, q_WS) if self.reference else q_WS
+        orientation = math3.quat_multiply(orientation, self.offset)
+        message = self.message
+        message.header.stamp = sensor.measurement_time
+        message.orientation = Quaternion(*self.noise.vector(orientation))
+        message.angular_velocity = Vector3(*self.noise.vector(rates))
+        message.linear_acceleration = Vector3(*self.noise.vector(acceleration))
+        self.publisher.publish(message)
+
+    def shutdown(self) -> None:
+        self.topics.close()

@@ -1,0 +1,202 @@
+"""libgazebo_ros_laser.so, libgazebo_ros_gpu_laser.so, _block_laser.so and _range.so: the same rays, three messages.
+
+A ``gpu_ray`` sensor needs no GPU here: both kinds cast rays against collision shapes.
+"""
+from __future__ import annotations
+
+import numpy as np
+from geometry_msgs.msg import Point32
+from gazebo_ros import SdfElement
+from gazebo_ros.plugin import PluginError, SensorPlugin
+from ode_sim import math3
+from sensor_msgs.msg import ChannelFloat32, LaserScan, PointCloud, Range as RangeMsg
+
+from gazebo_plugins.ros_side import RateGate, Topics, subscribed
+
+_MOST_RAYS = 1_000_000
+
+
+class _Scan:
+    """``<scan>`` along one direction: ``samples`` values of ``resolution`` times as few rays."""
+
+    def __init__(self, sdf: SdfElement, samples: int):
+        self.samples = max(1, sdf.get("samples", samples)) if sdf else samples
+        self.resolution = sdf.get("resolution", 1.0) if sdf else 1.0
+        self.min_angle = sdf.get("min_angle", 0.0) if sdf else 0.0
+        self.max_angle = sdf.get("max_angle", 0.0) if sdf else 0.0
+        self.count = max(1, int(self.samples * self.resolution))  # values reported
+        if self.resolution <= 0.0 or self.count * self.samples > _MOST_RAYS ** 2:
+            raise PluginError(f"<samples>{self.samples}</samples> with <resolution>{self.resolution}</resolution> is not possible")
+
+    def angles(self) -> np.ndarray:
+        """(samples,) rad, of the rays."""
+        if self.samples == 1:
+            return np.array([self.min_angle])
+        return np.linspace(self.min_angle, self.max_angle, self.samples)
+
+    @property
+    def increment(self) -> float:
+        """rad between reported values."""
+        return (self.max_angle - self.min_angle) / (self.count - 1) if self.count > 1 else 0.0
+
+
+class RayFan:
+    """The ``<ray>`` block of a sensor: casts all rays from the sensor's pose.
+
+    :raises PluginError: no ``<ray>``, or numbers that make no fan
+    """
+
+    def __init__(self, server, sensor):
+        ray = SdfElement(sensor.description.element).child("ray")
+        if ray is None:
+            raise PluginError(f"sensor {sensor.scoped_name} of type '{sensor.type}' has no <ray> block")
+        self.world, self.sensor = server.world, sensor
+        scan, limits, noise = ray.child("scan"), ray.child("range"), ray.child("noise")
+        self.horizontal = _Scan(scan and scan.child("horizontal"), 640)
+        self.vertical = _Scan(scan and scan.child("vertical"), 1)
+        self.min = limits.get("min", 0.0) if limits else 0.0
+        self.max = limits.get("max", 0.0) if limits else 0.0
+        if not 0.0 <= self.min < self.max:
+            raise PluginError(f"sensor {sensor.scoped_name}: <range> min {self.min:g} must be below max {self.max:g}")
+        if self.horizontal.samples * self.vertical.samples > _MOST_RAYS:
+            raise PluginError(f"sensor {sensor.scoped_name}: more than {_MOST_RAYS} rays")
+        self.mean = noise.get("mean", 0.0) if noise else 0.0
+        self.sigma = noise.get("stddev", 0.0) if noise else 0.0
+        self._rng = server.world.rng(sensor.scoped_name)
+        yaw, pitch = np.meshgrid(self.horizontal.angles(), self.vertical.angles())
+        yaw, pitch = yaw.ravel(), pitch.ravel()
+        self.directions_S = np.stack([np.cos(pitch) * np.cos(yaw), np.cos(pitch) * np.sin(yaw), np.sin(pitch)], axis=1)
+
+    def cast(self):
+        """(ranges (V*H,) m with +inf beyond max and -inf up to min, REP-117; intensities (V*H,)), row by row from below."""
+        pose = math3.compose(self.sensor.link.pose, self.sensor.description.pose)
+        rotation = np.array(math3.quat_to_matrix(pose.q))
+        directions = self.directions_S @ rotation.T
+        # Rays start at the near limit, so that what stands inside it (the robot's own housing) does not hide the world.
+        origins = np.asarray(pose.p) + self.min * directions
+        distances, hits = self.world.cast_rays(origins, directions, self.max - self.min)
+        ranges = distances + self.min
+        retro = self.world.laser_retro(hits)
+        ranges = self._resample(ranges)
+        intensities = self._resample(retro, nearest=True)
+        if self.sigma or self.mean:
+            inside = (ranges > self.min) & (ranges < self.max)
+            noise = self.mean + self.sigma * self._rng.standard_normal(len(ranges))
+            ranges = np.where(inside, np.clip(ranges + noise, self.min, self.max), ranges)
+            ranges = np.where(~inside & (ranges >= self.max), np.inf, ranges)
+            ranges[~inside & (ranges <= self.min)] = -np.inf
+        else:
+            ranges = np.where(ranges >= self.max, np.inf, np.where(ranges <= self.min, -np.inf, ranges))
+        return ranges, intensities
+
+    def _resample(self, values: np.ndarray, nearest: bool = False) -> np.ndarray:
+        """From rays to reported values, when <resolution> is not 1: linear between neighbouring rays."""
+        h, v = self.horizontal, self.vertical
+        if h.count == h.samples and v.count == v.samples:
+            return values
+        grid = values.reshape(v.samples, h.samples)
+        for axis, scan in ((1, h), (0, v)):
+            if scan.count == scan.samples:
+                continue
+            at = np.linspace(0.0, scan.samples - 1.0, scan.count)
+            low = np.floor(at).astype(int)
+            high = np.minimum(low + 1, scan.samples - 1)
+            weight = np.round(at - low) if nearest else at - low
+            weight = weight if axis == 1 else weight[:, None]
+            a, b = np.take(grid, low, axis), np.take(grid, high, axis)
+            with np.errstate(invalid="ignore"):
+                grid = np.where(weight == 0.0, a, np.where(weight == 1.0, b, (1 - weight) * a + weight * b))
+        return grid.ravel()
+
+
+class Laser(SensorPlugin):
+    """sensor_msgs/LaserScan at the sensor's rate, while somebody listens."""
+
+    def load(self, server, sensor, sdf) -> None:
+        self.fan = RayFan(server, sensor)
+        self.topics = Topics(sdf, sensor.model.name, "B")
+        message = self.message = LaserScan()
+        message.header.frame_id = self.topics.frame(sdf.get("frameName", "/world") or "/world")
+        scan = self.fan.horizontal
+        message.angle_min, message.angle_max, message.angle_increment = scan.min_angle, scan.max_angle, scan.increment
+        message.range_min, message.range_max = self.fan.min, self.fan.max
+        self.publisher = self.topics.publisher(sdf.get("topicName", "/world") or "/world", LaserScan)
+        sensor.connect(self.measure, subscribed(self.publisher))
+
+    def measure(self, sensor) -> None:
+        message = self.message
+        message.header.stamp = sensor.measurement_time
+        message.ranges, message.intensities = self.fan.cast()
+        self.publisher.publish(message)
+
+    def shutdown(self) -> None:
+        self.topics.close()
+
+
+class BlockLaser(SensorPlugin):
+    """sensor_msgs/PointCloud of the hits in the sensor frame; what is out of range lies at infinity."""
+
+    def load(self, server, sensor, sdf) -> None:
+        self.fan = RayFan(server, sensor)
+        self.topics = Topics(sdf, sensor.model.name, "C")
+        self.frame = self.topics.frame(sdf.get("frameName", "/world") or "/world")
+        self.sigma = sdf.get("gaussianNoise", 0.0)
+        self.min_intensity = sdf.get("hokuyoMinIntensity", 101.0)
+        self.rng = server.world.rng(sensor.scoped_name + "/block_laser")
+        self.publisher = self.topics.publisher(sdf.get("topicName", "/world") or "/world", PointCloud)
+        sensor.connect(self.measure, subscribed(self.publisher))
+
+    def measure(self, sensor) -> None:
+        ranges, intensities = self.fan.cast()
+        h, v = self.fan.horizontal, self.fan.vertical
+        yaw, pitch = np.meshgrid(np.linspace(h.min_angle, h.max_angle, h.count), np.linspace(v.min_angle, v.max_angle, v.count))
+        yaw, pitch = yaw.ravel(), pitch.ravel()
+        with np.errstate(invalid="ignore"):
+            points = np.stack([np.cos(pitch) * np.cos(yaw), np.cos(pitch) * np.sin(yaw), np.sin(pitch)], axis=1) * ranges[:, None]
+        points = np.nan_to_num(points, nan=0.0, posinf=np.inf, neginf=-np.inf)
+        if self.sigma:
+            points = points + self.sigma * self.rng.standard_normal(points.shape)
+            intensities = intensities + self.sigma * self.rng.standard_normal(len(intensities))
+        message = PointCloud()
+        message.header.stamp, message.header.frame_id = sensor.measurement_time, self.frame
+        message.points = [Point32(*map(float, point)) for point in points]
+        message.channels = [ChannelFloat32("", np.maximum(intensities, self.min_intensity).tolist())]
+        self.publisher.publish(message)
+
+    def shutdown(self) -> None:
+        self.topics.close()
+
+
+class Range(SensorPlugin):
+    """sensor_msgs/Range: the nearest of all rays; nothing in sight reads max_range."""
+
+    def load(self, server, sensor, sdf) -> None:
+        self.fan = RayFan(server, sensor)
+        self.topics = Topics(sdf, sensor.model.name, "C")
+        message = self.message = RangeMsg()
+        message.header.frame_id = self.topics.frame(sdf.get("frameName", "/world") or "/world")
+        ultrasound = (sdf.get("radiation", "ultrasound") or "ultrasound") == "ultrasound"
+        message.radiation_type = RangeMsg.ULTRASOUND if ultrasound else RangeMsg.INFRARED
+        message.field_of_view = sdf.get("fov", 0.05)
+        message.min_range, message.max_range = self.fan.min, self.fan.max
+        self.sigma = sdf.get("gaussianNoise", 0.0)
+        self.rng = server.world.rng(sensor.scoped_name + "/range")
+        self.gate = RateGate(sdf.get("updateRate", 0.0))
+        self.server = server
+        self.publisher = self.topics.publisher(sdf.get("topicName", "/range") or "/range", RangeMsg)
+        sensor.connect(self.measure, subscribed(self.publisher))
+
+    def measure(self, sensor) -> None:
+        if not self.gate.open(self.server.now()):
+            return
+        ranges, _ = self.fan.cast()
+        nearest = float(np.min(ranges))
+        nearest = min(max(nearest, self.fan.min), self.fan.max)
+        if nearest < self.fan.max and self.sigma:
+            nearest = min(nearest + self.sigma * self.rng.standard_normal(), self.fan.max)
+        self.message.header.stamp = sensor.measurement_time
+        self.message.range = nearest
+        self.publisher.publish(self.message)
+
+    def shutdown(self) -> None:
+        self.topics.close()

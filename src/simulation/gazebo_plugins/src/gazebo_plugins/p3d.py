@@ -1,0 +1,60 @@
+"""libgazebo_ros_p3d.so: the true pose and velocity of a link as nav_msgs/Odometry."""
+from __future__ import annotations
+
+from geometry_msgs.msg import Twist, Vector3
+from gazebo_ros.plugin import ModelPlugin, PluginError
+from nav_msgs.msg import Odometry
+from ode_sim import math3
+from ode_sim.description.model import Pose
+
+from gazebo_plugins.ros_side import Noise, RateGate, Topics, diagonal, find_link, pose_msg, required
+
+_WORLD = ("world", "/world", "map", "/map")
+
+
+class P3D(ModelPlugin):
+    """Twist in world axes, not in those of the child frame: packages that read ground truth know it so."""
+
+    def load(self, server, model, sdf) -> None:
+        self.server = server
+        self.topics = Topics(sdf, model.name, "C")
+        self.link = find_link(model, server.world, sdf)
+        frame = sdf.get("frameName", "world") or "world"
+        self.reference = None
+        if frame not in _WORLD:
+            self.reference = model.links.get(frame)
+            if self.reference is None:
+                raise PluginError(f"<frameName> must be world, map or a link of model {model.name}; '{frame}' is none of them "
+                                  f"({', '.join(model.links)})")
+        self.xyz = sdf.get("xyzOffset", sdf.get("xyzOffsets", (0.0, 0.0, 0.0)))
+        self.rpy = math3.quat_from_rpy(*sdf.get("rpyOffset", sdf.get("rpyOffsets", (0.0, 0.0, 0.0))))
+        sigma = sdf.get("gaussianNoise", 0.0)
+        self.noise = Noise(server.world.rng(f"{model.name}/p3d/{self.link.name}"), sigma)
+        message = self.message = Odometry()
+        message.header.frame_id = self.topics.frame(frame)
+        message.child_frame_id = self.link.name
+        message.pose.covariance = message.twist.covariance = diagonal((sigma * sigma,) * 6)
+        self.gate = RateGate(sdf.get("updateRate", 0.0))
+        self.publisher = self.topics.publisher(required(sdf, "topicName"), Odometry)
+        server.after_step(self.step)
+
+    def step(self) -> None:
+        now = self.server.now()
+        if not self.publisher.get_num_connections() or not self.gate.open(now):
+            return
+        pose = self.link.pose
+        linear, angular = self.link.linear_velocity(), self.link.angular_velocity()
+        if self.reference is not None:
+            X_WR = self.reference.pose
+            q_RW = math3.quat_inverse(X_WR.q)
+            linear = math3.quat_rotate(q_RW, math3.sub(linear, self.reference.linear_velocity()))
+            angular = math3.quat_rotate(q_RW, math3.sub(angular, self.reference.angular_velocity()))
+            pose = math3.relative(X_WR, pose)
+        message = self.message
+        message.header.stamp = now
+        message.pose.pose = pose_msg(Pose(math3.add(pose.p, self.xyz), math3.quat_multiply(self.rpy, pose.q)))
+        message.twist.twist = Twist(Vector3(*self.noise.vector(linear)), Vector3(*self.noise.vector(angular)))
+        self.publisher.publish(message)
+
+    def shutdown(self) -> None:
+        self.topics.close()

@@ -1,0 +1,47 @@
+"""libgazebo_ros_planar_move.so: the whole model glides over the plane as commanded, without wheels."""
+from __future__ import annotations
+
+import math
+
+from gazebo_ros.plugin import ModelPlugin
+
+from gazebo_plugins.ros_side import RateGate, Topics
+from gazebo_plugins.wheels import UNKNOWN, Command, OdometryPublisher, yaw_of
+
+
+class PlanarMove(ModelPlugin):
+    """Sets the velocity of every link in every step; vertical motion is suppressed, gravity included."""
+
+    def load(self, server, model, sdf) -> None:
+        self.server, self.model = server, model
+        self.topics = Topics(sdf, model.name, "C")
+        self.gate = RateGate(sdf.get("odometryRate", 20.0))
+        self.timeout = sdf.get("cmdTimeout", -1.0)
+        self.command = Command(self.topics, sdf.get("commandTopic", "cmd_vel") or "cmd_vel")
+        self.odometry = OdometryPublisher(self.topics, sdf, "base_footprint", (1e-5, 1e-5, UNKNOWN, UNKNOWN, UNKNOWN, 1e-3))
+        self.last_pose = model.pose
+        server.before_step(self.step)
+
+    def step(self) -> None:
+        now = self.server.now()
+        if self.timeout >= 0.0 and (now - self.command.received).to_sec() > self.timeout:
+            self.command.clear()
+        pose = self.model.pose
+        yaw = yaw_of(pose)
+        cos, sin = math.cos(yaw), math.sin(yaw)
+        x, y = self.command.x, self.command.y
+        self.model.set_twist((cos * x - sin * y, sin * x + cos * y, 0.0), (0.0, 0.0, self.command.yaw_rate))
+        elapsed = self.gate.open(now)
+        if elapsed:
+            dx, dy = ((pose.p[i] - self.last_pose.p[i]) / elapsed for i in range(2))
+            turned = math.remainder(yaw - yaw_of(self.last_pose), 2 * math.pi) / elapsed
+            self.last_pose = pose
+            self.odometry.publish(now, pose, (cos * dx + sin * dy, cos * dy - sin * dx, turned), flat=True)
+            self.odometry.send_tf(now, pose)
+
+    def reset(self) -> None:
+        self.command.clear()
+        self.last_pose = self.model.pose
+
+    def shutdown(self) -> None:
+        self.topics.close()

@@ -1,0 +1,174 @@
+"""What most plugins share towards ROS: topics in the plugin's namespace, rate gates, noise, messages from poses."""
+from __future__ import annotations
+
+from typing import Any, Callable, Dict, List, Optional, Sequence
+
+import rospy
+import tf2_ros
+from geometry_msgs.msg import Point, Pose as PoseMsg, Quaternion, Transform, TransformStamped, Vector3
+from ode_sim.description.model import Pose
+from plugin_loader import PluginError
+
+from gazebo_ros import names
+
+_NS = 1_000_000_000
+
+
+class Topics:
+    """Publishers, subscribers and services of one plugin; :meth:`close` unregisters them all.
+
+    :param rule: namespace rule A, B, C or D of :mod:`gazebo_ros.names`
+    """
+
+    def __init__(self, sdf, model_name: str, rule: str):
+        self.namespace = names.robot_namespace(sdf, model_name, rule)
+        self._prefix: Optional[str] = None
+        self._made: List[Any] = []
+
+    def resolve(self, name: str) -> str:
+        return names.join(self.namespace, name)
+
+    def frame(self, name: str) -> str:
+        """``name`` with the namespace's tf_prefix."""
+        if self._prefix is None:
+            self._prefix = names.tf_prefix(self.namespace)
+        return names.resolve_frame(self._prefix, name)
+
+    def publisher(self, name: str, kind: type, queue_size: int = 1, latch: bool = False) -> rospy.Publisher:
+        return self._keep(rospy.Publisher(self.resolve(name), kind, queue_size=queue_size, latch=latch))
+
+    def subscriber(self, name: str, kind: type, callback: Callable[[Any], None], queue_size: int = 1) -> rospy.Subscriber:
+        return self._keep(rospy.Subscriber(self.resolve(name), kind, callback, queue_size=queue_size, tcp_nodelay=True))
+
+    def service(self, name: str, kind: type, handler: Callable[[Any], Any]) -> rospy.Service:
+        return self._keep(rospy.Service(self.resolve(name), kind, handler))
+
+    def close(self) -> None:
+        for thing in self._made:
+            if isinstance(thing, rospy.Service):
+                thing.shutdown("the plugin is unloaded")
+            else:
+                thing.unregister()
+        self._made.clear()
+
+    def _keep(self, thing: Any) -> Any:
+        self._made.append(thing)
+        return thing
+
+
+def subscribed(publisher: rospy.Publisher) -> Callable[[], bool]:
+    """Whether anybody listens; for sensors that only measure then."""
+    return lambda: publisher.get_num_connections() > 0
+
+
+class RateGate:
+    """``updateRate`` of a plugin: open when strictly more than a period has passed, and the period is then added, not the
+    present time (Gazebo's drive plugins). 0 or less = open in every step.
+
+    :param rate: Hz of sim time
+    """
+
+    def __init__(self, rate: float):
+        self._period_ns = round(_NS / rate) if rate > 0.0 else 0
+        self._last_ns: Optional[int] = None
+
+    def open(self, now: rospy.Time) -> float:
+        """Seconds of sim time since the gate was last open, or 0.0 when it stays shut."""
+        now_ns = now.to_nsec()
+        if self._last_ns is None or now_ns < self._last_ns:
+            self._last_ns = now_ns
+            return 0.0
+        elapsed = now_ns - self._last_ns
+        if elapsed <= self._period_ns and (self._period_ns or not elapsed):
+            return 0.0
+        # A long pause of the gate must not be followed by a burst.
+        self._last_ns = now_ns if not self._period_ns or elapsed > 2 * self._period_ns else self._last_ns + self._period_ns
+        return elapsed / _NS
+
+
+class Noise:
+    """Zero-mean Gaussian noise, the same in every run of the same world and seed.
+
+    :param rng: of ``world.rng(name)``
+    """
+
+    def __init__(self, rng, sigma: float):
+        self._rng = rng
+        self.sigma = sigma
+
+    def __call__(self, value: float) -> float:
+        return value + self.sigma * self._rng.standard_normal() if self.sigma else value
+
+    def vector(self, values: Sequence[float]) -> tuple:
+        return tuple(self(v) for v in values)
+
+
+class TfBroadcaster:
+    """The process's one publisher on /tf."""
+
+    _shared: Optional[tf2_ros.TransformBroadcaster] = None
+
+    @classmethod
+    def send(cls, stamp: rospy.Time, parent: str, child: str, pose: Pose) -> None:
+        if cls._shared is None:
+            cls._shared = tf2_ros.TransformBroadcaster()
+        message = TransformStamped()
+        message.header.stamp, message.header.frame_id, message.child_frame_id = stamp, parent, child
+        message.transform = Transform(Vector3(*pose.p), Quaternion(*pose.q))
+        cls._shared.sendTransform(message)
+
+
+def pose_msg(pose: Pose) -> PoseMsg:
+    return PoseMsg(Point(*pose.p), Quaternion(*pose.q))
+
+
+def find_joint(model, sdf, tag: str, default: str) -> Any:
+    """The joint named by ``<tag>``.
+
+    :raises PluginError: the model has no such joint; says which it has
+    """
+    name = sdf.get(tag, default) or default
+    joint = model.joints.get(name)
+    if joint is None:
+        raise PluginError(f"<{tag}> names the joint '{name}', which model {model.name} does not have; "
+                          f"it has {_listed(model.joints)}")
+    return joint
+
+
+def find_link(model, world, sdf, tag: str = "bodyName") -> Any:
+    """The link named by ``<tag>``: of this model, or of any (Gazebo's scoped-or-unscoped look-up).
+
+    :raises PluginError: tag missing, or no such link
+    """
+    name = sdf.get(tag, "")
+    if not name:
+        raise PluginError(f"<{tag}> is missing: it must name a link of model {model.name}")
+    link = model.links.get(name) or world.find_link(name)
+    if link is None:
+        raise PluginError(f"<{tag}> names the link '{name}', which does not exist; model {model.name} has {_listed(model.links)}. "
+                          f"A link behind a fixed joint is merged into its parent (<preserveFixedJoint> keeps it)")
+    return link
+
+
+def required(sdf, tag: str) -> str:
+    """The text of ``<tag>``.
+
+    :raises PluginError: missing or empty
+    """
+    value = sdf.get(tag, "")
+    if not value:
+        raise PluginError(f"<{tag}> is missing")
+    return value
+
+
+def diagonal(values: Sequence[float]) -> List[float]:
+    """Row-major covariance matrix with that diagonal."""
+    size = len(values)
+    matrix = [0.0] * (size * size)
+    for i, value in enumerate(values):
+        matrix[i * (size + 1)] = value
+    return matrix
+
+
+def _listed(things: Dict[str, Any]) -> str:
+    return ", ".join(things) if things else "none"

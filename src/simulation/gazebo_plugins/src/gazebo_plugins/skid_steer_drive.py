@@ -1,0 +1,49 @@
+"""libgazebo_ros_skid_steer_drive.so: four wheels, the two of a side turning alike."""
+from __future__ import annotations
+
+from gazebo_ros.plugin import ModelPlugin
+
+from gazebo_plugins.ros_side import RateGate, Topics, find_joint
+from gazebo_plugins.wheels import UNKNOWN, Command, OdometryPublisher, ground_truth
+
+_WHEELS = (("leftFrontJoint", "left_front_joint", -1), ("rightFrontJoint", "right_front_joint", 1),
+           ("leftRearJoint", "left_rear_joint", -1), ("rightRearJoint", "right_rear_joint", 1))
+
+
+class SkidSteerDrive(ModelPlugin):
+    def load(self, server, model, sdf) -> None:
+        self.server, self.model = server, model
+        self.topics = Topics(sdf, model.name, "C")
+        self.wheels = [(find_joint(model, sdf, tag, default), side) for tag, default, side in _WHEELS]
+        self.separation = sdf.get("wheelSeparation", 0.4)
+        self.radius = sdf.get("wheelDiameter", 0.15) / 2
+        self.torque = sdf.get("torque", 5.0)
+        self.broadcast_tf = sdf.get("broadcastTF", False)
+        self.gate = RateGate(sdf.get("updateRate", 100.0))
+        covariance = (sdf.get("covariance_x", 1e-4), sdf.get("covariance_y", 1e-4), UNKNOWN, UNKNOWN, UNKNOWN,
+                      sdf.get("covariance_yaw", 1e-2))
+        self.command = Command(self.topics, sdf.get("commandTopic", "cmd_vel") or "cmd_vel")
+        self.odometry = OdometryPublisher(self.topics, sdf, "base_footprint", covariance, covariance)
+        self._drive()
+        server.before_step(self.step)
+
+    def step(self) -> None:
+        now = self.server.now()
+        if self.gate.open(now):
+            pose, velocity = ground_truth(self.model)
+            self.odometry.publish(now, pose, velocity, flat=True)
+            if self.broadcast_tf:
+                self.odometry.send_tf(now, pose)
+            self._drive()
+
+    def _drive(self) -> None:
+        half_turn = self.command.yaw_rate * self.separation / 2
+        for joint, side in self.wheels:
+            joint.set_motor((self.command.x + side * half_turn) / self.radius, self.torque)
+
+    def reset(self) -> None:
+        self.command.clear()
+        self._drive()
+
+    def shutdown(self) -> None:
+        self.topics.close()

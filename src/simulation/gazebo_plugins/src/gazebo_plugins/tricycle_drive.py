@@ -1,0 +1,98 @@
+"""libgazebo_ros_tricycle_drive.so: one steered and driven wheel, two wheels with encoders."""
+from __future__ import annotations
+
+import math
+
+import rospy
+from gazebo_ros.plugin import ModelPlugin
+from ode_sim import math3
+from sensor_msgs.msg import JointState
+
+from gazebo_plugins.ros_side import RateGate, TfBroadcaster, Topics, find_joint
+from gazebo_plugins.wheels import UNKNOWN, Command, EncoderOdometry, OdometryPublisher, from_encoders, ground_truth
+
+
+class TricycleDrive(ModelPlugin):
+    """``linear.x`` is the rim speed of the driven wheel, ``angular.z`` the **steering angle** (rad, within +-pi/2)."""
+
+    def load(self, server, model, sdf) -> None:
+        self.server, self.model = server, model
+        self.topics = Topics(sdf, model.name, "A")
+        self.steering = find_joint(model, sdf, "steeringJoint", "front_steering_joint")
+        self.driven = find_joint(model, sdf, "actuatedWheelJoint", "front_wheel_joint")
+        self.left = find_joint(model, sdf, "encoderWheelLeftJoint", "left_wheel_joint")
+        self.right = find_joint(model, sdf, "encoderWheelRightJoint", "right_wheel_joint")
+        self.driven_radius = sdf.get("actuatedWheelDiameter", 0.15) / 2
+        self.encoder_radius = sdf.get("encoderWheelDiameter", 0.15) / 2
+        self.encoder_separation = sdf.get("encoderWheelSeparation", 0.5)
+        self.torque = sdf.get("wheelTorque", 5.0)
+        self.acceleration = sdf.get("wheelAcceleration", 0.0)
+        self.deceleration = sdf.get("wheelDeceleration", self.acceleration)
+        self.speed_tolerance = sdf.get("wheelSpeedTolerance", 0.01)
+        self.steering_speed = sdf.get("steeringSpeed", 0.0)
+        self.angle_tolerance = sdf.get("steeringAngleTolerance", 0.01)
+        self.encoders = EncoderOdometry(self.left, self.right, self.encoder_radius, self.encoder_separation) \
+            if from_encoders(sdf) else None
+        self.publish_wheel_tf = sdf.get("publishWheelTF", False)
+        self.gate = RateGate(sdf.get("updateRate", 100.0))
+        self.command = Command(self.topics, sdf.get("commandTopic", "cmd_vel") or "cmd_vel")
+        self.odometry = OdometryPublisher(self.topics, sdf, "base_link", (1e-5, 1e-5, UNKNOWN, UNKNOWN, UNKNOWN, 1e-3))
+        self.joint_states = self.topics.publisher("joint_states", JointState, 1000) \
+            if sdf.get("publishWheelJointState", False) else None
+        self.reset()
+        server.before_step(self.step)
+
+    def step(self) -> None:
+        now = self.server.now()
+        if self.encoders:
+            self.encoders.integrate(self.server.world.dt)
+        elapsed = self.gate.open(now)
+        if elapsed:
+            self._publish(now)
+            self._drive(elapsed)
+
+    def _drive(self, elapsed: float) -> None:
+        target = self.command.x
+        error = target - self.rim_speed
+        if abs(error) <= self.speed_tolerance or self.acceleration == 0.0:
+            self.rim_speed = target
+        else:
+            rate = self.acceleration if abs(target) > abs(self.rim_speed) else self.deceleration
+            self.rim_speed += max(-rate * elapsed, min(rate * elapsed, error))
+        self.driven.set_motor(self.rim_speed / self.driven_radius, self.torque)
+
+        angle = max(-math.pi / 2, min(math.pi / 2, self.command.yaw_rate))
+        if self.steering_speed <= 0.0:
+            self.steering.servo(angle)
+            return
+        error = angle - self.steering.position()
+        rate = 0.0 if abs(error) < self.angle_tolerance else math.copysign(self.steering_speed, error)
+        self.steering.set_motor(rate, self.torque)
+
+    def _publish(self, now: rospy.Time) -> None:
+        pose, velocity = (self.encoders.pose, self.encoders.velocity) if self.encoders else ground_truth(self.model)
+        self.odometry.publish(now, pose, velocity)
+        self.odometry.send_tf(now, pose)
+        joints = (self.steering, self.driven, self.left, self.right)
+        if self.publish_wheel_tf:
+            for joint in joints:
+                TfBroadcaster.send(now, self.topics.frame(joint.parent.name), self.topics.frame(joint.name),
+                                   math3.relative(joint.parent.pose, joint.child.pose))
+        if self.joint_states:
+            message = JointState()
+            message.header.stamp = now
+            message.name = [joint.name for joint in joints]
+            message.position = [joint.position() for joint in joints]
+            message.velocity = [joint.velocity() for joint in joints]
+            message.effort = [joint.effort() for joint in joints]
+            self.joint_states.publish(message)
+
+    def reset(self) -> None:
+        self.command.clear()
+        self.rim_speed = 0.0
+        if self.encoders:
+            self.encoders.reset()
+        self._drive(0.0)
+
+    def shutdown(self) -> None:
+        self.topics.close()

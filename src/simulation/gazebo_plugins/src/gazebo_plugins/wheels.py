@@ -1,0 +1,117 @@
+"""What the plugins that drive on wheels share: the newest command, odometry messages, ground truth pose."""
+from __future__ import annotations
+
+import math
+from typing import Sequence, Tuple
+
+import rospy
+from geometry_msgs.msg import Twist, Vector3
+from nav_msgs.msg import Odometry
+from ode_sim import math3
+from ode_sim.description.model import Pose
+
+from gazebo_plugins.ros_side import TfBroadcaster, Topics, diagonal, pose_msg
+
+UNKNOWN = 1e12  # variance of what a wheeled robot on the floor does not measure
+
+
+class Command:
+    """The last Twist received; a value that is not finite is dropped with a warning."""
+
+    def __init__(self, topics: Topics, topic: str):
+        self.x = self.y = self.yaw_rate = 0.0
+        self.received = rospy.Time(0)
+        self.topic = topics.resolve(topic)
+        topics.subscriber(topic, Twist, self._receive)
+
+    def _receive(self, message: Twist) -> None:
+        values = (message.linear.x, message.linear.y, message.angular.z)
+        if not all(map(math.isfinite, values)):
+            rospy.logwarn_throttle(5.0, f"{self.topic}: a command that is not a finite number is ignored")
+            return
+        self.x, self.y, self.yaw_rate = values
+        self.received = rospy.Time.now()
+
+    def clear(self) -> None:
+        self.x = self.y = self.yaw_rate = 0.0
+
+
+def from_encoders(sdf) -> bool:
+    """``<odometrySource>``: ``encoder`` (old files: 0), or ``world`` (1), which is the default."""
+    return (sdf.get("odometrySource", "world") or "world").lower() in ("encoder", "0")
+
+
+def yaw_of(pose: Pose) -> float:
+    return math3.quat_to_rpy(pose.q)[2]
+
+
+def ground_truth(model) -> Tuple[Pose, Tuple[float, float, float]]:
+    """X_WM, and the velocity (forward, left, yaw rate) in the model's heading: m/s, m/s, rad/s."""
+    pose = model.pose
+    linear, angular = model.twist()
+    yaw = yaw_of(pose)
+    cos, sin = math.cos(yaw), math.sin(yaw)
+    return pose, (cos * linear[0] + sin * linear[1], cos * linear[1] - sin * linear[0], angular[2])
+
+
+class OdometryPublisher:
+    """nav_msgs/Odometry and the transform that goes with it.
+
+    :param pose_covariance: six variances x, y, z, roll, pitch, yaw
+    :param twist_covariance: the same of the twist
+    """
+
+    def __init__(self, topics: Topics, sdf, base_frame: str, pose_covariance: Sequence[float],
+                 twist_covariance: Sequence[float] = (0.0,) * 6):
+        self.frame = topics.frame(sdf.get("odometryFrame", "odom") or "odom")
+        self.base = topics.frame(sdf.get("robotBaseFrame", base_frame) or base_frame)
+        self.publisher = topics.publisher(sdf.get("odometryTopic", "odom") or "odom", Odometry)
+        self._message = Odometry()
+        self._message.header.frame_id, self._message.child_frame_id = self.frame, self.base
+        self._message.pose.covariance = diagonal(pose_covariance)
+        self._message.twist.covariance = diagonal(twist_covariance)
+
+    def publish(self, now: rospy.Time, pose: Pose, velocity: Tuple[float, float, float], flat: bool = False) -> None:
+        """:param flat: leave z of the message 0, as some plugins do"""
+        message = self._message
+        message.header.stamp = now
+        message.pose.pose = pose_msg(Pose((pose.p[0], pose.p[1], 0.0), pose.q) if flat else pose)
+        message.twist.twist = Twist(Vector3(velocity[0], velocity[1], 0.0), Vector3(0.0, 0.0, velocity[2]))
+        self.publisher.publish(message)
+
+    def send_tf(self, now: rospy.Time, pose: Pose) -> None:
+        TfBroadcaster.send(now, self.frame, self.base, pose)
+
+
+class EncoderOdometry:
+    """Dead reckoning from the angles of a left and a right wheel, from the place where it was started.
+
+    :param radius: of both wheels, m
+    :param separation: between their contact points, m
+    """
+
+    def __init__(self, left, right, radius: float, separation: float):
+        self._wheels = (left, right)
+        self._radius, self._separation = radius, separation
+        self.reset()
+
+    def reset(self) -> None:
+        self._x = self._y = self._yaw = 0.0
+        self.velocity = (0.0, 0.0, 0.0)
+        self._positions = [wheel.position() for wheel in self._wheels]
+
+    def integrate(self, dt: float) -> None:
+        """One step of ``dt`` seconds, with the heading at the middle of the step."""
+        positions = [wheel.position() for wheel in self._wheels]
+        left, right = ((new - old) * self._radius for new, old in zip(positions, self._positions))
+        self._positions = positions
+        forward, turn = (left + right) / 2, (right - left) / self._separation
+        heading = self._yaw + turn / 2
+        self._x += forward * math.cos(heading)
+        self._y += forward * math.sin(heading)
+        self._yaw += turn
+        self.velocity = (forward / dt, 0.0, turn / dt)
+
+    @property
+    def pose(self) -> Pose:
+        return Pose((self._x, self._y, 0.0), math3.quat_from_rpy(0.0, 0.0, self._yaw))
