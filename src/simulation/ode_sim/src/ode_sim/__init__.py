@@ -1,1 +1,12 @@
-"""Robot simulation without ROS: descriptions, physics, sensors, rendering."""
+"""Robot simulation without ROS: descriptions, physics, sensors, rendering.
+
+    world = ode_sim.World.load("arm.world")
+    arm = world.spawn_urdf(text, name="arm")
+    world.step(1000)
+"""
+from ode_sim.description.model import DescriptionError, Pose, Problem
+from ode_sim.handles import CollisionHandle, JointFeedback, JointHandle, LinkHandle, ModelHandle, Twist
+from ode_sim.world import Snapshot, World
+
+__all__ = ["CollisionHandle", "DescriptionError", "JointFeedback", "JointHandle", "LinkHandle", "ModelHandle", "Pose",
+           "Problem", "Snapshot", "Twist", "World"]

@@ -1,0 +1,315 @@
+// The physics core: models of links and joints stepped by ODE, independent of Python.
+//
+//   World --- Model --- Link  --- Shape (one ODE geom, placed by us from the link pose)
+//                  \--- Joint
+//
+// Links that are rigidly joined at the moment - by fixed joints, or by position-commanded ("servo") joints - form a
+// Cluster: one ODE body with composite mass, or no body when it hangs from the world. Every link owns one dBody, created
+// with it; a cluster uses that of its root link, so that the order of bodies, and with it every sum, never depends on the past.
+#pragma once
+#include <ode/ode.h>
+
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "math.hpp"
+
+namespace ode_sim {
+
+class World;
+struct Model;
+struct Link;
+struct Joint;
+
+constexpr double kInf = std::numeric_limits<double>::infinity();
+constexpr double kUnlimited = 1e8;  // limits of this size and more (1e9, 1e16) mean none
+
+struct Surface {
+  double mu = 1, mu2 = 1, slip1 = 0, slip2 = 0, kp = 1e12, kd = 1, max_vel = 0.01, min_depth = 0;
+  double restitution = 0, bounce_threshold = 1e5;
+  Vec3 fdir1;  // in the collision frame, zero = none
+  unsigned collide_bitmask = 0xFFFF;
+  bool collide_without_contact = false;
+};
+
+struct Shape {
+  int id = 0;  // unique in the world, ascending in order of creation
+  Link* link = nullptr;
+  dGeomID geom = nullptr;
+  dGeomID faceted = nullptr;  // a cylinder's stand-in against shapes that ODE cannot collide with it
+  dTriMeshDataID mesh = nullptr, faceted_mesh = nullptr;
+  dHeightfieldDataID field = nullptr;
+  std::vector<double> vertices, faceted_vertices;
+  std::vector<dTriIndex> indices, faceted_indices;
+  bool infinite = false;  // a plane
+  Pose X_LC;
+  Vec3 plane_normal{0, 0, 1};
+  Surface surface;
+  int max_contacts = 10;
+  bool watched = false;
+  bool alive = true;
+};
+
+struct Link {
+  int id = 0;
+  int row = 0;  // in link_poses
+  Model* model = nullptr;
+  dBodyID body = nullptr;
+  double mass = 1;
+  Vec3 com;       // in the link frame
+  Sym3 inertia;   // about the CoM, link axes
+  bool gravity = true, kinematic = false, self_collide = false;
+  double linear_decay = 0, angular_decay = 0;
+  std::vector<std::shared_ptr<Shape>> shapes;
+
+  Pose X_WL;
+  Vec3 v, w;            // of the link origin, world axes
+  Vec3 force, torque;   // about the CoM, world axes, for the next step
+  Vec3 applied_force, applied_torque;  // those of the last step
+
+  // Place in the cluster.
+  int cluster = -1;
+  Joint* up = nullptr;   // merged joint towards the root
+  Link* up_link = nullptr;
+  bool moving = false;   // a servo joint lies between it and the root
+  bool carrier = false;  // its own body moves kinematically, because an ODE joint hangs on it
+  Pose X_RL;             // in the root link's frame (in the world for anchored clusters)
+  Joint* parent_joint = nullptr;  // the first joint whose child it is
+  double size = 0.05;  // m, reach of its shapes from its origin
+
+  Vec3 com_W() const { return X_WL * com; }
+  Vec3 velocity_at(const Vec3& p) const { return v + cross(w, p - X_WL.p); }
+};
+
+enum class JointType { Revolute, Prismatic, Fixed, Universal, Ball };
+enum class ServoMode { Off, Locked, Motor };
+
+struct Axis {
+  Vec3 xyz{0, 0, 1};  // in the joint frame
+  double lower = -kInf, upper = kInf, effort = -1, velocity = -1, damping = 0, friction = 0, spring_reference = 0,
+         spring_stiffness = 0;
+  // State.
+  double q = 0, qd = 0, force = 0, applied = 0;
+  double motor_velocity = 0, motor_force = 0;
+};
+
+struct Feedback {
+  Vec3 child_force, child_torque, parent_force, parent_torque;  // world axes, torques about the joint anchor
+};
+
+struct Joint {
+  int id = 0;
+  int row = 0;  // in joint_positions (first axis)
+  Model* model = nullptr;
+  JointType type = JointType::Revolute;
+  Link* parent = nullptr;  // null = the world
+  Link* child = nullptr;
+  Pose X_PJ, X_CJ;  // joint frame in the parent (or the world) at zero, and in the child
+  int axis_count = 1;
+  Axis axes[2];
+  double stop_erp = 0.2, stop_cfm = 0;
+  bool implicit_spring_damper = false;
+  bool watched = false;  // force and torque wanted
+
+  ServoMode servo = ServoMode::Off;
+  double target = 0, previous_target = 0, rate = 0;  // rate: commanded for the step under way
+  int released = 0;  // steps without contact beyond, in Motor mode
+  double load = 0;   // N m or N held against gravity, in Motor mode
+  Joint* leader = nullptr;
+  double multiplier = 1, offset = 0;
+
+  dJointID joint = nullptr;
+  dJointFeedback ode_feedback{};
+  Feedback feedback;
+  double sign = 1;  // -1 when the parent is ODE's first body
+  bool sane = true;
+  double inverse_inertia[2] = {0, 0};  // about the axis, of the two bodies taken alone
+  bool catching_up = false;  // back from Motor mode but off its command: the way back is rate-limited
+
+  bool merged() const { return (type == JointType::Fixed && !watched) || servo == ServoMode::Locked; }
+  Pose motion(double q) const;  // child's joint frame in the parent's
+  Pose frame_W() const { return parent ? parent->X_WL * X_PJ : X_PJ; }
+};
+
+struct Cluster {
+  Link* root = nullptr;    // null: anchored in the world
+  std::vector<Link*> members;  // breadth first from the root
+  bool moving = false;     // some servo joint inside
+  bool has_joints = false;
+  double mass = 0;
+  Vec3 com;                // in the root frame
+  Sym3 inertia;            // about the CoM, root axes
+  bool uniform_gravity = true;
+  double gravity_mass = 0;
+  Vec3 gravity_com;
+  // Sleeping.
+  bool asleep = false;
+  int idle_steps = 0;
+  double idle_time = 0;
+  int node = -1;  // of the island search
+};
+
+struct Model {
+  int id = 0;
+  std::string name;
+  World* world = nullptr;
+  bool is_static = false, self_collide = false, may_sleep = false;
+  bool dirty = true;
+  bool has_servo = false;
+  std::vector<std::shared_ptr<Link>> links;
+  std::vector<std::shared_ptr<Joint>> joints;
+  std::vector<Cluster> clusters;
+  std::set<std::pair<int, int>> jointed;  // ids of links that a joint connects: they never collide
+  std::set<std::pair<int, int>> exempt;  // shape pairs that already touched when the servo joints were engaged
+  bool take_exempt = false;
+};
+
+struct Contact {
+  Shape *a = nullptr, *b = nullptr;
+  Vec3 pos, normal;  // the normal points into a
+  double depth = 0;
+  int count = 1;     // contacts of this pair
+  dJointID joint = nullptr;
+  bool swapped = false;
+  int feedback = -1;
+};
+
+#pragma pack(push, 1)
+struct ContactRecord {
+  int32_t collision1, collision2;
+  double position[3], normal[3], depth, force[3], torque[3];
+};
+#pragma pack(pop)
+
+class World {
+ public:
+  World();
+  ~World();
+  World(const World&) = delete;
+  World& operator=(const World&) = delete;
+
+  // Settings, read at every step.
+  double dt = 0.001;
+  Vec3 gravity{0, 0, -9.8};
+  double erp = 0.2, cfm = 0, sor = 1.3, contact_max_vel = 100, surface_layer = 0.001;
+  int iters = 50, max_contacts = 20;
+  uint64_t seed = 0;
+  uint64_t iterations = 0;
+  int64_t time_ns = 0;
+  int direct_rows = 160;  // islands up to this many constraint rows use the direct solver
+
+  std::shared_ptr<Model> add_model(const std::string& name, bool is_static, bool self_collide, bool may_sleep);
+  void remove_model(Model& model);
+  std::shared_ptr<Link> add_link(Model& model, const Pose& X_WL, double mass, const Vec3& com, const Sym3& inertia);
+  std::shared_ptr<Joint> add_joint(Model& model, JointType type, Link* parent, Link& child, const Pose& X_CJ);
+  std::shared_ptr<Shape> add_shape(Link& link, const Pose& X_LC, dGeomID geom, std::shared_ptr<Shape> shape);
+  void finish(Model& model);
+
+  void step(int n);
+
+  void set_model_pose(Model& model, const Pose& X_WM_old, const Pose& X_WM_new);
+  void set_link_pose(Link& link, const Pose& X_WL);
+  void set_link_twist(Link& link, const Vec3& v, const Vec3& w);
+  bool set_joint_position(Joint& joint, int axis, double q);
+  void set_servo(Joint& joint, double target);
+  void servo_off(Joint& joint);
+  void set_inertial(Link& link, double mass, const Vec3& com, const Sym3& inertia);
+  void refresh();  // bring clusters up to date
+  void zero_velocities(Model& model);
+  std::string save();
+  void restore(const std::string& data);
+
+  int cast_rays(const double* origins, const double* directions, int n, double max_range, const std::vector<int>& ignore,
+                double* ranges, int32_t* hits);
+
+  std::vector<double> link_poses, joint_positions, joint_velocities;
+  std::vector<ContactRecord> contact_records();
+  const std::vector<std::shared_ptr<Model>>& models() const { return models_; }
+  std::vector<std::string> take_messages();
+  Shape* find_shape(int id) const;
+  struct Counters {
+    uint64_t direct = 0, quick = 0, fallbacks = 0, promotions = 0, contacts = 0;
+  } counters;
+
+ private:
+  friend struct StepGuard;
+  dWorldID world_;
+  dSpaceID space_;
+  dJointGroupID contact_group_;
+  std::vector<std::shared_ptr<Model>> models_;
+  std::map<int, Shape*> shapes_;
+  int next_model_ = 0, next_link_ = 0, next_joint_ = 0, next_shape_ = 0;
+  std::vector<Contact> contacts_;
+  std::vector<dJointFeedback> feedback_;
+  std::vector<std::pair<Shape*, Shape*>> pairs_;
+  std::map<std::string, int> message_counts_;
+  std::vector<std::string> messages_;
+  bool collected_ = false;
+
+  static void near_callback(void* data, dGeomID a, dGeomID b);
+  static void on_message(int number, const char* text, va_list args);
+  static void on_error(int number, const char* text, va_list args);
+
+  void step_once();
+  void renumber();
+  void recluster(Model& model);
+  void place_cluster(Model& model, Cluster& cluster);
+  void compose(Cluster& cluster);
+  void install_joints(Model& model);
+  void install(Joint& joint);
+  void place_shapes(Link& link);
+  void spread_poses(Model& model, Cluster& cluster);
+  void spread_twists(Model& model, Cluster& cluster);
+  void set_rates(Model& model);
+  void collide();
+  bool allowed(const Shape& a, const Shape& b) const;
+  bool promote();
+  void demote();
+  void wake(Model& model);
+  bool promote_path(Link* link);
+  void motor_load(Joint& joint);
+  void feed_forward(Joint& joint);
+  void apply_forces();
+  void apply_axis_force(Joint& joint, int axis, double force);
+  void update_axis(Joint& joint, int axis);
+  void make_contact_joints();
+  void solve();
+  void run(bool direct);
+  void integrate_servos();
+  void read_back();
+  void read_joint(Joint& joint, bool unwrap);
+  void read_feedback(Joint& joint);
+  void guard_nan();
+  void report(const std::string& text, const std::string& who);
+  double axis_inverse_inertia(const Joint& joint, int axis) const;
+  dBodyID body_of(const Link* link) const;
+  Pose X_BL(const Link& link) const;
+  std::vector<Link*> subtree(Joint& joint, bool* loop = nullptr) const;
+  bool sane_beyond(Joint& joint) const;
+  std::string island_names(const std::vector<Cluster*>& clusters) const;
+
+  struct BodyState {
+    dBodyID body;
+    Vec3 p, v, w, f, t;
+    Quat q;
+    double R[12];
+  };
+  std::vector<BodyState> before_;
+  void remember_bodies(std::vector<BodyState>& out, const std::vector<Cluster*>& clusters) const;
+  void recall_bodies(const std::vector<BodyState>& in) const;
+  struct Island {
+    std::vector<Cluster*> clusters;
+    int rows = 0, contact_rows = 0;
+    bool joints = false, awake = false;
+  };
+  std::vector<Island> islands_;
+  std::vector<Cluster*> nodes_;
+};
+
+}  // namespace ode_sim

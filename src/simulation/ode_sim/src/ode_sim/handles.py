@@ -1,0 +1,422 @@
+"""What a user holds of a simulated model: thin objects over the C++ core.
+
+Poses ``X_WA`` are :class:`~ode_sim.description.model.Pose`; vectors are tuples of three floats in world axes; SI units.
+A handle of a removed model raises ``RuntimeError`` when it would have to act.
+"""
+from __future__ import annotations
+
+import math
+from typing import Dict, NamedTuple, Optional, Tuple
+
+import numpy as np
+
+from ode_sim.description import model as description
+from ode_sim.description.model import Pose, Vec3
+from ode_sim.inertia import usable_inertia, usable_mass
+from ode_sim.math3 import compose, inverse
+
+
+class Twist(NamedTuple):
+    """``linear`` m/s, ``angular`` rad/s, world axes."""
+
+    linear: Vec3
+    angular: Vec3
+
+
+class JointFeedback(NamedTuple):
+    """What the joint exerts on its two links: forces N, torques N m about the joint's anchor, world axes."""
+
+    child_force: Vec3
+    child_torque: Vec3
+    parent_force: Vec3
+    parent_torque: Vec3
+
+
+def finite(values, what: str) -> None:
+    """Refuse NaN and infinity where they would poison the physics.
+
+    :raises ValueError: one line that names ``what``.
+    """
+    if not all(math.isfinite(v) for v in values):
+        raise ValueError(f"{what} must be finite numbers, not {tuple(values)}")
+
+
+def flat(pose: Pose, what: str = "pose") -> Tuple[float, ...]:
+    """Seven floats for the core."""
+    values = (*pose.p, *pose.q)
+    finite(values, what)
+    return values
+
+
+def pose_of(values) -> Pose:
+    """A :class:`Pose` of the core's seven floats."""
+    return Pose(tuple(values[:3]), tuple(values[3:]))
+
+
+class CollisionHandle:
+    """One collision shape. ``surface`` (friction, stiffness, slip ...) may be changed while the world runs."""
+
+    def __init__(self, link: "LinkHandle", collision: description.Collision, core) -> None:
+        self.link = link
+        self.description = collision
+        self.name = collision.name
+        self.scoped_name = f"{link.scoped_name}::{collision.name}"
+        self.core = core
+
+    @property
+    def id(self) -> int:
+        """The number by which contacts and ray hits name it."""
+        return self.core.id
+
+    @property
+    def surface(self):
+        """Mutable: mu, mu2, slip1, slip2, kp, kd, max_vel, min_depth, restitution, bounce_threshold, fdir1 ..."""
+        return self.core.surface
+
+    @property
+    def laser_retro(self) -> float:
+        return self.description.laser_retro
+
+    @property
+    def pose(self) -> Pose:
+        """X_WC."""
+        return pose_of(self.core.pose)
+
+    def bounding_box(self) -> Tuple[Vec3, Vec3]:
+        """Lower and upper corner in the world, m; infinite for a plane."""
+        x0, x1, y0, y1, z0, z1 = self.core.aabb()
+        return (x0, y0, z0), (x1, y1, z1)
+
+
+class LinkHandle:
+    """A link. Forces act in the next step only and are then cleared."""
+
+    def __init__(self, model: "ModelHandle", link: description.Link, core) -> None:
+        self.model = model
+        self.description = link
+        self.name = link.name
+        self.scoped_name = f"{model.name}::{link.name}"
+        self.core = core
+        self.collisions: Dict[str, CollisionHandle] = {}
+
+    @property
+    def index(self) -> int:
+        """Row in ``world.link_poses``."""
+        return self.core.row
+
+    @property
+    def pose(self) -> Pose:
+        """X_WL. Setting it moves this link only (and what is rigidly joined to it); joints pull back in the next step."""
+        return pose_of(self.core.pose())
+
+    @pose.setter
+    def pose(self, pose: Pose) -> None:
+        self.core.set_pose(flat(pose, f"pose of link {self.scoped_name}"))
+
+    def linear_velocity(self) -> Vec3:
+        """Of the link origin."""
+        return self.core.linear_velocity()
+
+    def angular_velocity(self) -> Vec3:
+        return self.core.angular_velocity()
+
+    def com_velocity(self) -> Vec3:
+        """Of the centre of mass."""
+        return self.core.com_velocity()
+
+    def com(self) -> Vec3:
+        """Centre of mass in the world, m."""
+        return self.core.com()
+
+    def velocity_at(self, p_W: Vec3) -> Vec3:
+        """Of the point of the link that is at ``p_W`` now."""
+        return self.core.velocity_at(p_W)
+
+    def set_twist(self, linear: Vec3, angular: Vec3) -> None:
+        """Velocity of the centre of mass and angular velocity."""
+        finite((*linear, *angular), f"twist of link {self.scoped_name}")
+        arm = np.subtract(self.core.pose()[:3], self.core.com())
+        self.core.set_twist(tuple(np.add(linear, np.cross(angular, arm))), tuple(angular))
+
+    def add_force(self, f_W: Vec3, p_W: Optional[Vec3] = None) -> None:
+        """Force in N at the point ``p_W``, at the centre of mass if None."""
+        finite(f_W, f"force on link {self.scoped_name}")
+        if p_W is None:
+            self.core.add_force(tuple(f_W))
+        else:
+            finite(p_W, f"point of force on link {self.scoped_name}")
+            self.core.add_force_at(tuple(f_W), tuple(p_W))
+
+    def add_torque(self, t_W: Vec3) -> None:
+        finite(t_W, f"torque on link {self.scoped_name}")
+        self.core.add_torque(tuple(t_W))
+
+    def set_force(self, f_W: Vec3) -> None:
+        """Takes the place of all forces added for the next step."""
+        finite(f_W, f"force on link {self.scoped_name}")
+        self.core.set_force(tuple(f_W))
+
+    def set_torque(self, t_W: Vec3) -> None:
+        finite(t_W, f"torque on link {self.scoped_name}")
+        self.core.set_torque(tuple(t_W))
+
+    def force(self) -> Vec3:
+        """Set or added for the next step, N, at the centre of mass."""
+        return self.core.force()
+
+    def torque(self) -> Vec3:
+        """Set or added for the next step, N m, about the centre of mass."""
+        return self.core.torque()
+
+    @property
+    def mass(self) -> float:
+        """kg."""
+        return self.core.mass
+
+    @property
+    def inertia(self) -> Tuple[float, ...]:
+        """ixx, iyy, izz, ixy, ixz, iyz about the centre of mass in link axes, kg m^2."""
+        return self.core.inertia
+
+    @property
+    def gravity(self) -> bool:
+        return self.core.gravity_flag
+
+    @gravity.setter
+    def gravity(self, on: bool) -> None:
+        self.core.gravity_flag = bool(on)
+        self.core.changed()
+
+    def set_inertial(self, inertial: description.Inertial) -> None:
+        """New mass, centre of mass and tensor."""
+        where = f"link {self.scoped_name}"
+        mass, problem = usable_mass(inertial.mass, where)
+        tensor, second = usable_inertia(inertial, mass, where)
+        if problem or second:
+            raise ValueError(problem or second)
+        self.core.set_inertial(mass, inertial.pose.p, tensor)
+
+
+class JointHandle:
+    """A joint. ``axis`` is 0, or 1 for the second axis of universal and revolute2."""
+
+    def __init__(self, model: "ModelHandle", joint: description.Joint, parent: Optional[LinkHandle], child: LinkHandle,
+                 core) -> None:
+        self.model = model
+        self.description = joint
+        self.name = joint.name
+        self.scoped_name = f"{model.name}::{joint.name}"
+        self.parent = parent  # None: the world
+        self.child = child
+        self.core = core
+        # The calls of every controller cycle go straight to the core.
+        self.position = core.position
+        self.velocity = core.velocity
+        self.motor = core.motor
+
+    @property
+    def index(self) -> int:
+        """Row of the first axis in ``world.joint_positions``."""
+        return self.core.row
+
+    @property
+    def axis_count(self) -> int:
+        return self.core.axis_count
+
+    def effort(self, axis: int = 0) -> float:
+        """Sum of the forces added since the last step, after truncation; just after a step, that of the step."""
+        return self.core.effort(axis) or self.core.applied_effort(axis)
+
+    def add_force(self, force: float, axis: int = 0) -> None:
+        """N m or N, for the next step; cut to the effort limit, and to 0 in the direction of motion above the velocity limit."""
+        if not math.isfinite(force):
+            raise ValueError(f"force on joint {self.scoped_name} must be a finite number, not {force}")
+        self.core.add_force(force, axis)
+
+    def set_motor(self, velocity: float, max_force: float, axis: int = 0) -> None:
+        """Drive to ``velocity`` (rad/s, m/s) with at most ``max_force`` until changed; 0 switches the motor off."""
+        finite((velocity,), f"motor velocity of joint {self.scoped_name}")
+        if math.isnan(max_force):
+            raise ValueError(f"motor force of joint {self.scoped_name} must be a number")
+        self.core.set_motor(velocity, max(max_force, 0.0), axis)
+
+    def servo(self, position: float) -> None:
+        """Be at ``position`` (clamped to the limits) after the next step, whatever the masses, without recoil.
+
+        The link beyond becomes rigidly joined and is moved exactly. While it, or something beyond it, touches another
+        model, the joint is a motor with the effort limit instead, so that it pushes, grips and stalls.
+        Revolute and prismatic joints only.
+        """
+        finite((position,), f"position command of joint {self.scoped_name}")
+        self.core.servo(position)
+
+    def servo_off(self) -> None:
+        """Let go: the joint moves freely again."""
+        self.core.servo_off()
+
+    @property
+    def servo_active(self) -> bool:
+        return self.core.servo_mode != 0
+
+    @property
+    def servo_pushing(self) -> bool:
+        """Whether the position-commanded joint is an effort-limited motor at the moment, because of a contact."""
+        return self.core.servo_mode == 2
+
+    def follow(self, leader: Optional["JointHandle"], multiplier: float = 1.0, offset: float = 0.0) -> None:
+        """Mimic: keep at ``multiplier * leader + offset`` by :meth:`servo`. ``None`` ends it."""
+        finite((multiplier, offset), f"mimic of joint {self.scoped_name}")
+        self.core.follow(leader.core if leader else None, multiplier, offset)
+
+    def set_position(self, q: float, axis: int = 0) -> bool:
+        """Teleport: what is beyond moves along, its velocities become zero; ``q`` is clamped to the limits.
+
+        :returns: False for a joint in a closed loop, which stays as it is.
+        """
+        finite((q,), f"position of joint {self.scoped_name}")
+        return self.core.set_position(q, axis)
+
+    def limits(self, axis: int = 0) -> Tuple[float, float]:
+        """Lower and upper, rad or m; infinite = none."""
+        return self.core.get(axis)[:2]
+
+    def set_limits(self, lower: float, upper: float, axis: int = 0) -> None:
+        if not lower <= upper:
+            raise ValueError(f"joint {self.scoped_name}: lower limit {lower} is above upper limit {upper}")
+        self._set(axis, 0, unlimited(lower), unlimited(upper))
+
+    @property
+    def damping(self) -> float:
+        """N m s/rad or N s/m, first axis."""
+        return self.core.get(0)[4]
+
+    @damping.setter
+    def damping(self, value: float) -> None:
+        self._set(0, 4, max(float(value), 0.0))
+
+    @property
+    def friction(self) -> float:
+        """Coulomb friction, N m or N, first axis. A motor takes its place while it runs."""
+        return self.core.get(0)[5]
+
+    @friction.setter
+    def friction(self, value: float) -> None:
+        self._set(0, 5, max(float(value), 0.0))
+
+    @property
+    def effort_limit(self) -> float:
+        """-1 = unlimited."""
+        return self.core.get(0)[2]
+
+    @property
+    def velocity_limit(self) -> float:
+        """-1 = unlimited."""
+        return self.core.get(0)[3]
+
+    def _set(self, axis: int, first: int, *values: float) -> None:
+        finite_or_unlimited = [v for v in values if math.isnan(v)]
+        if finite_or_unlimited:
+            raise ValueError(f"joint {self.scoped_name}: a parameter must not be NaN")
+        if axis >= self.axis_count:
+            raise ValueError(f"joint {self.scoped_name} has {self.axis_count} axes, there is no axis {axis}")
+        numbers = list(self.core.get(axis))
+        numbers[first:first + len(values)] = values
+        self.core.set_axis(axis, self.description.axes[axis].xyz, *numbers)
+
+    def feedback(self) -> JointFeedback:
+        """Force and torque of the last step. The first call asks for them: they are there after the next step."""
+        self.core.watch()
+        return JointFeedback(*self.core.feedback())
+
+    def anchor(self) -> Vec3:
+        """Joint origin in the world, as the child carries it, m."""
+        return self.core.frame()[:3]
+
+    def frame(self) -> Pose:
+        """X_WJ, the joint frame as the child carries it."""
+        return pose_of(self.core.frame())
+
+    def world_axis(self, axis: int = 0) -> Vec3:
+        """Unit vector."""
+        from_parent = pose_of(self.core.parent_frame() if axis == 0 else self.core.frame())
+        return compose(Pose(q=from_parent.q), Pose(p=self.description.axes[axis].xyz)).p
+
+    def set_param(self, name: str, value: float) -> None:
+        """By ODE's and Gazebo's name: fmax, vel, hi_stop, lo_stop, stop_erp, stop_cfm, friction, damping."""
+        velocity, force = self.core.motor(0) if self.axis_count else (0.0, 0.0)
+        setters = {
+            "fmax": lambda: self.set_motor(velocity, value),
+            "vel": lambda: self.set_motor(value, force),
+            "hi_stop": lambda: self.set_limits(self.limits()[0], value),
+            "lo_stop": lambda: self.set_limits(value, self.limits()[1]),
+            "stop_erp": lambda: setattr(self.core, "stop_erp", value) or self.core.changed(),
+            "stop_cfm": lambda: setattr(self.core, "stop_cfm", value) or self.core.changed(),
+            "friction": lambda: setattr(self, "friction", value),
+            "damping": lambda: setattr(self, "damping", value),
+        }
+        if name not in setters:
+            raise ValueError(f"joint {self.scoped_name} has no parameter '{name}'; there are {', '.join(setters)}")
+        setters[name]()
+
+
+def unlimited(limit: float) -> float:
+    """Limits of 1e8 and beyond (1e9 and 1e16 are common) mean none."""
+    return math.copysign(math.inf, limit) if abs(limit) >= 1e8 else float(limit)
+
+
+class ModelHandle:
+    """A model in the world. ``links`` and ``joints`` are in file order."""
+
+    def __init__(self, world, name: str, model: description.Model, pose: Pose, core) -> None:
+        self.world = world
+        self.name = name
+        self.description = model
+        self.initial_pose = pose  # X_WM
+        self.core = core
+        self.links: Dict[str, LinkHandle] = {}
+        self.joints: Dict[str, JointHandle] = {}
+        self._X_LM = Pose()  # model frame in the first link's frame
+
+    @property
+    def static(self) -> bool:
+        return self.core.is_static
+
+    @property
+    def asleep(self) -> bool:
+        """At rest and left out of the simulation until something touches it."""
+        return self.core.asleep
+
+    @property
+    def canonical_link(self) -> Optional[LinkHandle]:
+        """The first link: the model frame is fixed to it."""
+        return next(iter(self.links.values()), None)
+
+    @property
+    def pose(self) -> Pose:
+        """X_WM. Setting it moves all links rigidly, and the place where the model is bolted to the world."""
+        link = self.canonical_link
+        return compose(link.pose, self._X_LM) if link else self.initial_pose
+
+    @pose.setter
+    def pose(self, pose: Pose) -> None:
+        if self.links:
+            self.core.set_pose(flat(self.pose), flat(pose, f"pose of model {self.name}"))
+
+    def twist(self) -> Twist:
+        """Of the first link: of its centre of mass."""
+        link = self.canonical_link
+        return Twist(link.com_velocity(), link.angular_velocity()) if link else Twist((0, 0, 0), (0, 0, 0))
+
+    def set_twist(self, linear: Vec3, angular: Vec3) -> None:
+        """The same velocity of the centre of mass, and angular velocity, for every link."""
+        for link in self.links.values():
+            link.set_twist(linear, angular)
+
+    def remove(self) -> None:
+        self.world.remove(self.name)
+
+    def bind(self) -> None:
+        """Fix the model frame to the first link, as they are now."""
+        link = self.canonical_link
+        if link:
+            self._X_LM = compose(inverse(link.pose), self.initial_pose)

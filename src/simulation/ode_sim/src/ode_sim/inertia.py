@@ -1,0 +1,47 @@
+"""Masses and inertia tensors that a rigid-body engine can take, as near as possible to those written."""
+from __future__ import annotations
+
+import math
+from typing import Optional, Tuple
+
+import numpy as np
+
+from ode_sim.description.model import Inertial
+from ode_sim.math3 import quat_to_matrix
+
+SMALLEST_MASS = 1e-6  # kg
+SMALLEST_GYRATION = 1e-4  # m, radius of gyration below which a body spins up without bound
+
+
+def usable_mass(mass: float, where: str) -> Tuple[float, Optional[str]]:
+    """The mass in kg, and what was wrong with it."""
+    if math.isfinite(mass) and mass >= SMALLEST_MASS:
+        return mass, None
+    if math.isfinite(mass) and mass > 0.0:
+        return SMALLEST_MASS, f"{where}: mass {mass} kg is too small to simulate; {SMALLEST_MASS} is used"
+    return 1.0, f"{where}: mass {mass} is no positive number; 1 kg is used. Write <mass value=\"...\"/> in kg"
+
+
+def usable_inertia(inertial: Inertial, mass: float, where: str) -> Tuple[Tuple[float, ...], Optional[str]]:
+    """ixx, iyy, izz, ixy, ixz, iyz in link axes about the centre of mass (kg m^2), positive definite, and a problem if any.
+
+    A tensor however large is taken as it is; one that is not positive definite keeps its axes, and its moments are
+    raised to the smallest that a body of this mass may have.
+    """
+    tensor = np.array([[inertial.ixx, inertial.ixy, inertial.ixz],
+                       [inertial.ixy, inertial.iyy, inertial.iyz],
+                       [inertial.ixz, inertial.iyz, inertial.izz]], dtype=float)
+    problem = None
+    if not np.isfinite(tensor).all():
+        tensor = np.eye(3) * mass * 0.01
+        problem = f"{where}: inertia holds a NaN or an infinity; {mass * 0.01:g} kg m^2 is used"
+    moments, axes = np.linalg.eigh(tensor)
+    least = max(mass * SMALLEST_GYRATION ** 2, moments[-1] * 1e-9)
+    if moments[0] < least:
+        if moments[0] <= 0.0:
+            problem = f"{where}: inertia is not positive definite; its moments {moments.round(9).tolist()} were raised to {least:g} kg m^2"
+        tensor = axes @ np.diag(np.maximum(moments, least)) @ axes.T
+    rotation = np.array(quat_to_matrix(inertial.pose.q))
+    if inertial.pose.q != (0.0, 0.0, 0.0, 1.0):
+        tensor = rotation @ tensor @ rotation.T
+    return (tensor[0, 0], tensor[1, 1], tensor[2, 2], tensor[0, 1], tensor[0, 2], tensor[1, 2]), problem

@@ -1,0 +1,368 @@
+"""A world that steps: models, joints, contacts, ray casts, snapshots. No ROS, no wall clock."""
+from __future__ import annotations
+
+import hashlib
+import pickle
+from dataclasses import dataclass, fields, replace
+from typing import Callable, Dict, Iterable, List, Optional, Tuple, Union
+
+import numpy as np
+
+from ode_sim import _core
+from ode_sim.builder import Builder
+from ode_sim.description import model as d
+from ode_sim.handles import CollisionHandle, JointHandle, LinkHandle, ModelHandle, finite, flat
+from ode_sim.math3 import compose
+
+Entity = Union[ModelHandle, LinkHandle, CollisionHandle]
+
+
+class PhysicsSettings:
+    """The fields of :class:`ode_sim.description.model.Physics`; setting one takes effect in the next step."""
+
+    _IN_CORE = {"max_step_size": "dt", "max_contacts": "max_contacts", "iters": "iters", "sor": "sor", "cfm": "cfm", "erp": "erp",
+                "contact_max_correcting_vel": "contact_max_vel", "contact_surface_layer": "surface_layer"}
+    _POSITIVE = ("max_step_size", "max_contacts", "iters", "sor")
+
+    def __init__(self, core, physics: d.Physics) -> None:
+        object.__setattr__(self, "_core", core)
+        for field in fields(physics):
+            setattr(self, field.name, getattr(physics, field.name))
+
+    def __setattr__(self, name: str, value) -> None:
+        if isinstance(value, (int, float)):
+            finite((value,), f"physics parameter {name}")
+            if value < 0 or (value == 0 and name in self._POSITIVE):
+                raise ValueError(f"physics parameter {name} must be positive, not {value}")
+        if name in self._IN_CORE:
+            kind = type(getattr(self._core, self._IN_CORE[name]))
+            setattr(self._core, self._IN_CORE[name], kind(value))
+        object.__setattr__(self, name, value)
+
+
+@dataclass(frozen=True)
+class Snapshot:
+    """The whole state of a world at one moment. Two snapshots are equal exactly if every bit of the state is."""
+
+    models: Tuple[str, ...]
+    state: bytes
+    generators: bytes  # of World.rng, pickled
+
+    def __bytes__(self) -> bytes:
+        return b"".join((repr(self.models).encode(), self.state, self.generators))
+
+
+class World:
+    """:param description: what to start with; models of it are spawned in file order.
+    :param seed: of every random number drawn in this world.
+    :param finder: of ``model://`` and ``package://``, for :meth:`spawn_urdf` and :meth:`spawn_sdf`.
+    """
+
+    def __init__(self, description: Optional[d.World] = None, seed: int = 0, finder=None,
+                 problems: Iterable[d.Problem] = ()) -> None:
+        description = description or d.World()
+        self.description = description
+        self.name = description.name
+        self.finder = finder
+        self.core = _core.World()
+        self.physics = PhysicsSettings(self.core, description.physics)
+        self.gravity = description.gravity
+        self.magnetic_field = description.magnetic_field
+        self.scene = description.scene
+        self.lights: Dict[str, d.Light] = {}
+        self.models: Dict[str, ModelHandle] = {}
+        self.problems: List[d.Problem] = list(problems)
+        self.messages: List[str] = []
+        self.before_step: List[Callable[["World"], None]] = []
+        self.after_step: List[Callable[["World"], None]] = []
+        self.on_spawn: List[Callable[[ModelHandle], None]] = []
+        self.on_remove: List[Callable[[ModelHandle], None]] = []
+        self._collisions: Dict[int, CollisionHandle] = {}
+        self._generators: Dict[str, np.random.Generator] = {}
+        self.seed = seed
+        for light in description.lights:
+            self.lights.setdefault(light.name, light)
+        deleted = set(description.state.deletions) if description.state else set()
+        for model in description.models:
+            if model.name in self.models:
+                self.problems.append(d.Problem("warning", f"a second model '{model.name}' is left out; names must differ", model.source))
+            elif model.name not in deleted:
+                self.spawn(model)
+        if description.state:
+            self._apply_state(description.state)
+
+    @classmethod
+    def load(cls, source: str, seed: int = 0, finder=None) -> "World":
+        """A world from a path, a ``model://`` or world name, or XML text.
+
+        :raises DescriptionError: one line that says what cannot be read; smaller trouble goes to ``problems``.
+        """
+        from ode_sim.description import load_world
+        description, problems = load_world(source, finder=finder)
+        return cls(description, seed=seed, finder=finder, problems=problems)
+
+    # ------------------------------------------------------------------------------------------ time and settings
+
+    @property
+    def time_ns(self) -> int:
+        """Simulated time in nanoseconds."""
+        return self._time_ns if self._time_ns is not None else self.core.time_ns
+
+    _time_ns: Optional[int] = None  # set while callbacks run before the core has stepped
+
+    @property
+    def time(self) -> float:
+        """Simulated time, s."""
+        return self.time_ns * 1e-9
+
+    @property
+    def iterations(self) -> int:
+        return self.core.iterations
+
+    @property
+    def dt(self) -> float:
+        """Step, s."""
+        return self.core.dt
+
+    @property
+    def gravity(self) -> d.Vec3:
+        """m/s^2, world axes."""
+        return self.core.gravity
+
+    @gravity.setter
+    def gravity(self, g: d.Vec3) -> None:
+        finite(g, "gravity")
+        self.core.gravity = tuple(g)
+
+    @property
+    def seed(self) -> int:
+        return self._seed
+
+    @seed.setter
+    def seed(self, seed: int) -> None:
+        self._seed = int(seed)
+        self.core.seed = self._seed & 0xFFFFFFFFFFFFFFFF
+        self._generators.clear()
+
+    def rng(self, name: str) -> np.random.Generator:
+        """The random generator of that name: its numbers depend on the seed and the name alone."""
+        if name not in self._generators:
+            digest = hashlib.sha256(f"{self._seed}/{name}".encode()).digest()
+            self._generators[name] = np.random.Generator(np.random.PCG64(int.from_bytes(digest[:16], "little")))
+        return self._generators[name]
+
+    # ------------------------------------------------------------------------------------------ models
+
+    def spawn(self, model: d.Model, name: Optional[str] = None, pose: Optional[d.Pose] = None) -> ModelHandle:
+        """Put a described model into the world.
+
+        :param name: takes the place of the model's own.
+        :param pose: X_WM, takes the place of the model's own.
+        :raises DescriptionError: the name is taken, or nothing of the model can be simulated.
+        """
+        name = name or model.name
+        if name in self.models:
+            raise d.DescriptionError(f"a model named '{name}' is in the world already; choose another name or remove it first")
+        pose = model.pose if pose is None else pose
+        flat(pose, f"pose of model '{name}'")
+        builder = Builder(self.core)
+        handle = builder.build(self, model, name, pose)
+        self.problems += builder.problems
+        self.models[name] = handle
+        for link in handle.links.values():
+            for collision in link.collisions.values():
+                self._collisions[collision.id] = collision
+        for callback in list(self.on_spawn):
+            callback(handle)
+        return handle
+
+    def spawn_urdf(self, text: str, name: Optional[str] = None, pose: Optional[d.Pose] = None) -> ModelHandle:
+        """Spawn URDF text at ``pose`` composed with the model's own origin."""
+        from ode_sim.description import read_urdf
+        return self._spawn_text(read_urdf(text, name=name, finder=self.finder), pose)
+
+    def spawn_sdf(self, text: str, name: Optional[str] = None, pose: Optional[d.Pose] = None) -> ModelHandle:
+        """Spawn the first model of SDF text at ``pose`` composed with the model's own pose."""
+        from ode_sim.description import read_sdf_model
+        return self._spawn_text(read_sdf_model(text, name=name, finder=self.finder), pose)
+
+    def _spawn_text(self, read, pose: Optional[d.Pose]) -> ModelHandle:
+        model, problems = read
+        handle = self.spawn(model, pose=compose(pose or d.Pose(), model.pose))
+        self.problems += problems
+        return handle
+
+    def remove(self, name: str) -> None:
+        """Take a model out of the world."""
+        if name not in self.models:
+            raise KeyError(f"there is no model '{name}' in the world")
+        handle = self.models[name]
+        for callback in list(self.on_remove):
+            callback(handle)
+        del self.models[name]
+        for link in handle.links.values():
+            for collision in link.collisions.values():
+                self._collisions.pop(collision.id, None)
+        self.core.remove_model(handle.core)
+
+    def find_entity(self, name: str) -> Optional[Entity]:
+        """The first model, link or collision, depth first, whose scoped or unscoped name this is."""
+        for model in self.models.values():
+            if model.name == name:
+                return model
+            for link in model.links.values():
+                if name in (link.name, link.scoped_name):
+                    return link
+                for collision in link.collisions.values():
+                    if name in (collision.name, collision.scoped_name):
+                        return collision
+        return None
+
+    def find_link(self, name: str) -> Optional[LinkHandle]:
+        """The first link of that scoped or unscoped name."""
+        for model in self.models.values():
+            for link in model.links.values():
+                if name in (link.name, link.scoped_name):
+                    return link
+        return None
+
+    def find_joint(self, name: str) -> Optional[JointHandle]:
+        """The first joint of that scoped or unscoped name."""
+        for model in self.models.values():
+            for joint in model.joints.values():
+                if name in (joint.name, joint.scoped_name):
+                    return joint
+        return None
+
+    # ------------------------------------------------------------------------------------------ stepping
+
+    def step(self, n: int = 1) -> None:
+        """Advance by ``n`` steps. Without callbacks all of them are one call into the core."""
+        if n < 0:
+            raise ValueError(f"cannot step {n} times")
+        done = 0
+        while done < n:
+            if not self.before_step and not self.after_step:
+                self.core.step(n - done)
+                done = n
+            else:
+                # Sim time is advanced first: a controller sees the time of the state that it produces.
+                self._time_ns = self.core.time_ns + round(self.core.dt * 1e9)
+                try:
+                    for callback in list(self.before_step):
+                        callback(self)
+                finally:
+                    self._time_ns = None
+                self.core.step(1)
+                done += 1
+                for callback in list(self.after_step):
+                    callback(self)
+        self.messages += self.core.take_messages()
+
+    def reset(self) -> None:
+        """Time 0, every model with its joints as it was spawned, everything at rest, random numbers from the start."""
+        for model in self.models.values():
+            for joint in model.joints.values():
+                for axis in range(joint.axis_count):
+                    joint.set_position(0.0, axis)
+            for link in model.links.values():
+                if not model.static and len(model.links) > 1:
+                    link.pose = compose(model.pose, link.description.pose)
+        self.reset_poses()
+        self.core.time_ns = 0
+        self.core.iterations = 0
+        self._generators.clear()
+
+    def reset_poses(self) -> None:
+        """Models back to where they were spawned, at rest. Time goes on and joints stay at their angles."""
+        for model in self.models.values():
+            model.pose = model.initial_pose
+            model.core.zero_velocities()
+
+    def save(self) -> Snapshot:
+        """The whole state: continuing from it gives the same bits as going on without saving."""
+        states = [(name, generator.bit_generator.state) for name, generator in sorted(self._generators.items())]
+        return Snapshot(tuple(self.models), self.core.save(), pickle.dumps(states, protocol=4))
+
+    def restore(self, snapshot: Snapshot) -> None:
+        """Back to a saved state of a world with the same models.
+
+        :raises ValueError: models were added or removed since.
+        """
+        if snapshot.models != tuple(self.models):
+            raise ValueError(f"the snapshot holds the models {', '.join(snapshot.models) or 'none'}; "
+                             f"the world has {', '.join(self.models) or 'none'}")
+        self.core.restore(snapshot.state)
+        self._generators.clear()
+        for name, state in pickle.loads(snapshot.generators):
+            self.rng(name).bit_generator.state = state
+
+    # ------------------------------------------------------------------------------------------ state, contacts, rays
+
+    @property
+    def joint_positions(self) -> np.ndarray:
+        """(J,) rad or m, a view of the core's memory: take it anew after each spawn or remove."""
+        return self.core.joint_positions
+
+    @property
+    def joint_velocities(self) -> np.ndarray:
+        """(J,) rad/s or m/s, a view of the core's memory."""
+        return self.core.joint_velocities
+
+    @property
+    def link_poses(self) -> np.ndarray:
+        """(L, 7) x y z qx qy qz qw of each link in the world, a view of the core's memory."""
+        return self.core.link_poses
+
+    def contacts(self) -> np.ndarray:
+        """Contacts of the last step: fields ``collision1``, ``collision2`` (ids), ``position`` (3,) m, ``normal`` (3,)
+        into the first, ``depth`` m, ``force`` (3,) N and ``torque`` (3,) N m about its centre of mass on the first
+        collision's link. Force and torque are known only where :meth:`watch_contacts` asked for them."""
+        return self.core.contacts()
+
+    def watch_contacts(self, collision: CollisionHandle, on: bool = True) -> None:
+        """Have the forces of this collision's contacts measured."""
+        collision.core.watched = bool(on)
+
+    def collision(self, collision_id: int) -> Optional[CollisionHandle]:
+        """By the id that contacts and ray hits carry."""
+        return self._collisions.get(int(collision_id))
+
+    def cast_rays(self, origins, directions, max_range: float, ignore: Iterable[CollisionHandle] = ()
+                  ) -> Tuple[np.ndarray, np.ndarray]:
+        """Cast N rays against every collision shape.
+
+        :param origins: (N, 3) m, world.
+        :param directions: (N, 3), world, any length.
+        :param max_range: m.
+        :param ignore: collisions that rays pass through.
+        :returns: ranges (N,) m, ``inf`` where nothing is hit; collision ids (N,) int32, -1 where nothing is hit.
+        """
+        origins = np.ascontiguousarray(origins, dtype=float).reshape(-1, 3)
+        directions = np.ascontiguousarray(directions, dtype=float).reshape(-1, 3)
+        if origins.shape != directions.shape:
+            raise ValueError(f"{len(origins)} ray origins but {len(directions)} directions")
+        return self.core.cast_rays(origins, directions, float(max_range), [c.id for c in ignore])
+
+    # ------------------------------------------------------------------------------------------ <state>
+
+    def _apply_state(self, state: d.WorldState) -> None:
+        """What a saved world says about time, poses and velocities, in the place of the models' own."""
+        self.core.time_ns = round(state.sim_time * 1e9)
+        self.core.iterations = state.iterations
+        for name, pose in state.light_poses:
+            if name in self.lights:
+                self.lights[name] = replace(self.lights[name], pose=pose)
+        for saved in state.models:
+            model = self.models.get(saved.name)
+            if model is None:
+                continue
+            if saved.pose is not None:
+                model.pose = saved.pose
+                model.initial_pose = saved.pose
+            for link_state in saved.links:
+                link = model.links.get(link_state.name)
+                if link is not None:
+                    link.pose = link_state.pose
+                    link.set_twist(link_state.linear, link_state.angular)
+
