@@ -7,12 +7,23 @@ for one at a time these are several times faster.
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from typing import Sequence, Tuple
 
-from ode_sim.description.model import Pose, Quat, Vec3
+Vec3 = Tuple[float, float, float]
+Quat = Tuple[float, float, float, float]
+Mat3 = Tuple[Vec3, Vec3, Vec3]
+
+
+@dataclass(frozen=True)
+class Pose:
+    """Rigid transform X_AB, the pose of frame B in A: ``p`` metres, ``q`` unit quaternion (x, y, z, w)."""
+
+    p: Vec3 = (0.0, 0.0, 0.0)
+    q: Quat = (0.0, 0.0, 0.0, 1.0)
+
 
 IDENTITY = Pose()
-Mat3 = Tuple[Vec3, Vec3, Vec3]
 
 
 # ---------------------------------------------------------------------------------------------- vectors

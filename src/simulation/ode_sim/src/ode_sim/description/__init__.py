@@ -10,10 +10,9 @@
 ``xmlsource``           XML elements that know their line
 ======================  =================================================================
 """
-# math3 needs model, and the readers need math3: model comes first so that either may be imported first
-from ode_sim.description.model import DescriptionError, Problem
 from ode_sim.description.finder import ResourceFinder
 from ode_sim.description.load import load_world, read_light, read_model, read_sdf_model, read_urdf, root_kind
+from ode_sim.description.model import DescriptionError, Problem
 
 __all__ = ["DescriptionError", "Problem", "ResourceFinder", "load_world", "read_light", "read_model", "read_sdf_model",
            "read_urdf", "root_kind"]

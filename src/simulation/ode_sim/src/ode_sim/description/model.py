@@ -1,7 +1,7 @@
 """The one description that every reader (URDF, SDF) produces and every consumer (physics, rendering, sensors) takes.
 
-Conventions: SI units, REP-103 axes. A :class:`Pose` ``X_AB`` gives the pose of frame B measured and expressed in A;
-``p`` is ``p_AB`` in metres, ``q`` the unit quaternion of ``R_AB`` in the order x, y, z, w.
+Conventions: SI units, REP-103 axes. A :class:`~ode_sim.math3.Pose` ``X_AB`` gives the pose of frame B measured and
+expressed in A; ``p`` is ``p_AB`` in metres, ``q`` the unit quaternion of ``R_AB`` in the order x, y, z, w.
 All records are frozen; they remember where they were written (:class:`Source`) so that a message can name file,
 line and element. Defaults are those of sdformat 1.7 and Gazebo Classic's ODE engine.
 """
@@ -11,8 +11,7 @@ import xml.etree.ElementTree as ET
 from dataclasses import dataclass, field
 from typing import Optional, Tuple, Union
 
-Vec3 = Tuple[float, float, float]
-Quat = Tuple[float, float, float, float]
+from ode_sim.math3 import Pose, Quat, Vec3  # noqa: F401  (part of the description)
 
 
 @dataclass(frozen=True)
@@ -44,14 +43,6 @@ class Problem:
 
 class DescriptionError(ValueError):
     """The text cannot be turned into a model or world at all. One line, for a student to read."""
-
-
-@dataclass(frozen=True)
-class Pose:
-    """Rigid transform X_AB: ``p`` metres, ``q`` unit quaternion (x, y, z, w). See :mod:`ode_sim.math3` for operations."""
-
-    p: Vec3 = (0.0, 0.0, 0.0)
-    q: Quat = (0.0, 0.0, 0.0, 1.0)
 
 
 # ---------------------------------------------------------------------------------------------- geometry

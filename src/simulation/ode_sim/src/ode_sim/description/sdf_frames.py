@@ -64,7 +64,7 @@ class _Solver:
                                    f"({' > '.join(path + (name, reference))})")
         if reference in self._entries or reference in self._solved:
             x_rf = math3.compose(self._solve(reference, path + (name,)), x_rf)
-        elif reference != "world":  # what old files call the frame of the model
+        elif relative_to(element) and reference != "world":  # what old files call the frame of the model
             self._reader.warn(element, f"there is no frame '{reference}'; using that of the model")
         self._solved[name] = x_rf
         return x_rf

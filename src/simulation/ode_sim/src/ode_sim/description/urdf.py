@@ -14,7 +14,7 @@ from typing import Dict, List, Optional, Tuple
 from ode_sim import math3
 from ode_sim.description import urdf_extensions as extensions
 from ode_sim.description.model import DescriptionError, Mimic, Model, Pose, Vec3
-from ode_sim.description.xmlsource import Element, child, clone, source_of
+from ode_sim.description.xmlsource import Element, child, source_of
 
 _JOINT_TYPES = ("revolute", "continuous", "prismatic", "fixed", "floating", "planar")
 _LUMP = extensions.LUMP
@@ -243,8 +243,8 @@ class _Conversion:
         for mine, theirs in ((link.visuals, parent.visuals), (link.collisions, parent.collisions)):
             for shape in mine:
                 theirs.append(_Shape(shape.element, shape.name or link.name, math3.compose(x_pl, shape.pose)))
-        for joint in link.child_joints:
-            if joint.child.lumped_into is None:
+        for joint in self.joints.values():  # its own, and those of what was lumped into it before
+            if joint.parent is link and joint.child.lumped_into is None:
                 joint.parent, joint.pose = parent, math3.compose(x_pl, joint.pose)
 
     # ------------------------------------------------------------------ writing

@@ -1,0 +1,459 @@
+"""URDF to a model, rule by rule (sdformat 9's conversion as Gazebo Classic 11 uses it)."""
+import math
+
+import numpy as np
+import pytest
+
+from ode_sim import math3
+from ode_sim.description import DescriptionError, ResourceFinder, read_model, read_urdf
+
+FINDER = ResourceFinder(environment=False, stock="/nowhere", package_path=lambda name: None)
+INERTIA = '<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/>'
+
+
+def link(name, mass=1.0, body=""):
+    inertial = f'<inertial><mass value="{mass}"/>{INERTIA}</inertial>' if mass is not None else ""
+    return f'<link name="{name}">{inertial}{body}</link>'
+
+
+def joint(name, parent, child, kind="fixed", xyz="0 0 0", rpy="0 0 0", body=""):
+    return (f'<joint name="{name}" type="{kind}"><parent link="{parent}"/><child link="{child}"/>'
+            f'<origin xyz="{xyz}" rpy="{rpy}"/>{body}</joint>')
+
+
+def box(tag="collision", name=None, xyz="0 0 0"):
+    named = f' name="{name}"' if name else ""
+    return f'<{tag}{named}><origin xyz="{xyz}"/><geometry><box size="1 2 3"/></geometry></{tag}>'
+
+
+LIMIT = '<limit lower="-1" upper="2" effort="3" velocity="4"/>'
+
+
+def convert(*parts, file=""):
+    return read_urdf('<robot name="r">' + "".join(parts) + "</robot>", finder=FINDER, file=file)
+
+
+def names(items):
+    return [item.name for item in items]
+
+
+def one(items, name):
+    found, = [item for item in items if item.name == name]
+    return found
+
+
+def messages(problems):
+    return "\n".join(str(problem) for problem in problems)
+
+
+# ---------------------------------------------------------------------------------------------- tree and joints
+
+def test_links_and_poses_follow_the_joints():
+    model, problems = convert(
+        link("base"), link("a"), link("b"),
+        joint("ja", "base", "a", "revolute", "1 0 0", "0 0 1.5707963267948966", LIMIT),
+        joint("jb", "a", "b", "prismatic", "0 2 0", body='<axis xyz="0 0 -2"/>' + LIMIT))
+    assert model.name == "r" and names(model.links) == ["base", "a", "b"] and not problems
+    assert one(model.links, "b").pose.p == pytest.approx((-1.0, 0.0, 0.0))
+    ja, jb = model.joints
+    assert (ja.type, ja.parent, ja.child, ja.pose.p) == ("revolute", "base", "a", (0.0, 0.0, 0.0))
+    assert (ja.axes[0].xyz, ja.axes[0].lower, ja.axes[0].upper) == ((1.0, 0.0, 0.0), -1.0, 2.0)
+    assert (ja.axes[0].effort, ja.axes[0].velocity) == (3.0, 4.0)
+    assert jb.type == "prismatic" and jb.axes[0].xyz == (0.0, 0.0, -1.0)
+
+
+def test_children_come_in_the_order_of_joint_names():
+    model, _ = convert(link("base"), link("x"), link("y"),
+                       joint("z_first_in_file", "base", "x", "continuous"), joint("a_last", "base", "y", "continuous"))
+    assert names(model.links) == ["base", "y", "x"] and names(model.joints) == ["a_last", "z_first_in_file"]
+
+
+def test_continuous_has_no_limits_and_keeps_its_urdf_type():
+    model, _ = convert(link("base"), link("a"), joint("j", "base", "a", "continuous"))
+    axis = model.joints[0].axes[0]
+    assert (model.joints[0].type, model.joints[0].urdf_type) == ("revolute", "continuous")
+    assert (axis.lower, axis.upper, axis.effort, axis.velocity) == (-1e16, 1e16, -1.0, -1.0)
+
+
+def test_continuous_takes_effort_and_velocity_of_its_limit():
+    model, _ = convert(link("base"), link("a"), joint("j", "base", "a", "continuous", body=LIMIT))
+    axis = model.joints[0].axes[0]
+    assert (axis.lower, axis.upper, axis.effort, axis.velocity) == (-1e16, 1e16, 3.0, 4.0)
+
+
+def test_limits_the_wrong_way_round_are_switched():
+    model, problems = convert(link("base"), link("a"), joint(
+        "j", "base", "a", "revolute", body='<limit lower="1" upper="-1" effort="0" velocity="0"/>'))
+    assert (model.joints[0].axes[0].lower, model.joints[0].axes[0].upper) == (-1.0, 1.0)
+    assert "switching the two" in messages(problems)
+
+
+def test_dynamics_and_mimic():
+    model, _ = convert(link("base"), link("a"), link("b"),
+                       joint("j", "base", "a", "continuous", body='<dynamics damping="0.5" friction="0.25"/>'),
+                       joint("k", "base", "b", "continuous", body='<mimic joint="j" multiplier="-2" offset="0.1"/>'))
+    assert (model.joints[0].axes[0].damping, model.joints[0].axes[0].friction) == (0.5, 0.25)
+    mimic = model.joints[1].mimic
+    assert (mimic.joint, mimic.multiplier, mimic.offset) == ("j", -2.0, 0.1)
+
+
+@pytest.mark.parametrize("kind", ["floating", "planar"])
+def test_floating_and_planar_leave_the_child_free(kind):
+    model, _ = convert(link("base"), link("a"), joint("j", "base", "a", kind, "1 0 0"))
+    assert names(model.links) == ["base", "a"] and model.joints == ()
+    assert one(model.links, "a").pose.p == (1.0, 0.0, 0.0)
+
+
+def test_robot_origin_is_the_pose_of_the_model():
+    model, _ = convert('<origin xyz="1 2 3" rpy="0 0 1"/>', link("base"))
+    assert model.pose.p == (1.0, 2.0, 3.0) and math3.to_rpy(model.pose) == pytest.approx((0.0, 0.0, 1.0))
+
+
+def test_link_and_joint_of_the_same_name():
+    model, problems = convert(link("base"), link("arm"), link("tip"),
+                              joint("arm", "base", "arm", "continuous", "1 0 0"),
+                              joint("tip", "arm", "tip", "continuous", "0 1 0"))
+    assert one(model.links, "tip").pose.p == (1.0, 1.0, 0.0) and not problems
+    assert one(model.joints, "tip").pose.p == (0.0, 0.0, 0.0)
+
+
+# ---------------------------------------------------------------------------------------------- the world link
+
+def test_world_link_bolts_its_children():
+    model, _ = convert(link("world", None), link("base"), joint("bolt", "world", "base", "fixed", "0 0 1"))
+    assert names(model.links) == ["base"] and model.links[0].pose.p == (0.0, 0.0, 1.0)
+    bolt, = model.joints
+    assert (bolt.type, bolt.parent, bolt.child, bolt.axes) == ("fixed", "world", "base", ())
+
+
+def test_fixed_children_of_a_bolted_link_are_lumped():
+    model, _ = convert(link("world", None), link("base"), link("top"), joint("bolt", "world", "base"),
+                       joint("f", "base", "top"))
+    assert names(model.links) == ["base"] and names(model.joints) == ["bolt"]
+    assert model.links[0].inertial.mass == 2.0
+
+
+# ---------------------------------------------------------------------------------------------- lumping
+
+def test_lumped_mass_is_combined_about_the_common_centre():
+    model, _ = convert(link("base", 1.0), link("tip", 3.0), joint("f", "base", "tip", xyz="4 0 0"))
+    inertial = model.links[0].inertial
+    assert inertial.mass == 4.0 and inertial.pose.p == pytest.approx((3.0, 0.0, 0.0))
+    # two unit tensors, and 1 kg at 3 m, 3 kg at 1 m from the centre
+    assert (inertial.ixx, inertial.iyy, inertial.izz) == pytest.approx((2.0, 14.0, 14.0))
+
+
+def test_lumped_tensor_is_turned():
+    slim = '<inertial><origin xyz="0 0 1" rpy="0 0 0"/><mass value="2"/>' \
+           '<inertia ixx="1" ixy="0" ixz="0" iyy="2" iyz="0" izz="3"/></inertial>'
+    model, _ = convert(link("base", None), f'<link name="tip">{slim}</link>',
+                       joint("f", "base", "tip", rpy="0 1.5707963267948966 0"))
+    inertial = model.links[0].inertial
+    assert inertial.mass == 2.0 and inertial.pose.p == pytest.approx((1.0, 0.0, 0.0))
+    assert (inertial.ixx, inertial.iyy, inertial.izz) == pytest.approx((3.0, 2.0, 1.0))
+    assert (inertial.ixy, inertial.ixz, inertial.iyz) == pytest.approx((0.0, 0.0, 0.0), abs=1e-12)
+
+
+def test_an_unlumped_inertial_keeps_its_own_axes():
+    turned = '<inertial><origin xyz="0 0 1" rpy="0.5 0 0"/><mass value="2"/>' \
+             '<inertia ixx="1" ixy="0" ixz="0" iyy="2" iyz="0" izz="3"/></inertial>'
+    model, _ = convert(f'<link name="base">{turned}</link>')
+    inertial = model.links[0].inertial
+    assert (inertial.ixx, inertial.iyy, inertial.izz) == (1.0, 2.0, 3.0)
+    assert math3.to_rpy(inertial.pose) == pytest.approx((0.5, 0.0, 0.0))
+
+
+def test_lumped_shapes_move_and_take_long_names():
+    model, _ = convert(link("base", body=box() + box() + box("visual")),
+                       link("tip", body=box(xyz="0 0 1") + box("visual")),
+                       joint("f", "base", "tip", xyz="1 0 0", rpy="0 1.5707963267948966 0"))
+    base, = model.links
+    assert names(base.collisions) == ["base_collision", "base_collision_1",
+                                      "base_fixed_joint_lump__tip_collision_2"]
+    assert names(base.visuals) == ["base_visual", "base_fixed_joint_lump__tip_visual_1"]
+    assert base.collisions[2].pose.p == pytest.approx((2.0, 0.0, 0.0))
+
+
+def test_lumping_runs_up_several_joints():
+    model, _ = convert(link("base"), link("mid", None), link("tip", body=box()), link("wheel"),
+                       joint("f1", "base", "mid", xyz="1 0 0"), joint("f2", "mid", "tip", xyz="0 1 0"),
+                       joint("j", "tip", "wheel", "continuous", "0 0 1"))
+    assert names(model.links) == ["base", "wheel"]
+    assert names(model.links[0].collisions) == ["base_fixed_joint_lump__tip_collision"]
+    assert model.links[0].collisions[0].pose.p == (1.0, 1.0, 0.0)
+    assert (model.joints[0].parent, model.joints[0].child) == ("base", "wheel")
+    assert model.links[1].pose.p == (1.0, 1.0, 1.0)
+
+
+def test_a_named_shape_that_does_not_start_with_the_link_name():
+    model, _ = convert(link("base", body=box(name="shell") + box(name="base_lower")),
+                       '<gazebo reference="base"><mu1>0.25</mu1></gazebo>')
+    shell, lower = model.links[0].collisions
+    assert (shell.name, lower.name) == ("base_fixed_joint_lump__shell_collision", "base_lower_collision_1")
+    assert (shell.surface.mu, lower.surface.mu) == (1.0, 0.25)  # as sdformat: the odd name loses its extensions
+
+
+def test_preserve_fixed_joint():
+    model, _ = convert(link("base"), link("tip"), joint("f", "base", "tip", xyz="1 0 0"),
+                       '<gazebo reference="f"><preserveFixedJoint>true</preserveFixedJoint></gazebo>')
+    assert names(model.links) == ["base", "tip"] and model.joints[0].type == "fixed"
+
+
+def test_disable_fixed_joint_lumping_makes_a_locked_hinge():
+    model, _ = convert(link("base"), link("tip"), joint("f", "base", "tip"),
+                       '<gazebo reference="f"><disableFixedJointLumping>true</disableFixedJointLumping></gazebo>')
+    hinge, = model.joints
+    assert (hinge.type, hinge.axes[0].lower, hinge.axes[0].upper, hinge.urdf_type) == ("revolute", 0.0, 0.0, "fixed")
+
+
+def test_preserve_wins_over_disable():
+    model, _ = convert(link("base"), link("tip"), joint("f", "base", "tip"), '<gazebo reference="f">'
+                       '<disableFixedJointLumping>true</disableFixedJointLumping>'
+                       '<preserveFixedJoint>true</preserveFixedJoint></gazebo>')
+    assert model.joints[0].type == "fixed"
+
+
+# ---------------------------------------------------------------------------------------------- mass
+
+def test_massless_root_takes_the_mass_of_a_fixed_child():
+    model, problems = convert(link("base_footprint", None), link("base_link", 5.0),
+                              joint("f", "base_footprint", "base_link", xyz="0 0 0.1"))
+    assert names(model.links) == ["base_footprint"] and not problems
+    assert model.links[0].inertial.mass == 5.0 and model.links[0].inertial.pose.p == (0.0, 0.0, 0.1)
+
+
+@pytest.mark.parametrize("mass", [None, 0, -1])
+def test_a_massless_link_takes_its_sub_tree_with_it(mass):
+    model, problems = convert(link("base"), link("a", mass), link("b"), link("c"),
+                              joint("ja", "base", "a", "continuous"), joint("jb", "a", "b", "continuous"),
+                              joint("jc", "b", "c"))
+    assert names(model.links) == ["base"] and model.joints == ()
+    text = messages(problems)
+    assert "link 'a' has no mass" in text and "b, c" in text and "joint 'ja'" in text and "<inertial>" in text
+
+
+def test_a_massless_link_behind_a_fixed_joint_is_fine():
+    model, problems = convert(link("base"), link("mount", None, box("visual")), link("wheel"),
+                              joint("f", "base", "mount", xyz="0 1 0"), joint("j", "mount", "wheel", "continuous"))
+    assert names(model.links) == ["base", "wheel"] and not problems
+    assert one(model.links, "wheel").pose.p == (0.0, 1.0, 0.0)
+
+
+def test_a_robot_without_any_mass_is_refused():
+    with pytest.raises(DescriptionError, match="no link with a mass"):
+        convert(link("base", None, box()))
+
+
+@pytest.mark.parametrize("mass", ["nan", "inf", "heavy", ""])
+def test_a_mass_that_is_no_number_is_refused(mass):
+    with pytest.raises(DescriptionError, match="mass"):
+        convert(link("base", mass))
+
+
+def test_singular_and_huge_inertias_are_kept():
+    tensor = '<inertia ixx="200" ixy="200" ixz="200" iyy="200" iyz="200" izz="1.5e8"/>'
+    model, problems = convert(f'<link name="base"><inertial><mass value="0.1"/>{tensor}</inertial></link>')
+    i = model.links[0].inertial
+    assert (i.ixx, i.ixy, i.ixz, i.iyy, i.iyz, i.izz) == (200, 200, 200, 200, 200, 1.5e8) and not problems
+
+
+# ---------------------------------------------------------------------------------------------- extensions
+
+def test_link_extensions():
+    model, problems = convert(link("base", body=box() + box("visual")), """
+        <gazebo reference="base">
+          <material>Gazebo/Orange</material> <mu1>0.1</mu1> <mu2 value="0.2"/> <fdir1>1 0 0</fdir1>
+          <kp>1000</kp> <kd>2</kd> <maxVel>0.5</maxVel> <minDepth>0.003</minDepth> <maxContacts>4</maxContacts>
+          <laserRetro>7</laserRetro> <selfCollide>true</selfCollide> <turnGravityOff>true</turnGravityOff>
+          <dampingFactor>0.01</dampingFactor> <stopKp>3</stopKp>
+        </gazebo>""")
+    base, = model.links
+    surface = base.collisions[0].surface
+    assert (surface.mu, surface.mu2, surface.fdir1) == (0.1, 0.2, (1.0, 0.0, 0.0))
+    assert (surface.kp, surface.kd, surface.max_vel, surface.min_depth) == (1000.0, 2.0, 0.5, 0.003)
+    assert (base.collisions[0].max_contacts, base.collisions[0].laser_retro) == (4, 7.0)
+    assert (base.self_collide, base.gravity, base.linear_decay, base.angular_decay) == (True, False, 0.01, 0.01)
+    assert base.visuals[0].material.diffuse == (1.0, 0.5088, 0.0468, 1.0)
+    assert not problems
+
+
+@pytest.mark.parametrize("text, gravity", [("false", True), ("0", True), ("no", True), ("true", False), ("on", False)])
+def test_turn_gravity_off(text, gravity):
+    model, _ = convert(link("base"), f'<gazebo reference="base"><turnGravityOff>{text}</turnGravityOff></gazebo>')
+    assert model.links[0].gravity is gravity
+
+
+def test_extensions_stay_with_the_shapes_of_their_own_link():
+    model, _ = convert(link("base", body=box() + box("visual")), link("tip", body=box() + box("visual")),
+                       joint("f", "base", "tip"),
+                       '<gazebo reference="base"><mu1>0.1</mu1><material>Gazebo/Red</material></gazebo>'
+                       '<gazebo reference="tip"><mu1>0.9</mu1><material>Gazebo/Blue</material></gazebo>')
+    base, = model.links
+    assert [c.surface.mu for c in base.collisions] == [0.1, 0.9]
+    assert [v.material.name for v in base.visuals] == ["Gazebo/Red", "Gazebo/Blue"]
+
+
+def test_the_later_of_two_values_counts():
+    model, problems = convert(link("base", body=box()), '<gazebo reference="base"><mu1>0.1</mu1></gazebo>'
+                                                        '<gazebo reference="base"><mu1>0.2</mu1></gazebo>')
+    assert model.links[0].collisions[0].surface.mu == 0.2 and "given twice" in messages(problems)
+
+
+def test_blocks_inside_visual_and_collision():
+    model, _ = convert(link("base", body=box() + box("visual")), """
+        <gazebo reference="base">
+          <visual><material><diffuse>0.1 0.2 0.3 1</diffuse></material><transparency>0.5</transparency></visual>
+          <collision><surface><friction><ode><mu>0.7</mu></ode></friction></surface></collision>
+        </gazebo>""")
+    base, = model.links
+    assert base.visuals[0].material.diffuse == (0.1, 0.2, 0.3, 1.0) and base.visuals[0].transparency == 0.5
+    assert base.collisions[0].surface.mu == 0.7
+
+
+def test_urdf_colours_are_dropped_and_white_is_the_default():
+    coloured = '<visual><geometry><sphere radius="1"/></geometry><material name="m"><color rgba="1 0 0 1"/></material>' \
+               '</visual>'
+    model, _ = convert(link("base", body=coloured), '<material name="m"><color rgba="1 0 0 1"/></material>')
+    assert model.links[0].visuals[0].material.name == "Gazebo/White"
+
+
+def test_joint_extensions():
+    model, _ = convert(link("base"), link("a"), joint("j", "base", "a", "continuous"), """
+        <gazebo reference="j"><stopCfm>0.1</stopCfm><stopErp>0.3</stopErp><provideFeedback>1</provideFeedback>
+        <implicitSpringDamper>true</implicitSpringDamper><springReference>0.5</springReference>
+        <springStiffness>9</springStiffness><fudgeFactor>0.4</fudgeFactor></gazebo>""")
+    j, = model.joints
+    assert (j.limit_cfm, j.limit_erp, j.provide_feedback, j.implicit_spring_damper) == (0.1, 0.3, True, True)
+    assert (j.axes[0].spring_reference, j.axes[0].spring_stiffness, j.fudge_factor) == (0.5, 9.0, 0.4)
+
+
+def test_wrong_reference_is_a_warning():
+    model, problems = convert(link("base"), '<gazebo reference="bose"><mu1>1</mu1></gazebo>')
+    assert "'bose'" in messages(problems) and model.links
+
+
+def test_static_robot():
+    assert convert(link("base"), "<gazebo><static>true</static></gazebo>")[0].static is True
+
+
+def test_sensor_of_a_lumped_link_moves_with_its_pose():
+    model, _ = convert(link("base"), link("cam", None), joint("f", "base", "cam", xyz="1 0 0", rpy="0 0 1.5707963267948966"),
+                       """<gazebo reference="cam"><sensor type="camera" name="eye"><pose>1 0 0 0 0.1 0</pose>
+                       <update_rate>30</update_rate><always_on>true</always_on>
+                       <plugin name="ctl" filename="libgazebo_ros_camera.so"><frameName>cam</frameName></plugin>
+                       </sensor></gazebo>""")
+    sensor, = model.links[0].sensors
+    assert (sensor.name, sensor.type, sensor.update_rate, sensor.always_on) == ("eye", "camera", 30.0, True)
+    assert sensor.pose.p == pytest.approx((1.0, 1.0, 0.0))
+    assert math3.to_rpy(sensor.pose) == pytest.approx((0.0, 0.1, math.pi / 2))
+    assert sensor.plugins[0].element.find("frameName").text == "cam"  # inside a sensor: left alone
+
+
+def test_model_plugin_names_follow_a_lumped_link():
+    model, _ = convert(link("base"), link("imu", None), joint("f", "base", "imu", xyz="1 0 0"),
+                       '<gazebo><plugin name="p" filename="libx.so"><bodyName>imu</bodyName>'
+                       "<xyzOffset>0 2 0</xyzOffset></plugin></gazebo>")
+    element = model.plugins[0].element
+    assert element.find("bodyName").text == "base"
+    assert [float(v) for v in element.find("xyzOffset").text.split()] == [1.0, 2.0, 0.0]
+    assert [float(v) for v in element.find("rpyOffset").text.split()] == [0.0, 0.0, 0.0]
+
+
+def test_contact_sensor_of_a_lumped_link_names_what_sdformat_makes_of_it():
+    model, _ = convert(link("base"), link("bumper", None, box()), joint("f", "base", "bumper"),
+                       '<gazebo reference="bumper"><sensor type="contact" name="c"><contact>'
+                       "<collision>bumper_collision</collision></contact></sensor></gazebo>")
+    assert model.links[0].sensors[0].element.find("contact/collision").text == "base_collision_bumper"
+
+
+# ---------------------------------------------------------------------------------------------- untidy originals
+
+def test_plugin_names_with_blanks_and_a_body_of_dots():
+    model, _ = convert(link("base"), '<gazebo><plugin name=" ctl " filename=" libgazebo_ros_control.so\n ">'
+                                     " ... <robotNamespace>/arm</robotNamespace> ...</plugin></gazebo>")
+    plugin, = model.plugins
+    assert (plugin.name, plugin.filename) == ("ctl", "libgazebo_ros_control.so")
+    assert plugin.element.find("robotNamespace").text == "/arm"
+
+
+def test_unknown_elements_and_stray_text_are_ignored():
+    model, problems = convert(
+        '<arg name="hardware_interface" default="x"/>', "some words",
+        '<transmission name="t"><robotNamespace>/arm</robotNamespace></transmission>',
+        '<!-- a comment -- with dashes -->',
+        link("base", body='<origin xyz="1 1 1"/>'), link("tip"),
+        joint("f", "base", "tip", body='<axis xyz="0 0 1"/>' + LIMIT))
+    assert names(model.links) == ["base"] and not problems
+
+
+def test_inertias_of_100_million_behind_fixed_joints_into_massless_revolute_children():
+    """The homework arm: empty links under revolute joints whose fixed children bring all the mass."""
+    big = '<inertial><mass value="0.1"/><inertia ixx="1.5e8" ixy="0" ixz="0" iyy="1e8" iyz="0" izz="1e8"/></inertial>'
+    model, problems = convert(link("base_link"), '<link name="dyn2_r"/>', f'<link name="f4">{big}</link>',
+                              f'<link name="dyn3">{big}</link>',
+                              joint("j0", "base_link", "dyn2_r", "revolute", body=LIMIT),
+                              joint("a", "dyn2_r", "f4"), joint("b", "f4", "dyn3", xyz="0 0 0.1"))
+    assert names(model.links) == ["base_link", "dyn2_r"] and not problems
+    assert model.links[1].inertial.mass == pytest.approx(0.2) and model.links[1].inertial.ixx > 3e8 - 1
+
+
+def test_xml_declaration_behind_a_blank_line():
+    assert read_model('\n  <?xml version="1.0"?>\n<robot name="r">' + link("base") + "</robot>", finder=FINDER)[0]
+
+
+def test_a_name_may_be_given_from_outside():
+    assert read_model('<robot name="r">' + link("base") + "</robot>", name="left", finder=FINDER)[0].name == "left"
+
+
+def test_missing_mesh_is_one_warning_and_the_link_stays():
+    mesh = '<{0}><geometry><mesh filename="package://gone/m.stl" scale="0.001 0.001 0.001"/></geometry></{0}>'
+    model, problems = convert(link("base", body=mesh.format("visual") + mesh.format("collision")))
+    assert len(problems) == 1 and "package://gone/m.stl" in messages(problems)
+    assert "no ROS package 'gone'" in messages(problems)
+    geometry = model.links[0].visuals[0].geometry
+    assert (geometry.path, geometry.uri, geometry.scale) == ("", "package://gone/m.stl", (0.001, 0.001, 0.001))
+
+
+# ---------------------------------------------------------------------------------------------- refusals
+
+@pytest.mark.parametrize("parts, message", [
+    ([link("a"), link("b")], "several root links"),
+    ([link("a"), link("b"), joint("j", "a", "b"), joint("k", "b", "a")], "circle|child of joint"),
+    ([link("a"), link("b"), joint("j", "a", "c")], "'c' is not in the robot"),
+    ([link("a"), link("a")], "named 'a' is there already"),
+    ([link("a"), link("b"), link("c"), joint("j", "a", "b"), joint("j", "a", "c")], "named 'j' is there already"),
+    ([link("a"), link("b"), link("c"), joint("j", "a", "c"), joint("k", "b", "c")], "must be a tree"),
+    ([link("a"), link("b"), joint("j", "a", "b", "revolute")], "needs <limit"),
+    ([link("a"), link("b"), joint("j", "a", "b", "hinge")], "unknown type 'hinge'"),
+    ([link("a"), link("b"), joint("j", "a", "b", "prismatic", body='<limit lower="0" upper="1"/>')], "'effort' is missing"),
+    ([link("a", body='<visual><geometry><box size="1 2"/></geometry></visual>')], "size='1 2' is not 3 numbers"),
+    ([link("a", body="<visual/>")], "geometry"),
+    ([], "has no <link>"),
+])
+def test_what_urdfdom_refuses_is_refused_in_one_line(parts, message):
+    with pytest.raises(DescriptionError, match=message) as caught:
+        convert(*parts)
+    assert "\n" not in str(caught.value)
+
+
+def test_errors_name_file_and_line():
+    text = '<robot name="r">\n  <link name="a"/>\n  <link\n name="a"/>\n</robot>'
+    with pytest.raises(DescriptionError, match=r"arm\.urdf:3"):
+        read_urdf(text, finder=FINDER, file="arm.urdf")
+
+
+def test_malformed_xml_names_the_line_and_quotes_it():
+    with pytest.raises(DescriptionError, match=r"arm\.urdf:3: not well-formed XML, mismatched tag, at: </lonk>"):
+        read_urdf('<robot name="r">\n<link name="a">\n</lonk></robot>', finder=FINDER, file="arm.urdf")
+
+
+def test_two_readings_are_equal():
+    parts = (link("base", body=box() + box("visual")), link("a"), link("t"),
+             joint("j", "base", "a", "continuous", "1 2 3", "0.1 0.2 0.3"), joint("f", "a", "t", rpy="1 1 1"))
+    assert convert(*parts)[0] == convert(*parts)[0]
+
+
+def test_poses_survive_the_conversion_exactly():
+    model, _ = convert(link("base"), link("a"), joint("j", "base", "a", "continuous", rpy="-1.57 1.5707963 0.7"))
+    expected = math3.quat_from_rpy(-1.57, 1.5707963, 0.7)
+    assert np.allclose(model.links[1].pose.q, expected, rtol=0.0, atol=1e-15)

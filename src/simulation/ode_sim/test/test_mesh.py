@@ -1,0 +1,178 @@
+"""Mesh files written by the test, read back."""
+import struct
+
+import numpy as np
+import pytest
+
+from ode_sim import mesh
+from ode_sim.description.model import DescriptionError, Mesh
+
+CUBE = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], dtype=float)
+FACES = np.array([[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1],
+                  [2, 3, 7], [2, 7, 6], [0, 2, 6], [0, 6, 4], [1, 5, 7], [1, 7, 3]])
+
+
+def binary_stl(path, header=b"made by a test"):
+    records = b"".join(struct.pack("<12fH", 0, 0, 0, *CUBE[face].ravel(), 0) for face in FACES)
+    path.write_bytes(header.ljust(80, b" ") + struct.pack("<I", len(FACES)) + records)
+    return str(path)
+
+
+def ascii_stl(path):
+    lines = ["solid cube"]
+    for face in FACES:
+        lines += ["facet normal 0 0 0", "outer loop"]
+        lines += ["vertex {} {} {}".format(*CUBE[v]) for v in face] + ["endloop", "endfacet"]
+    path.write_text("\n".join(lines + ["endsolid cube"]))
+    return str(path)
+
+
+def obj(path, material=""):
+    lines = [material] + ["v {} {} {}".format(*v) for v in CUBE]
+    path.write_text("\n".join(lines + ["f {} {} {}".format(*(face + 1)) for face in FACES]))
+    return str(path)
+
+
+DAE = """<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+  <asset><created>2020-01-01</created><modified>2020-01-01</modified><unit name="cm" meter="0.01"/>{up}</asset>
+  <library_images><image id="img"><init_from>paint.png</init_from></image></library_images>
+  <library_effects>
+    <effect id="e-red"><profile_COMMON><technique sid="t"><lambert>
+      <diffuse><color>1 0 0 1</color></diffuse></lambert></technique></profile_COMMON></effect>
+    <effect id="e-paint"><profile_COMMON>
+      <newparam sid="surf"><surface type="2D"><init_from>img</init_from></surface></newparam>
+      <newparam sid="samp"><sampler2D><source>surf</source></sampler2D></newparam>
+      <technique sid="t"><lambert><diffuse><texture texture="samp" texcoord="UV"/></diffuse></lambert></technique>
+    </profile_COMMON></effect>
+  </library_effects>
+  <library_materials>
+    <material id="red" name="red"><instance_effect url="#e-red"/></material>
+    <material id="paint" name="paint"><instance_effect url="#e-paint"/></material>
+  </library_materials>
+  <library_geometries>
+    <geometry id="tri" name="tri"><mesh>
+      <source id="p"><float_array id="pa" count="12">0 0 0 100 0 0 0 100 0 0 0 100</float_array>
+        <technique_common><accessor source="#pa" count="4" stride="3"><param name="X" type="float"/>
+        <param name="Y" type="float"/><param name="Z" type="float"/></accessor></technique_common></source>
+      <source id="uv"><float_array id="uva" count="6">0 0 1 0 0 1</float_array>
+        <technique_common><accessor source="#uva" count="3" stride="2"><param name="S" type="float"/>
+        <param name="T" type="float"/></accessor></technique_common></source>
+      <vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+      <triangles material="a" count="1"><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles>
+      <triangles material="b" count="1"><input semantic="VERTEX" source="#v" offset="0"/>
+        <input semantic="TEXCOORD" source="#uv" offset="1" set="0"/><p>0 0 1 1 3 2</p></triangles>
+    </mesh></geometry>
+  </library_geometries>
+  <library_visual_scenes><visual_scene id="s"><node id="n"><translate>0 0 10</translate>
+    <instance_geometry url="#tri"><bind_material><technique_common>
+      <instance_material symbol="a" target="#red"/><instance_material symbol="b" target="#paint"/>
+    </technique_common></bind_material></instance_geometry></node></visual_scene></library_visual_scenes>
+  <scene><instance_visual_scene url="#s"/></scene>
+</COLLADA>
+"""
+
+
+@pytest.mark.parametrize("write, name", [(binary_stl, "c.stl"), (ascii_stl, "c.STL"), (obj, "c.obj")])
+def test_cube_is_welded_and_closed(tmp_path, write, name):
+    surface = mesh.load_surface(write(tmp_path / name))
+    assert surface.vertices.shape == (8, 3) and surface.triangles.shape == (12, 3)
+    properties = mesh.mass_properties(surface)
+    assert properties.volume == pytest.approx(1.0)
+    assert properties.centroid == pytest.approx([0.5, 0.5, 0.5])
+    assert properties.inertia == pytest.approx(np.eye(3) / 6.0)
+
+
+def test_binary_stl_whose_header_says_solid(tmp_path):
+    assert len(mesh.load_surface(binary_stl(tmp_path / "c.stl", b"solid exported")).triangles) == 12
+
+
+def test_scale_and_mirror_keep_the_outside_outside(tmp_path):
+    file = binary_stl(tmp_path / "c.stl")
+    surface = mesh.load(Mesh(file, scale=(-2.0, 3.0, 0.5)))
+    assert surface.vertices.min(axis=0) == pytest.approx([-2.0, 0.0, 0.0])
+    a, b, c = (surface.vertices[surface.triangles[:, k]] for k in range(3))
+    assert np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6.0 == pytest.approx(3.0)  # signed: faces look outwards
+
+
+def test_sharp_edges_are_drawn_sharp(tmp_path):
+    part, = mesh.load_visual(binary_stl(tmp_path / "c.stl"))
+    assert len(part.vertices) == 24  # each corner once for each of its three faces
+    assert np.abs(part.normals).max(axis=1) == pytest.approx(np.ones(24))
+
+
+def test_smooth_surfaces_are_drawn_smooth(tmp_path):
+    import trimesh
+    ball = trimesh.creation.icosphere(subdivisions=3)
+    file = tmp_path / "ball.stl"
+    file.write_bytes(trimesh.exchange.stl.export_stl(ball))
+    part, = mesh.load_visual(str(file))
+    assert len(part.vertices) == len(ball.vertices)
+    assert np.einsum("ij,ij->i", part.normals, part.vertices).min() > 0.999
+
+
+def test_collada_unit_material_texture_and_node_pose(tmp_path):
+    (tmp_path / "paint.png").write_bytes(b"only its name matters")
+    file = tmp_path / "t.dae"
+    file.write_text(DAE.format(up="<up_axis>Z_UP</up_axis>"))
+    red, painted = mesh.load_visual(str(file), scale=(2.0, 2.0, 2.0))
+    assert red.material.diffuse == (1.0, 0.0, 0.0, 1.0) and red.uv is None
+    assert painted.material.texture == str(tmp_path / "paint.png")
+    assert painted.uv[painted.triangles[0]] == pytest.approx(np.array([[0, 0], [1, 0], [0, 1]]))
+    assert red.vertices[red.triangles[0]] == pytest.approx(np.array([[0, 0, 0.2], [2, 0, 0.2], [0, 2, 0.2]]))
+
+
+def test_collada_up_axis_is_ignored_as_in_gazebo_classic(tmp_path):
+    surfaces = []
+    for axis in ("Y_UP", "Z_UP"):
+        file = tmp_path / f"{axis}.dae"
+        file.write_text(DAE.format(up=f"<up_axis>{axis}</up_axis>"))
+        surfaces.append(mesh.load_surface(str(file)).vertices)
+    assert np.array_equal(*surfaces)
+
+
+def test_obj_materials_polygons_and_negative_indices(tmp_path):
+    (tmp_path / "m.mtl").write_text("newmtl blue sky\nKd 0 0 1\nd 0.5\n")
+    file = tmp_path / "q.obj"
+    file.write_text("mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nusemtl blue sky\nf -4 -3 -2 -1\n")
+    part, = mesh.load_visual(str(file))
+    assert part.material.diffuse == (0.0, 0.0, 1.0, 0.5) and len(part.triangles) == 2
+    assert part.normals == pytest.approx(np.tile([0.0, 0.0, 1.0], (4, 1)))
+
+
+def test_submesh_by_name_centred(tmp_path):
+    file = tmp_path / "two.obj"
+    file.write_text("o low\nv 0 0 0\nv 2 0 0\nv 0 2 0\nf 1 2 3\no high\nv 0 0 5\nv 2 0 5\nv 0 2 5\nf 4 5 6\n")
+    assert mesh.load_surface(str(file), submesh="high").vertices[:, 2].min() == 5.0
+    centred = mesh.load_surface(str(file), submesh="high", center=True).vertices
+    assert centred.min(axis=0) == pytest.approx([-1.0, -1.0, 0.0])
+    with pytest.raises(DescriptionError, match="no submesh 'middle', only high, low"):
+        mesh.load_surface(str(file), submesh="middle")
+
+
+def test_read_once_until_the_file_changes(tmp_path):
+    file = tmp_path / "c.stl"
+    first = mesh.load_surface(binary_stl(file))
+    assert mesh.load_surface(str(file)) is first
+    file.write_bytes(file.read_bytes()[:80] + struct.pack("<I", 1) + file.read_bytes()[84:134])
+    assert len(mesh.load_surface(str(file)).triangles) == 1
+    with pytest.raises(ValueError):
+        first.vertices[0, 0] = 9.0  # shared between callers
+
+
+@pytest.mark.parametrize("name, content", [
+    ("a.stl", b""), ("b.stl", b"\0" * 84), ("c.stl", b"solid x\nvertex 1 2\n"), ("d.stl", b"random words"),
+    ("e.dae", b"<COLLADA/>"), ("f.dae", b"nothing"), ("g.obj", b"f 1 2 3\n"), ("h.obj", b"v a b c\n"),
+    ("i.step", b"ISO-10303-21;"), ("j.stl", b"x" * 80 + struct.pack("<I", 5) + b"cut off"),
+    ("k.obj", b"v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")])
+def test_a_broken_file_is_one_line_that_names_it(tmp_path, name, content):
+    file = tmp_path / name
+    file.write_bytes(content)
+    with pytest.raises(DescriptionError) as caught:
+        mesh.load_surface(str(file))
+    assert str(file) in str(caught.value) and "\n" not in str(caught.value)
+
+
+def test_a_missing_file_is_named():
+    with pytest.raises(DescriptionError, match="nowhere/a.stl"):
+        mesh.load(Mesh(path="", uri="nowhere/a.stl"))
