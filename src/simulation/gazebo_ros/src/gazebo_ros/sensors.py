@@ -137,10 +137,11 @@ class Sensor:
         """
         if not self._consumers or not self.update_rate.due(now_ns):
             return
+        # taken whether anybody wants it or not: the times of measurements must not depend on when somebody subscribed
+        self.update_rate.take(now_ns)
         wanting = [consumer for consumer in self._consumers if consumer.wanted()]
         if not wanting:
             return
-        self.update_rate.take(now_ns)
         self.measurement_ns = now_ns
         self.update_count += 1
         for consumer in wanting:
