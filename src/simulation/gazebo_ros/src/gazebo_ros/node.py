@@ -123,9 +123,7 @@ def make_server(options) -> Server:
     rospack = rospkg.RosPack()
     finder = make_finder(rospack)
     description, problems = _load_world(options.world, finder)
-    world = ode_sim.World(description, seed=options.seed or 0)
-    for problem in list(problems) + list(world.problems):
-        (rospy.logerr if problem.severity == "error" else rospy.logwarn)("%s", problem)
+    world = ode_sim.World(description, seed=options.seed or 0, finder=finder, problems=problems)
     host = PluginHost(rospack, BUILTIN)
     for library in options.server_plugin:
         if library_key(library) not in map(library_key, BUILTIN):
@@ -133,10 +131,10 @@ def make_server(options) -> Server:
     sim_time = bool(rospy.get_param("/use_sim_time", True))
     server = Server(world, description, finder, host, paused=options.pause, lockstep=options.lockstep,
                     iterations=options.iters, ros_time=sim_time)
+    server.report_problems(f"world {description.name}")
     ClockPublisher(server, int(rospy.get_param("~pub_clock_frequency", 0)))
     if rospy.get_param("~enable_ros_network", True):
         _offer_api(server)
-    rospy.loginfo("Finished loading Gazebo ROS API Plugin.")
     return server
 
 
@@ -149,7 +147,11 @@ def _offer_api(server: Server) -> None:
     LightServices(server)
     SpawnServices(server)
     SteppingServices(server)
-    PhysicsServices(server).start_reconfigure()
+    physics = PhysicsServices(server)
+    rospy.loginfo("Finished loading Gazebo ROS API Plugin.")
+    physics.start_reconfigure()
+    ready = rospy.Publisher("~ready", Bool, queue_size=1, latch=True)
+    server.started.connect(lambda: ready.publish(True))
 
 
 class _PhysicsThread(threading.Thread):
@@ -157,11 +159,10 @@ class _PhysicsThread(threading.Thread):
         super().__init__(name="physics", daemon=True)
         self.failed = False
         self._server = server
-        self._ready = rospy.Publisher("~ready", Bool, queue_size=1, latch=True)
 
     def run(self) -> None:
         try:
-            self._server.run(lambda: self._ready.publish(True))
+            self._server.run()
         except Exception as error:  # the end of the simulation, but the user must read why
             self.failed = True
             rospy.logfatal("the simulation broke down: %s: %s", type(error).__name__, error)

@@ -4,7 +4,7 @@ from __future__ import annotations
 import queue
 import threading
 from concurrent.futures import Future
-from typing import Any, Callable, Dict, List, Optional, Tuple
+from typing import Any, Callable, Dict, Iterable, List, Optional, Tuple
 
 import rospy
 from ode_sim.description import model as d
@@ -110,6 +110,7 @@ class Server:
         self.lockstep = lockstep
         self.throttle = Throttle(world.physics.real_time_update_rate)
         self.paused = paused
+        self.started = CallbackList()  # called once, when all plugins are loaded, before the first step
         self.stepped = CallbackList()  # called when a run of steps ends: pause, end of a step request
         self._host = host
         self._ros_time = ros_time
@@ -117,6 +118,7 @@ class Server:
         self._requested_steps = 0
         self._request: Optional[Future] = None
         self._stopping = False
+        self._ended = False
         self._calls: queue.SimpleQueue = queue.SimpleQueue()
         self._thread: Optional[int] = None
         self._before = CallbackList()
@@ -153,7 +155,7 @@ class Server:
             return f()
         future: Future = Future()
         self._calls.put((f, future))
-        if self._stopping:  # the loop may have emptied the queue for the last time
+        if self._ended:  # the loop has emptied the queue for the last time
             self._refuse_calls()
         return future.result()
 
@@ -169,20 +171,16 @@ class Server:
 
     # ------------------------------------------------------------------------------------------ the loop
 
-    def run(self, ready: Callable[[], None] = lambda: None) -> None:
-        """Load the plugins of the world file, then step until :meth:`stop` or until ``iterations`` are done.
-
-        :param ready: called once, before the first step
-        """
+    def run(self) -> None:
+        """Load the plugins of the world file, then step until :meth:`stop` or until ``iterations`` are done."""
         self._thread = threading.get_ident()
         try:
             self._load_world_plugins()
-            ready()
+            self.started.call()
             self.throttle.restart()
             while not self._stopping:
                 self._turn()
         finally:
-            self._stopping = True
             self._shutdown()
 
     def stop(self) -> None:
@@ -215,11 +213,16 @@ class Server:
                 self._step()
 
     def _step(self) -> None:
-        self.world.step(1)
+        world = self.world
+        world.step(1)
+        if world.messages:
+            for line in world.messages:
+                rospy.logwarn("%s", line)
+            world.messages.clear()
         if self._iterations_left is not None:
             self._iterations_left -= 1
             if not self._iterations_left:
-                rospy.loginfo("%d iterations done: the simulator ends", self.world.iterations)
+                rospy.loginfo("%d iterations done: the simulator ends", world.iterations)
                 self._stopping = True
 
     def _begin_step(self, world) -> None:
@@ -232,10 +235,6 @@ class Server:
             for sensor in self._sensors:
                 sensor.update(now_ns)
         self._after.call()
-        if world.messages:
-            for line in world.messages:
-                rospy.logwarn("%s", line)
-            world.messages.clear()
 
     def _set_now(self) -> None:
         self._now = rospy.Time(*divmod(self.world.time_ns, _NS))
@@ -323,8 +322,14 @@ class Server:
         :returns: ``ode_sim.ModelHandle``
         """
         handle = self.world.spawn(model)
+        self.report_problems(f"model {model.name}")
         self._load_model_plugins(handle, resolved)
         return handle
+
+    def report_problems(self, what: str) -> None:
+        """Log what the world noticed while it was built. Physics thread."""
+        log_problems(self.world.problems, what)
+        self.world.problems.clear()
 
     def remove(self, name: str) -> None:
         """Shut a model's plugins down and take it out of the world. Physics thread."""
@@ -389,6 +394,7 @@ class Server:
         instance.attempt(instance.plugin.shutdown)
 
     def _shutdown(self) -> None:
+        self._ended = True
         if self._request is not None:
             self._request.set_exception(Stopped("the simulator is shutting down"))
         self._refuse_calls()
@@ -424,6 +430,13 @@ class ServerView:
     def after_step(self, f: Callable[[], None]) -> Connection:
         """See :meth:`Server.after_step`."""
         return self._server._after.connect(f, self._owner)
+
+
+def log_problems(problems: Iterable[d.Problem], what: str) -> None:
+    """One line each."""
+    for problem in problems:
+        log = rospy.logerr if problem.severity == "error" else rospy.logwarn
+        log("%s: %s", what, problem)
 
 
 def _nothing() -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 from typing import Any, Tuple
 
 from geometry_msgs.msg import Pose as PoseMsg, Quaternion, Point, Twist, Vector3
-from ode_sim import math3
+from ode_sim import CollisionHandle, ModelHandle, math3
 from ode_sim.description.model import Pose, Vec3
 
 from gazebo_ros.api.handlers import Refused, finite
@@ -40,12 +40,15 @@ def twist_msg(linear: Vec3, angular: Vec3) -> Twist:
 
 
 def entity_twist(entity: Any) -> Tuple[Vec3, Vec3]:
-    """(linear, angular) of a model (its first link's) or link handle, at its origin, world axes."""
-    if hasattr(entity, "links"):
-        linear, angular = entity.twist()
+    """(linear, angular), world axes, of a link handle at its origin; of a model, its first link's; of a collision, its
+    link's."""
+    if isinstance(entity, ModelHandle):
+        link = entity.canonical_link
     else:
-        linear, angular = entity.linear_velocity(), entity.angular_velocity()
-    return tuple(linear), tuple(angular)
+        link = entity.link if isinstance(entity, CollisionHandle) else entity
+    if link is None:
+        return (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
+    return link.linear_velocity(), link.angular_velocity()
 
 
 def frame_entity(world: Any, name: str, what: str) -> Any:

@@ -17,8 +17,8 @@ def advertise(server: Server, name: str, service: type, f: Callable[[Any, Any], 
               in_physics_thread: bool = True) -> rospy.Service:
     """Offer ``~name``. ``f(request, response)`` fills the response and returns the status line.
 
-    A :class:`Refused` becomes ``success=false``; so does what nobody foresaw, with an ERROR line. Responses without a
-    ``success`` field carry no answer at all, so a refusal is logged instead.
+    A :class:`Refused`, or the ``ValueError`` by which ode_sim refuses a value, becomes ``success=false``; so does what
+    nobody foresaw, with an ERROR line. Responses without a ``success`` field cannot say it, so it is logged instead.
     """
     prefix = "".join(word.capitalize() for word in name.split("_"))
 
@@ -27,7 +27,7 @@ def advertise(server: Server, name: str, service: type, f: Callable[[Any, Any], 
         try:
             status = server.call(lambda: f(request, response)) if in_physics_thread else f(request, response)
             success = True
-        except (Refused, Stopped) as error:
+        except (Refused, Stopped, ValueError) as error:
             status, success = f"{prefix}: {error}", False
         except Exception as error:  # the answer must reach the client, and the server must go on
             status, success = f"{prefix}: internal error, {type(error).__name__}: {error}", False

@@ -6,10 +6,10 @@ from gazebo_msgs.srv import GetJointProperties, SetJointProperties
 from gazebo_ros.api.handlers import Refused, advertise, finite
 from gazebo_ros.server import Server
 
-#: ODEJointProperties field -> ode_sim parameter, in the order Gazebo applies them
-_PARAMETERS = (("damping", "damping"), ("hiStop", "hi_stop"), ("loStop", "lo_stop"), ("erp", "erp"), ("cfm", "cfm"),
-               ("stop_erp", "stop_erp"), ("stop_cfm", "stop_cfm"), ("fudge_factor", "fudge_factor"), ("fmax", "fmax"),
-               ("vel", "vel"))
+#: fields of ODEJointProperties that act on a joint here
+_FIELDS = ("damping", "hiStop", "loStop", "stop_erp", "stop_cfm", "fmax", "vel")
+#: what ODE's joints here have no counterpart of
+_WITHOUT_EFFECT = ("erp", "cfm", "fudge_factor")
 
 
 class JointServices:
@@ -34,12 +34,28 @@ class JointServices:
     def _set(self, request, response) -> str:
         joint = self._joint(request.joint_name)
         config = request.ode_joint_config
-        for field, _ in _PARAMETERS:
-            finite(field, *getattr(config, field))
-            if len(getattr(config, field)) > joint.axis_count:
-                raise Refused(f"{field} has {len(getattr(config, field))} elements, but joint [{joint.name}] has "
-                              f"{joint.axis_count} axes")
-        for field, parameter in _PARAMETERS:
+        for field in _FIELDS + _WITHOUT_EFFECT:
+            values = getattr(config, field)
+            finite(field, *values)
+            if len(values) > joint.axis_count:
+                raise Refused(f"{field} has {len(values)} elements, but joint [{joint.name}] has {joint.axis_count} axes")
+        for field in _FIELDS:
             for axis, value in enumerate(getattr(config, field)):
-                joint.set_param(parameter, value, axis)
-        return "SetJointProperties: properties set"
+                _set_parameter(joint, field, value, axis)
+        ignored = [field for field in _WITHOUT_EFFECT if getattr(config, field)]
+        return "SetJointProperties: properties set" + (f" (without effect: {', '.join(ignored)})" if ignored else "")
+
+
+def _set_parameter(joint, field: str, value: float, axis: int) -> None:
+    lower, upper = joint.limits(axis)
+    velocity, force = joint.motor(axis)
+    if field == "hiStop":
+        joint.set_limits(lower, value, axis)
+    elif field == "loStop":
+        joint.set_limits(value, upper, axis)
+    elif field == "fmax":
+        joint.set_motor(velocity, value, axis)
+    elif field == "vel":
+        joint.set_motor(value, force, axis)
+    else:  # of the whole joint
+        joint.set_param(field, value)

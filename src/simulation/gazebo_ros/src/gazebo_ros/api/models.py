@@ -9,7 +9,7 @@ from gazebo_msgs.msg import LinkState, ModelState
 from gazebo_msgs.srv import (DeleteModel, GetLinkProperties, GetLinkState, GetModelProperties, GetModelState,
                              GetWorldProperties, SetLinkProperties, SetLinkState, SetModelConfiguration, SetModelState)
 from geometry_msgs.msg import Point, Pose as PoseMsg, Quaternion
-from ode_sim import math3
+from ode_sim import LinkHandle, math3
 from ode_sim.description.model import Inertial, Pose, Vec3
 
 from gazebo_ros.api.geometry import entity_twist, frame_entity, pose_msg, pose_of, twist_msg, vector_of
@@ -130,26 +130,25 @@ class ModelServices:
     def _set_link_state(self, state) -> str:
         link = self._link(state.link_name)
         frame = frame_entity(self._world, state.reference_frame, "reference_frame")
-        if frame is not None and hasattr(frame, "links"):
-            raise Refused(f"reference_frame [{state.reference_frame}] is a model; name a link of it as model::link")
+        if frame is not None and not isinstance(frame, LinkHandle):
+            raise Refused(f"reference_frame [{state.reference_frame}] is no link; name one as model::link")
         pose = pose_of(state.pose)
         linear, angular = vector_of(state.twist.linear, "twist"), vector_of(state.twist.angular, "twist")
         if frame is not None:  # velocities as Gazebo takes them: relative, but in world axes
             pose = math3.compose(frame.pose, pose)
-            linear = math3.sub(linear, tuple(frame.linear_velocity()))
-            angular = math3.sub(angular, tuple(frame.angular_velocity()))
+            linear = math3.sub(linear, frame.linear_velocity())
+            angular = math3.sub(angular, frame.angular_velocity())
         link.pose = pose
         link.set_twist(linear, angular)
         return "SetLinkState: success"
 
     def _get_link_properties(self, request, response) -> str:
         link = self._link(request.link_name)
-        inertial = link.inertia
-        response.com = PoseMsg(Point(*inertial.pose.p), Quaternion(0, 0, 0, 1))
+        p_LC = math3.transform(math3.inverse(link.pose), link.com())
+        response.com = PoseMsg(Point(*p_LC), Quaternion(0, 0, 0, 1))
         response.gravity_mode = link.gravity
         response.mass = link.mass
-        response.ixx, response.ixy, response.ixz = inertial.ixx, inertial.ixy, inertial.ixz
-        response.iyy, response.iyz, response.izz = inertial.iyy, inertial.iyz, inertial.izz
+        (response.ixx, response.iyy, response.izz, response.ixy, response.ixz, response.iyz) = link.inertia
         return "GetLinkProperties: got properties"
 
     def _set_link_properties(self, request, response) -> str:

@@ -5,15 +5,14 @@ import xml.etree.ElementTree as ET
 from dataclasses import replace
 from typing import List
 
-import rospy
 from gazebo_msgs.srv import SpawnModel
 from ode_sim import math3, mesh
-from ode_sim.description import DescriptionError, Problem, read_light, read_model, root_kind
-from ode_sim.description.model import Light, Mesh, Model, Plugin, Pose
+from ode_sim.description import DescriptionError, read_light, read_model, root_kind
+from ode_sim.description.model import Mesh, Model, Plugin, Pose
 
 from gazebo_ros.api.geometry import frame_entity, pose_of
 from gazebo_ros.api.handlers import Refused, advertise
-from gazebo_ros.server import Server
+from gazebo_ros.server import Server, log_problems
 
 
 class SpawnServices:
@@ -47,7 +46,7 @@ class SpawnServices:
     def _spawn_model(self, request, x_fe: Pose) -> None:
         server = self._server
         model, problems = read_model(request.model_xml, name=request.model_name or None, finder=server.finder)
-        _warn(problems, f"model {model.name}")
+        log_problems(problems, f"model {model.name}")
         set_robot_namespace(model, request.robot_namespace)
         _load_meshes(model)
         resolved = server.resolve(model)
@@ -63,7 +62,7 @@ class SpawnServices:
 
     def _spawn_light(self, request, x_fe: Pose) -> None:
         light, problems = read_light(request.model_xml, name=request.model_name or None, finder=self._server.finder)
-        _warn(problems, f"light {light.name}")
+        log_problems(problems, f"light {light.name}")
 
         def put() -> None:
             lights = self._server.world.lights
@@ -104,9 +103,3 @@ def _load_meshes(model: Model) -> None:
                     mesh.load(collision.geometry)
                 except DescriptionError:
                     continue
-
-
-def _warn(problems: List[Problem], what: str) -> None:
-    for problem in problems:
-        log = rospy.logerr if problem.severity == "error" else rospy.logwarn
-        log("%s: %s", what, problem)

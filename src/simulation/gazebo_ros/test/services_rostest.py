@@ -1,0 +1,492 @@
+#!/usr/bin/env python3
+"""The services of the node gazebo: what they do, and what they say when they cannot. The world bench.world is paused;
+time passes only through the step service, so that every figure is exact."""
+import math
+import unittest
+
+import rospy
+import rostest
+from gazebo_msgs import srv
+from gazebo_msgs.msg import LinkState, LinkStates, ModelState, ModelStates
+from geometry_msgs.msg import Pose, Vector3
+from rosgraph_msgs.msg import Clock
+from std_msgs.msg import ColorRGBA
+
+from simulator import Simulator, box, pose, twist, urdf, xyz
+
+NAN = float("nan")
+
+
+class Case(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.sim = Simulator()
+
+    def setUp(self):
+        self.sim.empty("pause_physics")
+        self.assertTrue(self.sim.set_physics(gravity=(0.0, 0.0, 0.0)).success)
+        self.sim.empty("reset_simulation")
+
+    def done(self, response):
+        self.assertTrue(response.success, response.status_message)
+        return response
+
+    def refused(self, response, *words):
+        self.assertFalse(response.success)
+        for word in words:
+            self.assertIn(word, response.status_message)
+        self.assertNotIn("internal error", response.status_message)
+        self.assertNotIn("\n", response.status_message)
+
+    def near(self, a, b, places=9):
+        for x, y in zip(a, b):
+            self.assertAlmostEqual(x, y, places)
+
+
+class Stepping(Case):
+    def test_step_is_exact_and_answers_when_done(self):
+        self.assertEqual(self.sim.world().sim_time, 0.0)
+        response = self.done(self.sim.step(250))
+        self.assertEqual((response.sim_time.to_nsec(), response.iterations), (250_000_000, 250))
+        self.assertEqual(self.sim.world().sim_time, 0.25)
+
+    def test_the_last_clock_value_is_that_of_the_last_step(self):
+        self.sim.step(123)
+        clock = rospy.wait_for_message("/clock", Clock, 10).clock
+        self.assertEqual(clock.to_nsec(), 123_000_000)
+
+    def test_no_steps_and_running_are_refused(self):
+        self.refused(self.sim.step(0), "at least 1")
+        self.sim.empty("unpause_physics")
+        self.refused(self.sim.step(1), "pause")
+
+    def test_pause_and_unpause(self):
+        self.assertTrue(self.sim.physics().pause)
+        before = self.sim.world().sim_time
+        self.sim.empty("unpause_physics")
+        self.assertFalse(self.sim.physics().pause)
+        times = []
+        clock = rospy.Subscriber("/clock", Clock, lambda message: times.append(message.clock.to_nsec()), queue_size=100)
+        while len(times) < 50 and not rospy.is_shutdown():
+            rospy.rostime.wallsleep(0.01)
+        clock.unregister()
+        self.sim.empty("pause_physics")
+        after = self.sim.world().sim_time
+        self.assertGreater(after, before)
+        self.assertEqual(self.sim.world().sim_time, after)
+        steps = [b - a for a, b in zip(times[1:], times[2:])]  # the first message is the latched one
+        self.assertEqual(set(steps), {1_000_000}, "a /clock message per step")
+
+
+class Resets(Case):
+    def test_reset_world_keeps_time_and_joint_angles(self):
+        self.sim.set_joints("swing", ["hinge"], [0.7])
+        self.sim.set_model("crate", pose(1, 2, 3), twist((1, 0, 0)))
+        self.sim.step(10)
+        self.sim.empty("reset_world")
+        state = self.sim.model("crate")
+        self.near(xyz(state.pose.position), (5, 0, 3))
+        self.near(xyz(state.twist.linear), (0, 0, 0))
+        self.assertAlmostEqual(self.sim.joint("hinge").position[0], 0.7, 6)
+        self.assertEqual(self.sim.world().sim_time, 0.01)
+
+    def test_reset_simulation_resets_time_poses_and_joints_and_keeps_spawned_models(self):
+        self.done(self.sim.spawn("extra", box(), pose(20, 0, 1)))
+        self.sim.set_joints("swing", ["hinge"], [0.7])
+        self.sim.set_model("extra", pose(1, 2, 3), twist((1, 0, 0)))
+        self.sim.step(10)
+        self.sim.empty("reset_simulation")
+        world = self.sim.world()
+        self.assertEqual(world.sim_time, 0.0)
+        self.assertIn("extra", world.model_names)
+        self.near(xyz(self.sim.model("extra").pose.position), (20, 0, 1))
+        self.assertAlmostEqual(self.sim.joint("hinge").position[0], 0.0, 9)
+        self.assertEqual(self.sim.step(1).sim_time.to_nsec(), 1_000_000)
+        self.done(self.sim.delete("extra"))
+
+
+class Models(Case):
+    def test_world_properties(self):
+        world = self.done(self.sim.world())
+        self.assertEqual(world.model_names, ["ground_plane", "crate", "swing"])
+        self.assertTrue(world.rendering_enabled)
+
+    def test_model_properties(self):
+        get = self.sim.proxy("get_model_properties", srv.GetModelProperties)
+        swing = self.done(get("swing"))
+        self.assertEqual(swing.body_names, ["stand", "rod"])
+        self.assertEqual(swing.joint_names, ["bolt", "hinge"])
+        self.assertFalse(swing.is_static)
+        self.assertEqual(get("crate").geom_names, ["shape"])
+        self.assertTrue(get("ground_plane").is_static)
+        self.refused(get("ghost"), "GetModelProperties: ", "ghost", "crate")
+
+    def test_model_state_in_another_frame(self):
+        half = math.sqrt(0.5)
+        self.done(self.sim.set_model("crate", pose(4, 0, 3, qz=half, qw=half), twist((0, 1, 0))))  # turned left
+        self.done(self.sim.spawn("other", box(), pose(4, 2, 3)))
+        state = self.done(self.sim.model("other", "crate"))
+        self.assertEqual(state.header.frame_id, "crate")
+        self.near(xyz(state.pose.position), (2, 0, 0))
+        self.near((state.pose.orientation.z, state.pose.orientation.w), (-half, half))
+        self.near(xyz(state.twist.linear), (-1, 0, 0))
+        self.assertEqual(self.sim.model("other").header.seq, state.header.seq + 1)
+        self.refused(self.sim.model("other", "nowhere"), "GetModelState: ", "nowhere")
+        self.refused(self.sim.model("ghost"), "ghost")
+        self.done(self.sim.delete("other"))
+
+    def test_set_model_state_moves_the_whole_model_and_its_reference_rotates(self):
+        half = math.sqrt(0.5)
+        self.done(self.sim.set_model("crate", pose(4, 0, 3, qz=half, qw=half)))
+        self.done(self.sim.spawn("other", box()))
+        self.done(self.sim.set_model("other", pose(1, 0, 0), twist((1, 0, 0), (0, 1, 0)), "crate"))
+        state = self.sim.model("other")
+        self.near(xyz(state.pose.position), (4, 1, 3))
+        self.near(xyz(state.twist.linear), (0, 1, 0))
+        self.near(xyz(state.twist.angular), (-1, 0, 0))
+        self.done(self.sim.delete("other"))
+
+    def test_set_model_state_normalizes_and_takes_zeros_for_no_rotation(self):
+        self.done(self.sim.set_model("crate", pose(1, 1, 1, qw=5.0)))
+        self.assertAlmostEqual(self.sim.model("crate").pose.orientation.w, 1.0)
+        self.done(self.sim.set_model("crate", pose(1, 1, 1, qw=0.0)))
+        self.assertAlmostEqual(self.sim.model("crate").pose.orientation.w, 1.0)
+
+    def test_world_has_four_names(self):
+        for name in ("", "world", "map", "/map"):
+            self.done(self.sim.set_model("crate", pose(1, 2, 3), frame=name))
+
+    def test_nonsense_is_refused_and_changes_nothing(self):
+        before = self.sim.model("crate").pose
+        self.refused(self.sim.set_model("crate", pose(NAN, 0, 0)), "SetModelState: ", "nan")
+        self.refused(self.sim.set_model("crate", pose(1, 0, 0), twist((math.inf, 0, 0))), "inf")
+        self.refused(self.sim.set_model("ghost", pose()), "ghost", "crate")
+        self.refused(self.sim.set_model("crate", pose(), frame="nowhere"), "nowhere")
+        self.assertEqual(self.sim.model("crate").pose, before)
+
+    def test_configuration_clamps_skips_unknown_joints_and_leaves_the_pause(self):
+        self.done(self.sim.set_joints("swing", ["hinge", "no_such_joint"], [9.0, 1.0]))
+        self.assertAlmostEqual(self.sim.joint("hinge").position[0], 1.5, 6)
+        self.done(self.sim.set_joints("swing", ["swing::hinge"], [-0.4]))
+        self.assertAlmostEqual(self.sim.joint("hinge").position[0], -0.4, 9)
+        self.assertTrue(self.sim.physics().pause)
+        self.refused(self.sim.set_joints("swing", ["hinge"], []), "1 joint names", "0 positions")
+        self.refused(self.sim.set_joints("swing", ["hinge"], [NAN]), "nan")
+        self.refused(self.sim.set_joints("ghost", [], []), "ghost")
+        self.assertAlmostEqual(self.sim.joint("hinge").position[0], -0.4, 9)
+
+    def test_topics_set_states_too(self):
+        set_model = rospy.Publisher("/gazebo/set_model_state", ModelState, queue_size=1, latch=True)
+        set_link = rospy.Publisher("/gazebo/set_link_state", LinkState, queue_size=1, latch=True)
+        set_model.publish(ModelState("crate", pose(7, 0, 3), twist(), ""))
+        self.wait(lambda: self.sim.model("crate").pose.position.x == 7)
+        set_model.publish(ModelState("ghost", pose(8, 0, 3), twist(), ""))  # only a line in the log
+        set_link.publish(LinkState("crate::box", pose(9, 0, 3), twist(), ""))
+        self.wait(lambda: self.sim.link("crate::box").link_state.pose.position.x == 9)
+        set_model.unregister()
+        set_link.unregister()
+
+    def wait(self, condition):
+        while not condition():
+            self.assertFalse(rospy.is_shutdown())
+            rospy.rostime.wallsleep(0.01)
+
+
+class Links(Case):
+    def test_link_state_scoped_and_unscoped(self):
+        scoped = self.done(self.sim.link("crate::box")).link_state
+        unscoped = self.done(self.sim.link("box")).link_state
+        self.assertEqual(scoped.pose, unscoped.pose)
+        self.near(xyz(scoped.pose.position), (5, 0, 3))
+        self.refused(self.sim.link("crate::lid"), "GetLinkState: ", "lid", "model::link")
+
+    def test_link_in_the_frame_of_a_model(self):
+        state = self.done(self.sim.link("crate::box", "swing")).link_state
+        self.near(xyz(state.pose.position), (5, 0, 1))
+        self.assertEqual(state.reference_frame, "swing")
+
+    def test_set_link_state(self):
+        self.done(self.sim.set_link("crate::box", pose(1, 1, 4), twist((0, 0, 2))))
+        state = self.sim.link("crate::box").link_state
+        self.near(xyz(state.pose.position), (1, 1, 4))
+        self.near(xyz(state.twist.linear), (0, 0, 2))
+        self.sim.step(100)
+        self.near(xyz(self.sim.link("crate::box").link_state.pose.position), (1, 1, 4.2))
+        self.refused(self.sim.set_link("crate::box", pose(), frame="swing"), "no link", "model::link")
+        self.refused(self.sim.set_link("crate::box", pose(z=NAN)), "nan")
+        self.refused(self.sim.set_link("ghost::box", pose()), "ghost::box")
+
+    def test_properties_and_their_effect(self):
+        get = self.sim.proxy("get_link_properties", srv.GetLinkProperties)
+        change = self.sim.proxy("set_link_properties", srv.SetLinkProperties)
+        box_ = self.done(get("crate::box"))
+        self.assertEqual((box_.mass, box_.ixx, box_.iyy, box_.izz, box_.gravity_mode), (2.0, 0.1, 0.2, 0.4, False))
+        self.done(self.sim.set_physics(gravity=(0, 0, -10)))
+        self.done(change("crate::box", Pose(), True, 4.0, 0.1, 0, 0, 0.2, 0, 0.4))
+        self.assertEqual(get("crate::box").mass, 4.0)
+        self.sim.push("crate::box", (4.0, 0, 0), 0.1)
+        self.sim.step(100)
+        velocity = self.sim.link("crate::box").link_state.twist.linear
+        self.near((velocity.x, velocity.z), (0.1, -1.0), 6)  # F t / m and g t
+        self.refused(change("crate::box", Pose(), True, -1.0, 1, 0, 0, 1, 0, 1), "mass -1")
+        self.refused(change("crate::box", Pose(), True, 1.0, 0, 0, 0, 1, 0, 1), "inertia")
+        self.refused(change("crate::box", Pose(), True, NAN, 1, 0, 0, 1, 0, 1), "nan")
+        self.done(change("crate::box", Pose(), False, 2.0, 0.1, 0, 0, 0.2, 0, 0.4))
+
+
+class Joints(Case):
+    def test_get(self):
+        self.sim.set_joints("swing", ["hinge"], [0.25])
+        hinge = self.done(self.sim.joint("swing::hinge"))
+        self.assertEqual((hinge.type, list(hinge.damping), len(hinge.rate)), (0, [], 1))
+        self.assertAlmostEqual(hinge.position[0], 0.25, 9)
+        self.refused(self.sim.joint("knee"), "GetJointProperties: ", "knee")
+
+    def test_a_motor_drives_and_stops(self):
+        self.done(self.sim.set_joint("hinge", fmax=[100.0], vel=[0.5]))
+        self.sim.step(1000)
+        self.assertAlmostEqual(self.sim.joint("hinge").position[0], 0.5, 2)
+        self.done(self.sim.set_joint("hinge", fmax=[0.0], vel=[0.0]))
+        self.refused(self.sim.set_joint("hinge", fmax=[1.0, 1.0]), "2 elements", "1 axes")
+        self.refused(self.sim.set_joint("hinge", hiStop=[NAN]), "nan")
+        self.refused(self.sim.set_joint("knee"), "knee")
+
+    def test_a_stop_is_moved(self):
+        self.done(self.sim.set_joint("hinge", hiStop=[0.2]))
+        self.sim.set_joints("swing", ["hinge"], [1.0])
+        self.assertAlmostEqual(self.sim.joint("hinge").position[0], 0.2, 6)
+        self.done(self.sim.set_joint("hinge", hiStop=[1.5]))
+
+
+class Forces(Case):
+    def speed(self):
+        return xyz(self.sim.link("crate::box").link_state.twist.linear)
+
+    def spin(self):
+        return xyz(self.sim.link("crate::box").link_state.twist.angular)
+
+    def test_a_push_lasts_as_long_as_it_should(self):
+        self.done(self.sim.push("crate::box", (2.0, 0, 0), 0.05))
+        self.sim.step(100)
+        self.near(self.speed(), (0.05, 0, 0))
+
+    def test_shorter_than_a_step_does_nothing(self):
+        self.done(self.sim.push("crate::box", (2.0, 0, 0), 0.0005))
+        self.sim.step(10)
+        self.near(self.speed(), (0, 0, 0))
+
+    def test_a_later_start_waits(self):
+        self.done(self.sim.push("crate::box", (2.0, 0, 0), 0.01, start=0.05))
+        self.sim.step(49)
+        self.near(self.speed(), (0, 0, 0))
+        self.sim.step(51)
+        self.near(self.speed(), (0.011, 0, 0))  # the steps at 0.050 and at 0.060 both count
+
+    def test_for_ever_until_cleared_by_the_scoped_name(self):
+        clear = self.sim.proxy("clear_body_wrenches", srv.BodyRequest)
+        self.done(self.sim.push("box", (2.0, 0, 0), -1))
+        self.sim.step(10)
+        clear("box")
+        self.sim.step(10)
+        self.near(self.speed(), (0.02, 0, 0))
+        clear("crate::box")
+        self.sim.step(10)
+        self.near(self.speed(), (0.02, 0, 0))
+
+    def test_pushes_on_one_link_replace_each_other(self):
+        self.sim.push("crate::box", (2.0, 0, 0), 0.01)
+        self.sim.push("crate::box", (0, 2.0, 0), 0.01)
+        self.sim.step(10)
+        self.near(self.speed(), (0, 0.01, 0))
+
+    def test_a_lever_arm_turns(self):
+        self.done(self.sim.push("crate::box", (0, 2.0, 0), 0.01, point=(0.1, 0, 0)))
+        self.sim.step(10)
+        self.near(self.spin(), (0, 0, 0.1 * 2.0 / 0.4 * 0.01), 6)
+
+    def test_force_along_the_axes_of_a_turned_link(self):
+        half = math.sqrt(0.5)
+        self.sim.set_model("crate", pose(5, 0, 3, qz=half, qw=half))
+        self.done(self.sim.push("crate::box", (2.0, 0, 0), 0.01, frame="crate::box"))
+        self.sim.step(10)
+        self.near(self.speed(), (0, 0.01, 0))
+
+    def test_push_failures(self):
+        self.refused(self.sim.push("ghost", (1, 0, 0), 1), "ApplyBodyWrench: ", "ghost")
+        self.refused(self.sim.push("crate::box", (1, 0, 0), 1, frame="nowhere"), "nowhere")
+        self.refused(self.sim.push("crate::box", (NAN, 0, 0), 1), "nan")
+        self.sim.step(10)
+        self.near(self.speed(), (0, 0, 0))
+
+    def test_joint_efforts_add_up_and_are_cleared_by_the_plain_name(self):
+        inertia = 0.5
+        self.done(self.sim.drive("hinge", 1.0, 0.1))
+        self.done(self.sim.drive("swing::hinge", 0.5, 0.1))
+        self.sim.step(100)
+        self.assertAlmostEqual(self.sim.joint("hinge").rate[0], 1.5 * 0.1 / inertia, 4)
+        self.sim.empty("reset_simulation")
+        self.sim.drive("hinge", 1.0, -1)
+        self.sim.step(10)
+        self.sim.proxy("clear_joint_forces", srv.JointRequest)("hinge")
+        self.sim.step(10)
+        self.assertAlmostEqual(self.sim.joint("hinge").rate[0], 0.01 / inertia, 5)
+        self.refused(self.sim.drive("knee", 1.0, 1.0), "ApplyJointEffort: ", "knee")
+        self.refused(self.sim.drive("hinge", NAN, 1.0), "nan")
+
+    def test_effort_stops_at_the_limit_of_the_joint(self):
+        self.sim.drive("hinge", 1000.0, 0.01)
+        self.sim.step(10)
+        self.assertAlmostEqual(self.sim.joint("hinge").rate[0], 10.0 * 0.01 / 0.5, 4)
+
+
+class Lights(Case):
+    def test_get_set_delete(self):
+        get = self.sim.proxy("get_light_properties", srv.GetLightProperties)
+        change = self.sim.proxy("set_light_properties", srv.SetLightProperties)
+        delete = self.sim.proxy("delete_light", srv.DeleteLight)
+        self.done(self.sim.spawn("torch", """<sdf version="1.6"><light name="x" type="spot">
+            <diffuse>0.5 0.25 0.125 1</diffuse></light></sdf>""", pose(1, 2, 3)))
+        torch = self.done(get("torch"))
+        self.assertEqual((torch.diffuse.r, torch.diffuse.g, torch.diffuse.b), (0.5, 0.25, 0.125))
+        self.refused(self.sim.spawn("torch", "<sdf version='1.6'><light name='x'/></sdf>"), "already exists")
+        self.done(change("torch", True, ColorRGBA(1, 0, 0, 1), ColorRGBA(), 0.5, 0.25, 0.125, Vector3(0, 0, -1), pose()))
+        torch = get("torch")
+        self.assertEqual((torch.diffuse.r, torch.attenuation_constant, torch.attenuation_quadratic), (1, 0.5, 0.125))
+        self.done(delete("torch"))
+        self.refused(get("torch"), "torch", "lamp")
+        self.refused(delete("torch"), "torch")
+        self.refused(change("lamp", True, ColorRGBA(NAN, 0, 0, 1), ColorRGBA(), 1, 0, 0, Vector3(), pose()), "nan")
+
+
+class Physics(Case):
+    def test_properties_act_at_once(self):
+        self.done(self.sim.set_physics(time_step=0.002, rate=500.0, gravity=(0, 0, -1.0), sor_pgs_iters=33,
+                                       max_contacts=11))
+        physics = self.done(self.sim.physics())
+        self.assertEqual((physics.time_step, physics.max_update_rate, physics.gravity.z), (0.002, 500.0, -1.0))
+        self.assertEqual((physics.ode_config.sor_pgs_iters, physics.ode_config.max_contacts), (33, 11))
+        self.assertEqual(self.sim.step(5).sim_time.to_nsec(), 10_000_000)
+        self.done(self.sim.set_physics())
+
+    def test_impossible_values_are_refused_and_change_nothing(self):
+        self.refused(self.sim.set_physics(time_step=0.0), "SetPhysicsProperties: ", "time_step", "positive")
+        self.refused(self.sim.set_physics(time_step=-0.001), "time_step")
+        self.refused(self.sim.set_physics(rate=-1.0), "max_update_rate")
+        self.refused(self.sim.set_physics(gravity=(0, NAN, 0)), "nan")
+        self.assertEqual(self.sim.physics().time_step, 0.001)
+        self.assertTrue(self.sim.physics().pause)
+
+    def test_dynamic_reconfigure(self):
+        from dynamic_reconfigure.client import Client
+        client = Client("/gazebo", timeout=10)
+        names = {parameter["name"] for parameter in client.get_parameter_descriptions(10)}
+        self.assertLessEqual({"time_step", "max_update_rate", "gravity_z", "sor_pgs_iters", "cfm", "max_contacts"}, names)
+        client.update_configuration({"gravity_x": 2.5, "sor_pgs_iters": 77})
+        physics = self.sim.physics()
+        self.assertEqual((physics.gravity.x, physics.ode_config.sor_pgs_iters), (2.5, 77))
+        self.assertEqual(rospy.get_param("/gazebo/gravity_x"), 2.5)
+        client.update_configuration({"gravity_x": 0.0, "sor_pgs_iters": 50})
+
+
+class Spawning(Case):
+    def tearDown(self):
+        for name in set(self.sim.world().model_names) - {"ground_plane", "crate", "swing"}:
+            self.sim.delete(name)
+
+    def test_pose_in_the_text_comes_on_top(self):
+        half = math.sqrt(0.5)
+        text = box(extra="<pose>1 0 0 0 0 0</pose>")
+        self.done(self.sim.spawn("a", text, pose(0, 10, 1, qz=half, qw=half)))
+        self.near(xyz(self.sim.model("a").pose.position), (0, 11, 1))
+        self.done(self.sim.spawn("b", box(), pose(1, 0, 0), frame="a"))
+        self.near(xyz(self.sim.model("b").pose.position), (0, 12, 1))
+
+    def test_urdf_by_both_services(self):
+        self.done(self.sim.spawn("a", urdf(), pose(z=5), kind="urdf"))
+        self.done(self.sim.spawn("b", urdf(), pose(z=8), kind="sdf"))
+        self.assertIn("b", self.sim.world().model_names)
+        self.assertEqual(self.done(self.sim.link("b::tip")).link_state.pose.position.z, 8)
+        self.refused(self.sim.spawn("c", box(), kind="urdf"), "SpawnModel: ", "spawn_sdf_model")
+
+    def test_spawned_models_come_last_and_fall(self):
+        self.done(self.sim.spawn("z", box(), pose(-9, 0, 10)))
+        self.done(self.sim.spawn("a", box(), pose(-12, 0, 10)))
+        self.assertEqual(self.sim.world().model_names[-2:], ["z", "a"])
+        self.done(self.sim.set_physics(gravity=(0, 0, -10)))
+        self.sim.step(100)
+        self.assertAlmostEqual(self.sim.model("z").twist.linear.z, -1.0, 6)
+
+    def test_failures_say_why_and_leave_the_world_alone(self):
+        before = self.sim.world().model_names
+        bad = [
+            ("m", "<sdf version='1.6'><model name='m'>", pose(), "", ["XML"]),
+            ("m", "", pose(), "", ["empty"]),
+            ("m", "hello", pose(), "", ["XML"]),
+            ("m", "<html/>", pose(), "", ["html"]),
+            ("m", box(mass=-1), pose(), "", ["mass", "-1"]),
+            ("m", box(mass=0), pose(), "", ["mass"]),
+            ("m", box(mass="nan"), pose(), "", ["nan"]),
+            ("m", "<sdf version='1.6'><model name='m'/></sdf>", pose(), "", ["link"]),
+            ("m", box(), pose(NAN, 0, 0), "", ["nan"]),
+            ("m", box(), pose(), "nowhere", ["reference_frame", "nowhere"]),
+            ("crate", box(), pose(), "", ["Failure - entity already exists.", "crate"]),
+        ]
+        for name, text, where, frame, words in bad:
+            with self.subTest(text=text, words=words):
+                self.refused(self.sim.spawn(name, text, where, frame), "SpawnModel: ", *words)
+        self.assertEqual(self.sim.world().model_names, before)
+        self.sim.step(10)
+        self.done(self.sim.spawn("good", box(), pose(30, 0, 3)))
+
+    def test_a_missing_mesh_leaves_out_the_shape_only(self):
+        self.done(self.sim.spawn("m", box(geometry="<mesh><uri>model://nothing/here.stl</uri></mesh>"), pose(30, 0, 3)))
+        mesh = urdf(extra="""<link name="extra"><visual><geometry><mesh filename="package://no_such_package/x.dae"/>
+            </geometry></visual></link><joint name="f" type="fixed"><parent link="tip"/><child link="extra"/></joint>""")
+        self.done(self.sim.spawn("n", mesh, pose(30, 5, 3), kind="urdf"))
+        self.sim.step(10)
+
+    def test_unknown_plugins_are_left_out(self):
+        plugin = "<plugin name='p' filename=' libno_such_thing.so\n'>...</plugin>"
+        self.done(self.sim.spawn("m", box(extra=plugin), pose(30, 0, 3)))
+        self.sim.step(10)
+
+    def test_delete(self):
+        self.done(self.sim.spawn("m", urdf(), pose(30, 0, 3), kind="urdf"))
+        self.sim.push("m::tip", (1, 0, 0), -1)
+        self.sim.drive("elbow", 1, -1)
+        self.sim.step(5)
+        self.done(self.sim.delete("m"))
+        self.assertNotIn("m", self.sim.world().model_names)
+        self.sim.step(5)
+        self.refused(self.sim.delete("m"), "DeleteModel: ", "m", "crate")
+        self.done(self.sim.spawn("m", urdf(), pose(30, 0, 3), kind="urdf"))
+        self.sim.step(5)
+        self.near(xyz(self.sim.link("m::tip").link_state.twist.linear), (0, 0, 0))  # the jobs are gone
+
+
+class States(Case):
+    def test_topics_agree_with_the_services(self):
+        self.sim.set_model("crate", pose(5, 1, 3), twist((0.5, 0, 0), (0, 0, 0.25)))
+        messages = {}
+        topics = [rospy.Subscriber("/gazebo/model_states", ModelStates, lambda m: messages.update(models=m)),
+                  rospy.Subscriber("/gazebo/link_states", LinkStates, lambda m: messages.update(links=m))]
+        while len(messages) < 2 and not rospy.is_shutdown():
+            self.sim.step(1)
+            rospy.rostime.wallsleep(0.01)
+        self.sim.step(7)
+        state = self.sim.model("crate")
+        while not (messages["models"].pose[1] == state.pose == messages["links"].pose[1]):
+            self.assertFalse(rospy.is_shutdown())
+            rospy.rostime.wallsleep(0.01)
+        for topic in topics:
+            topic.unregister()
+        self.assertEqual(messages["models"].name, ["ground_plane", "crate", "swing"])
+        self.assertEqual(messages["links"].name, ["ground_plane::link", "crate::box", "swing::stand", "swing::rod"])
+        self.assertEqual(messages["models"].twist[1], state.twist)
+        self.assertEqual(messages["links"].twist[1], self.sim.link("crate::box").link_state.twist)
+        self.assertEqual(len(messages["links"].pose), 4)
+
+
+if __name__ == "__main__":
+    rospy.init_node("services_rostest")
+    rostest.rosrun("gazebo_ros", "services", "__main__")

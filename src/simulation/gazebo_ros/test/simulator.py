@@ -1,0 +1,108 @@
+"""What the rostests share: service calls in one line, and the simulator under the namespace of the test."""
+import functools
+
+import rospy
+from gazebo_msgs import srv
+from gazebo_msgs.msg import LinkState, ModelState, ODEJointProperties, ODEPhysics
+from geometry_msgs.msg import Point, Pose, Quaternion, Twist, Vector3, Wrench
+from std_msgs.msg import Bool
+from std_srvs.srv import Empty
+
+from gazebo_ros.srv import StepWorld
+
+BOX = """<sdf version="1.6"><model name="any"><link name="link">
+<inertial><mass>{mass}</mass></inertial>
+<collision name="c"><geometry>{geometry}</geometry></collision></link>{extra}</model></sdf>"""
+
+URDF = """<robot name="any"><link name="base">
+<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>
+<link name="tip"><inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>
+<joint name="elbow" type="revolute"><parent link="base"/><child link="tip"/><axis xyz="0 0 1"/>
+<limit lower="-1" upper="1" effort="5" velocity="5"/></joint>{extra}</robot>"""
+
+
+def box(mass=1.0, geometry="<box><size>1 1 1</size></box>", extra=""):
+    return BOX.format(mass=mass, geometry=geometry, extra=extra)
+
+
+def urdf(extra=""):
+    return URDF.format(extra=extra)
+
+
+def pose(x=0.0, y=0.0, z=0.0, qx=0.0, qy=0.0, qz=0.0, qw=1.0):
+    return Pose(Point(x, y, z), Quaternion(qx, qy, qz, qw))
+
+
+def twist(linear=(0.0, 0.0, 0.0), angular=(0.0, 0.0, 0.0)):
+    return Twist(Vector3(*linear), Vector3(*angular))
+
+
+def xyz(vector):
+    return (vector.x, vector.y, vector.z)
+
+
+class Simulator:
+    """The node ``gazebo``; every method is one service call."""
+
+    def __init__(self, namespace="/gazebo"):
+        self.namespace = namespace
+        rospy.wait_for_message(namespace + "/ready", Bool)
+
+    @functools.lru_cache(maxsize=None)
+    def proxy(self, name, service):
+        rospy.wait_for_service(f"{self.namespace}/{name}", 10)
+        return rospy.ServiceProxy(f"{self.namespace}/{name}", service, persistent=True)
+
+    def step(self, steps):
+        return self.proxy("step", StepWorld)(steps)
+
+    def empty(self, name):
+        self.proxy(name, Empty)()
+
+    def world(self):
+        return self.proxy("get_world_properties", srv.GetWorldProperties)()
+
+    def model(self, name, frame=""):
+        return self.proxy("get_model_state", srv.GetModelState)(name, frame)
+
+    def link(self, name, frame=""):
+        return self.proxy("get_link_state", srv.GetLinkState)(name, frame)
+
+    def joint(self, name):
+        return self.proxy("get_joint_properties", srv.GetJointProperties)(name)
+
+    def set_model(self, name, pose=pose(), twist=twist(), frame=""):
+        return self.proxy("set_model_state", srv.SetModelState)(ModelState(name, pose, twist, frame))
+
+    def set_link(self, name, pose=pose(), twist=twist(), frame=""):
+        return self.proxy("set_link_state", srv.SetLinkState)(LinkState(name, pose, twist, frame))
+
+    def set_joints(self, model, names, positions):
+        return self.proxy("set_model_configuration", srv.SetModelConfiguration)(model, "", names, positions)
+
+    def set_joint(self, name, **properties):
+        return self.proxy("set_joint_properties", srv.SetJointProperties)(name, ODEJointProperties(**properties))
+
+    def push(self, link, force, duration, torque=(0.0, 0.0, 0.0), point=(0.0, 0.0, 0.0), frame="", start=0.0):
+        return self.proxy("apply_body_wrench", srv.ApplyBodyWrench)(
+            link, frame, Point(*point), Wrench(Vector3(*force), Vector3(*torque)), rospy.Time(start),
+            rospy.Duration(duration))
+
+    def drive(self, joint, effort, duration, start=0.0):
+        return self.proxy("apply_joint_effort", srv.ApplyJointEffort)(joint, effort, rospy.Time(start),
+                                                                      rospy.Duration(duration))
+
+    def spawn(self, name, text, where=pose(), frame="", namespace="", kind="sdf"):
+        return self.proxy(f"spawn_{kind}_model", srv.SpawnModel)(name, text, namespace, where, frame)
+
+    def delete(self, name):
+        return self.proxy("delete_model", srv.DeleteModel)(name)
+
+    def physics(self):
+        return self.proxy("get_physics_properties", srv.GetPhysicsProperties)()
+
+    def set_physics(self, time_step=0.001, rate=1000.0, gravity=(0.0, 0.0, -9.8), **ode):
+        config = self.physics().ode_config
+        values = {name: getattr(config, name) for name in ODEPhysics.__slots__}
+        return self.proxy("set_physics_properties", srv.SetPhysicsProperties)(
+            time_step, rate, Vector3(*gravity), ODEPhysics(**{**values, **ode}))

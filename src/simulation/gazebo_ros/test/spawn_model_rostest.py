@@ -1,0 +1,106 @@
+#!/usr/bin/env python3
+"""spawn_model from the command line: options, exit codes, what it leaves in the world."""
+import os
+import signal
+import subprocess
+import tempfile
+import unittest
+
+import rospy
+import rostest
+
+from simulator import Simulator, box, urdf
+
+
+def spawn(*arguments, stdin=None):
+    """Run it to its end: (exit code, all it printed)."""
+    done = subprocess.run(["rosrun", "gazebo_ros", "spawn_model", *arguments], input=stdin, text=True,
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=60)
+    return done.returncode, done.stdout
+
+
+class SpawnModel(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.sim = Simulator()
+
+    def spawned(self, name, *arguments, stdin=None):
+        code, text = spawn("-model", name, *arguments, stdin=stdin)
+        self.assertEqual(code, 0, text)
+        state = self.sim.model(name)
+        self.assertTrue(state.success, text)
+        return state
+
+    def failed(self, code, words, *arguments, stdin=None):
+        got, text = spawn(*arguments, stdin=stdin)
+        self.assertEqual(got, code, text)
+        for word in words:
+            self.assertIn(word, text)
+        self.assertNotIn("Traceback", text)
+
+    def test_param_pose_and_joints(self):
+        rospy.set_param("robot_description", "<?xml version='1.0'?><!-- a robot -->" + urdf())
+        state = self.spawned("a", "-urdf", "-param", "robot_description", "-x", "1", "-y", "-2", "-z", "3", "-Y", "1.5707963",
+                             "-J", "elbow", "0.5")
+        position, turn = state.pose.position, state.pose.orientation
+        self.assertAlmostEqual(position.x, 1, 6)
+        self.assertAlmostEqual(position.y, -2, 6)
+        self.assertAlmostEqual(position.z, 3, 6)
+        self.assertAlmostEqual(turn.z, turn.w, 6)
+        self.assertAlmostEqual(self.sim.joint("elbow").position[0], 0.5, 6)
+
+    def test_file_stdin_database_and_reference_frame(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "box.sdf")
+            with open(path, "w") as stream:
+                stream.write(box())
+            self.spawned("from_file", "-sdf", "-file", path, "-x", "10", "-z", "2")
+        self.spawned("from_stdin", "-sdf", "-stdin", "-reference_frame", "from_file", "-x", "5", stdin=box())
+        self.assertAlmostEqual(self.sim.model("from_stdin").pose.position.x, 15, 6)
+        self.spawned("floor", "-sdf", "-database", "ground_plane", "-z", "-5")
+
+    def test_unpause(self):
+        self.assertTrue(self.sim.physics().pause)
+        self.spawned("c", "-sdf", "-stdin", "-x", "20", "-z", "2", "-unpause", stdin=box())
+        self.assertFalse(self.sim.physics().pause)
+        self.sim.empty("pause_physics")
+
+    def test_bond_deletes_the_model_at_the_end(self):
+        node = subprocess.Popen(["rosrun", "gazebo_ros", "spawn_model", "-sdf", "-stdin", "-model", "bound", "-b", "-x",
+                                 "30"], stdin=subprocess.PIPE, text=True, start_new_session=True)
+        node.stdin.write(box())
+        node.stdin.close()
+        self.wait(lambda: "bound" in self.sim.world().model_names)
+        os.killpg(node.pid, signal.SIGINT)
+        node.wait(20)
+        self.wait(lambda: "bound" not in self.sim.world().model_names)
+
+    def test_killing_the_spawner_harms_nobody(self):
+        node = subprocess.Popen(["rosrun", "gazebo_ros", "spawn_model", "-sdf", "-stdin", "-model", "orphan", "-b", "-x",
+                                 "40"], stdin=subprocess.PIPE, text=True, start_new_session=True)
+        node.stdin.write(box())
+        node.stdin.close()
+        self.wait(lambda: "orphan" in self.sim.world().model_names)
+        os.killpg(node.pid, signal.SIGKILL)
+        node.wait(20)
+        self.assertTrue(self.sim.step(10).success)
+        self.assertTrue(self.sim.delete("orphan").success)
+
+    def wait(self, condition):
+        while not condition():
+            self.assertFalse(rospy.is_shutdown())
+            rospy.rostime.wallsleep(0.02)
+
+    def test_failures(self):
+        self.failed(1, ["parameter /nothing is not set"], "-urdf", "-param", "nothing", "-model", "x")
+        self.failed(1, ["cannot read /no/such.urdf"], "-urdf", "-file", "/no/such.urdf", "-model", "x")
+        self.failed(1, ["not well-formed"], "-sdf", "-stdin", "-model", "x", stdin="<sdf>")
+        self.failed(1, ["already exists"], "-sdf", "-stdin", "-model", "crate", stdin=box())
+        self.failed(2, ["-model"], "-urdf", "-stdin", stdin=urdf())
+        self.failed(2, ["not allowed with"], "-urdf", "-sdf", "-stdin", "-model", "x", stdin=urdf())
+        self.failed(2, ["half way"], "-urdf", "-stdin", "-model", "x", "-J", "elbow", "half way", stdin=urdf())
+
+
+if __name__ == "__main__":
+    rospy.init_node("spawn_model_rostest")
+    rostest.rosrun("gazebo_ros", "spawn_model", SpawnModel)
