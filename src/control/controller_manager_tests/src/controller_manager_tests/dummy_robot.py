@@ -20,9 +20,7 @@ class DummyRobot(RobotHW):
 
     def read(self, time, period):
         """Efforts commanded are efforts measured, so that a test can see them."""
-        commands = self.get(EffortJointInterface)
-        for name in commands.names():
-            handle = commands._handles[name]
+        for handle in self.get(EffortJointInterface).handles():
             handle.state.effort = handle.command
 
 

@@ -45,6 +45,10 @@ class HardwareInterface:
             self.claim(name)
         return handle
 
+    def handles(self) -> List[Any]:
+        """All handles, sorted by name, without claiming anything: for the hardware itself."""
+        return [self._handles[name] for name in self.names()]
+
     def names(self) -> List[str]:
         """Resource names, sorted."""
         return sorted(self._handles)
@@ -68,7 +72,7 @@ class HardwareInterface:
         """One interface with the handles of several of the same type."""
         result = cls()
         for interface in interfaces:
-            for handle in interface._handles.values():
+            for handle in interface.handles():
                 result.register_handle(handle)
         return result
 

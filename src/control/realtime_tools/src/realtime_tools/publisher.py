@@ -83,7 +83,7 @@ class RateGate:
     :param rate: Hz; 0 or less never opens.
     """
 
-    __slots__ = ("_period", "_start", "_count", "_next")
+    __slots__ = ("_period", "_start", "_count", "_next", "_jumped")
 
     #: s; keeps rounding of float times from deciding whether a cycle at the due time itself is late
     _TOLERANCE = 1e-6
@@ -96,12 +96,24 @@ class RateGate:
         """Count from ``time`` (s)."""
         self._start = time
         self._count = 0
-        self._next = time + self._period + self._TOLERANCE
+        self._schedule()
+
+    def _schedule(self) -> None:
+        last = self._start + self._count * self._period if self._count else self._start
+        self._next = last + self._period + self._TOLERANCE
+        self._jumped = last - self._TOLERANCE
 
     def due(self, time: float) -> bool:
-        """True if ``time`` (s) is past the next opening. Call ``passed`` once the message has really been taken."""
-        return time > self._next
+        """True if ``time`` (s) is past the next opening. Call ``passed`` once the message has really been taken.
+
+        Time that goes backwards (a simulation was reset) starts the count anew.
+        """
+        if time > self._next:
+            return True
+        if time < self._jumped:
+            self.restart(time)
+        return False
 
     def passed(self) -> None:
         self._count += 1
-        self._next = self._start + (self._count + 1) * self._period + self._TOLERANCE
+        self._schedule()

@@ -1,0 +1,159 @@
+"""Transmissions of a URDF, brought to life between the actuators and the joint interfaces of a robot."""
+from __future__ import annotations
+
+from math import nan
+from typing import Dict, List, Sequence, Tuple, Type
+
+import rospy
+from hardware_interface import (ActuatorStateInterface, EffortActuatorInterface, EffortJointInterface, HardwareInterface,
+                                JointHandle, JointStateHandle, JointStateInterface, PositionActuatorInterface,
+                                PositionJointInterface, ResourceError, RobotHW, VelocityActuatorInterface,
+                                VelocityJointInterface)
+from plugin_loader import PluginError, find_plugins
+
+from .parser import TransmissionInfo, parse_transmissions
+from .pipelines import (TransmissionPipeline, actuator_to_joint_command, actuator_to_joint_state,
+                        joint_to_actuator_command, joint_to_actuator_state)
+from .transmissions import Transmission, TransmissionError
+
+_KINDS: Dict[str, Tuple[Type[HardwareInterface], Type[HardwareInterface]]] = {
+    "position": (PositionJointInterface, PositionActuatorInterface),
+    "velocity": (VelocityJointInterface, VelocityActuatorInterface),
+    "effort": (EffortJointInterface, EffortActuatorInterface),
+}
+
+_STATE = "hardware_interface/JointStateInterface"
+
+
+class RobotTransmissions:
+    """The pipelines of a robot; the driver propagates those that it needs."""
+
+    def __init__(self) -> None:
+        self.actuator_to_joint_state = TransmissionPipeline(actuator_to_joint_state)
+        self.joint_to_actuator_state = TransmissionPipeline(joint_to_actuator_state)
+        self.joint_to_actuator_position = TransmissionPipeline(joint_to_actuator_command("position"))
+        self.joint_to_actuator_velocity = TransmissionPipeline(joint_to_actuator_command("velocity"))
+        self.joint_to_actuator_effort = TransmissionPipeline(joint_to_actuator_command("effort"))
+        self.actuator_to_joint_position = TransmissionPipeline(actuator_to_joint_command("position"))
+        self.actuator_to_joint_velocity = TransmissionPipeline(actuator_to_joint_command("velocity"))
+        self.actuator_to_joint_effort = TransmissionPipeline(actuator_to_joint_command("effort"))
+
+
+def _split(interface: str) -> Tuple[str, bool]:
+    """(position, velocity, effort or '', bidirectional) of an interface as written in a URDF; '' if unknown."""
+    for kind, (joint_interface, _) in _KINDS.items():
+        name = joint_interface.type_name.partition("::")[2]
+        if interface == f"hardware_interface/{name}":
+            return kind, False
+        if interface == f"hardware_interface/BiDirectional{name}":
+            return kind, True
+    return "", False
+
+
+class TransmissionInterfaceLoader:
+    """Loads transmissions.
+
+    :param robot_hw: has the actuator interfaces; gets the joint interfaces.
+    :param transmissions: gets the pipelines.
+    """
+
+    def __init__(self, robot_hw: RobotHW, transmissions: RobotTransmissions):
+        self._hw = robot_hw
+        self._transmissions = transmissions
+        self._types, problems = find_plugins("transmission_interface")
+        for problem in problems:
+            rospy.logwarn("transmission types: %s", problem)
+
+    def load(self, urdf: str) -> bool:
+        """Load all transmissions of a URDF text; stops at the first that fails (those before it stay).
+
+        :return: True if there was at least one and all were loaded; an ERROR line says what was wrong.
+        """
+        try:
+            infos, problems = parse_transmissions(urdf)
+            for problem in problems:
+                rospy.logerr("%s", problem)
+            if not infos:
+                raise TransmissionError("the robot description has no usable <transmission>")
+            for info in infos:
+                self.load_one(info)
+        except TransmissionError as error:
+            rospy.logerr("Loading transmissions: %s", error)
+            return False
+        return True
+
+    def load_one(self, info: TransmissionInfo) -> None:
+        """Load one transmission. :raises TransmissionError: it cannot be."""
+        plugin = self._types.get(info.type)
+        if plugin is None:
+            raise TransmissionError(f"transmission '{info.name}': type '{info.type}' does not exist; there are: "
+                                    f"{', '.join(sorted(self._types)) or 'none'}")
+        try:
+            transmission, actuator_order, joint_order = plugin.load().from_info(info)
+        except PluginError as error:
+            raise TransmissionError(f"transmission '{info.name}': {error}") from error
+        interfaces = self._interfaces(info)
+        actuators = [info.actuators[i].name for i in actuator_order]
+        joints = [info.joints[i].name for i in joint_order]
+        states = [self._joint_state(name) for name in joints]
+        actuator_states = self._actuators(ActuatorStateInterface, actuators, info)
+        pipelines = self._transmissions
+        pipelines.actuator_to_joint_state.register(info.name, transmission, actuator_states, states)
+        for interface in interfaces:
+            kind, bidirectional = _split(interface)
+            if kind:
+                self._connect(kind, bidirectional, info, transmission, actuators, states)
+                if bidirectional:
+                    pipelines.joint_to_actuator_state.register(info.name, transmission, actuator_states, states)
+
+    def _connect(self, kind: str, bidirectional: bool, info: TransmissionInfo, transmission: Transmission,
+                 actuators: Sequence[str], states: Sequence[JointStateHandle]) -> None:
+        joint_interface, actuator_interface = _KINDS[kind]
+        actuator_handles = self._actuators(actuator_interface, actuators, info)
+        interface = self._interface(joint_interface)
+        for state in states:
+            if state.name not in interface:
+                interface.register_handle(JointHandle(state, nan))
+        by_name = {handle.name: handle for handle in interface.handles()}
+        handles = [by_name[state.name] for state in states]
+        pipelines = vars(self._transmissions)
+        pipelines[f"joint_to_actuator_{kind}"].register(info.name, transmission, actuator_handles, handles)
+        if bidirectional:
+            pipelines[f"actuator_to_joint_{kind}"].register(info.name, transmission, actuator_handles, handles)
+
+    def _interfaces(self, info: TransmissionInfo) -> List[str]:
+        """The interfaces that all joints share. :raises TransmissionError: they differ, or none is known."""
+        wanted = set(info.joints[0].hardware_interfaces)
+        if any(set(joint.hardware_interfaces) != wanted for joint in info.joints[1:]):
+            raise TransmissionError(f"transmission '{info.name}': all joints must list the same hardware interfaces")
+        usable = [name for name in info.joints[0].hardware_interfaces if name == _STATE or _split(name)[0]]
+        for name in sorted(wanted - set(usable)):
+            rospy.logwarn("transmission '%s': hardware interface '%s' is unknown and left out", info.name, name)
+        if not usable:
+            raise TransmissionError(f"transmission '{info.name}' has no hardware interface that can be used; known are "
+                                    f"hardware_interface/EffortJointInterface, ...VelocityJointInterface, "
+                                    f"...PositionJointInterface, ...JointStateInterface")
+        return usable
+
+    def _interface(self, interface: Type[HardwareInterface]) -> HardwareInterface:
+        found = self._hw.get(interface)
+        if found is None:
+            found = interface()
+            self._hw.register_interface(found)
+        return found
+
+    def _joint_state(self, name: str) -> JointStateHandle:
+        interface = self._interface(JointStateInterface)
+        if name not in interface:
+            interface.register_handle(JointStateHandle(name, nan, nan, nan))
+        return interface.get_handle(name)
+
+    def _actuators(self, interface: Type[HardwareInterface], names: Sequence[str], info: TransmissionInfo) -> List:
+        found = self._hw.get(interface)
+        if found is None:
+            raise TransmissionError(f"transmission '{info.name}' needs actuators with {interface.type_name}, which this "
+                                    f"robot does not have")
+        try:
+            return [found.get_handle(name) for name in names]
+        except ResourceError as error:
+            raise TransmissionError(f"transmission '{info.name}': {error}") from error

@@ -1,0 +1,205 @@
+"""DefaultRobotHWSim: the joints of a model that have a transmission, as ros_control hardware."""
+from __future__ import annotations
+
+import sys
+from typing import Dict, List, Optional, Tuple, Type
+
+import rospy
+from control_toolbox import PidParameterError, RosPid, load_pid
+from controller_interface import NodeHandle
+from hardware_interface import (EffortJointInterface, HardwareInterface, JointHandle, JointStateHandle,
+                                JointStateInterface, PositionJointInterface, VelocityJointInterface)
+from joint_limits_interface import (DescriptionError, EffortJointSaturationHandle, EffortJointSoftLimitsHandle,
+                                    JointDescription, JointLimits, PositionJointSaturationHandle,
+                                    PositionJointSoftLimitsHandle, VelocityJointSaturationHandle,
+                                    VelocityJointSoftLimitsHandle, limits_from_params, limits_from_urdf, read_joints,
+                                    soft_limits_from_urdf)
+from transmission_interface import TransmissionInfo
+
+from .joint_sim import EffortMode, JointSim, Mode, PositionMode, PositionPidMode, VelocityMode, VelocityPidMode
+from .robot_hw_sim import RobotHWSim
+
+_PREFIX = "hardware_interface/"
+
+_INTERFACES: Dict[str, Type[HardwareInterface]] = {
+    "EffortJointInterface": EffortJointInterface,
+    "PositionJointInterface": PositionJointInterface,
+    "VelocityJointInterface": VelocityJointInterface,
+}
+
+_SATURATION = {EffortJointInterface: EffortJointSaturationHandle, PositionJointInterface: PositionJointSaturationHandle,
+               VelocityJointInterface: VelocityJointSaturationHandle}
+_SOFT = {EffortJointInterface: EffortJointSoftLimitsHandle, PositionJointInterface: PositionJointSoftLimitsHandle,
+         VelocityJointInterface: VelocityJointSoftLimitsHandle}
+
+#: A joint without limits still has handles: they keep NaN out.
+_UNLIMITED = JointLimits(max_velocity=sys.float_info.max, max_effort=sys.float_info.max, has_velocity_limits=True,
+                         has_effort_limits=True)
+
+
+class DefaultRobotHWSim(RobotHWSim):
+    """Position, velocity and effort commands for every joint that has a transmission."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._joints: Dict[str, JointSim] = {}
+        self._writers: Tuple[JointSim, ...] = ()
+        self._e_stop = False
+
+    def init_sim(self, robot_namespace: str, model_nh: NodeHandle, model, urdf: Optional[str],
+                 transmissions: List[TransmissionInfo]) -> bool:
+        try:
+            descriptions = read_joints(urdf) if urdf else {}
+        except DescriptionError as error:
+            rospy.logerr("model '%s': %s; the limits of its joints are not known", model.name, error)
+            descriptions = {}
+        for interface in (JointStateInterface, *_INTERFACES.values()):
+            self.register_interface(interface())
+        for transmission in transmissions:
+            self._add(transmission, model_nh, model, descriptions)
+        self._writers = tuple(self._joints.values())
+        if not self._writers:
+            rospy.logwarn("model '%s': no joint has a transmission that can be used, so controllers find no joints",
+                          model.name)
+        return True
+
+    # -- set-up -------------------------------------------------------------------------------------------------------
+
+    def _add(self, transmission: TransmissionInfo, nh: NodeHandle, model,
+             descriptions: Dict[str, JointDescription]) -> None:
+        if len(transmission.joints) != 1:
+            rospy.logwarn("Transmission '%s' has %d joints; the simulation takes one per transmission, so it is left out",
+                          transmission.name, len(transmission.joints))
+            return
+        info = transmission.joints[0]
+        where = f"transmission '{transmission.name}', joint '{info.name}'"
+        joint = model.joints.get(info.name)
+        if joint is None:
+            rospy.logerr("%s: the model '%s' has no such joint (a fixed joint is merged into its parent link); it has: "
+                         "%s. The other transmissions work.", where, model.name, ", ".join(model.joints) or "none")
+            return
+        for written in info.hardware_interfaces:
+            interface = self._interface_of(written, where)
+            if interface is not None:
+                self._add_mode(interface, joint, where, nh,
+                               descriptions.get(info.name, JointDescription(info.name, "")))
+
+    @staticmethod
+    def _interface_of(written: str, where: str) -> Optional[Type[HardwareInterface]]:
+        name = written[len(_PREFIX):] if written.startswith(_PREFIX) else written
+        interface = _INTERFACES.get(name)
+        if interface is None:
+            rospy.logerr("%s: hardware interface '%s' cannot be simulated and is left out; possible are %s", where,
+                         written, ", ".join(_PREFIX + known for known in _INTERFACES))
+        elif name == written:
+            rospy.logwarn("Deprecated syntax, please prepend 'hardware_interface/' to '%s' within the "
+                          "<hardwareInterface> tag of %s.", written, where)
+        return interface
+
+    def _add_mode(self, interface: Type[HardwareInterface], joint, where: str, nh: NodeHandle,
+                  description: JointDescription) -> None:
+        sim = self._joints.get(description.name)
+        if sim is None:
+            state = JointStateHandle(description.name, joint.position(), joint.velocity())
+            self.get(JointStateInterface).register_handle(state)
+            sim = self._joints[description.name] = JointSim(joint, state)
+        if interface.type_name in sim.modes:
+            rospy.logwarn("%s: %s is there already from another transmission of this joint; one is enough", where,
+                          interface.type_name)
+            return
+        handle = JointHandle(sim.state, 0.0)
+        self.get(interface).register_handle(handle)
+        sim.add(interface.type_name, self._make_mode(interface, joint, handle, nh, description))
+
+    def _make_mode(self, interface: Type[HardwareInterface], joint, handle: JointHandle, nh: NodeHandle,
+                   description: JointDescription) -> Mode:
+        hard = limits_from_urdf(description)
+        hard = limits_from_params(nh, description.name, hard or JointLimits()) or hard
+        soft = soft_limits_from_urdf(description)
+        limits = _limit_handle(interface, handle, hard, soft)
+        effort_limit = hard.max_effort if hard and hard.has_effort_limits else sys.float_info.max
+        _warn_of_zero_limits(description, hard, interface)
+        if interface is EffortJointInterface:
+            return EffortMode(joint, handle, limits)
+        pid = _load_gains(nh.sub(f"gazebo_ros_control/pid_gains/{description.name}"), description.name)
+        if interface is PositionJointInterface:
+            if pid is None:
+                return PositionMode(joint, handle, limits)
+            return PositionPidMode(joint, handle, limits, pid, description, effort_limit)
+        if pid is None:
+            return VelocityMode(joint, handle, limits, effort_limit)
+        return VelocityPidMode(joint, handle, limits, effort_limit, pid)
+
+    # -- every step -----------------------------------------------------------------------------------------------------
+
+    def read_sim(self, time: float, period: float) -> None:
+        for sim in self._writers:
+            state, joint = sim.state, sim.joint
+            state.position = joint.position()
+            state.velocity = joint.velocity()
+
+    def write_sim(self, time: float, period: float) -> None:
+        for sim in self._writers:
+            sim.mode.write(period)
+
+    def e_stop_active(self, active: bool) -> None:
+        if active is not self._e_stop:
+            self._e_stop = active
+            for sim in self._writers:
+                sim.mode.press(active)
+
+    def reset_sim(self) -> None:
+        self.read_sim(0.0, 0.0)
+        for sim in self._writers:
+            for mode in sim.modes.values():
+                mode.limits.reset()
+
+    def do_switch(self, start, stop) -> None:
+        for controller in start:
+            for claimed in controller.claimed_resources:
+                for name in claimed.resources:
+                    sim = self._joints.get(name)
+                    if sim is not None and claimed.hardware_interface in sim.modes:
+                        sim.switch(claimed.hardware_interface)
+
+
+def _limit_handle(interface: Type[HardwareInterface], handle: JointHandle, hard: Optional[JointLimits], soft):
+    """The handle that enforces the limits of a joint; a joint without complete limits gets one that only stops NaN."""
+    if hard is None:
+        hard, soft = _UNLIMITED, None
+    velocity = hard.has_velocity_limits
+    effort = hard.has_effort_limits
+    needed = {EffortJointInterface: velocity and effort, VelocityJointInterface: velocity}.get(interface, True)
+    if not needed:
+        rospy.logwarn("joint '%s' lacks the velocity%s limits that enforcing its limits needs; it is not limited",
+                      handle.name, " and effort" if interface is EffortJointInterface else "")
+        hard, soft = _UNLIMITED, None
+    if soft is not None and (velocity or interface is VelocityJointInterface):
+        return _SOFT[interface](handle, hard, soft)
+    return _SATURATION[interface](handle, hard)
+
+
+def _warn_of_zero_limits(description: JointDescription, hard: Optional[JointLimits],
+                         interface: Type[HardwareInterface]) -> None:
+    """A limit of 0 means just that, and is mostly a forgotten value."""
+    if hard is None:
+        return
+    if hard.has_velocity_limits and hard.max_velocity == 0.0:
+        rospy.logwarn("joint '%s' has a velocity limit of 0: it cannot move; write <limit velocity=\"...\"> in rad/s or "
+                      "m/s", description.name)
+    if hard.has_effort_limits and hard.max_effort == 0.0 and interface is not PositionJointInterface:
+        rospy.logwarn("joint '%s' has an effort limit of 0: no force can move it; write <limit effort=\"...\"> in Nm or "
+                      "N", description.name)
+
+
+def _load_gains(nh: NodeHandle, joint: str) -> Optional[RosPid]:
+    """The PID of a joint, or None, which is a good way to drive it too."""
+    if not nh.has_param("p"):
+        rospy.loginfo("No p gain specified for pid.  Namespace: %s (nothing is wrong: joint '%s' follows its commands "
+                      "exactly; set p, i and d there if a PID should drive it by forces)", nh.namespace, joint)
+        return None
+    try:
+        return load_pid(nh)
+    except PidParameterError as error:
+        rospy.logerr("%s; joint '%s' follows its commands exactly instead", error, joint)
+        return None

@@ -1,0 +1,181 @@
+"""One simulated joint: its handles, and what each kind of command does to the joint in the world.
+
+These run in every step of the world, so they avoid look-ups and calls.
+"""
+from __future__ import annotations
+
+from typing import Dict, Optional
+
+from control_toolbox import Pid
+from hardware_interface import JointHandle, JointStateHandle
+from joint_limits_interface import JointDescription
+
+
+class Mode:
+    """How commands of one interface reach a joint. ``handle`` is what controllers write."""
+
+    __slots__ = ("joint", "state", "handle", "limits", "e_stop")
+
+    def __init__(self, joint, handle: JointHandle, limits):
+        self.joint = joint          # ode_sim.JointHandle
+        self.handle = handle
+        self.state = handle.state
+        self.limits = limits        # joint_limits_interface handle
+        self.e_stop = False
+
+    def enter(self) -> None:
+        """This mode takes over; its handle gets a command that keeps the joint where it is, or free."""
+        self.limits.reset()
+        self.handle.command = 0.0
+
+    def leave(self) -> None:
+        """Another mode takes over."""
+
+    def press(self, active: bool) -> None:
+        """Emergency stop."""
+        self.e_stop = active
+
+    def write(self, dt: float) -> None:
+        raise NotImplementedError
+
+
+class EffortMode(Mode):
+    """The command is the joint's force or torque."""
+
+    __slots__ = ()
+
+    def write(self, dt: float) -> None:
+        self.limits.enforce_limits(dt)
+        self.joint.add_force(0.0 if self.e_stop else self.handle.command)
+        self.state.effort = self.joint.effort()
+
+
+class PositionMode(Mode):
+    """The joint follows its position command exactly."""
+
+    __slots__ = ("_frozen",)
+
+    def __init__(self, joint, handle: JointHandle, limits):
+        super().__init__(joint, handle, limits)
+        self._frozen = 0.0
+
+    def enter(self) -> None:
+        super().enter()
+        self.handle.command = self.state.position
+
+    def leave(self) -> None:
+        self.joint.servo_off()
+        self.state.effort = 0.0
+
+    def press(self, active: bool) -> None:
+        if active and not self.e_stop:
+            self._frozen = self.state.position
+        self.e_stop = active
+
+    def target(self, dt: float) -> float:
+        """The position to be at after this step."""
+        if self.e_stop:
+            self.handle.command = self._frozen
+        self.limits.enforce_limits(dt)
+        return self.handle.command
+
+    def write(self, dt: float) -> None:
+        self.joint.servo(self.target(dt))
+
+
+class PositionPidMode(PositionMode):
+    """A PID on the position gives the joint's effort."""
+
+    __slots__ = ("_pid", "_description", "_effort_limit")
+
+    def __init__(self, joint, handle: JointHandle, limits, pid: Pid, description: JointDescription,
+                 effort_limit: float):
+        super().__init__(joint, handle, limits)
+        self._pid = pid
+        self._description = description
+        self._effort_limit = effort_limit
+
+    def enter(self) -> None:
+        super().enter()
+        self._pid.reset()
+
+    def leave(self) -> None:
+        self.state.effort = 0.0
+
+    def write(self, dt: float) -> None:
+        error = self._description.error(self.joint.position(), self.target(dt))
+        limit = self._effort_limit
+        self.joint.add_force(min(max(self._pid.compute_command(error, dt), -limit), limit))
+        self.state.effort = self.joint.effort()
+
+
+class VelocityMode(Mode):
+    """A motor keeps the commanded velocity, as far as the effort limit lets it."""
+
+    __slots__ = ("_effort_limit",)
+
+    def __init__(self, joint, handle: JointHandle, limits, effort_limit: float):
+        super().__init__(joint, handle, limits)
+        self._effort_limit = effort_limit
+
+    def leave(self) -> None:
+        self.joint.set_motor(0.0, 0.0)
+
+    def target(self, dt: float) -> float:
+        """The velocity to have."""
+        self.limits.enforce_limits(dt)
+        return 0.0 if self.e_stop else self.handle.command
+
+    def write(self, dt: float) -> None:
+        self.joint.set_motor(self.target(dt), self._effort_limit)
+
+
+class VelocityPidMode(VelocityMode):
+    """A PID on the velocity gives the joint's effort."""
+
+    __slots__ = ("_pid",)
+
+    def __init__(self, joint, handle: JointHandle, limits, effort_limit: float, pid: Pid):
+        super().__init__(joint, handle, limits, effort_limit)
+        self._pid = pid
+
+    def enter(self) -> None:
+        super().enter()
+        self._pid.reset()
+
+    def leave(self) -> None:
+        self.state.effort = 0.0
+
+    def write(self, dt: float) -> None:
+        effort = self._pid.compute_command(self.target(dt) - self.joint.velocity(), dt)
+        limit = self._effort_limit
+        self.joint.add_force(min(max(effort, -limit), limit))
+        self.state.effort = self.joint.effort()
+
+
+class JointSim:
+    """A joint with the modes that its transmission lists; the first one is in force until a controller takes
+    another."""
+
+    __slots__ = ("name", "joint", "state", "modes", "mode")
+
+    def __init__(self, joint, state: JointStateHandle):
+        self.name = state.name
+        self.joint = joint
+        self.state = state
+        self.modes: Dict[str, Mode] = {}        # by C++ name of the interface
+        self.mode: Optional[Mode] = None
+
+    def add(self, interface: str, mode: Mode) -> None:
+        self.modes[interface] = mode
+        if self.mode is None:
+            self.mode = mode
+
+    def switch(self, interface: str) -> None:
+        """Controllers now command through ``interface``."""
+        mode = self.modes[interface]
+        if mode is not self.mode:
+            self.mode.leave()
+            mode.enter()
+            mode.press(self.mode.e_stop)
+            self.mode = mode

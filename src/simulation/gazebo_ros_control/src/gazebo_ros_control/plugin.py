@@ -1,0 +1,159 @@
+"""The model plugin ``libgazebo_ros_control.so``."""
+from __future__ import annotations
+
+import threading
+from typing import Optional
+
+import rosgraph
+import rospy
+from controller_interface import NodeHandle
+from controller_manager import ControllerManager
+from gazebo_ros import names
+from gazebo_ros.plugin import ModelPlugin, PluginError
+from plugin_loader import find_plugins
+from std_msgs.msg import Bool
+from transmission_interface import TransmissionError, parse_transmissions
+
+from .robot_hw_sim import RobotHWSim
+
+_DEFAULT_SIM = "gazebo_ros_control/DefaultRobotHWSim"
+
+#: s between two looks for the robot description
+_POLL = 0.1
+
+
+class GazeboRosControl(ModelPlugin):
+    """A controller manager on the joints of a model.
+
+    Elements: ``robotNamespace`` (default: the model's name), ``robotParam`` (robot_description), ``robotSimType``
+    (gazebo_ros_control/DefaultRobotHWSim), ``controlPeriod`` (s, default: the time step), ``eStopTopic``
+    (std_msgs/Bool).
+
+    The robot description may come later than the model: the world goes on meanwhile.
+    """
+
+    def load(self, server, model, sdf) -> None:
+        self._server = server
+        self._model = model
+        self._world = server.world
+        given = sdf.get("robotNamespace", None)
+        self._namespace = names.join(rospy.get_namespace(), model.name if given is None else given)
+        self._nh = NodeHandle(self._namespace)
+        self._robot_param = sdf.get("robotParam", "robot_description") or "robot_description"
+        self._sim_class = _find_sim(sdf.get("robotSimType", _DEFAULT_SIM) or _DEFAULT_SIM)
+        self._period_ns = self._control_period(sdf.get("controlPeriod", 0.0))
+        self._e_stop = self._was_stopped = False
+        if sdf.get("eStopTopic", ""):
+            self._nh.subscriber(sdf.get("eStopTopic", ""), Bool, self._receive_e_stop)
+        self._hw: Optional[RobotHWSim] = None
+        self._manager: Optional[ControllerManager] = None
+        self._gone = threading.Event()
+        self._forget_times()
+        urdf = self._find_description()
+        if urdf is not None:
+            self._start(urdf)
+        else:
+            threading.Thread(target=self._wait_for_description, name="gazebo_ros_control", daemon=True).start()
+
+    def _control_period(self, wanted: float) -> int:
+        """ns; 0 updates in every step."""
+        step = self._world.dt
+        if wanted <= 0.0:
+            return 0
+        if wanted < step * (1.0 - 1e-9):
+            rospy.logerr("model '%s': <controlPeriod>%g is shorter than the time step of %g s; controllers are updated "
+                         "once per step", self._model.name, wanted, step)
+        elif wanted > step * (1.0 + 1e-9):
+            rospy.logwarn("model '%s': <controlPeriod>%g is longer than the time step of %g s: controllers are updated "
+                          "less often than the world", self._model.name, wanted, step)
+        return round(wanted * 1e9)
+
+    # -- the robot description ------------------------------------------------------------------------------------------
+
+    def _find_description(self) -> Optional[str]:
+        """The closest parameter of that name above the namespace, else that name as it stands; None if not there."""
+        found = self._nh.search_param(self._robot_param) or self._robot_param
+        value = rospy.get_param(found, None)
+        return value if isinstance(value, str) and value else None
+
+    def _wait_for_description(self) -> None:
+        rospy.logwarn("gazebo_ros_control of model '%s' waits for the robot description in parameter %s (looked for in "
+                      "%s and above) on the ROS param server; the world goes on, controllers can be loaded once it is "
+                      "there", self._model.name, self._robot_param, self._namespace)
+        while not self._gone.wait(_POLL) and not rospy.core.is_shutdown_requested():
+            try:
+                urdf = self._find_description()
+            except (OSError, rosgraph.MasterException):  # the master restarts or goes; the next look tells
+                continue
+            if urdf is not None:
+                try:
+                    self._start(urdf)
+                except PluginError as error:
+                    rospy.logerr("gazebo_ros_control of model '%s': %s", self._model.name, error)
+                return
+
+    def _start(self, urdf: str) -> None:
+        try:
+            transmissions, problems = parse_transmissions(urdf)
+        except TransmissionError as error:
+            raise PluginError(f"parameter {self._robot_param}: {error}") from error
+        for problem in problems:
+            rospy.logerr("model '%s': %s", self._model.name, problem)
+        hw = self._sim_class()
+        if hw.init_sim(self._namespace, self._nh, self._model, urdf, transmissions) is False:
+            raise PluginError("Could not initialize robot simulation interface")
+        manager = ControllerManager(hw, self._namespace)
+        if self._gone.is_set():
+            manager.shutdown()
+            return
+        self._hw, self._manager = hw, manager
+        self._server.before_step(self._step)
+        rospy.loginfo("Loaded gazebo_ros_control in %s: %s", self._namespace, ", ".join(hw.interface_names()))
+
+    # -- every step -----------------------------------------------------------------------------------------------------
+
+    def _forget_times(self) -> None:
+        self._last_update_ns: Optional[int] = None
+        self._last_write_ns: Optional[int] = None
+
+    def _step(self) -> None:
+        hw, now_ns = self._hw, self._world.time_ns
+        now = now_ns * 1e-9
+        e_stop = self._e_stop
+        hw.e_stop_active(e_stop)
+        last = self._last_update_ns
+        elapsed_ns = max(self._period_ns, round(self._world.dt * 1e9)) if last is None else now_ns - last
+        if elapsed_ns >= self._period_ns:
+            self._last_update_ns = now_ns
+            period = elapsed_ns * 1e-9
+            hw.read_sim(now, period)
+            restart = self._was_stopped and not e_stop
+            self._was_stopped = e_stop
+            self._manager.update(now, period, restart)
+        last = self._last_write_ns
+        self._last_write_ns = now_ns
+        hw.write_sim(now, self._world.dt if last is None else (now_ns - last) * 1e-9)
+
+    def _receive_e_stop(self, message: Bool) -> None:
+        self._e_stop = message.data
+
+    def reset(self) -> None:
+        self._forget_times()
+        if self._hw is not None:
+            self._hw.reset_sim()
+
+    def shutdown(self) -> None:
+        self._gone.set()
+        if self._manager is not None:
+            self._manager.shutdown()
+        self._nh.shutdown()
+
+
+def _find_sim(name: str) -> type:
+    """The class of a simulated robot hardware. :raises PluginError: there is none of that name."""
+    types, problems = find_plugins("gazebo_ros_control")
+    for problem in problems:
+        rospy.logwarn("robot hardware types: %s", problem)
+    if name not in types:
+        raise PluginError(f"<robotSimType>{name}</robotSimType> does not exist; there are: {', '.join(sorted(types))}")
+    return types[name].load()
