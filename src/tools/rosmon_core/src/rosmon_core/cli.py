@@ -1,0 +1,159 @@
+"""The command line of rosmon: options anywhere, then PACKAGE FILE or PATH, then arguments name:=value."""
+from __future__ import annotations
+
+import os
+import re
+from dataclasses import dataclass, field
+from typing import List, Optional
+
+import rospkg
+
+from rosmon_core import RosmonError
+
+HELP = """usage: mon launch [actions] [options] PACKAGE FILE.launch [arg:=value ...]
+       mon launch [actions] [options] path/to/file.launch [arg:=value ...]
+
+FILE is searched for by name in all folders of PACKAGE.
+
+actions (instead of running the launch file):
+  --benchmark               load the launch file, say how long it took, exit
+  --list-args               print the names of the launch file's arguments, one per line
+
+options:
+  --disable-ui              print plain lines, take no keys (also chosen when there is no terminal)
+  --flush-log               write each line to the log at once
+  --flush-stdout            write each line to standard output at once
+  --help                    this text
+  --log=FILE                log to FILE (default /tmp/rosmon_<date>_<time>.log); 'syslog': to the system log
+  --name=NAME               node name of rosmon itself (default: rosmon_<unique>)
+  --no-start                start no node by itself
+  --stop-timeout=SECONDS    time between SIGINT and SIGKILL when a node is stopped (default 5.0)
+  --output-attr=obey|ignore whether output="log" is assumed for nodes without an output attribute (default ignore: shown)
+  --cpu-limit=CORES         warn in /diagnostics above this load of one node (default 0.9)
+  --memory-limit=SIZE       warn in /diagnostics above this memory of one node, for example 15MB (default 500MiB)
+  --disable-diagnostics     do not publish /diagnostics
+  --diagnostics-prefix=TEXT replaces the node name in /diagnostics
+  --auto-increment-spawn-delay=SECONDS
+                            start each node so much later than the one before it
+
+environment:
+  ROSMON_COLOR_MODE         truecolor, 256colors or ansi (default: what the terminal says)
+  ROSMON_SYSLOG=1           as --log=syslog
+  ROSMON_DEBUGGER_TERMINAL  command that opens a terminal for gdb (default 'xterm -e')
+"""
+
+_UNITS = {"": 1, "B": 1, "kB": 10 ** 3, "MB": 10 ** 6, "GB": 10 ** 9, "TB": 10 ** 12,
+          "KiB": 2 ** 10, "MiB": 2 ** 20, "GiB": 2 ** 30, "TiB": 2 ** 40}
+_FLAGS = ("benchmark", "list-args", "disable-ui", "flush-log", "flush-stdout", "help", "no-start", "disable-diagnostics")
+
+
+@dataclass
+class Options:
+    """What the user asked for. Times in s, ``memory_limit`` in bytes, ``cpu_limit`` in cores."""
+
+    file: str = ""
+    arguments: List[str] = field(default_factory=list)
+    benchmark: bool = False
+    list_args: bool = False
+    disable_ui: bool = False
+    flush_log: bool = False
+    flush_stdout: bool = False
+    help: bool = False
+    no_start: bool = False
+    disable_diagnostics: bool = False
+    log: Optional[str] = None
+    name: Optional[str] = None
+    diagnostics_prefix: Optional[str] = None
+    stop_timeout: float = 5.0
+    cpu_limit: float = 0.9
+    memory_limit: int = 500 * 2 ** 20
+    obey_output: bool = False
+    spawn_increment: float = 0.0
+
+
+def parse_memory(text: str) -> int:
+    """Bytes from ``15MB``, ``1.5 GiB`` or ``1000``. :raises RosmonError: something else."""
+    match = re.fullmatch(r"\s*([0-9]*\.?[0-9]+)\s*([A-Za-z]*)\s*", text)
+    if not match or match.group(2) not in _UNITS:
+        raise RosmonError(f"'{text}' is no amount of memory: write for example 15MB or 200MiB ({', '.join(_UNITS)[2:]})")
+    return int(float(match.group(1)) * _UNITS[match.group(2)])
+
+
+def parse_number(text: str, what: str) -> float:
+    """A number that is zero or more. :raises RosmonError: something else."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = -1.0
+    if value < 0.0:
+        raise RosmonError(f"{what} is '{text}': write a number that is zero or more")
+    return value
+
+
+def find_launch_file(package: str, name: str) -> str:
+    """Path of the file called ``name`` anywhere below the package's folders.
+
+    :raises RosmonError: no such package or file, or several such files.
+    """
+    try:
+        root = rospkg.RosPack().get_path(package)
+    except rospkg.ResourceNotFound:
+        raise RosmonError(f"Could not find path of package '{package}': is its workspace built and devel/setup.bash "
+                          "sourced in this terminal?") from None
+    found, launch_files = [], []
+    for folder, folders, files in os.walk(root):
+        folders[:] = sorted(f for f in folders if not f.startswith("."))
+        found += [os.path.join(folder, f) for f in files if f == name]
+        launch_files += [f for f in files if f.endswith(".launch")]
+    if not found:
+        listed = ", ".join(sorted(set(launch_files))) or "no launch file at all"
+        raise RosmonError(f"Could not find launch file '{name}' in package '{package}' ({root}); it has {listed}")
+    if len(found) > 1:
+        raise RosmonError(f"Found multiple launch files named '{name}' in package '{package}': {', '.join(sorted(found))}; "
+                          "give the path of the one that is meant")
+    return found[0]
+
+
+def parse(words: List[str]) -> Options:
+    """Options from the words behind ``mon launch``. :raises RosmonError: a word cannot be understood."""
+    options, positional = Options(), []
+    for word in words:
+        if word.startswith("--"):
+            _option(options, *word[2:].partition("=")[::2], given="=" in word)
+        elif ":=" in word:
+            options.arguments.append(word)
+        elif options.arguments:
+            raise RosmonError(f"'{word}' stands behind an argument: write arguments as name:=value, after the file")
+        else:
+            positional.append(word)
+    if options.help:
+        return options
+    if len(positional) == 2:
+        options.file = find_launch_file(*positional)
+    elif len(positional) == 1:
+        options.file = os.path.abspath(positional[0])
+        if not os.path.isfile(options.file):
+            raise RosmonError(f"Could not find launch file '{positional[0]}': write PACKAGE FILE or the path of a file")
+    else:
+        raise RosmonError("expected PACKAGE FILE or the path of a launch file; see 'mon launch --help'")
+    return options
+
+
+def _option(options: Options, name: str, value: str, given: bool) -> None:
+    if name in _FLAGS and not given:
+        setattr(options, name.replace("-", "_"), True)
+    elif name in ("log", "name", "diagnostics-prefix") and value:
+        setattr(options, name.replace("-", "_"), value)
+    elif name == "stop-timeout":
+        options.stop_timeout = parse_number(value, "--stop-timeout")
+    elif name == "cpu-limit":
+        options.cpu_limit = parse_number(value, "--cpu-limit")
+    elif name == "memory-limit":
+        options.memory_limit = parse_memory(value)
+    elif name == "auto-increment-spawn-delay":
+        options.spawn_increment = parse_number(value, "--auto-increment-spawn-delay")
+    elif name == "output-attr" and value in ("obey", "ignore"):
+        options.obey_output = value == "obey"
+    else:
+        raise RosmonError(f"option --{name}{'=' if given else ''}{value} is not known or lacks its value; see "
+                          "'mon launch --help'")

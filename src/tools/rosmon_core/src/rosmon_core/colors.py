@@ -1,0 +1,35 @@
+"""Label colours of nodes in what the terminal can show."""
+from __future__ import annotations
+
+import colorsys
+import os
+from typing import Mapping, Tuple
+
+_ANSI = (41, 42, 43, 44, 45, 46)
+RESET = "\x1b[0m"
+LEVELS = {"debug": "\x1b[32m", "info": "", "warn": "\x1b[33m", "error": "\x1b[31m"}
+
+
+def mode(environment: Mapping[str, str] = os.environ) -> str:
+    """``truecolor``, ``256colors`` or ``ansi``."""
+    asked = environment.get("ROSMON_COLOR_MODE", "")
+    if asked in ("truecolor", "256colors", "ansi"):
+        return asked
+    if environment.get("COLORTERM", "") in ("truecolor", "24bit"):
+        return "truecolor"
+    return "256colors" if "256" in environment.get("TERM", "") else "ansi"
+
+
+def rgb(index: int, count: int) -> Tuple[int, int, int]:
+    """Evenly spread hues, light enough for black text."""
+    return tuple(round(255 * c) for c in colorsys.hsv_to_rgb(index / max(1, count), 0.45, 0.9))
+
+
+def label_escape(index: int, count: int, colour_mode: str) -> str:
+    """Escape sequence that starts the label of node ``index`` of ``count``: black on a colour of its own."""
+    if colour_mode == "ansi":
+        return f"\x1b[30;{_ANSI[index % len(_ANSI)]}m"
+    r, g, b = rgb(index, count)
+    if colour_mode == "truecolor":
+        return f"\x1b[30;48;2;{r};{g};{b}m"
+    return f"\x1b[30;48;5;{16 + 36 * round(r / 51) + 6 * round(g / 51) + round(b / 51)}m"
