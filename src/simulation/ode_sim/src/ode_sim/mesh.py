@@ -144,7 +144,7 @@ def _selected(path: str, submesh: str, center: bool, stamp) -> List[MeshPart]:
 def _drawn(part: MeshPart, scale: np.ndarray) -> VisualPart:
     vertices, triangles, normals, uv = part.vertices, part.triangles, part.normals, part.uv
     if normals is None:
-        vertices, triangles, normals, uv = _with_normals(vertices, triangles, uv)
+        vertices, triangles, normals, uv = with_normals(vertices, triangles, uv)
     normals = normals / np.where(scale == 0.0, 1.0, scale)
     length = np.linalg.norm(normals, axis=1, keepdims=True)
     normals = np.divide(normals, length, out=np.zeros_like(normals), where=length > 0.0)
@@ -154,7 +154,7 @@ def _drawn(part: MeshPart, scale: np.ndarray) -> VisualPart:
                       _frozen(normals, np.float32), None if uv is None else _frozen(uv, np.float32), part.material)
 
 
-def _with_normals(vertices, triangles, uv, crease: float = np.radians(40.0)):
+def with_normals(vertices, triangles, uv, crease: float = np.radians(40.0)):
     """Vertices split where faces meet at a sharp edge; normals weighted by area within a smooth patch."""
     a, b, c = (vertices[triangles[:, k]] for k in range(3))
     weighted = np.cross(b - a, c - a)
