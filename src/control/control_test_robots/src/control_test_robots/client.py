@@ -2,8 +2,10 @@
 from __future__ import annotations
 
 import time as wall
-from typing import Any, Callable, List, Sequence
+from contextlib import contextmanager
+from typing import Any, Callable, Iterator, List, Sequence
 
+import rosgraph
 import rospy
 from controller_manager_msgs.srv import (ListControllers, LoadController, SwitchController, SwitchControllerRequest,
                                          UnloadController)
@@ -104,3 +106,27 @@ def set_faults(**faults: dict) -> None:
 def _call(manager_service: str, kind: type, **request: Any) -> Any:
     rospy.wait_for_service("/controller_manager/" + manager_service, 30.0)
     return rospy.ServiceProxy("/controller_manager/" + manager_service, kind)(**request)
+
+
+@contextmanager
+def running(*names: str) -> Iterator[None]:
+    """Controllers loaded and started for the time of a ``with`` block."""
+    load(*names)
+    try:
+        switch(names)
+        yield
+    finally:
+        if any(controller_state(name) == "running" for name in names):
+            switch(stop=names)
+        unload(*names)
+
+
+def published(topic: str) -> bool:
+    """Whether somebody publishes ``topic``."""
+    return topic in (name for name, _ in rospy.get_published_topics())
+
+
+def publisher_count(topic: str) -> int:
+    """Nodes that publish ``topic``."""
+    publishers, _, _ = rosgraph.Master(rospy.get_name()).getSystemState()
+    return len(dict(publishers).get(topic, []))

@@ -1,0 +1,1 @@
+"""Car-like steering."""

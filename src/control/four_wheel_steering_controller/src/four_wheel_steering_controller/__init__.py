@@ -1,0 +1,1 @@
+"""Four steered and driven wheels: kinematics (ROS-free) and the controller."""
