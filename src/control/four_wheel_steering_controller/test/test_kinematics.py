@@ -7,7 +7,6 @@ from hypothesis import strategies as st
 from four_wheel_steering_controller.kinematics import Axle, Base, axle_angle
 
 BASE = Base(steering_track=1.0, wheel_base=1.4, wheel_radius=0.2, y_offset=0.1)
-HALF_TURN = 0.18776  # rad of both axles that turn the base by pi in 10 s at pi/2 m/s
 
 
 def test_straight_on():
