@@ -235,6 +235,8 @@ PYBIND11_MODULE(_core, m) {
       .def_readwrite("max_contacts", &World::max_contacts)
       .def_readwrite("contact_max_vel", &World::contact_max_vel)
       .def_readwrite("surface_layer", &World::surface_layer)
+      .def_readwrite("contact_softness", &World::contact_softness)
+      .def_readwrite("friction_softness", &World::friction_softness)
       .def_readwrite("direct_rows", &World::direct_rows)
       .def_readwrite("seed", &World::seed)
       .def_readwrite("iterations", &World::iterations)

@@ -193,6 +193,15 @@ void World::finish(Model& model) {
       }
     }
   for (auto& j : model.joints) j->sane = sane_beyond(*j);
+  for (auto& link : model.links) model.mass += link->mass;
+  for (auto& j : model.joints)
+    if (j->type == JointType::Revolute)
+      for (auto& shape : j->child->shapes)
+        if (dGeomGetClass(shape->geom) == dCylinderClass) {
+          const Vec3 axis = rotate(j->X_CJ.q, j->axes[0].xyz);
+          const Vec3 from_axis = cross(shape->X_LC.p - j->X_CJ.p, axis);
+          shape->wheel = std::abs(dot(axis, rotate(shape->X_LC.q, Vec3{0, 0, 1}))) > 0.9999 && norm(from_axis) < 1e-4;
+        }
   renumber();
   refresh();
 }
@@ -332,9 +341,6 @@ void World::recluster(Model& model) {
   for (auto& l : model.links)
     if (l->cluster < 0) start(l.get());
 
-  for (auto& j : model.joints) {
-    if (j->merged() || j->type == JointType::Fixed) continue;
-  }
   // An ODE joint on a link that servo joints move hangs on that link's own body, moved kinematically.
   for (auto& j : model.joints)
     if (!j->merged())
@@ -351,11 +357,13 @@ void World::recluster(Model& model) {
     }
   for (auto& c : model.clusters) {
     compose(c);
-    place_cluster(model, c);
+    place_cluster(c);
   }
   for (auto& j : model.joints)
     if (j->joint) dJointDestroy(j->joint), j->joint = nullptr;
-  install_joints(model);
+  for (auto& j : model.joints)
+    if (!j->merged()) install(*j);
+  plan_tree(model);
 
   for (auto& l : model.links) {
     const bool fixed = !model.clusters[l->cluster].root && !l->moving;
@@ -404,7 +412,7 @@ void World::compose(Cluster& c) {
 }
 
 // Puts the cluster's body where its root link is, moving as the root link moves, with the composite mass.
-void World::place_cluster(Model& model, Cluster& c) {
+void World::place_cluster(Cluster& c) {
   if (c.root) {
     Link& root = *c.root;
     dBodyID body = root.body;
@@ -420,7 +428,7 @@ void World::place_cluster(Model& model, Cluster& c) {
     dBodySetLinearDamping(body, root.linear_decay);
     dBodySetAngularDamping(body, root.angular_decay);
   }
-  spread_poses(model, c);
+  spread_poses(c);
   for (Link* l : c.members)
     if (l->carrier) {
       dBodySetKinematic(l->body);
@@ -428,13 +436,13 @@ void World::place_cluster(Model& model, Cluster& c) {
     }
 }
 
-void World::spread_poses(Model&, Cluster& c) {
+void World::spread_poses(Cluster& c) {
   for (Link* l : c.members)
     if (l != c.root) l->X_WL = c.root ? normalized(c.root->X_WL * l->X_RL) : l->X_RL;
 }
 
 // Velocities of the members from that of the root and the commanded rates of the servo joints.
-void World::spread_twists(Model&, Cluster& c) {
+void World::spread_twists(Cluster& c) {
   for (Link* l : c.members) {
     if (l == c.root) continue;
     Vec3 v, w, from;
@@ -469,11 +477,6 @@ void World::place_shapes(Link& link) {
     dGeomSetPosition(s->geom, X.p.x, X.p.y, X.p.z);
     dGeomSetQuaternion(s->geom, r);
   }
-}
-
-void World::install_joints(Model& model) {
-  for (auto& j : model.joints)
-    if (!j->merged()) install(*j);
 }
 
 // Makes the ODE joint. Its anchor and zero are taken with the bodies put, for a moment, exactly as the joint at zero has
@@ -603,8 +606,8 @@ void World::set_link_twist(Link& link, const Vec3& v, const Vec3& w) {
   wake(*link.model);
   c.root->v = v + cross(w, c.root->X_WL.p - link.X_WL.p);
   c.root->w = w;
-  place_cluster(*link.model, c);
-  spread_twists(*link.model, c);
+  place_cluster(c);
+  spread_twists(c);
 }
 
 void World::zero_velocities(Model& model) {
@@ -613,7 +616,7 @@ void World::zero_velocities(Model& model) {
   for (auto& j : model.joints)
     for (auto& a : j->axes) a.qd = a.force = 0;
   wake(model);
-  for (auto& c : model.clusters) place_cluster(model, c);
+  for (auto& c : model.clusters) place_cluster(c);
   read_back();
 }
 
@@ -670,6 +673,7 @@ void World::servo_off(Joint& j) {
 }
 
 void World::set_inertial(Link& link, double mass, const Vec3& com, const Sym3& inertia) {
+  link.model->mass += mass - link.mass;
   link.mass = mass;
   link.com = com;
   link.inertia = inertia;
@@ -729,7 +733,7 @@ void World::collide() {
       std::stable_sort(found, found + n, [](auto& p, auto& q) { return p.depth > q.depth; });
       n = std::max(most, 0);
     }
-    int kept = 0;
+    const size_t first = contacts_.size();
     for (int i = 0; i < n; ++i) {
       Contact c;
       c.a = a;
@@ -741,11 +745,38 @@ void World::collide() {
       if (!finite(c.pos) || !std::isfinite(c.depth) || !(length > 0.5)) continue;
       c.normal = c.normal * (1 / length);
       contacts_.push_back(c);
-      ++kept;
     }
-    for (int i = 0; i < kept; ++i) contacts_[contacts_.size() - 1 - i].count = kept;
+    if (a->wheel) merge_tread(*a, first);
+    if (b->wheel) merge_tread(*b, first);
+    const int kept = static_cast<int>(contacts_.size() - first);
+    for (size_t i = first; i < contacts_.size(); ++i) contacts_[i].count = kept;
   }
   counters.contacts = contacts_.size();
+}
+
+// A wheel touches with the middle of its tread. ODE gives a contact at either edge; a robot that turns would then pivot on
+// one of them (two rings under dry friction leave it open on which), and its effective track be off by the tread's width.
+void World::merge_tread(const Shape& wheel, size_t first) {
+  const Vec3 axis = rotate(wheel.link->X_WL.q * wheel.X_LC.q, Vec3{0, 0, 1});
+  size_t kept = first;
+  for (size_t i = first; i < contacts_.size(); ++i) {
+    Contact c = contacts_[i];
+    if (std::abs(dot(c.normal, axis)) < 0.1) {
+      double low = dot(axis, c.pos), high = low;
+      for (size_t k = contacts_.size() - 1; k > i; --k) {
+        const Contact& other = contacts_[k];
+        if (dot(other.normal, c.normal) < 0.999) continue;
+        const double at = dot(axis, other.pos);
+        low = std::min(low, at);
+        high = std::max(high, at);
+        if (other.depth > c.depth) c.depth = other.depth, c.pos = other.pos;
+        contacts_.erase(contacts_.begin() + k);
+      }
+      c.pos += axis * ((low + high) / 2 - dot(axis, c.pos));
+    }
+    contacts_[kept++] = c;
+  }
+  contacts_.resize(kept);
 }
 
 // ------------------------------------------------------------------------------------------------ servo joints
@@ -773,7 +804,7 @@ void World::set_rates(Model& model) {
   }
   for (auto& c : model.clusters)
     if (c.moving) {
-      spread_twists(model, c);
+      spread_twists(c);
       for (Link* l : c.members)
         if (l->carrier) set_body_twist(l->body, l->v, l->w);
     }
@@ -1021,9 +1052,12 @@ void World::make_contact_joints() {
     d.surface.mu = std::max(std::min(sa.mu, sb.mu), 0.0);
     d.surface.mu2 = std::max(std::min(sa.mu2, sb.mu2), 0.0);
     d.surface.soft_erp = soft_erp;
-    d.surface.soft_cfm = std::max(soft > 0 ? 1 / soft : 1e-9, 1e-9);
-    d.surface.slip1 = (sa.slip1 + sb.slip1) * c.count + 1e-10;
-    d.surface.slip2 = (sa.slip2 + sb.slip2) * c.count + 1e-10;
+    double inverse_mass = 0;
+    for (Link* l : {la, lb})
+      if (!l->model->is_static) inverse_mass += 1 / l->model->mass;
+    d.surface.soft_cfm = std::max(soft > 0 ? 1 / soft : 1e-9, contact_softness * dt * inverse_mass);
+    d.surface.slip1 = (sa.slip1 + sb.slip1) * c.count + friction_softness * dt * inverse_mass;
+    d.surface.slip2 = (sa.slip2 + sb.slip2) * c.count + friction_softness * dt * inverse_mass;
     d.surface.bounce = std::min(sa.restitution, sb.restitution);
     d.surface.bounce_vel = std::min(sa.bounce_threshold, sb.bounce_threshold);
 
@@ -1040,6 +1074,12 @@ void World::make_contact_joints() {
     if (norm(sa.fdir1) > 0) {
       t1 = rotate(la->X_WL.q * c.a->X_LC.q, sa.fdir1);
       t1 = t1 - n * dot(n, t1);
+    }
+    if (norm(t1) < 1e-6 && d.surface.mu == d.surface.mu2) {
+      // Where it slides, friction is to point against the motion, not along two fixed axes at once.
+      t1 = la->velocity_at(c.pos) - lb->velocity_at(c.pos);
+      t1 = t1 - n * dot(n, t1);
+      if (norm(t1) < 1e-5) t1 = {};
     }
     if (norm(t1) < 1e-6) {
       const dReal nn[3] = {n.x, n.y, n.z};
@@ -1238,7 +1278,7 @@ void World::solve() {
         c->asleep = true;
         set_body_twist(c->root->body, {}, {});
         c->root->v = c->root->w = {};
-        spread_twists(*c->root->model, *c);
+        spread_twists(*c);
       }
       island.awake = false;
     }
@@ -1336,14 +1376,13 @@ void World::guard_nan() {
 
 // ------------------------------------------------------------------------------------------------ results
 
-void World::read_joint(Joint& j, bool unwrap) {
+void World::read_joint(Joint& j) {
   const Pose X_WJ = j.frame_W();
   const Pose X_J = inverse(X_WJ) * j.child->X_WL * j.X_CJ;
   const Vec3 vp = j.parent ? j.parent->velocity_at(j.child->X_WL * j.X_CJ.p) : Vec3{}, wp = j.parent ? j.parent->w : Vec3{};
   const Vec3 w = j.child->w - wp;
   auto turn = [&](Axis& a, double angle) {
-    const double guess = unwrap ? a.q + a.qd * dt : a.q;
-    a.q = angle + 2 * kPi * std::round((guess - angle) / (2 * kPi));
+    a.q = angle + 2 * kPi * std::round((a.q - angle) / (2 * kPi));
   };
   switch (j.type) {
     case JointType::Revolute: {
@@ -1385,6 +1424,97 @@ void World::read_feedback(Joint& j) {
   j.feedback.parent_torque = -j.feedback.child_torque;
 }
 
+// Puts the links of a tree of ODE joints exactly where the joint angles say, from the anchored or first cluster outwards.
+// Bodies move along straight lines within a step and so leave their joints by a little; corrected by forces that fights
+// with static friction (turning wheels would scrub and carry uneven loads), and joints would be seen to gape. The centre
+// of mass of what floats free stays where the step took it.
+void World::project_joints(Model& model) {
+  if (model.tree.empty()) return;
+  for (auto& c : model.clusters) c.moved = false;
+  for (auto& t : model.tree) {
+    Joint& j = *t.joint;
+    Cluster& c = model.clusters[t.cluster];
+    if (c.asleep || !c.root) continue;
+    read_joint(j);
+    Pose X_J = j.motion(j.axes[0].q);
+    if (j.type == JointType::Universal)
+      X_J.q = axis_angle(j.axes[0].xyz, j.axes[0].q) * axis_angle(j.axes[1].xyz, j.axes[1].q);
+    else if (j.type == JointType::Ball)
+      X_J.q = conjugate(j.frame_W().q) * j.child->X_WL.q * j.X_CJ.q;
+    Link& moved = t.outward ? *j.child : *j.parent;
+    const Pose wanted = t.outward ? j.frame_W() * X_J * inverse(j.X_CJ)
+                                  : j.child->X_WL * j.X_CJ * inverse(X_J) * inverse(j.X_PJ);
+    c.root->X_WL = normalized(wanted * inverse(moved.X_RL));
+    c.moved = true;
+    for (Link* l : c.members)
+      if (l != c.root) l->X_WL = c.root->X_WL * l->X_RL;
+  }
+  // Components that float free: their centre of mass.
+  for (auto& head : model.tree_heads) {
+    double mass = 0;
+    Vec3 before, after;
+    auto add = [&](const Cluster& c) {
+      mass += c.mass;
+      before += vec(dBodyGetPosition(c.root->body)) * c.mass;
+      after += (c.root->X_WL * c.com) * c.mass;
+    };
+    add(model.clusters[head]);
+    for (auto& t : model.tree)
+      if (t.head == head) add(model.clusters[t.cluster]);
+    const Vec3 shift = (before - after) * (1 / mass);
+    auto move = [&](Cluster& c) {
+      c.root->X_WL.p += shift;
+      c.moved = true;
+    };
+    move(model.clusters[head]);
+    for (auto& t : model.tree)
+      if (t.head == head) move(model.clusters[t.cluster]);
+  }
+  for (auto& c : model.clusters)
+    if (c.moved) set_body_pose(c.root->body, {c.root->X_WL * c.com, c.root->X_WL.q});
+}
+
+// The order in which project_joints goes: from what the world holds, else from the first link, outwards, each cluster once.
+void World::plan_tree(Model& model) {
+  model.tree.clear();
+  model.tree_heads.clear();
+  std::vector<bool> seen(model.clusters.size(), false);
+  std::vector<int> queue;
+  size_t next = 0;
+  auto grow = [&](int head) {
+    for (; next < queue.size(); ++next)
+      for (auto& j : model.joints) {
+        if (!j->joint || !j->parent) continue;
+        const int child = j->child->cluster, parent = j->parent->cluster;
+        const bool outward = parent == queue[next];
+        const int other = outward ? child : child == queue[next] ? parent : -1;
+        if (other < 0 || seen[other]) continue;
+        seen[other] = true;
+        model.tree.push_back({j.get(), other, head, outward});
+        queue.push_back(other);
+      }
+  };
+  auto visit = [&](int cluster) {
+    seen[cluster] = true;
+    queue.push_back(cluster);
+  };
+  for (size_t i = 0; i < model.clusters.size(); ++i)
+    if (!model.clusters[i].root) visit(static_cast<int>(i));
+  for (auto& j : model.joints)
+    if (j->joint && !j->parent && !seen[j->child->cluster]) {
+      model.tree.push_back({j.get(), j->child->cluster, -1, true});
+      visit(j->child->cluster);
+    }
+  grow(-1);
+  for (size_t i = 0; i < model.clusters.size(); ++i) {
+    if (seen[i]) continue;
+    const size_t before = model.tree.size();
+    visit(static_cast<int>(i));
+    grow(static_cast<int>(i));
+    if (model.tree.size() > before) model.tree_heads.push_back(static_cast<int>(i));
+  }
+}
+
 void World::integrate_servos() {
   for (auto& m : models_)
     for (auto& j : m->joints) {
@@ -1397,8 +1527,9 @@ void World::integrate_servos() {
     }
 }
 
-void World::read_back() {
-  for (auto& m : models_) {
+// Link poses and velocities from the bodies.
+void World::pull() {
+  for (auto& m : models_)
     for (auto& c : m->clusters) {
       if (c.root) {
         const Pose X_WB = body_pose(c.root->body);
@@ -1407,9 +1538,16 @@ void World::read_back() {
         root.w = vec(dBodyGetAngularVel(root.body));
         root.v = vec(dBodyGetLinearVel(root.body)) + cross(root.w, root.X_WL.p - X_WB.p);
       }
-      spread_poses(*m, c);
-      spread_twists(*m, c);
+      if (c.members.size() > 1 || !c.root) {
+        spread_poses(c);
+        spread_twists(c);
+      }
     }
+}
+
+// Shapes, joint readings and shared arrays from the links.
+void World::publish() {
+  for (auto& m : models_) {
     for (auto& l : m->links) {
       if (l->cluster < 0) continue;
       const Cluster& c = m->clusters[l->cluster];
@@ -1420,13 +1558,18 @@ void World::read_back() {
       row[3] = X.q.x; row[4] = X.q.y; row[5] = X.q.z; row[6] = X.q.w;
     }
     for (auto& j : m->joints) {
-      if (!j->merged()) read_joint(*j, false);
+      if (!j->merged()) read_joint(*j);
       for (int i = 0; i < j->axis_count; ++i) {
         joint_positions[j->row + i] = j->axes[i].q;
         joint_velocities[j->row + i] = j->axes[i].qd;
       }
     }
   }
+}
+
+void World::read_back() {
+  pull();
+  publish();
 }
 
 // ------------------------------------------------------------------------------------------------ the step
@@ -1450,28 +1593,24 @@ void World::step_once() {
   make_contact_joints();
   solve();
   guard_nan();
+  pull();
   integrate_servos();
   for (auto& m : models_) {
     for (auto& j : m->joints) read_feedback(*j);
     for (auto& c : m->clusters) {
       if (!c.moving) continue;
       // The configuration changed: the root link stays where the step took it, the composite mass follows.
-      if (c.root) {
-        const Pose X_WB = body_pose(c.root->body);
-        c.root->X_WL = {X_WB.p - rotate(X_WB.q, c.com), X_WB.q};
-        c.root->w = vec(dBodyGetAngularVel(c.root->body));
-        c.root->v = vec(dBodyGetLinearVel(c.root->body)) + cross(c.root->w, c.root->X_WL.p - X_WB.p);
-      }
       bool still = true;
       for (Link* l : c.members) still &= !l->up || l->up->servo != ServoMode::Locked || l->up->rate == 0;
       if (still) continue;
       compose(c);
-      place_cluster(*m, c);
+      place_cluster(c);
       if (c.has_joints)
         for (auto& j : m->joints)
           if (j->joint && ((j->parent && &m->clusters[j->parent->cluster] == &c) || &m->clusters[j->child->cluster] == &c)) install(*j);
     }
   }
+  for (auto& m : models_) project_joints(*m);
   for (auto& m : models_) {
     for (auto& l : m->links) l->force = l->torque = {};
     for (auto& j : m->joints)

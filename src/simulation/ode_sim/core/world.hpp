@@ -48,6 +48,7 @@ struct Shape {
   std::vector<double> vertices, faceted_vertices;
   std::vector<dTriIndex> indices, faceted_indices;
   bool infinite = false;  // a plane
+  bool wheel = false;     // a cylinder that turns on a hinge about its own axis
   Pose X_LC;
   Vec3 plane_normal{0, 0, 1};
   Surface surface;
@@ -153,6 +154,15 @@ struct Cluster {
   int idle_steps = 0;
   double idle_time = 0;
   int node = -1;  // of the island search
+  bool moved = false;
+};
+
+// One joint of the tree in which joint positions are projected, and the cluster that follows from it.
+struct Branch {
+  Joint* joint;
+  int cluster;
+  int head;      // first cluster of a tree that floats free, -1 when the world holds it
+  bool outward;  // the child's cluster follows the parent's
 };
 
 struct Model {
@@ -160,11 +170,14 @@ struct Model {
   std::string name;
   World* world = nullptr;
   bool is_static = false, self_collide = false, may_sleep = false;
+  double mass = 0;  // kg, of all links
   bool dirty = true;
   bool has_servo = false;
   std::vector<std::shared_ptr<Link>> links;
   std::vector<std::shared_ptr<Joint>> joints;
   std::vector<Cluster> clusters;
+  std::vector<Branch> tree;
+  std::vector<int> tree_heads;
   std::set<std::pair<int, int>> jointed;  // ids of links that a joint connects: they never collide
   std::set<std::pair<int, int>> exempt;  // shape pairs that already touched when the servo joints were engaged
   bool take_exempt = false;
@@ -202,6 +215,7 @@ class World {
   uint64_t seed = 0;
   uint64_t iterations = 0;
   int64_t time_ns = 0;
+  double contact_softness = 0.02, friction_softness = 1e-5;
   int direct_rows = 160;  // islands up to this many constraint rows use the direct solver
 
   std::shared_ptr<Model> add_model(const std::string& name, bool is_static, bool self_collide, bool may_sleep);
@@ -259,15 +273,15 @@ class World {
   void step_once();
   void renumber();
   void recluster(Model& model);
-  void place_cluster(Model& model, Cluster& cluster);
+  void place_cluster(Cluster& cluster);
   void compose(Cluster& cluster);
-  void install_joints(Model& model);
   void install(Joint& joint);
   void place_shapes(Link& link);
-  void spread_poses(Model& model, Cluster& cluster);
-  void spread_twists(Model& model, Cluster& cluster);
+  void spread_poses(Cluster& cluster);
+  void spread_twists(Cluster& cluster);
   void set_rates(Model& model);
   void collide();
+  void merge_tread(const Shape& wheel, size_t first);
   bool allowed(const Shape& a, const Shape& b) const;
   bool promote();
   void demote();
@@ -282,8 +296,12 @@ class World {
   void solve();
   void run(bool direct);
   void integrate_servos();
+  void pull();
+  void publish();
   void read_back();
-  void read_joint(Joint& joint, bool unwrap);
+  void plan_tree(Model& model);
+  void project_joints(Model& model);
+  void read_joint(Joint& joint);
   void read_feedback(Joint& joint);
   void guard_nan();
   void report(const std::string& text, const std::string& who);
