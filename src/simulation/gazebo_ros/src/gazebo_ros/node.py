@@ -1,6 +1,7 @@
 """The node ``gazebo``: from the command line to a running world, and to its end."""
 from __future__ import annotations
 
+import logging
 import os
 import signal
 import sys
@@ -36,8 +37,16 @@ _EMPTY_WORLD = "worlds/empty.world"
 _LAST_RESORT = 1.5  # s from a signal to the end of the process, whatever a plugin does
 
 
-def main() -> int:
-    """Run the server; the exit code of the process."""
+def main() -> None:
+    """Run the server and end the process."""
+    code = _run()
+    logging.shutdown()
+    sys.stdout.flush()
+    sys.stderr.flush()
+    os._exit(code)  # tearing the interpreter down under rospy's threads would take seconds
+
+
+def _run() -> int:
     ending = _Ending()
     options = command_line.parse(rospy.myargv()[1:])
     _wait_for_master(ending)

@@ -14,13 +14,15 @@ class Refused(Exception):
 
 
 def advertise(server: Server, name: str, service: type, f: Callable[[Any, Any], str],
-              in_physics_thread: bool = True) -> rospy.Service:
+              in_physics_thread: bool = True, prefix: str = "") -> rospy.Service:
     """Offer ``~name``. ``f(request, response)`` fills the response and returns the status line.
 
     A :class:`Refused`, or the ``ValueError`` by which ode_sim refuses a value, becomes ``success=false``; so does what
     nobody foresaw, with an ERROR line. Responses without a ``success`` field cannot say it, so it is logged instead.
+
+    :param prefix: begins the status line of a failure; by default the service's name in camel case
     """
-    prefix = "".join(word.capitalize() for word in name.split("_"))
+    prefix = prefix or "".join(word.capitalize() for word in name.split("_"))
 
     def handle(request: Any) -> Any:
         response = service._response_class()

@@ -21,8 +21,10 @@ class SpawnServices:
 
     def __init__(self, server: Server):
         self._server = server
-        advertise(server, "spawn_urdf_model", SpawnModel, self._spawn_urdf, in_physics_thread=False)
-        advertise(server, "spawn_sdf_model", SpawnModel, self._spawn, in_physics_thread=False)
+        advertise(server, "spawn_urdf_model", SpawnModel, self._spawn_urdf, in_physics_thread=False,
+                  prefix="SpawnModel")
+        advertise(server, "spawn_sdf_model", SpawnModel, self._spawn, in_physics_thread=False,
+                  prefix="SpawnModel")
 
     def _spawn_urdf(self, request, response) -> str:
         return self._spawn(request, response, urdf_only=True)
