@@ -1,0 +1,1 @@
+"""Driver for ArbotiX boards: `arbotix` talks to one, `driver` is the ROS node."""

@@ -1,0 +1,148 @@
+"""The node arbotix: joints, controllers and pins of one board."""
+import rospy
+from arbotix_msgs.srv import SetupChannel, SetupChannelResponse
+from diagnostic_msgs.msg import DiagnosticArray
+from sensor_msgs.msg import JointState
+
+from . import channels
+from .arbotix import ArbotiX, ArbotiXException
+from .diff_controller import DiffController
+from .follow_controller import FollowController
+from .linear_controller import LinearControllerAbsolute, LinearControllerIncremental, LinearJoint
+from .parameters import ConfigurationError, Every
+from .servo_controller import ServoController
+from .servos import DynamixelServo, HobbyServo
+
+JOINT_TYPES = {"dynamixel": DynamixelServo, "hobby_servo": HobbyServo, "calibrated_linear": LinearJoint}
+CONTROLLER_TYPES = {"diff_controller": DiffController, "follow_controller": FollowController,
+                    "linear_controller": LinearControllerAbsolute, "linear_controller_i": LinearControllerIncremental}
+
+
+class Driver:
+    def __init__(self):
+        self.fake = rospy.get_param("~sim", False)
+        self.board = None
+        if self.fake:
+            rospy.loginfo("ArbotiX being simulated.")
+        else:
+            self.board = ArbotiX(rospy.get_param("~port", "/dev/ttyUSB0"), int(rospy.get_param("~baud", 115200)),
+                                 float(rospy.get_param("~timeout", 0.1)), open_port=False)
+            self._connect()
+        self._joint_states = rospy.Publisher("joint_states", JointState, queue_size=5)
+        self._joint_states_every = Every(rospy.get_param("~read_rate", 10.0))
+        self._diagnostics = rospy.Publisher("diagnostics", DiagnosticArray, queue_size=5)
+        self._diagnostics_every = Every(rospy.get_param("~diagnostic_rate", 1.0))
+        self.joints = {}
+        self._make(self.joints, "joint", JOINT_TYPES, "dynamixel")
+        self.controllers = {"servos": ServoController(self, "servos")}
+        self._make(self.controllers, "controller", CONTROLLER_TYPES)
+        self._channels = {}
+
+    def _connect(self):
+        tries = 0
+        while not rospy.is_shutdown():
+            try:
+                self.board.openPort()
+                rospy.loginfo("Started ArbotiX connection on port %s.", rospy.get_param("~port", "/dev/ttyUSB0"))
+                return
+            except ArbotiXException as error:
+                if tries % 4 == 0:
+                    rospy.logerr("Unable to connect to ArbotiX: %s. Trying again.", error)
+            tries += 1
+            rospy.sleep(0.5)
+
+    def _make(self, made, kind, types, default=None):
+        """Makes what the parameters ~<kind>s name; what cannot be made is one error, and the rest goes on."""
+        for name, parameters in rospy.get_param("~%ss" % kind, {}).items():
+            type_name = parameters.get("type", default) if isinstance(parameters, dict) else default
+            if type_name not in types:
+                rospy.logerr("Unrecognized %s: %s has type %s, known are %s.", kind, name, type_name, sorted(types))
+                continue
+            try:
+                made[name] = types[type_name](self, name)
+            except ConfigurationError as error:
+                rospy.logerr("%s %s left out: %s.", kind.capitalize(), name, error)
+
+    def _wait_for_board(self):
+        while self.board.getDigital(1) == -1 and not rospy.is_shutdown():
+            rospy.loginfo("ArbotiX: waiting for response...")
+            rospy.sleep(0.25)
+        rospy.loginfo("ArbotiX connected.")
+
+    def _start_channels(self):
+        for service, kind in channels.SERVICES.items():
+            rospy.Service(service, SetupChannel, lambda request, kind=kind: self._setup_channel(kind, request))
+        if self.fake:
+            return
+        for group, kind in channels.PARAMETERS.items():
+            for name, given in rospy.get_param("~" + group, {}).items():
+                self._channels[name] = kind(self.board, name, given.get("pin", 1), given.get("value", 0),
+                                            given.get("rate", 10), given.get("length", 1))
+
+    def _setup_channel(self, kind, request):
+        if not self.fake:
+            self._channels[request.topic_name] = kind(self.board, request.topic_name, request.pin, request.value,
+                                                      max(1, request.rate))
+        return SetupChannelResponse()
+
+    def run(self):
+        pins = any(rospy.has_param("~" + group) for group in channels.PARAMETERS)
+        if not self.fake and (pins or any(controller.pause for controller in self.controllers.values())):
+            self._wait_for_board()
+        for controller in self.controllers.values():
+            controller.startup()
+        self._start_channels()
+        rate = rospy.Rate(rospy.get_param("~rate", 100.0))
+        while not rospy.is_shutdown():
+            try:
+                self._turn(rospy.Time.now())
+            except ArbotiXException as error:
+                rospy.logerr("ArbotiX error: %s", error)
+                self._connect()
+            rate.sleep()
+
+    def _turn(self, now):
+        for controller in self.controllers.values():
+            controller.update(now)
+        for channel in list(self._channels.values()):
+            channel.update(now)
+        if self._joint_states_every.due(now):
+            self._publish_joint_states(now)
+        if self._diagnostics_every.due(now):
+            reports = [part.diagnostics() for part in [*self.controllers.values(), *self.joints.values()]]
+            message = DiagnosticArray(status=[report for report in reports if report])
+            message.header.stamp = now
+            self._diagnostics.publish(message)
+
+    def _publish_joint_states(self, now):
+        message = JointState()
+        message.header.stamp = now
+        for joint in self.joints.values():
+            message.name.append(joint.name)
+            message.position.append(joint.position)
+            message.velocity.append(joint.velocity)
+        for controller in self.controllers.values():
+            message.name += controller.joint_names
+            message.position += controller.joint_positions
+            message.velocity += controller.joint_velocities
+        self._joint_states.publish(message)
+
+    def shutdown(self):
+        try:
+            for controller in self.controllers.values():
+                controller.shutdown()
+        except ArbotiXException as error:
+            rospy.logerr("ArbotiX error: %s", error)
+        if self.board:
+            self.board.closePort()
+
+
+def main():
+    rospy.init_node("arbotix")
+    driver = Driver()
+    try:
+        driver.run()
+    except rospy.ROSInterruptException:
+        pass
+    finally:
+        driver.shutdown()

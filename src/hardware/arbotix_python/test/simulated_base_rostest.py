@@ -1,0 +1,84 @@
+#!/usr/bin/env python3
+"""The driver without a board: odometry from velocity commands, frames, joint states, bad configuration."""
+import math
+import signal
+import subprocess
+import unittest
+
+import rospy
+import rostest
+from diagnostic_msgs.msg import DiagnosticArray
+from geometry_msgs.msg import Twist
+from nav_msgs.msg import Odometry
+from ros_helpers import Collector, RunningClock
+from sensor_msgs.msg import JointState
+from tf2_msgs.msg import TFMessage
+
+
+def heading(odometry):
+    return 2 * math.atan2(odometry.pose.pose.orientation.z, odometry.pose.pose.orientation.w)
+
+
+class SimulatedBase(unittest.TestCase):
+    def test_odometry(self):
+        odometry = Collector("/odom", Odometry)
+        transforms = Collector("/tf", TFMessage)
+        commands = rospy.Publisher("/cmd_vel", Twist, queue_size=1, latch=True)
+        twist = Twist()
+        twist.linear.x, twist.angular.z = 0.5, 0.4
+        commands.publish(twist)  # once: in simulation a command holds for ever
+        moving = odometry.wait_for(lambda m: m.twist.twist.linear.x == 0.5, "odometry of the command")
+        start = moving.header.stamp
+        odometry.wait_for(lambda m: (m.header.stamp - start).to_sec() > 4, "odometry four seconds on")
+
+        self.assertEqual((moving.header.frame_id, moving.child_frame_id), ("odom", "base_footprint"))
+        run = [m for m in odometry.messages if m.header.stamp >= start]
+        for before, after in zip(run, run[1:]):
+            period = (after.header.stamp - before.header.stamp).to_sec()
+            self.assertGreater(period, 0.1)
+            place, then = after.pose.pose.position, before.pose.pose.position
+            self.assertAlmostEqual(place.x - then.x, 0.5 * period * math.cos(heading(before)), places=9)
+            self.assertAlmostEqual(place.y - then.y, 0.5 * period * math.sin(heading(before)), places=9)
+            self.assertAlmostEqual(heading(after) - heading(before), 0.4 * period, places=9)
+        self.assertEqual(run[-1].twist.twist.angular.z, 0.4)
+
+        last = run[-1].pose.pose.position
+        message = transforms.wait_for(
+            lambda m: abs(m.transforms[0].transform.translation.x - last.x) < 1e-12, "transform of the last odometry")
+        transform = message.transforms[0]
+        self.assertEqual((transform.header.frame_id, transform.child_frame_id), ("odom", "base_footprint"))
+        self.assertAlmostEqual(transform.transform.translation.y, last.y, places=12)
+
+    def test_joint_states(self):
+        state = Collector("/joint_states", JointState).wait_for(lambda m: True, "joint states")
+        self.assertEqual(state.name, ["base_l_wheel_joint", "base_r_wheel_joint"])
+        self.assertEqual((state.position, state.velocity, state.effort), ((0, 0), (0, 0), ()))
+
+    def test_diagnostics(self):
+        message = Collector("/diagnostics", DiagnosticArray).wait_for(lambda m: True, "diagnostics")
+        status = {entry.name: entry for entry in message.status}["base_controller"]
+        self.assertEqual([pair.key for pair in status.values], ["dX", "dR"])
+
+    def test_bad_configuration_is_named_and_left_out(self):
+        rospy.set_param("/broken", {"sim": True, "controllers": {
+            "wings": {"type": "flapping_controller"}, "narrow": {"type": "diff_controller", "ticks_meter": 4100},
+            "head": {"type": "follow_controller", "joints": ["neck"], "action_name": "nod"}}})
+        driver = subprocess.Popen(["rosrun", "arbotix_python", "arbotix_driver", "__name:=broken"],
+                                  stderr=subprocess.PIPE, text=True)
+        try:
+            states = Collector("/joint_states", JointState)
+            states.wait_for(lambda m: m._connection_header["callerid"] == "/broken", "joint states all the same")
+        finally:
+            driver.send_signal(signal.SIGINT)
+            errors = driver.communicate(timeout=20)[1]
+        self.assertRegex(errors, "wings has type flapping_controller")
+        self.assertRegex(errors, "/broken/controllers/narrow/base_width is not set")
+        self.assertRegex(errors, "joint neck of /broken/controllers/head/joints")
+        self.assertNotIn("Traceback", errors)
+
+
+if __name__ == "__main__":
+    rospy.init_node("simulated_base_rostest")
+    clock = RunningClock()
+    rostest.rosrun("arbotix_python", "simulated_base", SimulatedBase)
+    clock.stop()
