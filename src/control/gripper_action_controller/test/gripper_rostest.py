@@ -17,6 +17,7 @@ class Gripper(unittest.TestCase):
 
     def connect(self, controller):
         action = actionlib.ActionClient(f"/{controller}/gripper_cmd", GripperCommandAction)
+        self.addCleanup(action.stop)  # else its connection to this controller is counted as one to the next
         action.wait_for_server()
         return action
 

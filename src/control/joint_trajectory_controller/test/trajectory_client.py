@@ -73,6 +73,9 @@ class TrajectoryCase(unittest.TestCase):
 
     @classmethod
     def tearDownClass(cls):
+        # a publisher that outlives the controller still counts its connection to the old subscriber when the next one comes
+        cls.command.unregister()
+        cls.action.stop()
         cls.state.close()
         client.switch(stop=[cls.controller])
         client.unload(cls.controller)

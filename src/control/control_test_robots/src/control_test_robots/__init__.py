@@ -3,7 +3,7 @@
 Parameters of the node ``test_robot`` (private)::
 
     rate: 100.0            # control loop, Hz of simulated time
-    speed: 10.0            # simulated seconds per second; 0 for as fast as the machine goes
+    speed: 1.0             # simulated seconds per second while no test waits (see node.TestRobotNode)
     joints:
       elbow: {interfaces: [position], initial: 0.0}   # of position, velocity, effort, pos_vel, pos_vel_acc
     imus: {imu: {frame_id: imu_link, orientation: [0, 0, 0, 1]}}                # fields of ImuSensorHandle

@@ -12,23 +12,35 @@ from controller_manager_msgs.srv import (ListControllers, LoadController, Switch
 from std_srvs.srv import Empty
 
 
-def wait_until(condition: Callable[[], Any], what: str, timeout: float = 10.0) -> Any:
-    """Poll ``condition`` until it is true. :return: its value.
+_advance = None
 
-    :param timeout: s of simulated time, and of wall time too should the clock stand still
+
+def advance() -> None:
+    """Let a little simulated time pass, see node.TestRobotNode."""
+    global _advance
+    if _advance is None:
+        rospy.wait_for_service("/test_robot/advance", 30.0)
+        _advance = rospy.ServiceProxy("/test_robot/advance", Empty, persistent=True)
+    _advance()
+
+
+def wait_until(condition: Callable[[], Any], what: str, timeout: float = 10.0) -> Any:
+    """Let time pass until ``condition`` is true. :return: its value.
+
+    :param timeout: s of simulated time
     :raises AssertionError: it never came true; ``what`` says what was waited for
     """
-    deadline, wall_deadline = None, wall.monotonic() + 30.0
+    deadline, wall_deadline = None, wall.monotonic() + 60.0
     while not rospy.is_shutdown():
         value = condition()
         if value:
             return value
+        advance()
         now = rospy.get_time()
         if deadline is None and now > 0.0:
             deadline = now + timeout
         if (deadline is not None and now > deadline) or wall.monotonic() > wall_deadline:
             raise AssertionError(f"waited in vain for {what}")
-        wall.sleep(0.002)
     raise AssertionError(f"shut down while waiting for {what}")
 
 

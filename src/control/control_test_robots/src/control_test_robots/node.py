@@ -1,6 +1,7 @@
 """Clock, controller manager and control loop around a TestRobot."""
 from __future__ import annotations
 
+import threading
 import time as wall
 
 import rospy
@@ -10,29 +11,59 @@ from std_srvs.srv import Empty, EmptyResponse
 
 from .robot import TestRobot
 
+#: Cycles that one call of ~advance makes.
+ADVANCE = 2
 
-def run() -> None:
-    """Run until the node is shut down. Publishes /clock, which must be the only one."""
-    robot = TestRobot(rospy.get_param("~", {}))
-    dt = 1.0 / rospy.get_param("~rate", 100.0)
-    speed = rospy.get_param("~speed", 10.0)
 
-    def apply_faults(_request):
-        robot.set_faults(rospy.get_param("~faults", {}))
+class TestRobotNode:
+    """Publishes /clock, which must be the only one.
+
+    Time goes on by itself at parameter ``speed``, and by ADVANCE cycles with every call of the service ``~advance``: a test
+    that waits for something calls it over and over, so that simulated time runs as fast as the machine can, but never
+    ahead of the test, however busy the machine is.
+    """
+
+    __test__ = False  # not a test case, whatever pytest thinks of the name
+
+    def __init__(self) -> None:
+        self._robot = TestRobot(rospy.get_param("~", {}))
+        self._dt = 1.0 / rospy.get_param("~rate", 100.0)
+        self._pause = self._dt / rospy.get_param("~speed", 1.0)
+        self._granted = 0
+        self._changed = threading.Condition()
+        self._cycle = 0
+        self._clock = rospy.Publisher("/clock", Clock, queue_size=10)
+        self._manager = ControllerManager(self._robot, "")
+        rospy.Service("~apply_faults", Empty, self._apply_faults)
+        rospy.Service("~advance", Empty, self._advance)
+
+    def run(self) -> None:
+        """Make cycles until the node is shut down."""
+        while not rospy.is_shutdown():
+            with self._changed:
+                self._changed.wait_for(lambda: self._granted > 0, self._pause)
+            self._make_cycle()
+            with self._changed:
+                self._granted = max(0, self._granted - 1)
+                self._changed.notify_all()
+            wall.sleep(0.0002)  # threads that receive messages get their turn
+        self._manager.shutdown()
+
+    def _make_cycle(self) -> None:
+        self._cycle += 1
+        time = self._cycle * self._dt
+        self._clock.publish(Clock(rospy.Time.from_sec(time)))
+        self._robot.read(time, self._dt)
+        self._manager.update(time, self._dt)
+        self._robot.write(time, self._dt)
+
+    def _advance(self, _request) -> EmptyResponse:
+        with self._changed:
+            self._granted += ADVANCE
+            self._changed.notify_all()
+            self._changed.wait_for(lambda: self._granted == 0 or rospy.is_shutdown(), 5.0)
         return EmptyResponse()
 
-    rospy.Service("~apply_faults", Empty, apply_faults)
-    clock = rospy.Publisher("/clock", Clock, queue_size=1)
-    manager = ControllerManager(robot, "")
-    cycle = 0
-    due = wall.monotonic()
-    while not rospy.is_shutdown():
-        cycle += 1
-        time = cycle * dt
-        clock.publish(Clock(rospy.Time.from_sec(time)))
-        robot.read(time, dt)
-        manager.update(time, dt)
-        robot.write(time, dt)
-        if speed > 0.0:
-            due = max(due + dt / speed, wall.monotonic() - 0.1)
-            wall.sleep(max(0.0, due - wall.monotonic()))
+    def _apply_faults(self, _request) -> EmptyResponse:
+        self._robot.set_faults(rospy.get_param("~faults", {}))
+        return EmptyResponse()
