@@ -200,8 +200,10 @@ class Server:
         elif self.paused:
             self._run_call(*self._calls.get())
         else:
-            self.throttle.rate = self.world.physics.real_time_update_rate
-            delay = self.throttle.delay()
+            throttle = self.throttle
+            if throttle.rate != self.world.physics.real_time_update_rate:
+                throttle.rate = self.world.physics.real_time_update_rate
+            delay = throttle.delay()
             if delay > 0.0:
                 try:
                     call = self._calls.get(timeout=delay)
@@ -209,7 +211,7 @@ class Server:
                     return
                 self._run_call(*call)
             else:
-                self.throttle.stepped()
+                throttle.stepped()
                 self._step()
 
     def _step(self) -> None:
@@ -237,9 +239,15 @@ class Server:
         self._after.call()
 
     def _set_now(self) -> None:
-        self._now = rospy.Time(*divmod(self.world.time_ns, _NS))
-        if self._ros_time:
-            rospy.rostime._set_rostime(self._now)
+        now = _new_time()  # rospy.Time(...) and its checks would cost a tenth of a step
+        now.secs, now.nsecs = divmod(self.world.time_ns, _NS)
+        self._now = now
+        if self._ros_time:  # what rospy does with a message of /clock
+            rospy.rostime._rostime_current = now
+            waiting = rospy.rostime.get_rostime_cond()
+            if waiting._waiters:
+                with waiting:
+                    waiting.notify_all()
 
     @staticmethod
     def _run_call(f: Callable[[], Any], future: Future) -> None:
@@ -437,6 +445,10 @@ def log_problems(problems: Iterable[d.Problem], what: str) -> None:
     for problem in problems:
         log = rospy.logerr if problem.severity == "error" else rospy.logwarn
         log("%s: %s", what, problem)
+
+
+def _new_time() -> rospy.Time:
+    return rospy.Time.__new__(rospy.Time)
 
 
 def _nothing() -> None:
