@@ -55,17 +55,16 @@ class LimitedProxy:
         wanted = _clamp(vel_target + self._approach(pos_target - self.position), self.vel_limit)
         acceleration = _clamp(acc_target + (wanted - self.velocity) / dt, self.acc_limit)
         proxy_velocity = _clamp(self.velocity + acceleration * dt, self.vel_limit)
-        proxy_position = self.position + proxy_velocity * dt
-        error, error_dot = proxy_position - position, proxy_velocity - velocity
-        integral = _clamp(self._integral + self.ki * error * dt, self.ficl)
-        unlimited = self.kp * error + integral + self.kd * error_dot + self.mass * acceleration
+        integral = _clamp(self._integral + self.ki * (self.position - position) * dt, self.ficl)
+        # The effort is linear in the proxy's velocity: effort = slope * velocity + rest.
+        slope = self.kp * dt + self.kd + self.mass / dt
+        rest = (self.kp * (self.position - position) + integral - self.kd * velocity - self.mass * self.velocity / dt)
+        unlimited = slope * proxy_velocity + rest
         effort = _clamp(unlimited, self.effort_limit)
-        if effort != unlimited and self.kp > 0.0:
-            # the joint cannot follow: leave the proxy where the coupling just gives the limit
-            proxy_position -= (unlimited - effort) / self.kp
-            proxy_velocity = (proxy_position - self.position) / dt
-            proxy_velocity = _clamp(proxy_velocity, self.vel_limit)
-        else:
+        if effort == unlimited:
             self._integral = integral
-        self.position, self.velocity = proxy_position, proxy_velocity
+        elif slope > 0.0:
+            proxy_velocity = (effort - rest) / slope  # the joint cannot follow: the proxy waits where it pulls enough
+        self.velocity = proxy_velocity
+        self.position += proxy_velocity * dt
         return effort

@@ -18,6 +18,10 @@ from .limits import JointLimits, SoftJointLimits
 _WARN_PERIOD = 5.0
 
 
+def _sat(value: float, low: float, high: float) -> float:
+    return low if value < low else high if value > high else value
+
+
 class JointLimitsError(Exception):
     """A handle needs limits that the joint does not have."""
 
@@ -58,6 +62,15 @@ class _LimitHandle:
                           "or the message that it was sent.", self.name, command, held)
         return held
 
+    def _limit(self, low: float, high: float, held: float) -> None:
+        """Put the command between ``low`` and ``high``; ``held`` takes the place of one that is no usable number."""
+        command = self.joint.command
+        output = low if command < low else command
+        output = high if output > high else output
+        if output - output != 0.0:  # NaN, or an infinity that no limit caught
+            output = _sat(self._bad_command(command, held), low, high)
+        self.joint.command = self._previous = output
+
     @staticmethod
     def _velocity_bound(limits: JointLimits) -> float:
         return limits.max_velocity if limits.has_velocity_limits else inf
@@ -74,14 +87,6 @@ class _PositionHandle(_LimitHandle):
 
     def reset(self) -> None:
         self._previous = None
-
-    def _finish(self, low: float, high: float, previous: float) -> None:
-        command = self.joint.command
-        output = low if command < low else command
-        output = high if output > high else output
-        if output - output != 0.0:  # NaN, or an infinity that no limit caught
-            output = self._bad_command(command, previous)
-        self.joint.command = self._previous = output
 
 
 class PositionJointSaturationHandle(_PositionHandle):
@@ -100,11 +105,7 @@ class PositionJointSaturationHandle(_PositionHandle):
             previous = self._state.position
         step = self._velocity * dt
         low, high = previous - step, previous + step
-        self._finish(low if low > self._low else self._low, high if high < self._high else self._high, previous)
-
-
-def _sat(value: float, low: float, high: float) -> float:
-    return low if value < low else high if value > high else value
+        self._limit(low if low > self._low else self._low, high if high < self._high else self._high, previous)
 
 
 class PositionJointSoftLimitsHandle(_PositionHandle):
@@ -131,45 +132,42 @@ class PositionJointSoftLimitsHandle(_PositionHandle):
         else:
             slowest, fastest = -limit, limit
         low, high = previous + slowest * dt, previous + fastest * dt
-        self._finish(low if low > self._low else self._low, high if high < self._high else self._high, previous)
+        self._limit(low if low > self._low else self._low, high if high < self._high else self._high, previous)
 
 
 class VelocityJointSaturationHandle(_LimitHandle):
     """Keeps velocities within the limit, and their steps within the acceleration limit if there is one."""
 
-    __slots__ = ("_limit", "_acceleration")
+    __slots__ = ("_velocity", "_acceleration")
     requires = ("velocity",)
 
     def __init__(self, joint: JointHandle, limits: JointLimits):
         super().__init__(joint, limits)
-        self._limit = limits.max_velocity
+        self._velocity = limits.max_velocity
         self._acceleration = limits.max_acceleration if limits.has_acceleration_limits else inf
 
     def enforce_limits(self, dt: float) -> None:
-        command = self.joint.command
-        low, high = -self._limit, self._limit
+        low, high = -self._velocity, self._velocity
         if self._acceleration < inf:
             step = self._acceleration * dt
             low, high = max(self._previous - step, low), min(self._previous + step, high)
-        if command != command:
-            command = self._bad_command(command, self._previous)
-        self.joint.command = self._previous = min(max(command, low), high)
+        self._limit(low, high, self._previous)
 
 
 class VelocityJointSoftLimitsHandle(_LimitHandle):
     """Slows a velocity-commanded joint down on its way to the soft position limits."""
 
-    __slots__ = ("_limit", "_acceleration", "_soft_low", "_soft_high", "_gain")
+    __slots__ = ("_velocity", "_acceleration", "_soft_low", "_soft_high", "_gain")
 
     def __init__(self, joint: JointHandle, limits: JointLimits, soft: SoftJointLimits):
         super().__init__(joint, limits)
-        self._limit = self._velocity_bound(limits)
+        self._velocity = self._velocity_bound(limits)
         self._acceleration = limits.max_acceleration if limits.has_acceleration_limits else inf
         self._soft_low, self._soft_high = soft.min_position, soft.max_position
         self._gain = soft.k_position
 
     def enforce_limits(self, dt: float) -> None:
-        limit, state = self._limit, self._state
+        limit, state = self._velocity, self._state
         low, high = -limit, limit
         if self.limits.has_position_limits:
             low = _sat(-self._gain * (state.position - self._soft_low), -limit, limit)
@@ -177,28 +175,14 @@ class VelocityJointSoftLimitsHandle(_LimitHandle):
         if self._acceleration < inf:
             step = self._acceleration * dt
             low, high = max(state.velocity - step, low), min(state.velocity + step, high)
-        command = self.joint.command
-        output = min(max(command, low), high)
-        if command != command or output - output != 0.0:
-            output = min(max(self._bad_command(command, self._previous), low), high)
-        self.joint.command = self._previous = output
+        self._limit(low, high, self._previous)
 
 
-class _EffortHandle(_LimitHandle):
-    __slots__ = ()
-    requires = ("velocity", "effort")
-
-    def _finish(self, low: float, high: float) -> None:
-        command = self.joint.command
-        if command != command:
-            command = self._bad_command(command, self._previous)
-        self.joint.command = self._previous = min(max(command, low), high)
-
-
-class EffortJointSaturationHandle(_EffortHandle):
+class EffortJointSaturationHandle(_LimitHandle):
     """Keeps efforts within the limit, and lets none push further out of the position or velocity limits."""
 
     __slots__ = ("_low", "_high", "_velocity", "_effort")
+    requires = ("velocity", "effort")
 
     def __init__(self, joint: JointHandle, limits: JointLimits):
         super().__init__(joint, limits)
@@ -213,13 +197,14 @@ class EffortJointSaturationHandle(_EffortHandle):
             low = 0.0
         if state.position > self._high or state.velocity > self._velocity:
             high = 0.0
-        self._finish(low, high)
+        self._limit(low, high, self._previous)
 
 
-class EffortJointSoftLimitsHandle(_EffortHandle):
+class EffortJointSoftLimitsHandle(_LimitHandle):
     """Brakes an effort-commanded joint on its way to the soft position limits."""
 
     __slots__ = ("_velocity", "_effort", "_soft")
+    requires = ("velocity", "effort")
 
     def __init__(self, joint: JointHandle, limits: JointLimits, soft: SoftJointLimits):
         super().__init__(joint, limits)
@@ -233,8 +218,8 @@ class EffortJointSoftLimitsHandle(_EffortHandle):
         if self.limits.has_position_limits:
             slowest = _sat(-soft.k_position * (state.position - soft.min_position), -limit, limit)
             fastest = _sat(-soft.k_position * (state.position - soft.max_position), -limit, limit)
-        self._finish(_sat(-soft.k_velocity * (state.velocity - slowest), -effort, effort),
-                     _sat(-soft.k_velocity * (state.velocity - fastest), -effort, effort))
+        self._limit(_sat(-soft.k_velocity * (state.velocity - slowest), -effort, effort),
+                    _sat(-soft.k_velocity * (state.velocity - fastest), -effort, effort), self._previous)
 
 
 class JointLimitsInterface:

@@ -1,6 +1,7 @@
 """Transmissions of a URDF, brought to life between the actuators and the joint interfaces of a robot."""
 from __future__ import annotations
 
+from functools import lru_cache
 from math import nan
 from typing import Dict, List, Sequence, Tuple, Type
 
@@ -9,7 +10,7 @@ from hardware_interface import (ActuatorStateInterface, EffortActuatorInterface,
                                 JointHandle, JointStateHandle, JointStateInterface, PositionActuatorInterface,
                                 PositionJointInterface, ResourceError, RobotHW, VelocityActuatorInterface,
                                 VelocityJointInterface)
-from plugin_loader import PluginError, find_plugins
+from plugin_loader import PluginClass, PluginError, find_plugins
 
 from .parser import TransmissionInfo, parse_transmissions
 from .pipelines import (TransmissionPipeline, actuator_to_joint_command, actuator_to_joint_state,
@@ -23,6 +24,15 @@ _KINDS: Dict[str, Tuple[Type[HardwareInterface], Type[HardwareInterface]]] = {
 }
 
 _STATE = "hardware_interface/JointStateInterface"
+
+
+@lru_cache(maxsize=None)
+def _transmission_types() -> Dict[str, PluginClass]:
+    """What packages export; looked for once per process."""
+    types, problems = find_plugins("transmission_interface")
+    for problem in problems:
+        rospy.logwarn("transmission types: %s", problem)
+    return types
 
 
 class RobotTransmissions:
@@ -60,9 +70,7 @@ class TransmissionInterfaceLoader:
     def __init__(self, robot_hw: RobotHW, transmissions: RobotTransmissions):
         self._hw = robot_hw
         self._transmissions = transmissions
-        self._types, problems = find_plugins("transmission_interface")
-        for problem in problems:
-            rospy.logwarn("transmission types: %s", problem)
+        self._types = _transmission_types()
 
     def load(self, urdf: str) -> bool:
         """Load all transmissions of a URDF text; stops at the first that fails (those before it stay).

@@ -1,6 +1,7 @@
 """DefaultRobotHWSim: the joints of a model that have a transmission, as ros_control hardware."""
 from __future__ import annotations
 
+import math
 import sys
 from typing import Dict, List, Optional, Tuple, Type
 
@@ -32,8 +33,8 @@ _SATURATION = {EffortJointInterface: EffortJointSaturationHandle, PositionJointI
 _SOFT = {EffortJointInterface: EffortJointSoftLimitsHandle, PositionJointInterface: PositionJointSoftLimitsHandle,
          VelocityJointInterface: VelocityJointSoftLimitsHandle}
 
-#: A joint without limits still has handles: they keep NaN out.
-_UNLIMITED = JointLimits(max_velocity=sys.float_info.max, max_effort=sys.float_info.max, has_velocity_limits=True,
+#: A joint without limits still has handles: they keep NaN and infinities out.
+_UNLIMITED = JointLimits(max_velocity=math.inf, max_effort=math.inf, has_velocity_limits=True,
                          has_effort_limits=True)
 
 

@@ -14,6 +14,7 @@ from plugin_loader import find_plugins
 from std_msgs.msg import Bool
 from transmission_interface import TransmissionError, parse_transmissions
 
+from .default_robot_hw_sim import DefaultRobotHWSim
 from .robot_hw_sim import RobotHWSim
 
 _DEFAULT_SIM = "gazebo_ros_control/DefaultRobotHWSim"
@@ -151,6 +152,8 @@ class GazeboRosControl(ModelPlugin):
 
 def _find_sim(name: str) -> type:
     """The class of a simulated robot hardware. :raises PluginError: there is none of that name."""
+    if name == _DEFAULT_SIM:
+        return DefaultRobotHWSim
     types, problems = find_plugins("gazebo_ros_control")
     for problem in problems:
         rospy.logwarn("robot hardware types: %s", problem)
