@@ -9,7 +9,7 @@ from typing import List, Optional
 
 import can
 
-from rm_hw.bench.app import DIRECTORY
+from rm_hw.config import BENCH_DIRECTORY
 from rm_hw.can_bus import open_interface
 
 
@@ -30,7 +30,7 @@ def main(arguments: Optional[List[str]] = None) -> int:
     parser.add_argument("-l", "--log", metavar="FILE", help="write to a log as well (.log, .asc, .blf, .csv)")
     parser.add_argument("-q", "--quiet", action="store_true", help="do not print frames")
     options = parser.parse_args(arguments)
-    monitor = os.path.join(DIRECTORY, f"{options.bus}.monitor")
+    monitor = os.path.join(BENCH_DIRECTORY, f"{options.bus}.monitor")
     on_bench = options.interface is None and os.path.exists(monitor)
     interface = options.interface or ("slcan" if on_bench else "socketcan")
     channel = options.channel or (monitor if on_bench else options.bus)

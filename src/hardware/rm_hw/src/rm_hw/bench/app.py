@@ -17,8 +17,8 @@ import yaml
 from rm_hw.bench.bus import TICK, Bench, BenchError, Frame
 from rm_hw.bench.keys import HELP, Keys
 from rm_hw.bench.replay import Replay
+from rm_hw.config import BENCH_DIRECTORY
 
-DIRECTORY = os.environ.get("RM_BENCH_DIR", "/tmp/rm_bench")
 _FURTHEST_BEHIND = 0.05      # s; a bench that was suspended longer than this does not catch up
 _PUBLISH_EVERY = 10          # ticks
 _STATUS_EVERY = 200
@@ -80,7 +80,7 @@ def _arguments(arguments: List[str]) -> argparse.Namespace:
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--config", metavar="FILE", help="YAML: motors: {NAME: {bus, id, type, gear, load}}; without it "
                         "the motor of rm_controls_tutorials with its arm")
-    parser.add_argument("--dir", default=DIRECTORY, help="folder for the serial ports, BUS and BUS.monitor (%(default)s)")
+    parser.add_argument("--dir", default=BENCH_DIRECTORY, help="folder for the serial ports, BUS and BUS.monitor (%(default)s)")
     parser.add_argument("--log", metavar="FILE", help="record all frames (.log, .asc, .blf, .csv)")
     parser.add_argument("--replay", metavar="FILE", help="play the motors of a log instead of simulating some")
     parser.add_argument("--at", nargs=2, action="append", default=[], metavar=("SECONDS", "COMMAND"),
