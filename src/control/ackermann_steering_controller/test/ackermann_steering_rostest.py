@@ -86,7 +86,8 @@ class Ackermann(unittest.TestCase):
             base.send(math.nan, 0.0)
             base.send(0.0, math.nan)
             client.sim_sleep(1.0)
-            self.assertTrue(all(m.twist.twist.linear.x == m.twist.twist.angular.z == 0.0 for m in base.odometry.messages))
+            twists = [message.twist.twist for message in base.odometry.messages]
+            self.assertTrue(all(twist.linear.x == twist.angular.z == 0.0 for twist in twists))
 
     def test_wheel_without_a_position_gives_no_odometry_until_it_has_one(self):
         with client.running("plain"), Base("plain") as base:

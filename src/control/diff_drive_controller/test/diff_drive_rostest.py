@@ -93,7 +93,8 @@ class DiffDrive(unittest.TestCase):
 
     def test_frames_by_parameter(self):
         with client.running("frames"), Base("frames") as base:
-            self.assertEqual((base.odometry.last.header.frame_id, base.odometry.last.child_frame_id), ("map", "base_footprint"))
+            last = base.odometry.last
+            self.assertEqual((last.header.frame_id, last.child_frame_id), ("map", "base_footprint"))
             client.wait_until(lambda: ("map", "base_footprint") in base.transforms(), "the transform")
 
     def test_transform_can_be_switched_off_and_on_again(self):
@@ -196,11 +197,14 @@ class DiffDrive(unittest.TestCase):
         with client.running("one_publisher"), Base("one_publisher") as base:
             self.assertAlmostEqual(base.drive(0.5, 0.0, 1.0)[-1].twist.twist.linear.x, 0.5, delta=1e-6)
             client.sim_sleep(2.5)  # the command runs out
-            second = subprocess.Popen(["rostopic", "pub", "--latch", "/one_publisher/cmd_vel", "geometry_msgs/Twist", "{}"],
-                                      stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            second = subprocess.Popen(
+                ["rostopic", "pub", "--latch", "/one_publisher/cmd_vel", "geometry_msgs/Twist", "{}"],
+                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
             try:
-                client.wait_until(lambda: client.publisher_count("/one_publisher/cmd_vel") == 2, "the second publisher", 60.0)
-                client.wait_until(lambda: base.drive(0.5, 0.0, 1.0)[-1].twist.twist.linear.x == 0.0, "the robot to stop", 60.0)
+                client.wait_until(lambda: client.publisher_count("/one_publisher/cmd_vel") == 2,
+                                  "the second publisher", 600.0)
+                client.wait_until(lambda: base.drive(0.5, 0.0, 1.0)[-1].twist.twist.linear.x == 0.0,
+                                  "the robot to stop", 600.0)
             finally:
                 second.terminate()
                 second.wait()

@@ -44,10 +44,11 @@ class FourWheels(unittest.TestCase):
 
     def test_crab(self):
         with client.running("plain"), Base("plain") as base:
-            messages = self.steer(base, 3.0, speed=0.5, front_steering_angle=math.pi / 6, rear_steering_angle=math.pi / 6)
+            angle = math.pi / 6
+            messages = self.steer(base, 3.0, speed=0.5, front_steering_angle=angle, rear_steering_angle=angle)
             x, y = displacement(messages)
-            self.assertAlmostEqual(x, 0.5 * math.cos(math.pi / 6) * duration(messages), delta=0.01)
-            self.assertAlmostEqual(y, 0.5 * math.sin(math.pi / 6) * duration(messages), delta=0.01)
+            self.assertAlmostEqual(x, 0.5 * math.cos(angle) * duration(messages), delta=0.01)
+            self.assertAlmostEqual(y, 0.5 * math.sin(angle) * duration(messages), delta=0.01)
             self.assertAlmostEqual(turned(messages), 0.0, delta=1e-6)
 
     def test_symmetric_turn(self):
@@ -60,8 +61,8 @@ class FourWheels(unittest.TestCase):
         with client.running("plain"), Base("plain") as base:
             state = base.topic("odom_steer", FourWheelSteeringStamped)
             messages = self.steer(base, 3.0, speed=1.0, front_steering_angle=front, rear_steering_angle=rear)
-            rate = (math.tan(front) - math.tan(rear)) / 1.4
-            self.assertAlmostEqual(turned(messages), rate * duration(messages), delta=0.02 * abs(rate) * duration(messages))
+            angle = (math.tan(front) - math.tan(rear)) / 1.4 * duration(messages)
+            self.assertAlmostEqual(turned(messages), angle, delta=0.02 * abs(angle))
             self.assertAlmostEqual(state.last.data.front_steering_angle, front, delta=1e-4)
             self.assertAlmostEqual(state.last.data.rear_steering_angle, rear, delta=1e-4)
             self.assertAlmostEqual(state.last.data.speed, 1.0, delta=0.03)
@@ -87,20 +88,23 @@ class FourWheels(unittest.TestCase):
     def test_commands_that_are_not_numbers_are_ignored(self):
         with client.running("plain"), Base("plain") as base:
             base.send(math.nan, 0.0)
-            messages = self.steer(base, 0.5, speed=math.nan) + self.steer(base, 0.5, speed=1.0, rear_steering_angle=math.nan)
+            messages = self.steer(base, 0.5, speed=math.nan)
+            messages += self.steer(base, 0.5, speed=1.0, rear_steering_angle=math.nan)
             self.assertTrue(all(m.twist.twist.linear.x == 0.0 for m in messages))
 
     def test_odometry_frames(self):
         with client.running("plain"), Base("plain") as base:
             client.wait_until(lambda: ("odom", "base_link") in base.transforms(), "the transform")
-            self.assertEqual((base.odometry.last.header.frame_id, base.odometry.last.child_frame_id), ("odom", "base_link"))
+            last = base.odometry.last
+            self.assertEqual((last.header.frame_id, last.child_frame_id), ("odom", "base_link"))
         with client.running("no_tf"), Base("no_tf") as base:
             client.sim_sleep(1.0)
             self.assertEqual(base.transforms(), set())
 
     def test_geometry_found_in_the_urdf_becomes_parameters(self):
         with client.running("plain"):
-            for name, value in (("track", 1.2), ("wheel_base", 1.4), ("wheel_radius", 0.2), ("wheel_steering_y_offset", 0.1)):
+            for name, value in (("track", 1.2), ("wheel_base", 1.4), ("wheel_radius", 0.2),
+                                ("wheel_steering_y_offset", 0.1)):
                 self.assertAlmostEqual(rospy.get_param("/plain/" + name), value)
 
     def test_wrong_parameters_are_refused(self):

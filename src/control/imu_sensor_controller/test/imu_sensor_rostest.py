@@ -26,7 +26,8 @@ class ImuSensor(unittest.TestCase):
         self.assertEqual(last.orientation_covariance, tuple(range(1, 10)))
         self.assertEqual((last.angular_velocity.x, last.angular_velocity.y, last.angular_velocity.z), (0.4, 0.5, 0.6))
         self.assertEqual(last.angular_velocity_covariance, (0.0,) * 9)
-        self.assertEqual((last.linear_acceleration.x, last.linear_acceleration.y, last.linear_acceleration.z), (0.7, 0.8, 9.9))
+        acceleration = last.linear_acceleration
+        self.assertEqual((acceleration.x, acceleration.y, acceleration.z), (0.7, 0.8, 9.9))
         stamps = [message.header.stamp.to_sec() for message in messages]
         self.assertAlmostEqual((stamps[-1] - stamps[0]) / (len(stamps) - 1), 0.05, delta=0.002)
 

@@ -28,9 +28,8 @@ def splice_now(current, message, elapsed=0.0, start=NEXT, continuous=(False, Fal
 
 
 @pytest.mark.parametrize("names, partial, text", [
-    ([], False, "names no joints"), ([], True, "names no joints"), (["a", "x"], True, "Unknown joints x"),
-    (["a"], False, "missing from the trajectory: b"), (["a", "a"], True, "more than once: a"),
-    (["a", "b", "c"], True, "Unknown joints c")])
+    ([], False, "joint_names is empty"), ([], True, "joint_names is empty"), (["a", "x"], True, "unknown: x"),
+    (["a"], False, "missing: b"), (["a", "a"], True, "more than once: a"), (["a", "b", "c"], True, "unknown: c")])
 def test_joint_names_that_do_not_fit(names, partial, text):
     with pytest.raises(InvalidTrajectory, match=text) as error:
         map_joints(names, JOINTS, partial)

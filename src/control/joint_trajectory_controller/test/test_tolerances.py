@@ -46,9 +46,10 @@ def test_no_tolerance_forbids_nothing_and_nan_is_over_any():
 
 
 def test_goal_overrides_named_joints_only():
-    defaults = from_parameters(["a", "b"], {"goal_time": 1.0, "a": {"trajectory": 0.5, "goal": 0.1}, "b": {"goal": 0.1}})
-    a, b = overridden(defaults, ["a", "b"], goal(path=[joint("a", -1.0, 0.3)], end=[joint("a", 0.0, 0.0, 2.0), joint("x")],
-                                                 time=3.0))
+    defaults = from_parameters(["a", "b"], {"goal_time": 1.0, "a": {"trajectory": 0.5, "goal": 0.1},
+                                            "b": {"goal": 0.1}})
+    a, b = overridden(defaults, ["a", "b"], goal(path=[joint("a", -1.0, 0.3)],
+                                                 end=[joint("a", 0.0, 0.0, 2.0), joint("x")], time=3.0))
     assert a == JointTolerances(StateTolerance(0.0, 0.3), StateTolerance(0.1, 0.01, 2.0), 3.0)
     assert b == JointTolerances(StateTolerance(), StateTolerance(0.1, 0.01), 3.0)
 

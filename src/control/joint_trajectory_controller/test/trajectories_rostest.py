@@ -37,7 +37,8 @@ class Behaviour:
     def test_query_state_sees_the_future_and_refuses_the_past(self):
         start = rospy.get_time() + 0.5
         self.publish((0.0, REST, REST), (1.0, TARGET, REST), stamp=start)
-        client.wait_until(lambda: abs(self.query_state(rospy.Time.from_sec(start + 1.5)).position[0] - TARGET[0]) < 1e-6,
+        end = rospy.Time.from_sec(start + 1.5)
+        client.wait_until(lambda: abs(self.query_state(end).position[0] - TARGET[0]) < 1e-6,
                           "the trajectory to be known")
         self.assertStates(self.query_state(rospy.Time.from_sec(start + 0.5)).position, [0.25, -0.2])
         self.assertRaises(rospy.ServiceException, self.query_state, rospy.Time(0, 1))
@@ -46,15 +47,15 @@ class Behaviour:
         j1, j2 = self.joints
         point = (0.5, TARGET)
         for code, text, goal in (
-                (Result.INVALID_JOINTS, f"missing from the trajectory: {j2}", self.send((0.5, [0.5]), joints=[j1])),
-                (Result.INVALID_JOINTS, "Unknown joints elbow", self.send(point, joints=[j1, "elbow"])),
+                (Result.INVALID_JOINTS, f"missing: {j2}", self.send((0.5, [0.5]), joints=[j1])),
+                (Result.INVALID_JOINTS, "unknown: elbow", self.send(point, joints=[j1, "elbow"])),
                 (Result.INVALID_GOAL, "0 positions for 2 joints", self.send((0.5, []))),
                 (Result.INVALID_GOAL, "1 positions for 2 joints", self.send((0.5, [0.5]))),
                 (Result.INVALID_GOAL, "1 velocities for 2 joints", self.send((0.5, TARGET, [0.0]))),
                 (Result.INVALID_GOAL, "strictly increasing", self.send(point, point)),
                 (Result.INVALID_GOAL, "not finite", self.send((0.5, [math.nan, 0.0]))),
                 (Result.INVALID_GOAL, "Dropping all 1 trajectory points", self.send((0.0, TARGET))),
-                (Result.INVALID_JOINTS, "names no joints", Goal(self.action, JointTrajectory()))):
+                (Result.INVALID_JOINTS, "joint_names is empty", Goal(self.action, JointTrajectory()))):
             status, got, message = goal.finish()
             self.assertEqual((status, got), (GoalStatus.REJECTED, code), message)
             self.assertIn(text, message)

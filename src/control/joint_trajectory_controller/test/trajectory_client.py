@@ -28,12 +28,11 @@ class Goal:
     """A goal sent to the action, followed through its life."""
 
     def __init__(self, action_client, message, path=(), goal=(), goal_time=0.0):
-        self.statuses = []
         self.feedback = []
         self._handle = action_client.send_goal(
             FollowJointTrajectoryGoal(message, [JointTolerance(*t) for t in path], [JointTolerance(*t) for t in goal],
                                       rospy.Duration.from_sec(goal_time)),
-            lambda handle: self.statuses.append(handle.get_goal_status()), lambda _, feedback: self.feedback.append(feedback))
+            feedback_cb=lambda _, feedback: self.feedback.append(feedback))
 
     @property
     def status(self):
@@ -73,7 +72,7 @@ class TrajectoryCase(unittest.TestCase):
 
     @classmethod
     def tearDownClass(cls):
-        # a publisher that outlives the controller still counts its connection to the old subscriber when the next one comes
+        # a publisher that outlives the controller goes on counting its connection to the old subscriber
         cls.command.unregister()
         cls.action.stop()
         cls.state.close()
@@ -112,7 +111,8 @@ class TrajectoryCase(unittest.TestCase):
         client.wait_until(there, f"joints to rest at {positions}", timeout)
 
     def wait_moved(self, beyond=0.1, joint=0):
-        client.wait_until(lambda: abs(self.state.next().actual.positions[joint]) > beyond, f"joint {joint} to pass {beyond}")
+        client.wait_until(lambda: abs(self.state.next().actual.positions[joint]) > beyond,
+                          f"joint {joint} to pass {beyond}")
 
     def wait_at_rest(self):
         """Until nothing moves any more. :return: the positions there"""

@@ -54,8 +54,9 @@ def test_wheel_radius(robot):
         robot.wheel_radius("ball", shapes=("cylinder",))
 
 
-@pytest.mark.parametrize("text, complaint", [("<robot", "not valid XML"), ("<sdf/>", "root element is <sdf>"),
-                                             ('<robot><joint name="j"><origin xyz="1 2"/></joint></robot>', "joint 'j'")])
+@pytest.mark.parametrize("text, complaint", [
+    ("<robot", "not valid XML"), ("<sdf/>", "root element is <sdf>"),
+    ('<robot><joint name="j"><origin xyz="1 2"/></joint></robot>', "joint 'j'")])
 def test_what_is_no_urdf(text, complaint):
     with pytest.raises(GeometryError, match=complaint):
         RobotGeometry(text)

@@ -33,8 +33,8 @@ class AckermannSteeringController(MultiInterfaceController):
                 radius = robot.wheel_radius(rear_wheel, shapes=("cylinder",))
         for name, value in (("wheel_separation_h", base), ("wheel_radius", radius)):
             if not value > 0.0:
-                raise ParameterError(f"{controller_nh.namespace}: {name} must be greater than 0 m, it is {value:g}; set it "
-                                     "by parameter")
+                raise ParameterError(f"{controller_nh.namespace}: {name} must be greater than 0 m, it is {value:g}; "
+                                     "set it by parameter")
         self._radius = radius
         # for odometry only: the command is not corrected by multipliers
         self._odometry_radius = radius * controller_nh.param("wheel_radius_multiplier", 1.0)
@@ -77,8 +77,8 @@ class AckermannSteeringController(MultiInterfaceController):
             if not (math.isfinite(wheel) and math.isfinite(steer)):
                 return
             distance = self._travel(wheel) * self._odometry_radius
-            self._odometry.travelled(distance, math.tan(steer * self._steer_multiplier) * distance / self._odometry_base,
-                                     time)
+            curvature = math.tan(steer * self._steer_multiplier) / self._odometry_base
+            self._odometry.travelled(distance, curvature * distance, time)
         self._publisher.publish(self._odometry, time)
 
         linear, angular = self._command.at(time)

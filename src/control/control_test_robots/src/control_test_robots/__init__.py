@@ -11,6 +11,6 @@ Parameters of the node ``test_robot`` (private)::
     faults:                # read at the start, and again when the service ~apply_faults (std_srvs/Empty) is called
       elbow: {delay: 1, smoothing: 0.9, upper_bound: 0.5, wrap: true, nan: true}   # see robot.Faults
 
-A position joint goes where it is told at once, a velocity joint moves as told, an effort joint is a mass of 1 kg (kg m^2)
-pushed by at most 10 N (Nm). A joint with several interfaces obeys the one that a controller claimed last.
+A position joint goes where it is told at once, a velocity joint moves as told, an effort joint is a mass of 1 kg
+(kg m^2) pushed by at most 10 N (Nm). A joint with several interfaces obeys the one that a controller claimed last.
 """

@@ -18,9 +18,9 @@ ADVANCE = 2
 class TestRobotNode:
     """Publishes /clock, which must be the only one.
 
-    Time goes on by itself at parameter ``speed``, and by ADVANCE cycles with every call of the service ``~advance``: a test
-    that waits for something calls it over and over, so that simulated time runs as fast as the machine can, but never
-    ahead of the test, however busy the machine is.
+    Time goes on by itself at parameter ``speed``, and by ADVANCE cycles with every call of the service ``~advance``: a
+    test that waits for something calls it over and over, so that simulated time runs as fast as the machine can, but
+    never ahead of the test, however busy the machine is.
     """
 
     __test__ = False  # not a test case, whatever pytest thinks of the name

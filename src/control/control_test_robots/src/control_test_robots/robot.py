@@ -6,10 +6,10 @@ from collections import deque
 from dataclasses import dataclass
 from typing import Dict, List
 
-from hardware_interface import (EffortJointInterface, ForceTorqueSensorHandle, ForceTorqueSensorInterface, ImuSensorHandle,
-                                ImuSensorInterface, JointHandle, JointStateHandle, JointStateInterface, PosVelAccJointHandle,
-                                PosVelAccJointInterface, PosVelJointHandle, PosVelJointInterface, PositionJointInterface,
-                                RobotHW, VelocityJointInterface)
+from hardware_interface import (EffortJointInterface, ForceTorqueSensorHandle, ForceTorqueSensorInterface,
+                                ImuSensorHandle, ImuSensorInterface, JointHandle, JointStateHandle,
+                                JointStateInterface, PosVelAccJointHandle, PosVelAccJointInterface, PosVelJointHandle,
+                                PosVelJointInterface, PositionJointInterface, RobotHW, VelocityJointInterface)
 
 MAX_EFFORT = 10.0
 
@@ -97,10 +97,10 @@ class TestRobot(RobotHW):
             handles = [joint.handles[mode] for joint in self.joints.values() if mode in joint.handles]
             if handles:
                 self.register_interface(interface(*handles))
-        self.register_interface(ImuSensorInterface(*(ImuSensorHandle(name, **fields)
-                                                     for name, fields in parameters.get("imus", {}).items())))
-        self.register_interface(ForceTorqueSensorInterface(*(
-            ForceTorqueSensorHandle(name, **fields) for name, fields in parameters.get("force_torque_sensors", {}).items())))
+        imus, force_torque_sensors = parameters.get("imus", {}), parameters.get("force_torque_sensors", {})
+        self.register_interface(ImuSensorInterface(*(ImuSensorHandle(name, **fields) for name, fields in imus.items())))
+        self.register_interface(ForceTorqueSensorInterface(*(ForceTorqueSensorHandle(name, **fields)
+                                                             for name, fields in force_torque_sensors.items())))
         self.set_faults(parameters.get("faults", {}))
 
     def set_faults(self, faults: Dict[str, Dict]) -> None:

@@ -46,8 +46,8 @@ class DiffDriveController(Controller):
                 self._radius = robot.wheel_radius(names[0][0])
         for name, value in (("wheel_separation", self._separation), ("wheel_radius", self._radius)):
             if not value > 0.0:
-                raise ParameterError(f"{controller_nh.namespace}: {name} must be greater than 0 m, it is {value:g}; set it "
-                                     "by parameter")
+                raise ParameterError(f"{controller_nh.namespace}: {name} must be greater than 0 m, it is {value:g}; "
+                                     "set it by parameter")
         multiplier = controller_nh.param("wheel_radius_multiplier", 1.0)
         self._multipliers = (
             controller_nh.param("wheel_separation_multiplier", 1.0),

@@ -55,7 +55,8 @@ class FourWheelSteeringController(MultiInterfaceController):
         def length(name: str, find) -> float:
             value = nh.param(name, 0.0) if nh.has_param(name) else find()
             if not value > 0.0:
-                raise ParameterError(f"{self._name}: {name} must be greater than 0 m, it is {value:g}; set it by parameter")
+                raise ParameterError(f"{self._name}: {name} must be greater than 0 m, it is {value:g}; set it by "
+                                     "parameter")
             nh.set_param(name, value)
             return value
 

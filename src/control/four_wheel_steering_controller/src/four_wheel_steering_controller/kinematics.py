@@ -36,9 +36,9 @@ class Base:
     y_offset: float
 
     def from_twist(self, linear: float, angular: float) -> Tuple[Axle, Axle]:
-        """(front, rear) that move the base at ``linear`` (m/s) and ``angular`` (rad/s), the axles steering opposite ways.
+        """(front, rear) that move the base at ``linear`` (m/s) and ``angular`` (rad/s); the axles steer opposite ways.
 
-        The base turns about a point outside of its track; commands that ask for a tighter turn steer as far as they can.
+        The base turns about a point outside of its track; when asked for a tighter turn it steers as far as it can.
         """
         left_speed, right_speed = self._speeds(linear, angular, 0.5 * self.wheel_base * angular)
         if abs(2.0 * linear) > abs(angular * self.steering_track):
@@ -61,7 +61,9 @@ class Base:
                 left = math.atan(length * tangent / (length - shift))
                 right = math.atan(length * tangent / (length + shift))
             difference = math.tan(left) - math.tan(right)
-            lever = math.tan(left) * math.tan(right) * self.steering_track / difference if abs(difference) > 0.01 else 0.0
+            lever = 0.0
+            if abs(difference) > 0.01:
+                lever = math.tan(left) * math.tan(right) * self.steering_track / difference
             axles.append(Axle(left, right, *self._speeds(speed, angular, lever * angular)))
         return axles[0], axles[1]
 

@@ -17,11 +17,11 @@ from urdf_geometry_parser import robot_geometry
 class GripperActionController(Controller):
     """Moves joint ``joint`` to the position of a GripperCommand goal.
 
-    A goal succeeds inside ``goal_tolerance``. A joint that has not moved for ``stall_timeout`` seconds ends it as aborted
-    with ``stalled`` set: that is how a gripper tells that it holds something.
+    A goal succeeds inside ``goal_tolerance``. A joint that has not moved for ``stall_timeout`` seconds ends it as
+    aborted with ``stalled`` set: that is how a gripper tells that it holds something.
     """
 
-    # -- what a variant adds ------------------------------------------------------------------------------------------
+    # -- what a variant adds -------------------------------------------------------------------------------------------
 
     def init_output(self, controller_nh: NodeHandle) -> None:
         """Read the variant's parameters."""
@@ -33,7 +33,7 @@ class GripperActionController(Controller):
         """Command the joint. :return: the effort to report, N or Nm"""
         raise NotImplementedError
 
-    # -- life-cycle -----------------------------------------------------------------------------------------------------
+    # -- life-cycle ----------------------------------------------------------------------------------------------------
 
     def init(self, hw, root_nh: NodeHandle, controller_nh: NodeHandle) -> None:
         self._name = controller_nh.namespace
@@ -55,8 +55,8 @@ class GripperActionController(Controller):
         self._last_movement = 0.0
         self._goal: Optional[RealtimeGoal] = None
         self._command = (0.0, 0.0)
-        controller_nh.own(RealtimeActionServer(controller_nh.resolve("gripper_cmd"), GripperCommandAction, self._on_goal,
-                                               self._on_cancel))
+        controller_nh.own(RealtimeActionServer(controller_nh.resolve("gripper_cmd"), GripperCommandAction,
+                                               self._on_goal, self._on_cancel))
 
     def starting(self, time: float) -> None:
         with self._lock:
@@ -100,17 +100,18 @@ class GripperActionController(Controller):
         if reached:
             goal.succeed(result)
         else:
-            goal.abort(result, f"Stalled {abs(error):.6g} before the goal: no movement over {self._stall_velocity:g} for "
-                               f"{self._stall_timeout:g} s")
+            goal.abort(result, f"Stalled {abs(error):.6g} before the goal: no movement over {self._stall_velocity:g} "
+                               f"for {self._stall_timeout:g} s")
 
-    # -- goals, in threads of rospy -----------------------------------------------------------------------------------
+    # -- goals, in threads of rospy ------------------------------------------------------------------------------------
 
     def _on_goal(self, goal: RealtimeGoal) -> None:
         wanted = goal.goal.command
         if not self._running:
             return self._reject(goal, "Can't accept new action goals. Controller is not running.")
         if not (math.isfinite(wanted.position) and math.isfinite(wanted.max_effort)):
-            return self._reject(goal, f"The goal is not finite: position {wanted.position}, max_effort {wanted.max_effort}")
+            return self._reject(goal, f"The goal is not finite: position {wanted.position}, max_effort "
+                                      f"{wanted.max_effort}")
         with self._lock:
             replaced, self._goal = self._goal, goal
             self._command = (wanted.position, wanted.max_effort)
@@ -144,7 +145,7 @@ class PositionGripperController(GripperActionController):
 
 
 class EffortGripperController(GripperActionController):
-    """PID on the position (parameters ``gains/JOINT``), bounded by the goal's max_effort: 0 there is no force at all."""
+    """PID on the position (parameters ``gains/JOINT``), bounded by the goal's max_effort: 0 there is no force."""
 
     interface = EffortJointInterface
 

@@ -31,7 +31,7 @@ class JointTrajectoryController(Controller):
     # set by a variant whose output depends on the state error
     feeds_back = False
 
-    # -- what a variant adds ------------------------------------------------------------------------------------------
+    # -- what a variant adds -------------------------------------------------------------------------------------------
 
     def init_output(self, handles: List[Any], controller_nh: NodeHandle) -> None:
         """Read the variant's parameters."""
@@ -48,7 +48,7 @@ class JointTrajectoryController(Controller):
         """
         raise NotImplementedError
 
-    # -- life-cycle -----------------------------------------------------------------------------------------------------
+    # -- life-cycle ----------------------------------------------------------------------------------------------------
 
     def init(self, hw, root_nh: NodeHandle, controller_nh: NodeHandle) -> None:
         self._name = controller_nh.namespace
@@ -97,8 +97,8 @@ class JointTrajectoryController(Controller):
             self._next_monitor = 0.0
             self._known = self._hold_measured(None)
             if not self._known:
-                rospy.logerr("%s: the hardware reports no position for %s yet; waiting for it before moving", self._name,
-                             ", ".join(s.name for s in self._states if not math.isfinite(s.position)))
+                rospy.logerr("%s: the hardware reports no position for %s yet; waiting for it before moving",
+                             self._name, ", ".join(s.name for s in self._states if not math.isfinite(s.position)))
             self._gate.restart(0.0)
             self._running = True
         self.start_output()
@@ -113,7 +113,7 @@ class JointTrajectoryController(Controller):
     def aborting(self, time: float) -> None:
         self.stopping(time)
 
-    # -- the loop ---------------------------------------------------------------------------------------------------------
+    # -- the loop ------------------------------------------------------------------------------------------------------
 
     def update(self, time: float, period: float) -> None:
         with self._lock:
@@ -199,7 +199,7 @@ class JointTrajectoryController(Controller):
             self._goal = None
             return True
 
-    # -- motions (called with _lock held) -----------------------------------------------------------------------------
+    # -- motions (called with _lock held) ------------------------------------------------------------------------------
 
     def _follow(self, trajectory: List[List[Segment]]) -> None:
         self._trajectory = trajectory
@@ -217,15 +217,14 @@ class JointTrajectoryController(Controller):
 
     def _hold(self, goal: Optional[RealtimeGoal]) -> None:
         """Stop, on behalf of ``goal``."""
-        if self._stop_duration == 0.0:
-            self._hold_measured(goal)
+        if self._stop_duration == 0.0 and self._hold_measured(goal):
             return
         states = [segments[max(active_index(segments, self._uptime), 0)].sample(self._uptime)
                   for segments in self._trajectory]
         self._follow([[stop_segment(self._uptime, position, velocity, self._stop_duration, goal, default)]
                       for (position, velocity, _), default in zip(states, self._tolerances)])
 
-    # -- commands, in threads of rospy ------------------------------------------------------------------------------------
+    # -- commands, in threads of rospy ---------------------------------------------------------------------------------
 
     def _on_command(self, message: JointTrajectory) -> None:
         try:
@@ -242,21 +241,23 @@ class JointTrajectoryController(Controller):
             replaced = self._take(goal.goal.trajectory, goal, wanted, named=True)
         except (InvalidTrajectory, ValueError) as error:
             rospy.logerr("%s: %s", self._name, error)
-            goal.reject(Result(error_code=getattr(error, "code", Result.INVALID_GOAL), error_string=str(error)), str(error))
+            code = getattr(error, "code", Result.INVALID_GOAL)
+            goal.reject(Result(error_code=code, error_string=str(error)), str(error))
             return
         if replaced is not None:
             replaced.cancel(text="Replaced by another goal")
         goal.accept()
 
-    def _take(self, message: JointTrajectory, goal: Optional[RealtimeGoal], wanted, named: bool) -> Optional[RealtimeGoal]:
+    def _take(self, message: JointTrajectory, goal: Optional[RealtimeGoal],
+              wanted: List[tolerances.JointTolerances], named: bool) -> Optional[RealtimeGoal]:
         """Join a message to the running motion. :return: the goal it replaces.
 
         :param named: whether an empty trajectory must name the joints, as that of an action goal
         :raises InvalidTrajectory: the motion goes on as it was
         """
         if not self._running:
-            raise InvalidTrajectory(Result.INVALID_GOAL, "Can't accept new commands. Controller is not running; start it "
-                                                         "with controller_manager first")
+            raise InvalidTrajectory(Result.INVALID_GOAL, f"Can't accept new {'action goals' if named else 'commands'}. "
+                                                         "Controller is not running; start it first")
         if not self._known:
             raise InvalidTrajectory(Result.INVALID_GOAL, "The hardware has not reported where the joints are yet")
         command = None
@@ -298,8 +299,8 @@ class JointTrajectoryController(Controller):
             trajectory = self._trajectory
             time = self._uptime + request.time.to_sec() - self._time
         if any(active_index(segments, time) < 0 for segments in trajectory):
-            raise rospy.ServiceException(f"{self._name}: the requested time {request.time.to_sec():.3f} s is before the "
-                                         "current trajectory")
+            raise rospy.ServiceException(f"{self._name}: Requested sample time precedes trajectory start time: "
+                                         f"{request.time.to_sec():.3f} s")
         samples = [segments[active_index(segments, time)].sample(time) for segments in trajectory]
         return QueryTrajectoryStateResponse(self._joints, *map(list, zip(*samples)))
 

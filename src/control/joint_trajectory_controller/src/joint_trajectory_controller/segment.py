@@ -132,8 +132,8 @@ def stop_segment(start: float, position: float, velocity: float, duration: float
     if duration == 0.0:
         rest = State(position, 0.0, 0.0)
         return Segment(start, rest, start, rest, 0.0, goal, tolerances)
-    return Segment(start, State(position, velocity, 0.0), start + duration,
-                   State(position + 0.625 * velocity * duration, 0.0, -1.5 * velocity / duration), 0.0, goal, tolerances)
+    end = State(position + 0.625 * velocity * duration, 0.0, -1.5 * velocity / duration)
+    return Segment(start, State(position, velocity, 0.0), start + duration, end, 0.0, goal, tolerances)
 
 
 def point_segments(states: Sequence[State], times: Sequence[float]) -> List[Segment]:

@@ -28,21 +28,20 @@ def map_joints(names: Sequence[str], joints: Sequence[str], partial: bool) -> Li
 
     :param partial: whether fewer names than joints will do
     """
-    if not names:
-        raise InvalidTrajectory(INVALID_JOINTS, "The trajectory names no joints; joint_names must list "
-                                                + ", ".join(joints))
+    missing = [joint for joint in joints if joint not in names]
     unknown = [name for name in names if name not in joints]
-    if unknown:
-        raise InvalidTrajectory(INVALID_JOINTS, f"Unknown joints {', '.join(unknown)}; this controller moves "
-                                                + ", ".join(joints))
     repeated = sorted({name for name in names if names.count(name) > 1})
-    if repeated:
-        raise InvalidTrajectory(INVALID_JOINTS, f"Joints named more than once: {', '.join(repeated)}")
-    if len(names) != len(joints) and not partial:
-        missing = [joint for joint in joints if joint not in names]
-        raise InvalidTrajectory(INVALID_JOINTS, f"Joints missing from the trajectory: {', '.join(missing)}; name them "
-                                                "all, or set the parameter allow_partial_joints_goal")
-    return [joints.index(name) for name in names]
+    if not names:
+        problem = f"joint_names is empty, it must list {', '.join(joints)}"
+    elif unknown:
+        problem = f"unknown: {', '.join(unknown)}; this controller moves {', '.join(joints)}"
+    elif repeated:
+        problem = f"named more than once: {', '.join(repeated)}"
+    elif missing and not partial:
+        problem = f"missing: {', '.join(missing)}; name them all, or set the parameter allow_partial_joints_goal"
+    else:
+        return [joints.index(name) for name in names]
+    raise InvalidTrajectory(INVALID_JOINTS, "Joints on incoming goal don't match the controller joints. " + problem)
 
 
 class Command:
@@ -83,22 +82,25 @@ def check_times(times: Sequence[float]) -> None:
     """Refuse way-points that are not in strictly increasing order."""
     for index in range(1, len(times)):
         if times[index] <= times[index - 1]:
-            raise InvalidTrajectory(INVALID_GOAL, "Trajectory message contains waypoints that are not strictly increasing "
-                                    f"in time: point {index} at {times[index]:g} s follows {times[index - 1]:g} s")
+            raise InvalidTrajectory(
+                INVALID_GOAL, "Trajectory message contains waypoints that are not strictly increasing in time: point "
+                f"{index} at {times[index]:g} s follows {times[index - 1]:g} s")
 
 
 def _check_point(number: int, point, width: int) -> None:
     if len(point.positions) != width:
-        raise InvalidTrajectory(INVALID_GOAL, f"Point {number} has {len(point.positions)} positions for {width} joints; "
-                                              "every point needs one position per joint")
+        raise InvalidTrajectory(
+            INVALID_GOAL, f"Point {number} has {len(point.positions)} positions for {width} joints; every point needs "
+            "one position per joint")
     for name, values in (("velocities", point.velocities), ("accelerations", point.accelerations)):
         if values and len(values) != width:
-            raise InvalidTrajectory(INVALID_GOAL, f"Point {number} has {len(values)} {name} for {width} joints; give one "
-                                                  "per joint or none")
+            raise InvalidTrajectory(
+                INVALID_GOAL, f"Point {number} has {len(values)} {name} for {width} joints; give one per joint or none")
     for name, values in (("positions", point.positions), ("velocities", point.velocities),
                          ("accelerations", point.accelerations)):
         if not all(map(math.isfinite, values)):
-            raise InvalidTrajectory(INVALID_GOAL, f"Point {number} has {name} that are not finite numbers: {list(values)}")
+            raise InvalidTrajectory(
+                INVALID_GOAL, f"Point {number} has {name} that are not finite numbers: {list(values)}")
 
 
 def _state(point, column: int) -> State:
@@ -137,7 +139,8 @@ def splice(current: Sequence[Sequence[Segment]], command: Command, start: float,
         target = states[skip]
         offset = wraparound_offset(now.position, target.position) if continuous[joint] else 0.0
         target = target._replace(position=target.position + offset)
-        spliced.append(Segment(join, now, start + command.times[command.first + skip], target, 0.0, goal, tolerances[joint]))
+        spliced.append(Segment(join, now, start + command.times[command.first + skip], target, 0.0, goal,
+                               tolerances[joint]))
         spliced.extend(segment.moved(start, offset, goal, tolerances[joint])
                        for segment in command.segments[joint][skip:])
         result.append(spliced)

@@ -18,6 +18,6 @@ def robot_geometry(root_nh, search: bool = True) -> RobotGeometry:
         name = root_nh.search_param("robot_description") or name
     text = rospy.get_param(name, None)
     if not isinstance(text, str):
-        raise GeometryError(f"parameter {name} must hold the robot's URDF, it is "
-                            f"{'not set' if text is None else 'a ' + type(text).__name__}; load it before the controller")
+        found = "not set" if text is None else f"a {type(text).__name__}"
+        raise GeometryError(f"parameter {name} must hold the robot's URDF, it is {found}; load it first")
     return RobotGeometry(text, name)
