@@ -66,6 +66,7 @@ void set_limot(const Joint& j, int axis, int parameter, double value) {
   }
 }
 
+constexpr double kStopSkin = 1e-9;  // a joint put exactly on its stop is to be found there despite rounding
 constexpr double kPi = 3.14159265358979323846;
 
 }  // namespace
@@ -975,6 +976,8 @@ void World::update_axis(Joint& j, int i) {
     lower -= turns;
     upper -= turns;
   }
+  lower += kStopSkin;
+  upper -= kStopSkin;
   if (j.sign < 0) std::tie(lower, upper) = std::make_pair(-upper, -lower);
   set_limot(j, i, dParamLoStop, std::isfinite(lower) ? lower : -dInfinity);
   set_limot(j, i, dParamHiStop, std::isfinite(upper) ? upper : dInfinity);
@@ -1188,11 +1191,11 @@ std::vector<std::string> World::take_messages() {
   return out;
 }
 
-void World::run(bool direct) {
+void World::run(bool direct, int iterations_wanted) {
   if (direct) {
     dWorldStep(world_, dt);
   } else {
-    dWorldSetQuickStepNumIterations(world_, iters);
+    dWorldSetQuickStepNumIterations(world_, iterations_wanted);
     dWorldSetQuickStepW(world_, sor);
     dWorldQuickStep(world_, dt);
   }
@@ -1302,6 +1305,20 @@ void World::solve() {
       if (l->carrier || (l->kinematic && l->cluster >= 0 && m->clusters[l->cluster].root == l.get())) kinematic.push_back(l->body);
   for (dBodyID b : kinematic) dBodyEnable(b);
 
+  auto run_iterative = [&](const std::vector<Cluster*>& clusters, int times, std::vector<std::string>& said) {
+    said.clear();
+    enable(clusters, true);
+    {
+      std::lock_guard<std::mutex> lock(ode_mutex);
+      dRandSetSeed(static_cast<unsigned long>(mix(seed ^ mix(iterations)) & 0xffffffffu));
+      run(false, times);
+    }
+    enable(clusters, false);
+    ++counters.quick;
+    for (auto& s : said) report("ODE: " + s, island_names(clusters));
+    said.clear();
+  };
+
   std::vector<std::string> said;
   current_messages = &said;
   dSetMessageHandler([](int, const char* t, va_list a) { collect(t, a); });
@@ -1313,18 +1330,23 @@ void World::solve() {
 
   if (!exact.empty() || !kinematic.empty()) {
     enable(exact, true);
-    run(true);
+    run(true, 0);
     enable(exact, false);
     ++counters.direct;
     for (auto& s : said) report("ODE: " + s, island_names(exact));
     said.clear();
   }
-  for (dBodyID b : kinematic) dBodyDisable(b);
+  // ODE wakes them again with the islands that they touch: this is how far they have come in this step.
+  std::vector<Pose> kinematic_poses;
+  for (dBodyID b : kinematic) {
+    dBodyDisable(b);
+    kinematic_poses.push_back(body_pose(b));
+  }
   if (!touching.empty()) {
     std::vector<BodyState> start;
     remember_bodies(start, touching);
     enable(touching, true);
-    run(true);
+    run(true, 0);
     enable(touching, false);
     ++counters.direct;
     if (!said.empty()) {
@@ -1334,26 +1356,21 @@ void World::solve() {
         said.clear();
         remember_bodies(start, island->clusters);
         enable(island->clusters, true);
-        run(true);
+        run(true, 0);
         enable(island->clusters, false);
         if (said.empty()) continue;
         recall_bodies(start);
-        iterative.insert(iterative.end(), island->clusters.begin(), island->clusters.end());
+        // Small, so that many more iterations than usual are affordable.
+        run_iterative(island->clusters, 10 * iters, said);
         ++counters.fallbacks;
       }
       said.clear();
     }
   }
-  if (!iterative.empty()) {
-    enable(iterative, true);
-    {
-      std::lock_guard<std::mutex> lock(ode_mutex);
-      dRandSetSeed(static_cast<unsigned long>(mix(seed ^ mix(iterations)) & 0xffffffffu));
-      run(false);
-    }
-    enable(iterative, false);
-    ++counters.quick;
-    for (auto& s : said) report("ODE: " + s, island_names(iterative));
+  if (!iterative.empty()) run_iterative(iterative, iters, said);
+  for (size_t i = 0; i < kinematic.size(); ++i) {
+    set_body_pose(kinematic[i], kinematic_poses[i]);
+    dBodyDisable(kinematic[i]);
   }
   current_messages = nullptr;
 }
@@ -1424,54 +1441,86 @@ void World::read_feedback(Joint& j) {
   j.feedback.parent_torque = -j.feedback.child_torque;
 }
 
-// Puts the links of a tree of ODE joints exactly where the joint angles say, from the anchored or first cluster outwards.
-// Bodies move along straight lines within a step and so leave their joints by a little; corrected by forces that fights
-// with static friction (turning wheels would scrub and carry uneven loads), and joints would be seen to gape. The centre
-// of mass of what floats free stays where the step took it.
+// Puts the links of a tree of ODE joints exactly where the joint angles say, moving as the joint speeds say, from what the
+// world holds or the first link outwards. Bodies move along straight lines within a step, while their joints would have
+// them on arcs. Left to ODE's correcting forces, that costs energy, fights with static friction (turning wheels scrub and
+// carry uneven loads) and shows as gaping joints. What floats free keeps its centre of mass and its momentum.
 void World::project_joints(Model& model) {
   if (model.tree.empty()) return;
   for (auto& c : model.clusters) c.moved = false;
   for (auto& t : model.tree) {
+    read_joint(*t.joint);
+    // A hard stop is where it is: nothing overshoots it, and nothing is thrown back by the correction.
+    if (t.joint->stop_cfm <= 0 && t.joint->type != JointType::Universal)
+      for (Axis& a : t.joint->axes) a.q = std::min(std::max(a.q, a.lower), a.upper);
+  }
+  for (auto& t : model.tree) {
     Joint& j = *t.joint;
     Cluster& c = model.clusters[t.cluster];
-    if (c.asleep || !c.root) continue;
-    read_joint(j);
+    if (c.asleep || c.root->kinematic) continue;
+    Link &child = *j.child, &moved = t.outward ? child : *j.parent;
     Pose X_J = j.motion(j.axes[0].q);
     if (j.type == JointType::Universal)
       X_J.q = axis_angle(j.axes[0].xyz, j.axes[0].q) * axis_angle(j.axes[1].xyz, j.axes[1].q);
     else if (j.type == JointType::Ball)
-      X_J.q = conjugate(j.frame_W().q) * j.child->X_WL.q * j.X_CJ.q;
-    Link& moved = t.outward ? *j.child : *j.parent;
+      X_J.q = conjugate(j.frame_W().q) * child.X_WL.q * j.X_CJ.q;
     const Pose wanted = t.outward ? j.frame_W() * X_J * inverse(j.X_CJ)
-                                  : j.child->X_WL * j.X_CJ * inverse(X_J) * inverse(j.X_PJ);
+                                  : child.X_WL * j.X_CJ * inverse(X_J) * inverse(j.X_PJ);
     c.root->X_WL = normalized(wanted * inverse(moved.X_RL));
+    spread_poses(c);
+
+    // Velocities: of the moved link, then of its root.
+    const Pose X_WP = j.frame_W(), X_WC = child.X_WL * j.X_CJ;
+    const Vec3 first = rotate(X_WP.q, j.axes[0].xyz) * j.axes[0].qd;
+    Vec3 turn, slide;
+    if (j.type == JointType::Revolute) turn = first;
+    else if (j.type == JointType::Prismatic) slide = first;
+    else if (j.type == JointType::Universal) turn = first + rotate(X_WC.q, j.axes[1].xyz) * j.axes[1].qd;
+    Vec3 w, v;  // of the moved link, at the joint origin
+    if (t.outward) {
+      w = (j.parent ? j.parent->w : Vec3{}) + turn;
+      v = (j.parent ? j.parent->velocity_at(X_WC.p) : Vec3{}) + slide;
+    } else {
+      w = child.w - turn;
+      v = child.velocity_at(X_WC.p) - slide;
+    }
+    if (j.type == JointType::Ball) w = moved.w;
+    // The cluster moves as the moved link does, less what servo joints inside do.
+    c.root->w += w - moved.w;
+    c.root->v += v + cross(w, moved.X_WL.p - X_WC.p) - moved.v + cross(w - moved.w, c.root->X_WL.p - moved.X_WL.p);
+    spread_twists(c);
     c.moved = true;
-    for (Link* l : c.members)
-      if (l != c.root) l->X_WL = c.root->X_WL * l->X_RL;
   }
-  // Components that float free: their centre of mass.
-  for (auto& head : model.tree_heads) {
+  for (int head : model.tree_heads) {
     double mass = 0;
-    Vec3 before, after;
+    Vec3 shift, kick;
     auto add = [&](const Cluster& c) {
       mass += c.mass;
-      before += vec(dBodyGetPosition(c.root->body)) * c.mass;
-      after += (c.root->X_WL * c.com) * c.mass;
+      const Vec3 com = c.root->X_WL * c.com;
+      shift += (vec(dBodyGetPosition(c.root->body)) - com) * c.mass;
+      kick += (vec(dBodyGetLinearVel(c.root->body)) - c.root->velocity_at(com)) * c.mass;
+    };
+    auto move = [&](Cluster& c) {
+      c.root->X_WL.p += shift;
+      c.root->v += kick;
+      c.moved = true;
     };
     add(model.clusters[head]);
     for (auto& t : model.tree)
       if (t.head == head) add(model.clusters[t.cluster]);
-    const Vec3 shift = (before - after) * (1 / mass);
-    auto move = [&](Cluster& c) {
-      c.root->X_WL.p += shift;
-      c.moved = true;
-    };
+    shift = shift * (1 / mass);
+    kick = kick * (1 / mass);
     move(model.clusters[head]);
     for (auto& t : model.tree)
       if (t.head == head) move(model.clusters[t.cluster]);
   }
   for (auto& c : model.clusters)
-    if (c.moved) set_body_pose(c.root->body, {c.root->X_WL * c.com, c.root->X_WL.q});
+    if (c.moved) {
+      const Vec3 com = c.root->X_WL * c.com;
+      set_body_pose(c.root->body, {com, c.root->X_WL.q});
+      const Vec3 v = c.root->velocity_at(com);
+      set_body_twist(c.root->body, v, c.root->w);
+    }
 }
 
 // The order in which project_joints goes: from what the world holds, else from the first link, outwards, each cluster once.

@@ -294,7 +294,7 @@ class World {
   void update_axis(Joint& joint, int axis);
   void make_contact_joints();
   void solve();
-  void run(bool direct);
+  void run(bool direct, int iterations_wanted);
   void integrate_servos();
   void pull();
   void publish();

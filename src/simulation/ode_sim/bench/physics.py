@@ -1,0 +1,123 @@
+#!/usr/bin/env python3
+"""What a physics step costs here and in a bare C loop of ODE on the same bodies, and what a ray costs.
+
+usage: physics.py [--json FILE]
+"""
+import argparse
+import json
+import math
+import os
+import subprocess
+import sys
+import tempfile
+import time
+
+import numpy as np
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, os.path.join(HERE, "..", "test"))
+
+import ode_sim  # noqa: E402
+from physics_models import arm, box, diff_drive, ground  # noqa: E402
+
+
+def per_step(world, steps):
+    start = time.perf_counter()
+    world.step(steps)
+    return (time.perf_counter() - start) / steps * 1e6
+
+
+def motor_arm(steps=4000):
+    world = ode_sim.World()
+    world.spawn(ground())
+    model = world.spawn(arm(6))
+    for joint in list(model.joints.values())[1:]:
+        joint.set_motor(0.02, 100.0)
+    world.step(100)
+    return per_step(world, steps)
+
+
+def servo_arm(steps=4000):
+    world = ode_sim.World()
+    world.spawn(ground())
+    joints = list(world.spawn(arm(6)).joints.values())[1:]
+
+    def command(w):
+        for joint in joints:
+            joint.servo(0.02 * w.time)
+
+    world.before_step.append(command)
+    world.step(100)
+    return per_step(world, steps)
+
+
+def boxes(steps=1500):
+    world = ode_sim.World()
+    world.spawn(ground())
+    for i in range(100):
+        world.spawn(box(f"box{i}", (0.15 * (i % 3) + 0.01 * (i % 7), 0.15 * (i // 3 % 3), 0.1 + 0.12 * (i // 9))))
+    cost = per_step(world, steps)
+    world.step(8000)
+    asleep = sum(model.asleep for model in world.models.values())
+    return cost, asleep, per_step(world, 500)
+
+
+def robot(steps=3000):
+    world = ode_sim.World()
+    world.spawn(ground())
+    model = world.spawn(diff_drive())
+    for joint in model.joints.values():
+        joint.set_motor(5.0, 5.0)
+    return per_step(world, steps)
+
+
+def rays(count=360, obstacles=40, repeats=50):
+    world = ode_sim.World()
+    world.spawn(ground())
+    for i in range(obstacles):
+        a = 2 * math.pi * i / obstacles
+        world.spawn(box(f"box{i}", (4 * math.cos(a), 4 * math.sin(a), 0.5), (0.4, 0.4, 1.0), static=True))
+    angles = np.linspace(-math.pi, math.pi, count, endpoint=False)
+    directions = np.stack([np.cos(angles), np.sin(angles), 0 * angles], axis=1)
+    origins = np.tile([0.0, 0.0, 0.3], (count, 1))
+    start = time.perf_counter()
+    for _ in range(repeats):
+        world.cast_rays(origins, directions, 30.0)
+    return (time.perf_counter() - start) / repeats * 1e6
+
+
+def bare(kind, steps):
+    with tempfile.TemporaryDirectory() as folder:
+        program = os.path.join(folder, "bare_ode")
+        subprocess.run(["cc", "-O2", "-DdDOUBLE", os.path.join(HERE, "bare_ode.c"), "-o", program, "-lode", "-lm"], check=True)
+        return float(subprocess.run([program, kind, str(steps)], check=True, capture_output=True, text=True).stdout)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--json", metavar="FILE")
+    options = parser.parse_args()
+    bare_arm, ours_arm = min(bare("arm", 4000) for _ in range(3)), min(motor_arm() for _ in range(3))
+    bare_boxes = bare("boxes", 1500)
+    our_boxes, asleep, sleeping = boxes()
+    figures = {
+        "arm, 6 hinge motors: bare ODE (us/step)": bare_arm,
+        "arm, 6 hinge motors: ode_sim (us/step)": ours_arm,
+        "arm, 6 hinge motors: ratio": ours_arm / bare_arm,
+        "arm, 6 position-commanded joints from a Python callback (us/step)": servo_arm(),
+        "two-wheeled robot driving (us/step)": robot(),
+        "100 falling boxes: bare ODE quickStep (us/step)": bare_boxes,
+        "100 falling boxes: ode_sim (us/step)": our_boxes,
+        "100 boxes: asleep after 9.5 s": asleep,
+        "100 boxes asleep (us/step)": sleeping,
+        "360 rays among 41 shapes (us)": rays(),
+    }
+    for name, value in figures.items():
+        print(f"{name:70s} {value:10.2f}")
+    if options.json:
+        with open(options.json, "w", encoding="utf-8") as file:
+            json.dump(figures, file, indent=2)
+
+
+if __name__ == "__main__":
+    main()
