@@ -101,7 +101,9 @@ class NodeHandle:
 
     def search_param(self, name: str) -> Optional[str]:
         """Absolute name of the closest parameter ``name`` here or in a namespace above, or None."""
-        found = rosgraph.Master(self.namespace).searchParam(name)
+        # the master refuses "/" as the place to begin; from a name below, it looks there on its way up
+        place = "/search_param" if self.namespace == "/" else self.namespace
+        found = rosgraph.Master(place).searchParam(name)
         return found or None
 
     # -- communication ------------------------------------------------------------------------------------------------
