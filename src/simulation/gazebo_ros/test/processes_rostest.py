@@ -1,0 +1,158 @@
+#!/usr/bin/env python3
+"""Whole server processes: same bits in two runs, options, signals, several servers at once."""
+import io
+import os
+import signal
+import subprocess
+import sys
+import unittest
+
+import rosgraph
+import rospy
+import rostest
+from gazebo_msgs import srv
+from rosgraph_msgs.msg import Clock
+
+from simulator import Simulator, box, pose, urdf
+
+BENCH = os.path.join(os.path.dirname(os.path.abspath(__file__)), "worlds", "bench.world")
+
+
+class Server:
+    """A gzserver in a namespace of its own, ended at the end of the block."""
+
+    def __init__(self, name, *arguments):
+        self.name = name
+        self.process = subprocess.Popen(["rosrun", "gazebo_ros", "gzserver", *arguments, f"__ns:=/{name}"], text=True,
+                                        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True)
+
+    def __enter__(self):
+        return self
+
+    def simulator(self):
+        return Simulator(f"/{self.name}/gazebo")
+
+    def end(self, number=signal.SIGINT):
+        """(exit code, all it printed)."""
+        if self.process.poll() is None:
+            os.killpg(self.process.pid, number)
+        text, _ = self.process.communicate(timeout=20)
+        return self.process.returncode, text
+
+    def __exit__(self, *_):
+        if self.process.poll() is None:
+            os.killpg(self.process.pid, signal.SIGKILL)
+            self.process.communicate()
+
+
+def bits(message):
+    buffer = io.BytesIO()
+    message.serialize(buffer)
+    return buffer.getvalue()
+
+
+def history(sim):
+    """A pile of boxes falls over, an arm is driven, models come and go; every state on the way, as bytes."""
+    def good(response):
+        assert response.success, response.status_message
+
+    good(sim.set_physics())
+    for i in range(6):
+        good(sim.spawn(f"box{i}", box(mass=1 + i), pose(0.13 * i, 0.07 * (i % 3), 0.6 + 1.05 * i)))
+    good(sim.spawn("arm", urdf(), pose(-3, 0, 1), kind="urdf"))
+    states = []
+    for turn in range(12):
+        good(sim.drive("hinge", (-1) ** turn * 3.0, 0.03))
+        good(sim.drive("elbow", 2.0 - turn, 0.05))
+        good(sim.push("box2::link", (20.0, 5.0, 0.0), 0.02))
+        if turn == 6:
+            good(sim.delete("box4"))
+        good(sim.step(50))
+        states += [bits(sim.joint(name)) for name in ("hinge", "elbow")]
+        states += [bits(sim.link(f"{name}::link").link_state) for name in ("box0", "box1", "box2", "box5")]
+    return states
+
+
+class Determinism(unittest.TestCase):
+    def test_two_processes_same_bits_though_one_fights_for_the_processor(self):
+        with Server("calm", "-u", "--seed", "5", BENCH) as calm, Server("busy", "-u", "--seed", "5", BENCH) as busy:
+            first = history(calm.simulator())
+            load = [subprocess.Popen([sys.executable, "-c", "while True: pass"]) for _ in range(3)]
+            try:
+                second = history(busy.simulator())
+            finally:
+                for process in load:
+                    process.kill()
+                    process.wait()
+        self.assertEqual(len(first), 72)
+        self.assertEqual(first, second)
+        self.assertEqual(len(set(first)), 72, "the world does not even move")
+
+
+class Options(unittest.TestCase):
+    def test_iterations_end_the_process(self):
+        with Server("short", "--iters", "300", BENCH) as server:
+            text, _ = server.process.communicate(timeout=60)
+            self.assertEqual(server.process.returncode, 0, text)
+            self.assertIn("300 iterations done", text)
+
+    def test_unknown_world_falls_back_to_the_empty_one_and_names_those_that_are_there(self):
+        with Server("lost", "-u", "worlds/nowhere.world", "-e", "bullet", "-s", "libother.so") as server:
+            self.assertEqual(server.simulator().world().model_names, ["ground_plane"])
+            code, text = server.end()
+        for word in ("worlds/nowhere.world", "worlds/empty.world", "worlds/shapes.world", "bullet", "libother.so"):
+            self.assertIn(word, text)
+        self.assertNotIn("Traceback", text)
+
+    def test_broken_world_falls_back_too(self):
+        path = os.path.join(os.environ["ROS_HOME"] if "ROS_HOME" in os.environ else "/tmp", f"broken{os.getpid()}.world")
+        with open(path, "w") as stream:
+            stream.write("<sdf version='1.6'><world name='w'>")
+        with Server("broken", "-u", path) as server:
+            self.assertEqual(server.simulator().world().model_names, ["ground_plane"])
+            _, text = server.end()
+        os.remove(path)
+        self.assertIn(path, text)
+        self.assertNotIn("Traceback", text)
+
+    def test_without_network_there_is_only_the_clock_at_its_frequency(self):
+        rospy.set_param("/mute/gazebo/enable_ros_network", False)
+        rospy.set_param("/mute/gazebo/pub_clock_frequency", 100)
+        times = []
+        with Server("mute", BENCH) as server:
+            clock = rospy.Subscriber("/clock", Clock, lambda message: times.append(message.clock.to_nsec()), queue_size=100)
+            while len(times) < 12:
+                self.assertIsNone(server.process.poll())
+                rospy.rostime.wallsleep(0.01)
+            clock.unregister()
+            publishers, _, services = rosgraph.Master("/test").getSystemState()
+            self.assertEqual([topic for topic, nodes in publishers if "/mute/gazebo" in nodes], ["/rosout", "/clock"])
+            self.assertEqual([name for name, nodes in services if "/mute/gazebo" in nodes and "logger" not in name], [])
+        self.assertEqual({b - a for a, b in zip(times[1:], times[2:])} - {20_000_000, 30_000_000}, {10_000_000})
+
+
+class Ends(unittest.TestCase):
+    def test_signals_end_it_cleanly_also_while_paused_and_stepping(self):
+        for number, arguments in ((signal.SIGINT, ["-u"]), (signal.SIGTERM, []), (signal.SIGINT, [])):
+            with self.subTest(number=number, arguments=arguments), Server("ends", *arguments, BENCH) as server:
+                server.simulator()
+                code, text = server.end(number)
+                self.assertEqual(code, 0, text)
+                self.assertNotIn("Traceback", text)
+                self.assertNotIn("/ends/gazebo", [node for _, nodes in rosgraph.Master("/t").getSystemState()[0]
+                                                  for node in nodes])
+
+    def test_a_killed_server_can_be_started_again_under_its_name(self):
+        with Server("again", BENCH) as server:
+            server.simulator()
+            server.end(signal.SIGKILL)
+        with Server("again", "-u", BENCH) as server:
+            rospy.rostime.wallsleep(0)
+            sim = server.simulator()
+            self.assertEqual(sim.world().model_names, ["ground_plane", "crate", "swing"])
+            self.assertTrue(sim.step(3).success)
+
+
+if __name__ == "__main__":
+    rospy.init_node("processes_rostest")
+    rostest.rosrun("gazebo_ros", "processes", "__main__")
