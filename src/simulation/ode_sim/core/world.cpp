@@ -12,6 +12,9 @@ namespace ode_sim {
 
 namespace {
 
+// Thrown out of ODE where it would otherwise abort the process.
+struct OdeFailure {};
+
 // ODE's random generator and its message handlers are global; a step holds this lock around what uses them.
 std::mutex ode_mutex;
 thread_local std::vector<std::string>* current_messages = nullptr;
@@ -66,7 +69,8 @@ void set_limot(const Joint& j, int axis, int parameter, double value) {
   }
 }
 
-constexpr double kStopSkin = 1e-9;  // a joint put exactly on its stop is to be found there despite rounding
+constexpr double kStopSkin = 1e-12;  // a joint put exactly on its stop is to be found there despite rounding
+constexpr double kFastest = 1e6;  // m/s, rad/s: a force that would give more in one step is a mistake
 constexpr double kPi = 3.14159265358979323846;
 
 }  // namespace
@@ -976,8 +980,10 @@ void World::update_axis(Joint& j, int i) {
     lower -= turns;
     upper -= turns;
   }
-  lower += kStopSkin;
-  upper -= kStopSkin;
+  if (upper - lower > 1e-9) {  // with both stops at one place ODE holds the joint there by itself
+    lower += kStopSkin;
+    upper -= kStopSkin;
+  }
   if (j.sign < 0) std::tie(lower, upper) = std::make_pair(-upper, -lower);
   set_limot(j, i, dParamLoStop, std::isfinite(lower) ? lower : -dInfinity);
   set_limot(j, i, dParamHiStop, std::isfinite(upper) ? upper : dInfinity);
@@ -1192,12 +1198,16 @@ std::vector<std::string> World::take_messages() {
 }
 
 void World::run(bool direct, int iterations_wanted) {
-  if (direct) {
-    dWorldStep(world_, dt);
-  } else {
-    dWorldSetQuickStepNumIterations(world_, iterations_wanted);
-    dWorldSetQuickStepW(world_, sor);
-    dWorldQuickStep(world_, dt);
+  try {
+    if (direct) {
+      dWorldStep(world_, dt);
+    } else {
+      dWorldSetQuickStepNumIterations(world_, iterations_wanted);
+      dWorldSetQuickStepW(world_, sor);
+      dWorldQuickStep(world_, dt);
+    }
+  } catch (const OdeFailure&) {
+    // What the pass has not moved stays where it is; guard_nan mends what it has spoilt.
   }
 }
 
@@ -1322,11 +1332,21 @@ void World::solve() {
   std::vector<std::string> said;
   current_messages = &said;
   dSetMessageHandler([](int, const char* t, va_list a) { collect(t, a); });
-  dSetErrorHandler([](int, const char* t, va_list a) { collect(t, a); });
-  dSetDebugHandler([](int, const char* t, va_list a) { collect(t, a); });
+  dSetErrorHandler([](int, const char* t, va_list a) { collect(t, a); throw OdeFailure(); });
+  dSetDebugHandler([](int, const char* t, va_list a) { collect(t, a); throw OdeFailure(); });
   dWorldSetERP(world_, erp);
   dWorldSetCFM(world_, std::max(cfm, 1e-10));
   remember_bodies(before_, nodes_);
+  for (Cluster* c : nodes_) {
+    dBodyID b = c->root->body;
+    const Vec3 f = vec(dBodyGetForce(b)), t = vec(dBodyGetTorque(b));
+    const double size = norm(t);
+    const double spin = size > 0 ? size * inverse_along(c->inertia, rotate(conjugate(c->root->X_WL.q), t * (1 / size))) : 0;
+    if (norm(f) / c->mass * dt < kFastest && spin * dt < kFastest) continue;
+    dBodySetForce(b, 0, 0, 0);
+    dBodySetTorque(b, 0, 0, 0);
+    report("a force beyond all reason was left out. Look at its masses, inertias and commands", c->root->model->name);
+  }
 
   if (!exact.empty() || !kinematic.empty()) {
     enable(exact, true);
