@@ -278,7 +278,7 @@ class ControllerManager:
         try:
             starting, stopping = plan(self._controllers, start, stop, strictness == STRICT)
         except Refused as refusal:
-            rospy.logerr("Could not switch controllers: %s", refusal)
+            rospy.logerr("%s", refusal)
             return False
         running = [loaded.info for loaded in self._controllers
                    if (loaded.running and loaded not in stopping) or loaded in starting]

@@ -35,10 +35,11 @@ def plan(controllers: Sequence["LoadedController"], start: Sequence[str], stop: 
             del stopping[name]
         if name in starting and loaded.running and name not in stopping:
             if strict:
-                raise Refused(f"Controller '{name}' is already running")
+                raise Refused(f"Could not start controller '{name}' since it is already running")
             del starting[name]
         if name in starting and name in stopping:
-            raise Refused(f"controller '{name}' is running and named in both lists; stop it first, then start it")
+            raise Refused(f"Could not switch controllers: '{name}' is running and named in both lists; stop it first, "
+                          f"then start it")
     return [by_name[name] for name in starting], [by_name[name] for name in stopping]
 
 

@@ -1,0 +1,67 @@
+"""What tests do with a controller manager: its services as functions, and waiting for something to become true."""
+import time
+
+import rospy
+from controller_manager_msgs.srv import (ListControllers, ListControllerTypes, LoadController,
+                                         ReloadControllerLibraries, SwitchController, SwitchControllerRequest,
+                                         UnloadController)
+
+STRICT = SwitchControllerRequest.STRICT
+BEST_EFFORT = SwitchControllerRequest.BEST_EFFORT
+
+
+def wait_until(condition, what, timeout=20.0):
+    """Poll ``condition`` until it is true, else fail saying ``what`` was waited for. :return: its value."""
+    end = time.monotonic() + timeout
+    while time.monotonic() < end:
+        value = condition()
+        if value:
+            return value
+        time.sleep(0.01)
+    raise AssertionError(f"waited {timeout} s in vain for {what}")
+
+
+class ManagerClient:
+    """The services of the controller manager in ``namespace``."""
+
+    def __init__(self, namespace=""):
+        self._prefix = f"{namespace}/controller_manager/"
+
+    def _call(self, name, service_type, *arguments):
+        rospy.wait_for_service(self._prefix + name, timeout=20.0)
+        return rospy.ServiceProxy(self._prefix + name, service_type)(*arguments)
+
+    def load(self, name):
+        return self._call("load_controller", LoadController, name).ok
+
+    def unload(self, name):
+        return self._call("unload_controller", UnloadController, name).ok
+
+    def switch(self, start=(), stop=(), strictness=STRICT, start_asap=False, timeout=0.0):
+        return self._call("switch_controller", SwitchController, list(start), list(stop), strictness, start_asap,
+                          timeout).ok
+
+    def start(self, *names):
+        return self.switch(start=names)
+
+    def stop(self, *names):
+        return self.switch(stop=names)
+
+    def reload(self, force_kill):
+        return self._call("reload_controller_libraries", ReloadControllerLibraries, force_kill).ok
+
+    def controllers(self):
+        return self._call("list_controllers", ListControllers).controller
+
+    def states(self):
+        """name -> state, in load order."""
+        return {controller.name: controller.state for controller in self.controllers()}
+
+    def types(self):
+        return self._call("list_controller_types", ListControllerTypes)
+
+    def clear(self):
+        """Stop and unload everything."""
+        names = list(self.states())
+        assert self.switch(stop=names, strictness=BEST_EFFORT)
+        assert all([self.unload(name) for name in names])
