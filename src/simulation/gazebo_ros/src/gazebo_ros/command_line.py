@@ -12,7 +12,7 @@ def parse(arguments: List[str]) -> argparse.Namespace:
     """Options as gzserver of Gazebo 11 takes them; unknown ones are kept in ``unknown``.
 
     :param arguments: without the program name and without ROS remappings
-    :returns: world, pause, lockstep, seed (None = not given), iters, server_plugin (list), physics, verbose, record, play
+    :returns: world, pause, lockstep, seed (None = not given), iters, server_plugin (list), physics, verbose ...
     """
     parser = argparse.ArgumentParser(prog="gzserver", usage="gzserver [options] [world_file]", allow_abbrev=False,
                                      description="Run the simulator without a window.")

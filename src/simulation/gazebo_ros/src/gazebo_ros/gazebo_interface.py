@@ -26,8 +26,8 @@ def _call(name: str, service: type, *arguments: Any) -> Optional[bool]:
 def spawn_sdf_model_client(model_name: str, model_xml: str, robot_namespace: str, initial_pose: Pose,
                            reference_frame: str, gazebo_namespace: str) -> Optional[bool]:
     """Spawn SDF text. True when it worked, False when the simulator refused, None when the call failed."""
-    return _call(gazebo_namespace + "/spawn_sdf_model", SpawnModel, model_name, model_xml, robot_namespace, initial_pose,
-                 reference_frame)
+    return _call(gazebo_namespace + "/spawn_sdf_model", SpawnModel, model_name, model_xml, robot_namespace,
+                 initial_pose, reference_frame)
 
 
 def spawn_urdf_model_client(model_name: str, model_xml: str, robot_namespace: str, initial_pose: Pose,

@@ -9,8 +9,9 @@ C      root                                          root
 D      ``/<model>/``                                 root
 =====  ============================================  ===================================================
 
-A: diff_drive, tricycle_drive, joint_state_publisher. B: cameras, laser, gpu_laser. C: imu, p3d, bumper, range, planar_move,
-skid_steer and most others. D: imu_sensor. spawn_model writes its own namespace (mostly ``/``) into every plugin without one.
+A: diff_drive, tricycle_drive, joint_state_publisher. B: cameras, laser, gpu_laser. C: imu, p3d, bumper, range,
+planar_move, skid_steer and most others. D: imu_sensor. spawn_model writes its own namespace (mostly ``/``) into every
+plugin without one.
 A relative namespace is resolved against that of the gazebo node.
 """
 from __future__ import annotations
@@ -44,16 +45,15 @@ def join(namespace: str, name: str) -> str:
 
 def tf_prefix(namespace: str) -> str:
     """The ``tf_prefix`` parameter nearest to ``namespace`` on the way up to the root; '' when there is none."""
-    key = rosgraph.Master(canonicalize_name(namespace) or "/")
+    master = rosgraph.Master(join(rospy.get_namespace(), namespace))
     try:
-        found = key.searchParam("tf_prefix")
-        return str(key.getParam(found)) if found else ""
-    except rosgraph.MasterError:
+        return str(master.getParam(master.searchParam("tf_prefix")))
+    except rosgraph.MasterError:  # there is none
         return ""
 
 
 def resolve_frame(prefix: str, frame: str) -> str:
-    """``frame`` with the tf prefix, as ``tf::resolve`` of Noetic: a leading slash is stripped and switches the prefix off."""
+    """``frame`` with the tf prefix, as ``tf::resolve`` of Noetic: a leading slash goes, and switches the prefix off."""
     if frame.startswith("/"):
         return frame[1:]
     prefix = prefix[1:] if prefix.startswith("/") else prefix

@@ -1,6 +1,7 @@
 """The node ``gazebo``: from the command line to a running world, and to its end."""
 from __future__ import annotations
 
+import gc
 import logging
 import os
 import signal
@@ -34,6 +35,7 @@ from gazebo_ros.server import Server
 
 BUILTIN = ["libgazebo_ros_api_plugin.so", "libgazebo_ros_paths_plugin.so"]
 _EMPTY_WORLD = "worlds/empty.world"
+_SWITCH_INTERVAL = 2e-4  # s that another thread may keep the physics thread from its next step
 _LAST_RESORT = 1.5  # s from a signal to the end of the process, whatever a plugin does
 
 
@@ -52,7 +54,7 @@ def _run() -> int:
     _wait_for_master(ending)
     if not rosgraph.Master("/gazebo").hasParam("/use_sim_time"):
         rosgraph.Master("/gazebo").setParam("/use_sim_time", True)
-    # rospy's own clock would come from the /clock that this node publishes: the server sets it instead, without the detour
+    # rospy's clock would come back from the /clock that this node publishes: the server sets it without that detour
     rospy.init_node("gazebo", disable_rostime=True, disable_signals=True,
                     log_level=rospy.DEBUG if options.verbose else rospy.INFO)
     rospy.on_shutdown(ending.request)
@@ -60,6 +62,9 @@ def _run() -> int:
         rospy.logwarn("%s", line)
     server = make_server(options)
     ending.follow(server)
+    gc.collect()
+    gc.freeze()  # what is there stays: collections in mid-run need not look at it
+    sys.setswitchinterval(_SWITCH_INTERVAL)
     physics = _PhysicsThread(server)
     physics.start()
     while physics.is_alive():
@@ -113,7 +118,8 @@ def make_finder(rospack: rospkg.RosPack) -> ResourceFinder:
             return None
 
     def exported(attribute: str) -> List[str]:
-        return [path for value in exported_values("gazebo_ros", attribute, rospack) for path in value.split(":") if path]
+        values = exported_values("gazebo_ros", attribute, rospack)
+        return [path for value in values for path in value.split(":") if path]
 
     return ResourceFinder(exported("gazebo_model_path"), exported("gazebo_media_path"), package)
 

@@ -11,8 +11,8 @@ A plugin is found by the library file name that URDF and SDF files carry; a pack
 ``load`` runs in the physics thread, once, between two steps. It connects what it needs: ``server.before_step(f)`` and
 ``server.after_step(f)`` call ``f()`` in every step (the server disconnects them when the model is deleted), and ROS
 publishers, subscribers and services are made as in any node. ROS callbacks run in other threads: they store a value, or
-use ``server.call(f)``. Raise :class:`PluginError` with one line for the user when a parameter is wrong: the plugin stays
-inactive, everything else goes on.
+use ``server.call(f)``. Raise :class:`PluginError` with one line for the user when a parameter is wrong: the plugin
+stays inactive, everything else goes on.
 """
 from __future__ import annotations
 

@@ -30,7 +30,7 @@ class UpdateRate:
     """Gazebo's rate rule, in integer nanoseconds of sim time.
 
     A sensor is due when the time since its last update plus the delay carried over reaches the period. What is late is
-    carried over, so that 30 Hz on a 1 ms step gives 30 updates a second; a delay of a whole period or more is forgotten.
+    carried over, so that 30 Hz on a 1 ms step gives 30 updates a second; a delay of a period or more is forgotten.
 
     :param rate: Hz; 0 or less = every step
     """
@@ -80,7 +80,7 @@ class Sensor:
     """A sensor on a link of a simulated model.
 
     ``description``
-        ``ode_sim.description.Sensor``: name, type, pose X_LS, element (the ``<sensor>`` element), update_rate, always_on
+        ``ode_sim.description.model.Sensor``: name, type, pose X_LS, element (``<sensor>``), update_rate ...
     ``link``, ``model``
         the handles it is mounted on
     ``measurement_time``, ``measurement_ns``

@@ -34,9 +34,9 @@ def parse(arguments: List[str]) -> argparse.Namespace:
     source.add_argument("-database", metavar="MODEL", help="a model of the model path, by its directory's name")
     source.add_argument("-stdin", action="store_true", help="read the text from standard input")
     parser.add_argument("-model", required=True, metavar="NAME", help="name of the new model")
-    parser.add_argument("-reference_frame", default="", metavar="ENTITY", help="the pose counts from this model or link")
-    parser.add_argument("-gazebo_namespace", default="/gazebo", metavar="NS", help="namespace of the simulator's services")
-    parser.add_argument("-robot_namespace", default=rospy.get_namespace(), metavar="NS", help="namespace for its plugins")
+    parser.add_argument("-reference_frame", default="", metavar="ENTITY", help="pose is relative to this model or link")
+    parser.add_argument("-gazebo_namespace", default="/gazebo", metavar="NS", help="of the simulator's services")
+    parser.add_argument("-robot_namespace", default=rospy.get_namespace(), metavar="NS", help="given to its plugins")
     parser.add_argument("-unpause", action="store_true", help="unpause the simulation afterwards")
     parser.add_argument("-wait", metavar="MODEL", help="wait until this model exists")
     for name in "xyz":

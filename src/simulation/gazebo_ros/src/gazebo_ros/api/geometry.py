@@ -58,5 +58,5 @@ def frame_entity(world: Any, name: str, what: str) -> Any:
     """
     entity = world.find_entity(name) if name else None
     if entity is None and name not in WORLD_NAMES:
-        raise Refused(f"{what} '{name}' not found: it must be the name of a model, of a link (as model::link), or 'world'")
+        raise Refused(f"{what} '{name}' not found: it must name a model, a link (as model::link), or 'world'")
     return entity

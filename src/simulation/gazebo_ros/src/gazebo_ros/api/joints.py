@@ -21,7 +21,7 @@ class JointServices:
     def _joint(self, name: str):
         joint = self._world.find_joint(name)
         if joint is None:
-            raise Refused(f"joint [{name}] not found; name it as in the model's file (a fixed joint may have been merged)")
+            raise Refused(f"joint [{name}] not found; name it as in the model's file (fixed joints may be merged)")
         return joint
 
     def _get(self, request, response) -> str:
@@ -38,7 +38,8 @@ class JointServices:
             values = getattr(config, field)
             finite(field, *values)
             if len(values) > joint.axis_count:
-                raise Refused(f"{field} has {len(values)} elements, but joint [{joint.name}] has {joint.axis_count} axes")
+                raise Refused(f"{field} has {len(values)} elements, "
+                              f"but joint [{joint.name}] has {joint.axis_count} axes")
         for field in _FIELDS:
             for axis, value in enumerate(getattr(config, field)):
                 _set_parameter(joint, field, value, axis)

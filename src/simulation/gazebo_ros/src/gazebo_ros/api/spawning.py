@@ -16,7 +16,7 @@ from gazebo_ros.server import Server, log_problems
 
 
 class SpawnServices:
-    """Reading XML, loading meshes and importing plugins is done in the service's thread; the physics thread only puts the
+    """XML is read, meshes are loaded and plugins imported in the service's thread; the physics thread only puts the
     finished model into the world, so that robots that are already there run on."""
 
     def __init__(self, server: Server):
@@ -33,7 +33,7 @@ class SpawnServices:
         try:
             kind = root_kind(request.model_xml, self._server.finder)
             if urdf_only and kind != "urdf":
-                raise Refused(f"the text is a <{kind}> in SDF, not a URDF <robot>; use spawn_sdf_model (spawn_model -sdf)")
+                raise Refused(f"the text is SDF (<{kind}>), not a URDF <robot>; use spawn_sdf_model (spawn_model -sdf)")
             if kind == "actor":
                 raise Refused("actors are not simulated here; spawn a <model> or <light>")
             x_fe = pose_of(request.initial_pose, "initial_pose")
