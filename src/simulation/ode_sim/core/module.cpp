@@ -238,6 +238,7 @@ PYBIND11_MODULE(_core, m) {
       .def_readwrite("contact_softness", &World::contact_softness)
       .def_readwrite("friction_softness", &World::friction_softness)
       .def_readwrite("direct_rows", &World::direct_rows)
+      .def_readwrite("heap_rows", &World::heap_rows)
       .def_readwrite("seed", &World::seed)
       .def_readwrite("iterations", &World::iterations)
       .def_readwrite("time_ns", &World::time_ns)

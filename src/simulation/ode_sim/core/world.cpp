@@ -1026,8 +1026,8 @@ void World::make_contact_joints() {
   for (auto& c : contacts_) watched += c.a->watched || c.b->watched;
   feedback_.resize(watched);
   size_t next = 0;
-  // Resting contacts must persist, or friction is lost every other step: shapes may overlap by what gravity falls in a step.
-  const double slack = 2 * norm(gravity) * dt * dt;
+  // Resting contacts must persist, or friction is lost every other step: this much overlap (m) is left alone.
+  constexpr double slack = 2e-5;
   for (auto& c : contacts_) {
     const Surface &sa = c.a->surface, &sb = c.b->surface;
     if (sa.collide_without_contact || sb.collide_without_contact) continue;
@@ -1300,7 +1300,7 @@ void World::solve() {
       if (!island.awake) dBodySetForce(c->root->body, 0, 0, 0), dBodySetTorque(c->root->body, 0, 0, 0);
     }
     if (!island.awake) continue;
-    auto& kind = island.contact_rows == 0 ? exact : island.rows + island.contact_rows <= direct_rows ? touching : iterative;
+    auto& kind = island.contact_rows == 0 ? exact : island.rows + island.contact_rows <= (island.joints ? direct_rows : heap_rows) ? touching : iterative;
     kind.insert(kind.end(), island.clusters.begin(), island.clusters.end());
     if (&kind == &touching) touching_islands.push_back(&island);
   }

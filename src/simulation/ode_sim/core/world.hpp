@@ -216,7 +216,8 @@ class World {
   uint64_t iterations = 0;
   int64_t time_ns = 0;
   double contact_softness = 0.02, friction_softness = 1e-5;
-  int direct_rows = 160;  // islands up to this many constraint rows use the direct solver
+  int direct_rows = 160;  // islands with joints up to this many constraint rows use the direct solver
+  int heap_rows = 60;     // the same, for islands of contacts alone
 
   std::shared_ptr<Model> add_model(const std::string& name, bool is_static, bool self_collide, bool may_sleep);
   void remove_model(Model& model);
