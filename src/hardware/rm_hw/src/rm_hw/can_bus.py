@@ -14,6 +14,7 @@ BITRATE = 1000000
 RETRY = 0.5              # s between attempts to open an interface
 SEND_TIMEOUT = 0.002     # s
 _GARBAGE_PAUSE = 1.0     # s between two lines about garbage
+_PATIENCE = 0.05         # s during which nothing can be sent before the bus counts as lost
 
 OPEN_ERRORS = (OSError, ValueError, can.CanError)
 
@@ -53,6 +54,7 @@ class CanBus:
         self._told = False
         self._rejected = 0
         self._next_garbage_line = 0.0
+        self._failing_since: Optional[float] = None
 
     @property
     def connected(self) -> bool:
@@ -119,11 +121,21 @@ class CanBus:
         if bus is None:
             return False
         try:
-            bus.send(can.Message(arbitration_id=identifier, data=data, is_extended_id=False, check=False), timeout=SEND_TIMEOUT)
+            bus.send(can.Message(arbitration_id=identifier, data=data, is_extended_id=False), timeout=SEND_TIMEOUT)
         except (OSError, can.CanError) as error:
-            self.lose(error)
+            self._not_sent(error)
             return False
+        self._failing_since = None
         return True
+
+    def _not_sent(self, error: Exception) -> None:
+        """A full queue may empty again; what goes on failing is lost."""
+        now = time.monotonic()
+        if self._failing_since is None:
+            self._failing_since = now
+        elif now - self._failing_since > _PATIENCE:
+            self._failing_since = None
+            self.lose(error.__cause__ or error)
 
     def lose(self, error: Exception) -> None:
         """The bus failed: close it and start looking for it again."""

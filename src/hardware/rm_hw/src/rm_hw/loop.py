@@ -14,17 +14,20 @@ _WARNING_PAUSE = 1.0         # s between two warnings about late cycles
 
 
 def become_realtime(priority: int) -> None:
-    """Ask for SCHED_FIFO for the calling thread; without the right to, say how to get it and go on."""
+    """Ask for SCHED_FIFO for all threads of the process; without the right to, say how to get it and go on.
+
+    All of them (those started later inherit it), because a thread of normal priority that is suspended while it holds
+    the interpreter's lock would hold up the loop.
+    """
     try:
-        os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(priority))
-    except (PermissionError, OSError) as error:
+        for thread in os.listdir("/proc/self/task"):
+            os.sched_setscheduler(int(thread), os.SCHED_FIFO, os.sched_param(priority))
+    except OSError as error:
         rospy.logerr("Set scheduler failed, RUN THIS NODE AS SUPER USER. (%s) It runs on at normal priority, which is enough "
                      "for the motor bench; for a robot allow real-time priority: put '@realtime - rtprio 99' into "
                      "/etc/security/limits.d/realtime.conf, 'sudo usermod -aG realtime $USER', and log in again",
                      error.strerror)
     sys.setswitchinterval(_SWITCH_INTERVAL)
-    gc.collect()
-    gc.freeze()                  # what start-up has made need not be searched for garbage again
 
 
 class ControlLoop:
@@ -50,6 +53,9 @@ class ControlLoop:
         self._running = False
 
     def run(self) -> None:
+        """Until :meth:`stop`."""
+        gc.collect()
+        gc.freeze()              # what start-up has made need not be searched for garbage again
         last = due = time.monotonic()
         while self._running:
             due += self._period

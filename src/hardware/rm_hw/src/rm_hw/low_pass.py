@@ -5,6 +5,7 @@ import math
 from typing import Optional
 
 _ROOT = math.sqrt(2.0)
+_NOTHING = 1e-12         # standing still reads 0, not ever smaller numbers
 _SMALLEST_TAN = 0.01     # a floor under the corner: about 3 Hz at 1 kHz
 _LARGEST_PHASE = math.pi / 4.0     # the corner is never above a quarter of the rate: after a gap the slope stays moderate
 
@@ -50,4 +51,6 @@ class LowPass:
         scale = 1.0 + g * (_ROOT + g)
         self.output = ((1.0 + _ROOT * g) * level + g * slope) / scale
         self._slope = (slope - g * level) / scale
+        if value == 0.0 and abs(self.output) < _NOTHING and abs(self._slope) < _NOTHING:
+            self.output = self._slope = 0.0
         return self.output

@@ -1,8 +1,9 @@
 """The serial port under python-can's ``slcan`` back-end: whole, valid frame lines only.
 
 python-can 4.1 asks the operating system for every single byte, raises on a line it cannot decode (and then on every
-later one), and takes the stick's acknowledgements for "nothing received". This port reads in blocks, hands on frame
-lines and nothing else, and counts the rest in ``rejected``. It is opened through pyserial's own URL look-up as
+later one), and takes the stick's acknowledgements for "nothing received"; pyserial reports a time-out for bytes that
+were written when the process was merely suspended meanwhile. This port reads in blocks, hands on frame lines and nothing
+else, counts the rest in ``rejected``, and writes a line whole or not at all. It is opened through pyserial's own URL look-up as
 ``lines:///dev/ttyACM0`` once :func:`register` has been called; pyserial wants this module to be called
 ``protocol_lines``.
 """
@@ -56,6 +57,31 @@ class LineSerial(serial.Serial):
             self._fill()
         start, self._position = self._position, min(len(self._ready), self._position + size)
         return self._ready[start:self._position]
+
+    def write(self, data: bytes) -> int:
+        """Write all of ``data``. :raises serial.SerialTimeoutException: the device takes nothing within write_timeout."""
+        sent = 0
+        while sent < len(data):
+            try:
+                sent += os.write(self.fd, data[sent:])
+            except BlockingIOError:
+                if not select.select([], [self.fd], [], self.write_timeout)[1]:
+                    raise serial.SerialTimeoutException("the adapter takes no more frames") from None
+            except OSError as error:
+                raise serial.SerialException(f"the adapter is gone: {error}") from error
+        return sent
+
+    def flush(self) -> None:
+        """Nothing waits here; the driver sends as fast as the line allows."""
+
+    @property
+    def write_timeout(self) -> Optional[float]:
+        """s to wait for room. Unlike pyserial's, changing it does not reconfigure the port."""
+        return self._write_timeout
+
+    @write_timeout.setter
+    def write_timeout(self, timeout: Optional[float]) -> None:
+        self._write_timeout = timeout
 
     def _fill(self) -> None:
         try:

@@ -20,6 +20,7 @@ from rm_hw.bench.replay import Replay
 from rm_hw.config import BENCH_DIRECTORY
 
 _FURTHEST_BEHIND = 0.05      # s; a bench that was suspended longer than this does not catch up
+_PRIORITY = 50
 _PUBLISH_EVERY = 10          # ticks
 _STATUS_EVERY = 200
 
@@ -148,6 +149,8 @@ class App:
             self._ros.shutdown()
 
     def _loop(self, keys: Optional[Keys]) -> None:
+        with contextlib.suppress(PermissionError):       # a motor is never late; the bench tries to be like it
+            os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(_PRIORITY))
         due = time.monotonic()
         while not self._stopped:
             due += TICK
