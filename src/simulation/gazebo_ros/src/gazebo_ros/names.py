@@ -45,9 +45,12 @@ def join(namespace: str, name: str) -> str:
 
 def tf_prefix(namespace: str) -> str:
     """The ``tf_prefix`` parameter nearest to ``namespace`` on the way up to the root; '' when there is none."""
-    master = rosgraph.Master(join(rospy.get_namespace(), namespace))
+    # the master refuses "/" as the place to begin; from a name below, it looks there on its way up
+    namespace = join(rospy.get_namespace(), namespace)
+    master = rosgraph.Master(namespace)
     try:
-        return str(master.getParam(master.searchParam("tf_prefix")))
+        found = "/tf_prefix" if namespace == "/" else master.searchParam("tf_prefix")  # no search from the root itself
+        return str(master.getParam(found))
     except rosgraph.MasterError:  # there is none
         return ""
 
