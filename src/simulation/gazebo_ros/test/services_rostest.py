@@ -12,6 +12,7 @@ from geometry_msgs.msg import Pose, Vector3
 from rosgraph_msgs.msg import Clock
 from std_msgs.msg import ColorRGBA
 
+from gazebo_ros import names
 from simulator import Simulator, box, pose, twist, urdf, xyz
 
 NAN = float("nan")
@@ -467,6 +468,19 @@ class Spawning(Case):
         self.done(self.sim.spawn("m", urdf(), pose(30, 0, 3), kind="urdf"))
         self.sim.step(5)
         self.near(xyz(self.sim.link("m::tip").link_state.twist.linear), (0, 0, 0))  # the jobs are gone
+
+
+class Names(unittest.TestCase):
+    def test_tf_prefix_is_searched_upwards(self):
+        self.assertEqual(names.tf_prefix("/"), "")
+        self.assertEqual(names.tf_prefix("/robot/eye"), "")
+        rospy.set_param("/robot/tf_prefix", "r1")
+        self.assertEqual([names.tf_prefix(where) for where in ("/robot/eye", "/robot", "robot", "/", "/other")],
+                         ["r1", "r1", "r1", "", ""])
+        rospy.set_param("/tf_prefix", "all")
+        self.assertEqual([names.tf_prefix(where) for where in ("/robot", "/", "/other")], ["r1", "all", "all"])
+        rospy.delete_param("/tf_prefix")
+        rospy.delete_param("/robot/tf_prefix")
 
 
 class States(Case):

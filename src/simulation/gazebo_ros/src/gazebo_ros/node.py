@@ -69,8 +69,16 @@ def _run() -> int:
     physics.start()
     while physics.is_alive():
         physics.join(1.0)
-    rospy.signal_shutdown("the simulator ended")
+    _leave_ros()
     return 1 if physics.failed else 0
+
+
+def _leave_ros() -> None:
+    """Unregister the node, without waiting for rospy's idle threads afterwards."""
+    unregistered = threading.Event()
+    rospy.core.add_shutdown_hook(lambda reason: unregistered.set())  # the last hook
+    threading.Thread(target=rospy.signal_shutdown, args=("the simulator ended",), daemon=True).start()
+    unregistered.wait(_LAST_RESORT)
 
 
 class _Ending:
