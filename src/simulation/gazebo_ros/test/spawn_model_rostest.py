@@ -3,7 +3,6 @@
 import os
 import signal
 import subprocess
-import tempfile
 import unittest
 
 import rospy
@@ -31,13 +30,6 @@ class SpawnModel(unittest.TestCase):
         self.assertTrue(state.success, text)
         return state
 
-    def failed(self, code, words, *arguments, stdin=None):
-        got, text = spawn(*arguments, stdin=stdin)
-        self.assertEqual(got, code, text)
-        for word in words:
-            self.assertIn(word, text)
-        self.assertNotIn("Traceback", text)
-
     def test_param_pose_and_joints(self):
         rospy.set_param("robot_description", "<?xml version='1.0'?><!-- a robot -->" + urdf())
         state = self.spawned("a", *"-urdf -param robot_description -x 1 -y -2 -z 3 -Y 1.5707963 -J elbow 0.5".split())
@@ -48,19 +40,10 @@ class SpawnModel(unittest.TestCase):
         self.assertAlmostEqual(turn.z, turn.w, 6)
         self.assertAlmostEqual(self.sim.joint("elbow").position[0], 0.5, 6)
 
-    def test_file_stdin_database_and_reference_frame(self):
-        with tempfile.TemporaryDirectory() as folder:
-            path = os.path.join(folder, "box.sdf")
-            with open(path, "w") as stream:
-                stream.write(box())
-            self.spawned("from_file", "-sdf", "-file", path, "-x", "10", "-z", "2")
-        self.spawned("from_stdin", "-sdf", "-stdin", "-reference_frame", "from_file", "-x", "5", stdin=box())
-        self.assertAlmostEqual(self.sim.model("from_stdin").pose.position.x, 15, 6)
-        self.spawned("floor", "-sdf", "-database", "ground_plane", "-z", "-5")
-
-    def test_unpause(self):
+    def test_database_and_reference_frame_and_unpause(self):
         self.assertTrue(self.sim.physics().pause)
-        self.spawned("c", "-sdf", "-stdin", "-x", "20", "-z", "2", "-unpause", stdin=box())
+        self.spawned("floor", "-sdf", "-database", "ground_plane", "-reference_frame", "crate", "-z", "-8", "-unpause")
+        self.assertAlmostEqual(self.sim.model("floor").pose.position.x, self.sim.model("crate").pose.position.x, 6)
         self.assertFalse(self.sim.physics().pause)
         self.sim.empty("pause_physics")
 
@@ -92,14 +75,11 @@ class SpawnModel(unittest.TestCase):
             self.assertFalse(rospy.is_shutdown())
             rospy.rostime.wallsleep(0.02)
 
-    def test_failures(self):
-        self.failed(1, ["parameter /nothing is not set"], "-urdf", "-param", "nothing", "-model", "x")
-        self.failed(1, ["cannot read /no/such.urdf"], "-urdf", "-file", "/no/such.urdf", "-model", "x")
-        self.failed(1, ["not well-formed"], "-sdf", "-stdin", "-model", "x", stdin="<sdf>")
-        self.failed(1, ["already exists"], "-sdf", "-stdin", "-model", "crate", stdin=box())
-        self.failed(2, ["-model"], "-urdf", "-stdin", stdin=urdf())
-        self.failed(2, ["not allowed with"], "-urdf", "-sdf", "-stdin", "-model", "x", stdin=urdf())
-        self.failed(2, ["half way"], "-urdf", "-stdin", "-model", "x", "-J", "elbow", "half way", stdin=urdf())
+    def test_what_the_simulator_refuses_is_said_and_fails(self):
+        code, text = spawn("-sdf", "-stdin", "-model", "crate", stdin=box())
+        self.assertEqual(code, 1, text)
+        self.assertIn("already exists", text)
+        self.assertNotIn("Traceback", text)
 
 
 if __name__ == "__main__":
