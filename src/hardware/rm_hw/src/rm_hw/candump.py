@@ -5,12 +5,12 @@ import argparse
 import os
 import signal
 import sys
-from typing import List, Optional
+from typing import List, Optional, Tuple
 
 import can
 
 from rm_hw.config import BENCH_DIRECTORY
-from rm_hw.can_bus import open_interface
+from rm_hw.can_bus import OPEN_ERRORS, open_interface
 
 
 def format_frame(channel: str, message: can.Message) -> str:
@@ -18,6 +18,17 @@ def format_frame(channel: str, message: can.Message) -> str:
     identifier = f"{message.arbitration_id:08X}" if message.is_extended_id else f"{message.arbitration_id:03X}"
     data = "remote request" if message.is_remote_frame else " ".join(f"{byte:02X}" for byte in message.data)
     return f"  {channel}  {identifier}   [{message.dlc}]  {data}"
+
+
+def open_bus(name: str, interface: Optional[str], channel: Optional[str]) -> Tuple[can.BusABC, str]:
+    """Open bus ``name`` and return it with its name; without ``interface`` the bench's onlooker port if there is one.
+
+    :raises OSError, ValueError, can.CanError: it cannot be opened.
+    """
+    monitor = os.path.join(BENCH_DIRECTORY, f"{name}.monitor")
+    if interface is None and os.path.exists(monitor):
+        return open_interface("slcan", channel or monitor), name
+    return open_interface(interface or "socketcan", channel or name), name
 
 
 def main(arguments: Optional[List[str]] = None) -> int:
@@ -30,16 +41,12 @@ def main(arguments: Optional[List[str]] = None) -> int:
     parser.add_argument("-l", "--log", metavar="FILE", help="write to a log as well (.log, .asc, .blf, .csv)")
     parser.add_argument("-q", "--quiet", action="store_true", help="do not print frames")
     options = parser.parse_args(arguments)
-    monitor = os.path.join(BENCH_DIRECTORY, f"{options.bus}.monitor")
-    on_bench = options.interface is None and os.path.exists(monitor)
-    interface = options.interface or ("slcan" if on_bench else "socketcan")
-    channel = options.channel or (monitor if on_bench else options.bus)
     try:
-        bus = open_interface(interface, channel)
+        bus, _ = open_bus(options.bus, options.interface, options.channel)
         logger = can.Logger(options.log) if options.log else None
-    except (OSError, ValueError, can.CanError) as error:
-        print(f"candump: cannot open {options.bus}: {error}; is the interface up (ip link set {options.bus} up type can "
-              f"bitrate 1000000), or 'rosrun rm_hw motor_bench' running?", file=sys.stderr)
+    except OPEN_ERRORS as error:
+        print(f"candump: cannot open {options.bus}: {error}; is the interface up (ip link set {options.bus} up type "
+              f"can bitrate 1000000), or 'rosrun rm_hw motor_bench' running?", file=sys.stderr)
         return 1
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     seen = 0
