@@ -103,8 +103,10 @@ class NodeHandle:
         """Absolute name of the closest parameter ``name`` here or in a namespace above, or None."""
         # the master refuses "/" as the place to begin; from a name below, it looks there on its way up
         place = "/search_param" if self.namespace == "/" else self.namespace
-        found = rosgraph.Master(place).searchParam(name)
-        return found or None
+        try:
+            return rosgraph.Master(place).searchParam(name) or None
+        except rosgraph.MasterError:  # the master's way of saying that there is none
+            return None
 
     # -- communication ------------------------------------------------------------------------------------------------
 
