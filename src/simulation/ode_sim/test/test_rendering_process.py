@@ -33,9 +33,6 @@ class World:
         for model in models:
             self.spawn(model)
 
-    def rng(self, name):
-        return np.random.Generator(np.random.PCG64([self.seed, *name.encode()]))
-
     def spawn(self, model):
         first = len(self.link_poses)
         links = {link.name: SimpleNamespace(index=first + i, scoped_name=f"{model.name}::{link.name}", description=link)

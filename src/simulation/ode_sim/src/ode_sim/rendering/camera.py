@@ -132,10 +132,12 @@ def read_distortion(element: Optional[ET.Element]) -> Distortion:
     return Distortion(*(_number(element, key, 0.0) for key in ("k1", "k2", "k3", "p1", "p2")), center=(cx, cy))
 
 
-def read_camera(element: ET.Element, sensor_pose: Pose = Pose(), link: str = "", name: str = "") -> Camera:
+def read_camera(element: ET.Element, sensor_pose: Pose = Pose(), link: str = "", name: str = "",
+                image_format: str = "") -> Camera:
     """A camera from the ``<camera>`` element of a sensor.
 
     :param sensor_pose: X_LS of the sensor in its link. :param link: scoped link name.
+    :param image_format: instead of the element's own.
     :raises CameraError: a value that no camera can have.
     """
     pose = compose(sensor_pose, _pose(element.findtext("pose")))
@@ -146,7 +148,7 @@ def read_camera(element: ET.Element, sensor_pose: Pose = Pose(), link: str = "",
         width=_pixels(element, "image/width", 320), height=_pixels(element, "image/height", 240),
         hfov=_number(element, "horizontal_fov", 1.047),
         near=_number(element, "clip/near", 0.1), far=_number(element, "clip/far", 100.0),
-        format=(element.findtext("image/format") or "R8G8B8").strip(),
+        format=image_format or (element.findtext("image/format") or "R8G8B8").strip(),
         noise_mean=_number(noise, "mean", 0.0) if noisy else 0.0,
         noise_stddev=_number(noise, "stddev", 0.0) if noisy else 0.0,
         distortion=read_distortion(element.find("distortion")), pose=pose, link=link)

@@ -1,6 +1,7 @@
 """The scene of a world that runs: what changed since the last picture, and pictures from within the same process."""
 from __future__ import annotations
 
+import hashlib
 import weakref
 from typing import Optional, Tuple
 
@@ -56,8 +57,9 @@ _studios: "weakref.WeakKeyDictionary" = weakref.WeakKeyDictionary()
 
 
 def camera_seed(world, name: str) -> int:
-    """The seed of a camera's noise: from the world's seed and the camera's (scoped) name alone."""
-    return int(world.rng(f"camera {name}").integers(1 << 62))
+    """The seed of a camera's noise: from the world's seed and the camera's (scoped) name alone. Not drawn from
+    ``world.rng``, whose numbers depend on how many were drawn before: a picture depends on the state shown and the time."""
+    return int.from_bytes(hashlib.sha256(f"{world.seed}/camera {name}".encode()).digest()[:8], "little")
 
 
 def render(world, camera: Camera, kind: str = "image") -> np.ndarray:

@@ -1,0 +1,66 @@
+"""An image topic as image_transport offers it: the raw image, and compressed ones beside it with their parameters."""
+from __future__ import annotations
+
+from typing import Dict, Tuple
+
+import rospy
+from dynamic_parameters import Parameter, Server
+from ode_sim.rendering import Frame
+from sensor_msgs.msg import CompressedImage
+
+from gazebo_plugins.image_message import Image
+
+COMPRESSED = (
+    Parameter("format", str, "jpeg", description="Compression format",
+              enum={"jpeg": "JPEG lossy compression", "png": "PNG lossless compression"}),
+    Parameter("jpeg_quality", int, 80, 1, 100, "JPEG quality percentile"),
+    Parameter("png_level", int, 9, 1, 9, "PNG compression level"),
+)
+
+
+class ImageTopics:
+    """Publishers of one image topic.
+
+    :param topic: absolute name. :param source: output of the render process that is the raw image.
+    :param compressible: offer ``<topic>/compressed``. :param queue_size: messages kept for a slow subscriber.
+    """
+
+    def __init__(self, topic: str, encoding: str, shape: Tuple[int, int], queue_size: int, source: str = "image",
+                 compressible: bool = True):
+        self._source, self._encoding, (self._height, self._width) = source, encoding, shape
+        self._raw = rospy.Publisher(topic, Image, queue_size=queue_size)
+        self._compressed = self._parameters = None
+        if compressible:
+            self._settings = f"jpeg:{COMPRESSED[1].default}"
+            self._compressed = rospy.Publisher(f"{topic}/compressed", CompressedImage, queue_size=queue_size)
+            self._parameters = Server(f"{topic}/compressed", COMPRESSED, self._configure)
+
+    def _configure(self, config: Dict, _level: int) -> None:
+        kind = config["format"] if config["format"] in ("jpeg", "png") else "jpeg"
+        self._settings = f"{kind}:{config['jpeg_quality' if kind == 'jpeg' else 'png_level']}"
+
+    def outputs(self) -> Tuple[str, ...]:
+        """What somebody listens to now."""
+        wanted = (self._source,) if self._raw.get_num_connections() else ()
+        if self._compressed is not None and self._compressed.get_num_connections():
+            wanted += (self._settings,)
+        return wanted
+
+    def publish(self, header, frame: Frame) -> None:
+        """Whatever of this topic is in the frame."""
+        for name, data in frame.data.items():
+            kind = name.partition(":")[0]
+            if name == self._source:
+                self._raw.publish(Image(header, self._height, self._width, self._encoding, 0, len(data) // self._height,
+                                        data))
+            elif kind in ("jpeg", "png") and self._compressed is not None:
+                colour = "rgb" in self._encoding or "bgr" in self._encoding
+                target = ("bgr16" if kind == "png" and self._encoding.endswith("16") else "bgr8") if colour else ""
+                self._compressed.publish(CompressedImage(header, f"{self._encoding}; {kind} compressed {target}",
+                                                         bytes(data)))
+
+    def shutdown(self) -> None:
+        self._raw.unregister()
+        if self._compressed is not None:
+            self._compressed.unregister()
+            self._parameters.shutdown()

@@ -1,0 +1,58 @@
+"""The render process that all cameras of one simulator share; it lives as long as there is a camera."""
+from __future__ import annotations
+
+import weakref
+from typing import Callable, Tuple
+
+import numpy as np
+import rospy
+from ode_sim.rendering import Camera, Frame, RenderProcess
+
+
+class _Shared:
+    def __init__(self, world):
+        self.process = RenderProcess(world, lambda line: rospy.logwarn("%s", line))
+        self.users = 0
+
+
+_shared: "weakref.WeakKeyDictionary" = weakref.WeakKeyDictionary()
+
+
+class Shooting:
+    """One camera in the render process of ``server``'s world. Physics thread, except that frames arrive in another one.
+
+    :param label: ``camera 'c' of model 'm'``, for the one line that says why there are no pictures.
+    """
+
+    def __init__(self, server, camera: Camera, label: str, depth_range: Tuple[float, float] = (0.0, np.inf)):
+        self._world = server.world
+        self._wait = server.lockstep
+        self._label = label
+        self._complained = False
+        shared = _shared.get(self._world)
+        if shared is None:
+            shared = _shared[self._world] = _Shared(self._world)
+        self._shared = shared
+        shared.users += 1
+        self._key = shared.process.add_camera(camera, depth_range)
+
+    def shoot(self, outputs: Tuple[str, ...], deliver: Callable[[Frame], None]) -> None:
+        """Take a picture now; ``deliver(frame)`` is called from the pictures' thread, and not at all if there is none.
+
+        In lock-step this returns when ``deliver`` has. Without it the picture may come later, with the stamp of now.
+        """
+        self._shared.process.draw(self._key, outputs, lambda frame: self._arrived(frame, deliver), self._wait)
+
+    def _arrived(self, frame: Frame, deliver: Callable[[Frame], None]) -> None:
+        if not frame.error:
+            deliver(frame)
+        elif not self._complained:
+            self._complained = True
+            rospy.logerr("%s gives no pictures: %s", self._label, frame.error)
+
+    def close(self) -> None:
+        self._shared.process.remove_camera(self._key)
+        self._shared.users -= 1
+        if not self._shared.users:
+            del _shared[self._world]
+            self._shared.process.close()
