@@ -76,7 +76,7 @@ class RayFan:
         origins = np.asarray(pose.p) + self.min * directions
         distances, hits = self.world.cast_rays(origins, directions, self.max - self.min)
         ranges = distances + self.min
-        retro = self.world.laser_retro(hits)
+        retro = self._retro(hits)
         ranges = self._resample(ranges)
         intensities = self._resample(retro, nearest=True)
         if self.sigma or self.mean:
@@ -88,6 +88,12 @@ class RayFan:
         else:
             ranges = np.where(ranges >= self.max, np.inf, np.where(ranges <= self.min, -np.inf, ranges))
         return ranges, intensities
+
+    def _retro(self, hits: np.ndarray) -> np.ndarray:
+        """``<laser_retro>`` of what each ray hit; 0 where it hit nothing."""
+        ids, places = np.unique(hits, return_inverse=True)
+        collisions = [self.world.collision(index) for index in ids]
+        return np.array([collision.laser_retro if collision else 0.0 for collision in collisions])[places]
 
     def _resample(self, values: np.ndarray, nearest: bool = False) -> np.ndarray:
         """From rays to reported values, when <resolution> is not 1: linear between neighbouring rays."""
