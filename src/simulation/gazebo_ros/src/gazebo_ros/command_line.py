@@ -15,6 +15,7 @@ def parse(arguments: List[str]) -> argparse.Namespace:
     :returns: world, pause, lockstep, seed (None = not given), iters, server_plugin (list), physics, verbose ...
     """
     parser = argparse.ArgumentParser(prog="gzserver", usage="gzserver [options] [world_file]", allow_abbrev=False,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter,
                                      description="Run the simulator without a window.")
     parser.add_argument("-v", "--version", action="version", version=VERSION)
     parser.add_argument("--verbose", action="store_true", help="say more on the terminal")

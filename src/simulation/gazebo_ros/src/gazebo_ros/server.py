@@ -111,7 +111,7 @@ class Server:
         self.throttle = Throttle(world.physics.real_time_update_rate)
         self.paused = paused
         self.started = CallbackList()  # called once, when all plugins are loaded, before the first step
-        self.stepped = CallbackList()  # called when a run of steps ends: pause, end of a step request
+        self.stepped = CallbackList()  # called when a run of steps ends or begins: pause, unpause, end of a step request
         self._host = host
         self._ros_time = ros_time
         self._iterations_left = iterations or None
@@ -275,6 +275,7 @@ class Server:
         """Physics thread."""
         self.paused = False
         self.throttle.restart()
+        self.stepped.call()
 
     def request_steps(self, count: int) -> Future:
         """Take ``count`` steps as fast as possible though paused. Physics thread.

@@ -21,6 +21,7 @@ class MetricsPublisher:
         self._sim_ns = server.world.time_ns
         self._counts: Dict[str, int] = {}
         server.after_step(self._on_step)
+        server.stepped.connect(self._elapsed)  # a pause is no slow simulation
 
     def _on_step(self) -> None:
         if self._publisher.get_num_connections() and time.monotonic_ns() - self._wall_ns >= _PERIOD_NS:

@@ -72,7 +72,7 @@ class ModelServices:
     def _get_model_properties(self, request, response) -> str:
         model = self._model(request.model_name)
         response.body_names = list(model.links)
-        response.geom_names = [c.name for link in model.links.values() for c in link.description.collisions]
+        response.geom_names = [name for link in model.links.values() for name in link.collisions]
         response.joint_names = list(model.joints)
         response.is_static = model.static
         return "GetModelProperties: got properties"
