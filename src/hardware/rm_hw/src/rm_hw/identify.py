@@ -27,6 +27,7 @@ from rm_hw.frames import command_slot, pack_command, unpack_feedback
 AMPERES_PER_COUNT = {"rm_3508": 20.0 / 16384.0, "rm_2006": 1.0e-3}
 _WINDOW = 0.05           # s
 _SLOW = 5.0              # rad/s; below it dry friction may hold instead of brake
+_MISSING = 1.5           # frames by which a window may fall short
 _RATE = 500.0            # Hz of commands
 
 
@@ -45,9 +46,20 @@ class Identified:
     residual: float
 
 
-def read_log(path: str, feedback_id: int, type_name: str) -> Tuple[np.ndarray, np.ndarray, np.ndarray]:
+def sending_times(arrivals: np.ndarray, period: float) -> np.ndarray:
+    """(N,) s: when frames that arrived at ``arrivals`` were sent, given that the sender sends every ``period`` s.
+
+    Frames wait in drivers and for a busy computer, and then come in a burst of which only the last is on time. A frame
+    was sent at least j periods before the j-th one after it arrived; lost frames only weaken that bound.
+    """
+    slots = period * np.arange(len(arrivals))
+    return slots + np.minimum.accumulate((arrivals - slots)[::-1])[::-1]
+
+
+def read_log(path: str, feedback_id: int, type_name: str, rate: float = 1000.0) -> Tuple[np.ndarray, np.ndarray, np.ndarray]:
     """(time s, speed rad/s, current A) of one motor, each (N,).
 
+    :param rate: Hz, of the motor's frames.
     :raises ValueError: there are too few frames of it.
     """
     samples = [(m.timestamp, f.rpm, f.current) for m in can.LogReader(path) if m.arbitration_id == feedback_id
@@ -55,11 +67,13 @@ def read_log(path: str, feedback_id: int, type_name: str) -> Tuple[np.ndarray, n
     if len(samples) < 100:
         raise ValueError(f"{path} has {len(samples)} frames of id 0x{feedback_id:03X}: record some seconds of that motor")
     stamps, rpm, counts = np.array(samples, dtype=float).T
-    return stamps, rpm * (math.pi / 30.0), counts * AMPERES_PER_COUNT[type_name]
+    return sending_times(stamps, 1.0 / rate), rpm * (math.pi / 30.0), counts * AMPERES_PER_COUNT[type_name]
 
 
-def fit(stamps: np.ndarray, speed: np.ndarray, current: np.ndarray, inertia: float) -> Identified:
+def fit(stamps: np.ndarray, speed: np.ndarray, current: np.ndarray, inertia: float, rate: float = 1000.0) -> Identified:
     """Fit the three unknowns; arrays as from :func:`read_log`, ``inertia`` in kg m^2 at the rotor.
+
+    Windows in which frames are missing are left out.
 
     :raises ValueError: the motor did not move enough.
     """
@@ -69,7 +83,8 @@ def fit(stamps: np.ndarray, speed: np.ndarray, current: np.ndarray, inertia: flo
         return np.concatenate(([0.0], np.cumsum((values[1:] + values[:-1]) / 2.0 * dt)))
     edges = np.searchsorted(stamps, np.arange(stamps[0], stamps[-1], _WINDOW))
     slow = np.concatenate(([0], np.cumsum(np.abs(speed) < _SLOW)))
-    pairs = [(a, b) for a, b in zip(edges[:-1], edges[1:]) if b > a and slow[b] == slow[a]]
+    pairs = [(a, b) for a, b in zip(edges[:-1], edges[1:]) if b > a and slow[b] == slow[a]
+             and abs((stamps[b] - stamps[a]) * rate - (b - a)) < _MISSING]
     if len(pairs) < 20 or np.ptp(speed) < 20.0 * _SLOW:
         raise ValueError("the motor hardly moves in this log: use more current, longer, and in both directions")
     a, b = np.array(pairs).T
@@ -145,8 +160,8 @@ def _excite(options: argparse.Namespace) -> None:
 
 
 def _fit(options: argparse.Namespace) -> None:
-    stamps, speed, current = read_log(options.log, options.id, options.type)
-    found = fit(stamps, speed, current, options.inertia)
+    stamps, speed, current = read_log(options.log, options.id, options.type, options.rate)
+    found = fit(stamps, speed, current, options.inertia, options.rate)
     for label, value, error in zip(("torque constant Nm/A", "dry friction Nm", "viscous friction Nm s/rad"),
                                    (found.torque_constant, found.coulomb, found.viscous), found.errors):
         print(f"{label:26} {value:11.4e} +- {error:.1e}")
@@ -167,6 +182,7 @@ def main(arguments: Optional[List[str]] = None) -> int:
     fitting = commands.add_parser("fit", help="torque constant and friction from a log")
     fitting.add_argument("--inertia", type=float, required=True, help="kg m^2 at the rotor: its own, and the load's divided "
                          "by the square of the gear ratio")
+    fitting.add_argument("--rate", type=float, default=1000.0, help="of the motor's frames in Hz (%(default)g)")
     fitting.add_argument("--plot", metavar="FILE", help="write a picture")
     fitting.set_defaults(run=_fit)
     for each in (excite, fitting):

@@ -26,15 +26,21 @@ _STATUS_EVERY = 200
 
 
 class Recorder:
-    """Writes every frame of every bus to a log of python-can; the suffix chooses the format (.log: candump's)."""
+    """Writes every frame of every bus to a log of python-can; the suffix chooses the format (.log: candump's).
+
+    Stamps are the bench's own time, in which motors are never late.
+    """
 
     def __init__(self, path: Optional[str]) -> None:
         self._logger = can.Logger(path) if path else None
+        self._start = time.time()
+        self.bench: Union[Bench, Replay, None] = None
 
     def __call__(self, bus: str, frame: Frame) -> None:
         if self._logger:
-            self._logger.on_message_received(can.Message(timestamp=time.time(), arbitration_id=frame.id, data=frame.data,
-                                                         channel=bus, is_extended_id=False))
+            self._logger.on_message_received(can.Message(
+                timestamp=self._start + self.bench.time, arbitration_id=frame.id, data=frame.data, channel=bus,
+                is_extended_id=False))
 
     def close(self) -> None:
         if self._logger:
@@ -116,6 +122,7 @@ class App:
                 if not isinstance(config, dict):
                     raise BenchError(f"{options.config}: write 'motors: {{NAME: {{bus, id, type}}}}'")
             self.bench = Bench(config, options.dir, watch=self._recorder)
+        self._recorder.bench = self.bench
         self._plan = sorted((float(seconds), line) for seconds, line in options.at)
         self._commands: "queue.Queue" = queue.Queue()
         self._ros = None
