@@ -132,6 +132,20 @@ class DiffDrive(unittest.TestCase):
             x, _ = displacement(base.odometry.messages)
             self.assertAlmostEqual(x, 0.5, delta=0.03)
 
+    def test_reset_simulation_moves_nothing(self):
+        with client.running("plain"), Base("plain") as base:
+            base.drive(1.0, 0.5, 3.0)
+            base.send(1.0, 0.5)
+            before = base.odometry.next().pose.pose.position
+            client.reset()
+            base.odometry.clear()
+            client.sim_sleep(1.0)
+            self.assertGreater(len(base.odometry.messages), 20)  # of the 100 that a second has; it goes on being published
+            last = base.odometry.last
+            self.assertLess(math.hypot(last.pose.pose.position.x - before.x, last.pose.pose.position.y - before.y), 0.2)
+            self.assertEqual(last.twist.twist.linear.x, 0.0)  # the command was one of the time before
+            self.assertAlmostEqual(base.drive(0.5, 0.0, 0.5)[-1].twist.twist.linear.x, 0.5, delta=1e-6)
+
     def test_stopped_controller_ignores_commands(self):
         with client.running("plain"), Base("plain") as base:
             base.drive(1.0, 0.0, 0.5)

@@ -74,6 +74,13 @@ def test_wheels_need_not_start_at_zero():
     assert [travel(position) for position in (5.0, 5.5, 5.25)] == [0.0, 0.5, -0.25]
 
 
+def test_a_restarted_wheel_has_not_travelled():
+    travel = WheelTravel()
+    travel(100.0)
+    travel.restart()
+    assert [travel(0.0), travel(1.0)] == [0.0, 1.0]
+
+
 def test_rolling_mean():
     mean = RollingMean(2)
     assert [mean(value) for value in (1.0, 3.0, 5.0)] == [1.0, 2.0, 4.0]

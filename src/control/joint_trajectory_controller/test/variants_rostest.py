@@ -138,6 +138,21 @@ class PosVelAcc(TrajectoryCase):
         self.assertIn("a1 path error nan", text)
 
 
+class Reset(TrajectoryCase):
+    controller = "ramp"
+    joints = ("s1", "s2")
+
+    def test_goals_are_reached_after_time_began_anew(self):
+        self.assertEqual(self.send((0.5, [0.5, 0.1], REST)).finish()[0], GoalStatus.SUCCEEDED)
+        client.sim_sleep(2.0)
+        client.reset()
+        self.state.clear()
+        goal = self.send((0.5, [-0.5, 0.2], REST), stamp=rospy.get_time() + 0.5)
+        self.assertEqual(goal.finish()[0], GoalStatus.SUCCEEDED)
+        self.assertStates(self.state.next().actual.positions, [-0.5, 0.2])
+        self.assertGreaterEqual(len(goal.feedback), 5)
+
+
 class PosVel(TrajectoryCase):
     controller = "pos_vel"
     joints = ("d1", "d2")

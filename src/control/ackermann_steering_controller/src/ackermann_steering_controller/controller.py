@@ -70,6 +70,9 @@ class AckermannSteeringController(MultiInterfaceController):
         self._steer.command = 0.0
 
     def update(self, time: float, period: float) -> None:
+        if self._odometry.interval(time) < 0.0:  # the simulation was reset, and the wheel with it: not a way travelled
+            self._odometry.restart(time)
+            self._travel.restart()
         if self._open_loop:
             self._odometry.commanded(self._limit_linear.last, self._limit_angular.last, time)
         else:

@@ -36,6 +36,7 @@ class TestRobotNode:
         self._manager = ControllerManager(self._robot, "")
         rospy.Service("~apply_faults", Empty, self._apply_faults)
         rospy.Service("~advance", Empty, self._advance)
+        rospy.Service("~reset", Empty, self._reset)
 
     def run(self) -> None:
         """Make cycles until the node is shut down."""
@@ -62,6 +63,13 @@ class TestRobotNode:
             self._granted += ADVANCE
             self._changed.notify_all()
             self._changed.wait_for(lambda: self._granted == 0 or rospy.is_shutdown(), 5.0)
+        return EmptyResponse()
+
+    def _reset(self, _request) -> EmptyResponse:
+        """As when a simulation is reset: time begins anew, the joints are where they began."""
+        self._cycle = 0
+        for joint in self._robot.joints.values():
+            joint.reset()
         return EmptyResponse()
 
     def _apply_faults(self, _request) -> EmptyResponse:

@@ -43,6 +43,7 @@ class TestJoint:
 
     def __init__(self, name: str, modes: List[str], position: float):
         self.state = JointStateHandle(name, position)
+        self._initial = position
         self.handles = {mode: _COMMANDS[mode][1](self.state) for mode in modes}
         self.mode = modes[0] if modes else ""
         self.position = position
@@ -54,6 +55,11 @@ class TestJoint:
                 handle.command = position
             elif mode.startswith("pos_vel"):
                 handle.command_position = position
+
+    def reset(self) -> None:
+        """Back to where it began, at rest."""
+        self.position, self.velocity = self._initial, 0.0
+        self._late.clear()
 
     def read(self) -> None:
         """True state to reported state."""

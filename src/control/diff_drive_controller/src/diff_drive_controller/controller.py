@@ -108,6 +108,10 @@ class DiffDriveController(Controller):
         separation = self._separation * separation_multiplier
         left_radius, right_radius = self._radius * left_multiplier, self._radius * right_multiplier
 
+        if self._odometry.interval(time) < 0.0:  # the simulation was reset, and the wheels with it: not a way travelled
+            self._odometry.restart(time)
+            for travel in self._travel:
+                travel.restart()
         if self._open_loop:
             self._odometry.commanded(self._limit_linear.last, self._limit_angular.last, time)
         else:

@@ -49,7 +49,7 @@ class PlanarOdometry:
         self._time = time
 
     def interval(self, time: float) -> float:
-        """Seconds since the pose was last brought up to date."""
+        """Seconds since the pose was last brought up to date; negative when a simulation was reset."""
         return time - self._time
 
     def travelled(self, distance: float, angle: float, time: float) -> None:
@@ -101,6 +101,10 @@ class WheelTravel:
     """What a joint has turned since it was last asked. The first answer is 0: joints need not start at 0."""
 
     def __init__(self) -> None:
+        self.restart()
+
+    def restart(self) -> None:
+        """The next answer is 0 again."""
         self._last: Optional[float] = None
 
     def __call__(self, position: float) -> float:

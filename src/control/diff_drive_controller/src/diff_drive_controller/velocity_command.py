@@ -8,6 +8,8 @@ import rospy
 from controller_interface import NodeHandle
 from geometry_msgs.msg import Twist
 
+_NONE = (0.0, 0.0, -math.inf)  # linear m/s, angular rad/s, when it came
+
 
 class VelocityCommand:
     """Keeps the last command of ``cmd_vel`` and forgets it after parameter ``cmd_vel_timeout`` seconds.
@@ -25,12 +27,12 @@ class VelocityCommand:
         self._on_conflict = on_conflict
         self._running = False
         self._now = 0.0
-        self._command = (0.0, 0.0, -math.inf)
+        self._command = _NONE
         self._subscriber = nh.subscriber("cmd_vel", Twist, self._receive, queue_size=1)
 
     def start(self, time: float) -> None:
         self._now = time
-        self._command = (0.0, 0.0, -math.inf)
+        self._command = _NONE
         self._running = True
 
     def stop(self) -> None:
@@ -40,7 +42,9 @@ class VelocityCommand:
         """(linear x m/s, angular z rad/s) to be done at ``time``. Realtime safe."""
         self._now = time
         linear, angular, stamp = self._command
-        return (linear, angular) if time - stamp <= self._timeout else (0.0, 0.0)
+        if stamp > time:  # from before a simulation was reset
+            self._command = _NONE
+        return (linear, angular) if 0.0 <= time - stamp <= self._timeout else (0.0, 0.0)
 
     @property
     def stamp(self) -> float:

@@ -16,6 +16,8 @@ from urdf_geometry_parser import RobotGeometry, robot_geometry
 
 from .kinematics import Axle, Base, axle_angle
 
+_NONE = (0.0, 0.0, 0.0, -math.inf)  # speed m/s, front and rear angle rad, when it came
+
 
 class FourWheelSteeringController(MultiInterfaceController):
     """Obeys ``cmd_vel`` or ``cmd_four_wheel_steering``, whichever came last."""
@@ -39,7 +41,7 @@ class FourWheelSteeringController(MultiInterfaceController):
         self._timeout = controller_nh.param("cmd_vel_timeout", 0.5)
         self._running = False
         self._now = 0.0
-        self._wanted = (0.0, 0.0, 0.0, -math.inf)  # speed, front angle, rear angle, when
+        self._wanted = _NONE
         self._twist = VelocityCommand(controller_nh, self._brake)
         controller_nh.subscriber("cmd_four_wheel_steering", FourWheelSteering, self._on_steering, queue_size=1)
         self._steer_publisher = RealtimePublisher(controller_nh, "odom_steer", FourWheelSteeringStamped, queue_size=100)
@@ -75,7 +77,7 @@ class FourWheelSteeringController(MultiInterfaceController):
         self._rates.restart()
         self._publisher.restart(time)
         self._now = time
-        self._wanted = (0.0, 0.0, 0.0, -math.inf)
+        self._wanted = _NONE
         self._running = True
         self._twist.start(time)
 
@@ -96,7 +98,9 @@ class FourWheelSteeringController(MultiInterfaceController):
         self._update_odometry(time)
         linear, angular = self._twist.at(time)
         speed, front, rear, stamp = self._wanted
-        if time - stamp > self._timeout:
+        if stamp > time:  # from before a simulation was reset
+            self._wanted = _NONE
+        if not 0.0 <= time - stamp <= self._timeout:
             speed = front = rear = 0.0
         if self._twist.stamp > stamp:
             axles = self._base.from_twist(self._limit_linear.limit(linear, period),
@@ -115,6 +119,8 @@ class FourWheelSteeringController(MultiInterfaceController):
             return
         front, rear = Axle(*angles[:2], *speeds[:2]), Axle(*angles[2:], *speeds[2:])
         dt = self._odometry.interval(time)
+        if dt < 0.0:  # the simulation was reset
+            self._odometry.restart(time)
         self._odometry.moved(*self._base.motion(front, rear), time)
         state = FourWheelSteering()
         state.front_steering_angle, state.rear_steering_angle = axle_angle(front), axle_angle(rear)

@@ -88,7 +88,7 @@ class GripperActionController(Controller):
     def _supervise(self, goal: RealtimeGoal, time: float, error: float, position: float, velocity: float) -> None:
         reached = abs(error) < self._tolerance
         if not reached:
-            if abs(velocity) > self._stall_velocity:
+            if abs(velocity) > self._stall_velocity or time < self._last_movement:  # or a simulation was reset
                 self._last_movement = time
             if time - self._last_movement <= self._stall_timeout:
                 return
