@@ -42,8 +42,8 @@ def parameters(joints, log):
                                            "pid": {"p": 3.0, "i": 0.0, "d": 0.05}} for joint in joints}
     controllers["joint_state_controller"] = {"type": "joint_state_controller/JointStateController", "publish_rate": 50}
     return {"robot_description": robot, **controllers,
-            "rm_hw": {"bus": ["can0"], "interface": "slcan", "loop_frequency": 1000, "cycle_time_error_threshold": 0.001,
-                      "cycle_time_log": log, "actuators": {
+            "rm_hw": {"bus": ["can0"], "interface": "slcan", "loop_frequency": 1000,
+                      "cycle_time_error_threshold": 0.001, "cycle_time_log": log, "actuators": {
                           f"{joint}_motor": {"bus": "can0", "id": 0x201 + i, "type": "rm_3508"}
                           for i, joint in enumerate(joints)}}}
 
@@ -52,7 +52,8 @@ def run(motors, seconds, folder):
     """Cycle times in ms, without the first second."""
     joints = [f"joint{i + 1}" for i in range(motors)]
     log, port = os.path.join(folder, f"{motors}.npy"), free_port()
-    environment = {**os.environ, "RM_BENCH_DIR": folder, "ROS_MASTER_URI": f"http://localhost:{port}", "ROS_HOME": folder}
+    environment = {**os.environ, "RM_BENCH_DIR": folder, "ROS_HOME": folder,
+                   "ROS_MASTER_URI": f"http://localhost:{port}"}
     quiet = {"env": environment, "stdout": subprocess.DEVNULL}
     files = {"bench.yaml": {"motors": {f"{joint}_motor": {"bus": "can0", "id": 0x201 + i, "type": "rm_3508"}
                                        for i, joint in enumerate(joints)}},

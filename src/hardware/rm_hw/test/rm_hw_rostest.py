@@ -138,13 +138,15 @@ class RmHwTest(unittest.TestCase):
         def arm(field):
             return getattr(self.watch.joints, field)[self.watch.joints.name.index("arm")]
         # what is left over is gravity (at most 0.981 Nm) and dry friction (0.14 Nm) over p = 30
-        wait_until(lambda: abs(arm("position") - target) < 1.15 / 30 and abs(arm("velocity")) < 0.01, "the arm is there")
+        wait_until(lambda: abs(arm("position") - target) < 1.15 / 30 and abs(arm("velocity")) < 0.01,
+                   "the arm is there")
         truth = self.watch.real("arm_motor", "position")
         self.watch.fresh()
         self.assertAlmostEqual(self.watch.of("arm_motor", "executed_effort") * GEAR,
                                30 * (target - arm("position")), delta=0.05)
         self.drive("arm_velocity", 3.1415)
-        wait_until(lambda: self.watch.real("arm_motor", "position") > truth + 4 * math.pi, "two turns at velocity control")
+        wait_until(lambda: self.watch.real("arm_motor", "position") > truth + 4 * math.pi,
+                   "two turns at velocity control")
 
     def test_effort_is_limited_and_stops_with_its_controller(self):
         bench("hold arm_motor")

@@ -15,7 +15,8 @@ with open(os.path.join(os.path.dirname(__file__), "..", "config", "actuator_coef
 
 
 def make(type_name="rm_3508", identifier=0x201, **options):
-    return Actuator("m", type_name, "can0", identifier, Coefficients.from_params(type_name, TABLE[type_name]), **options)
+    coefficients = Coefficients.from_params(type_name, TABLE[type_name])
+    return Actuator("m", type_name, "can0", identifier, coefficients, **options)
 
 
 def feed(actuator, angles, start=1.0, interval=0.001, **values):

@@ -206,7 +206,7 @@ def test_wrong_commands_say_how_it_is_done(bench, line, remedy):
     ({}, "no motors"), ({"a": {"bus": "can0", "id": 1}}, "no type"),
     ({"a": {"bus": "can0", "id": 0x201, "type": "rm_9000"}}, "known: rm_3508"),
     ({"a": {"bus": "can0", "id": 1, "type": "rm_3508"}}, "0x201..0x20B"),
-    ({"a": {"bus": "can0", "id": 0x201, "type": "rm_3508"}, "b": {"bus": "can0", "id": 0x201, "type": "rm_2006"}}, "twice"),
+    ({name: {"bus": "can0", "id": 0x201, "type": "rm_3508"} for name in "ab"}, "twice"),
     ({"a": {"bus": "can0", "id": 0x201, "type": "rm_3508", "load": {"weight": 3}}}, "weight")])
 def test_wrong_configurations_are_named(tmp_path, motors, remedy):
     with pytest.raises(BenchError, match=remedy):

@@ -8,7 +8,8 @@ from rm_hw.command_frames import CommandFrames
 
 RM = Coefficients(act2pos=1e-3, act2vel=0.1, act2effort=1e-3, effort2act=1000.0, max_out=10000.0)
 CHEETAH = Coefficients(act2pos=25 / 65535, act2vel=130 / 4095, act2effort=36 / 4095, effort2act=113.75, max_out=0.0,
-                       pos2act=2621.4, vel2act=31.5, act2pos_offset=-12.5, act2vel_offset=-65.0, act2effort_offset=-18.0)
+                       pos2act=2621.4, vel2act=31.5, act2pos_offset=-12.5, act2vel_offset=-65.0,
+                       act2effort_offset=-18.0)
 
 
 def motor(identifier, effort=0.0, halted=False, type_name="rm_3508", coefficients=RM):
@@ -18,7 +19,8 @@ def motor(identifier, effort=0.0, halted=False, type_name="rm_3508", coefficient
 
 
 def test_motors_share_frames_in_their_slots():
-    built = dict(CommandFrames([motor(0x201, 1.0), motor(0x204, -2.0), motor(0x206, 3.0), motor(0x20A, 50.0)]).build(0.0))
+    motors = [motor(0x201, 1.0), motor(0x204, -2.0), motor(0x206, 3.0), motor(0x20A, 50.0)]
+    built = dict(CommandFrames(motors).build(0.0))
     assert frames.unpack_command(built[0x200]) == (1000, 0, 0, -2000)
     assert frames.unpack_command(built[0x1FF]) == (0, 3000, 0, 0)
     assert frames.unpack_command(built[0x2FF]) == (0, 10000, 0, 0)
@@ -44,7 +46,8 @@ def test_zero_frames_name_every_group_once():
     position, velocity, kp, kd, effort = frames.unpack_cheetah_command(zero[3])
     assert (kp, kd) == (0, 0)
     assert effort / 113.75 - 18.0 == pytest.approx(0.0, abs=0.01)
-    assert position / 2621.4 - 12.5 == pytest.approx(0.0, abs=0.01) and velocity / 31.5 - 65 == pytest.approx(0.0, abs=0.05)
+    assert position / 2621.4 - 12.5 == pytest.approx(0.0, abs=0.01)
+    assert velocity / 31.5 - 65 == pytest.approx(0.0, abs=0.05)
 
 
 @pytest.mark.parametrize("effort, sent", [(5.0, 5.0), (-17.0, -17.0), (100.0, 18.0), (float("nan"), 0.0)])

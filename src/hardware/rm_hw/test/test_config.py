@@ -41,7 +41,8 @@ def test_nothing_at_all_is_all_defaults():
 
 
 def test_interfaces_for_all_and_for_one():
-    config = parse(changed(bus=["can0", {"name": "can1", "interface": "virtual", "channel": "x"}], interface="slcan"), {})
+    second = {"name": "can1", "interface": "virtual", "channel": "x"}
+    config = parse(changed(bus=["can0", second], interface="slcan"), {})
     assert [(b.interface, b.channel) for b in config.buses] == [("slcan", "/tmp/rm_bench/can0"), ("virtual", "x")]
     config = parse(changed(interface="slcan", channel="/dev/tty_{bus}", bus=["can0", "can1"]), {})
     assert [b.channel for b in config.buses] == ["/dev/tty_can0", "/dev/tty_can1"]
@@ -65,10 +66,12 @@ def test_wrong_buses_are_left_out():
 
 
 @pytest.mark.parametrize("changes, remedy", [
-    ({"loop_frequency": 0}, "above zero"), ({"loop_frequency": "fast"}, "above zero"), ({"thread_priority": 100}, "1 to 99"),
-    ({"bus": "can0"}, r"write a list"), ({"actuators": [1]}, "mapping"), ({"bus": ["can0", "can0"]}, "twice"),
+    ({"loop_frequency": 0}, "above zero"), ({"loop_frequency": "fast"}, "above zero"),
+    ({"thread_priority": 100}, "1 to 99"), ({"bus": "can0"}, r"write a list"), ({"actuators": [1]}, "mapping"),
+    ({"bus": ["can0", "can0"]}, "twice"),
     ({"bus": ["can0", "can1"], "interface": "slcan", "channel": "/dev/ttyACM0"}, "tty_{bus}"),
-    ({"actuators": {"a": {"bus": "can0", "id": 0x201, "type": "rm_9999"}}}, "known types: cheetah, rm_2006, rm_3508, rm_6020"),
+    ({"actuators": {"a": {"bus": "can0", "id": 0x201, "type": "rm_9999"}}},
+     "known types: cheetah, rm_2006, rm_3508, rm_6020"),
     ({"actuators": {"a": {"bus": "can0", "id": 0x300, "type": "rm_3508"}}}, "actuator a: 0x300 .* 0x201..0x20B"),
     ({"actuators": {n: {"bus": "can0", "id": 0x201, "type": "rm_3508"} for n in "ab"}}, "a and b both have id 0x201")])
 def test_nonsense_is_refused_in_one_line(changes, remedy):

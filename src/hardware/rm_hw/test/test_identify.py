@@ -9,7 +9,8 @@ from rm_hw.identify import fit, main, predict, read_log
 
 
 def record(path, type_name, amplitude, seconds=10.0, late=0.0):
-    """A log of a motor with a flywheel; returns its inertia at the rotor. Frames come up to ``late`` s late, in bursts."""
+    """A log of a motor with a flywheel; returns its inertia at the rotor. Frames come up to ``late`` s late, in bursts.
+    """
     motor, arrivals = Motor(SPECS[type_name], Load(inertia=0.01)), np.arange(int(seconds * 1000)) * 0.001
     for begin in np.random.default_rng(0).uniform(0.0, seconds, int(3 * seconds)):
         arrivals = np.where((arrivals > begin) & (arrivals < begin + late), begin + late, arrivals)

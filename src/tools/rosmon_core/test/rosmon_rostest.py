@@ -55,7 +55,8 @@ class TerminalTest(unittest.TestCase):
         screen.type("a")
         screen.wait(lambda s: s.on_screen("Actions for 'alpha'") and s.on_screen("k: stop"), "the node's menu")
         screen.type("k")
-        screen.wait(lambda s: "goodbye" in s.history and s.colours(" alpha")[1] == "default", "alpha is stopped and plain")
+        screen.wait(lambda s: "goodbye" in s.history and s.colours(" alpha")[1] == "default",
+                    "alpha is stopped and plain")
         screen.type("as")
         screen.wait(lambda s: s.colours(" alpha")[1] == "green", "alpha runs again")
 
@@ -74,7 +75,7 @@ class TerminalTest(unittest.TestCase):
         self.assertLessEqual(screen.history[mark:].count("beta-says"), 3)
         screen.type(F8)
         screen.type(F9)
-        screen.wait(lambda s: s.colours("a alpha")[1] == "blue" and s.colours("b deep/beta")[1] == "blue", "all are muted")
+        screen.wait(lambda s: s.colours("a alpha")[1] == s.colours("b deep/beta")[1] == "blue", "all are muted")
         screen.type(F10)
         mark = len(screen.history)
         screen.wait(lambda s: "beta-says" in s.history[mark:] and "alpha-says" in s.history[mark:], "all are heard")
@@ -171,8 +172,8 @@ class WaitingTest(unittest.TestCase):
 class PlainTest(unittest.TestCase):
     def test_in_a_pipe(self):
         process = subprocess.Popen([*ROSMON, "rosmon_core", "required.launch", f"--log={self.id()}.log", "--flush-log"],
-                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, text=True,
-                                   cwd=os.environ.get("ROS_TEST_RESULTS_DIR") or "/tmp")
+                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL,
+                                   text=True, cwd=os.environ.get("ROS_TEST_RESULTS_DIR") or "/tmp")
         output, _ = process.communicate(timeout=60)
         self.assertEqual(process.returncode, 1, "a required node has failed")
         self.assertRegex(output, r"(?m)^   key: hello 10 tty=True$")
@@ -185,8 +186,8 @@ class PlainTest(unittest.TestCase):
         os.remove(log)
 
     def test_terminate_stops_everything(self):
-        process = subprocess.Popen([*ROSMON, "rosmon_core", "stubborn.launch", "--flush-stdout"], stdout=subprocess.PIPE,
-                                   stdin=subprocess.DEVNULL, text=True)
+        process = subprocess.Popen([*ROSMON, "rosmon_core", "stubborn.launch", "--flush-stdout"],
+                                   stdout=subprocess.PIPE, stdin=subprocess.DEVNULL, text=True)
         seen = ""
         while len(children_said(seen)) < 2:
             seen += process.stdout.readline()
@@ -204,7 +205,8 @@ class RosInterfaceTest(unittest.TestCase):
                                        stdout=subprocess.DEVNULL, stdin=subprocess.DEVNULL)
         cls.states, cls.diagnostics = {}, {}
         rospy.Subscriber("/monitor/state", State, cls.on_state)
-        rospy.Subscriber("/diagnostics", DiagnosticArray, lambda m: cls.diagnostics.update({s.name: s for s in m.status}))
+        rospy.Subscriber("/diagnostics", DiagnosticArray,
+                         lambda m: cls.diagnostics.update({s.name: s for s in m.status}))
         rospy.wait_for_service("/monitor/start_stop", 30)
         cls.start_stop = staticmethod(rospy.ServiceProxy("/monitor/start_stop", StartStop))
 

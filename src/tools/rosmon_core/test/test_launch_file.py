@@ -71,10 +71,12 @@ def test_launch_attributes(write):
 
 
 @pytest.mark.parametrize("body, remedy", [
-    ("<node", "Could not load"), (NODE.format("a", "") * 2, "multiple nodes named"), (NODE.format("a", 'output="x"'), "output"),
+    ("<node", "Could not load"), (NODE.format("a", "") * 2, "multiple nodes named"),
+    (NODE.format("a", 'output="x"'), "output"),
     (NODE.format("a", 'rosmon-memory-limit="x"'), "15MB"), (NODE.format("a", 'rosmon-spawn-delay="x"'), "node 'a'"),
     ('<param name="p" value="$(arg missing)"/>', "missing"), ('<param name="p" value="$(find no_pkg)"/>', "no_pkg"),
-    ('<include file="x" ns="y" clear_params="true"/>', "not supported"), ('<include file="/no/file.launch"/>', "/no/file")])
+    ('<include file="x" ns="y" clear_params="true"/>', "not supported"),
+    ('<include file="/no/file.launch"/>', "/no/file")])
 def test_mistakes_are_one_line_with_the_file(write, body, remedy):
     options = write(body)
     with pytest.raises(RosmonError, match=remedy) as error:

@@ -8,7 +8,8 @@ from rosmon_core.severity import of_line, only_colours, without_escapes
 
 
 @pytest.mark.parametrize("line, is_stderr, level", [
-    ("[INFO] [123]: x", False, "info"), ("[ WARN] [1]: x", True, "warn"), ("\x1b[31m[ERROR] [1]: x\x1b[0m", True, "error"),
+    ("[INFO] [123]: x", False, "info"), ("[ WARN] [1]: x", True, "warn"),
+    ("\x1b[31m[ERROR] [1]: x\x1b[0m", True, "error"),
     ("\x1b[33m[main]: careful\x1b[0m", True, "warn"), ("\x1b[31m[main]: broken", False, "error"),
     ("\x1b[32m[main]: detail", False, "debug"), ("plain", False, "info"), ("plain", True, "warn"), ("", False, "info")])
 def test_level(line, is_stderr, level):

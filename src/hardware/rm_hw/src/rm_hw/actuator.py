@@ -110,8 +110,8 @@ class Actuator:
         if silent:
             self.filter.reset()
             self.frequency = 0.0
-            return (f"{label} has sent nothing for {self.timeout:g} s and is disabled: check its power, its CAN plug and "
-                    "its id; it is used again as soon as frames return")
+            return (f"{label} has sent nothing for {self.timeout:g} s and is disabled: check its power, its CAN plug "
+                    "and its id; it is used again as soon as frames return")
         if hot:
             return (f"{label} is at {self.temperature} C, above {TOO_HOT} C, and is disabled until it has cooled: "
                     "let it rest, lower the load")

@@ -111,8 +111,8 @@ class CanBus:
         port = getattr(bus, "serialPortOrig", None)
         if port is not None and port.rejected != self._rejected and time.monotonic() >= self._next_garbage_line:
             self._next_garbage_line = time.monotonic() + _GARBAGE_PAUSE
-            self._report("warn", f"{self.name}: {port.rejected - self._rejected} lines from {self.channel} are no CAN frames "
-                         "and were ignored: check the adapter's cable and baud rate")
+            self._report("warn", f"{self.name}: {port.rejected - self._rejected} lines from {self.channel} are no CAN "
+                         "frames and were ignored: check the adapter's cable and baud rate")
             self._rejected = port.rejected
 
     def send(self, identifier: int, data: bytes) -> bool:

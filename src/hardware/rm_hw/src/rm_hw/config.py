@@ -137,8 +137,8 @@ def _buses(params: Mapping[str, Any], lines: List[Tuple[str, str]]) -> List[BusC
         default = os.path.join(BENCH_DIRECTORY, name) if interface == "slcan" else name
         channel = str(entry.get("channel", params.get("channel") or default)).replace("{bus}", name)
         if any(other.name == name or other.channel == channel for other in buses):
-            raise ConfigError(f"bus {name} (channel {channel}) is listed twice: give each bus a channel of its own, for "
-                              "example channel: /dev/tty_{bus}")
+            raise ConfigError(f"bus {name} (channel {channel}) is listed twice: give each bus a channel of its own, "
+                              "for example channel: /dev/tty_{bus}")
         buses.append(BusConfig(name, interface, channel, int(entry.get("bitrate", params.get("bitrate", BITRATE)))))
     return buses
 
@@ -151,7 +151,8 @@ def _complete(kind: str, name: str, entry: Any, keys: Tuple[str, ...], config: C
     if missing:
         return False
     if isinstance(entry["id"], bool) or not isinstance(entry["id"], int):
-        config.lines.append(("error", f"{kind} {name}: id is {entry['id']!r}, write a whole number such as 0x201: left out"))
+        config.lines.append(("error", f"{kind} {name}: id is {entry['id']!r}, write a whole number such as 0x201: "
+                             "it is left out"))
         return False
     if entry["bus"] not in [bus.name for bus in config.buses]:
         listed = ", ".join(bus.name for bus in config.buses) or "none"

@@ -11,9 +11,9 @@ import rospy
 import yaml
 from hardware_interface import (ActuatorHandle, ActuatorStateHandle, ActuatorStateInterface, EffortActuatorInterface,
                                 EffortJointInterface, ImuSensorInterface, RobotHW)
-from joint_limits_interface import (DescriptionError, EffortJointSaturationHandle, EffortJointSoftLimitsHandle, JointLimits,
-                                    JointLimitsError, JointLimitsInterface, limits_from_params, limits_from_urdf,
-                                    read_joints, soft_limits_from_params, soft_limits_from_urdf)
+from joint_limits_interface import (DescriptionError, EffortJointSaturationHandle, EffortJointSoftLimitsHandle,
+                                    JointLimits, JointLimitsError, JointLimitsInterface, limits_from_params,
+                                    limits_from_urdf, read_joints, soft_limits_from_params, soft_limits_from_urdf)
 from realtime_tools import RealtimePublisher
 from rm_msgs.msg import ActuatorState
 from rm_msgs.srv import EnableImuTrigger, EnableImuTriggerResponse
@@ -31,9 +31,9 @@ from rm_hw.imu import Imu
 _LOG = {"info": rospy.loginfo, "warn": rospy.logwarn, "error": rospy.logerr}
 _PUBLISH_PERIOD = 0.01   # s
 _COOLED = 5              # degrees Celsius below WARM before a motor is warned about again
-_ARRAYS = ("name", "type", "bus", "id", "halted", "need_calibration", "calibrated", "calibration_reading", "position_raw",
-           "velocity_raw", "temperature", "circle", "last_position_raw", "frequency", "position", "velocity", "effort",
-           "commanded_effort", "executed_effort", "offset")
+_ARRAYS = ("name", "type", "bus", "id", "halted", "need_calibration", "calibrated", "calibration_reading",
+           "position_raw", "velocity_raw", "temperature", "circle", "last_position_raw", "frequency", "position",
+           "velocity", "effort", "commanded_effort", "executed_effort", "offset")
 
 
 def report(level: str, text: str) -> None:
@@ -70,7 +70,8 @@ class _Bus:
             try:
                 self._take(message.arbitration_id, bytes(message.data), message.timestamp, now)
             except ValueError as error:
-                rospy.logwarn_throttle(1.0, f"{self.can_bus.name}: frame 0x{message.arbitration_id:03X} ignored: {error}")
+                rospy.logwarn_throttle(1.0, f"{self.can_bus.name}: frame 0x{message.arbitration_id:03X} is ignored: "
+                                       f"{error}")
 
     def _take(self, identifier: int, data: bytes, stamp: float, now: float) -> None:
         if identifier in self.motors:
@@ -85,8 +86,8 @@ class _Bus:
                 self.cheetahs[reply.motor_id].on_cheetah(reply, stamp, now)
         elif identifier not in self._unknown:
             self._unknown.add(identifier)
-            report("error", f"Can not find defined device, id: 0x{identifier:X} on bus: {self.can_bus.name}; if it is a motor "
-                   "of yours, add it to rm_hw/actuators")
+            report("error", f"Can not find defined device, id: 0x{identifier:X} on bus: {self.can_bus.name}; if it is "
+                   "a motor of yours, add it to rm_hw/actuators")
 
     def write(self, now: float) -> None:
         if self.can_bus.connected:
@@ -159,12 +160,12 @@ class RmRobotHW(RobotHW):
     def _load_description(self, root_nh) -> None:
         urdf = rospy.get_param("/robot_description", None)
         if not isinstance(urdf, str) or not urdf.strip():
-            raise ConfigError("parameter /robot_description is empty: load the URDF in the launch file, before rm_hw starts: "
-                              '<param name="robot_description" command="$(find xacro)/xacro FILE"/>')
+            raise ConfigError("parameter /robot_description is empty: load the URDF in the launch file, before rm_hw "
+                              'starts: <param name="robot_description" command="$(find xacro)/xacro FILE"/>')
         if not TransmissionInterfaceLoader(self, self._transmissions).load(urdf):
             actuators = ", ".join(a.name for a, _, _ in self._actuators) or "none"
-            raise ConfigError(f"the transmissions of /robot_description cannot be used (see above); configured actuators: "
-                              f"{actuators}")
+            raise ConfigError("the transmissions of /robot_description cannot be used (see above); configured "
+                              f"actuators: {actuators}")
         effort_joints = self.get(EffortJointInterface)
         self._joints = effort_joints.handles() if effort_joints else []
         try:
@@ -179,10 +180,12 @@ class RmRobotHW(RobotHW):
         limits = limits_from_urdf(description) if description else None
         limits = limits_from_params(root_nh, joint.name, limits or JointLimits()) or limits
         if limits is None:
-            report("warn", f"joint '{joint.name}' has no <limit> in the URDF and no joint_limits/{joint.name}: only the motor "
-                   "limits its effort")
+            report("warn", f"joint '{joint.name}' has no <limit> in the URDF and no joint_limits/{joint.name}: only "
+                   "the motor limits its effort")
             return
-        soft = soft_limits_from_params(root_nh, joint.name) or (soft_limits_from_urdf(description) if description else None)
+        soft = soft_limits_from_params(root_nh, joint.name)
+        if soft is None and description:
+            soft = soft_limits_from_urdf(description)
         self._limits.register_handle(EffortJointSoftLimitsHandle(joint, limits, soft) if soft
                                      else EffortJointSaturationHandle(joint, limits))
 
@@ -205,8 +208,8 @@ class RmRobotHW(RobotHW):
         """Joint efforts, limited, to frames."""
         for joint in self._joints:
             if not math.isfinite(joint.command):
-                rospy.logerr_throttle(1.0, f"the command to joint '{joint.name}' is {joint.command}: sending 0 Nm instead; look "
-                                      "for a division by zero or an unset value in its controller")
+                rospy.logerr_throttle(1.0, f"the command to joint '{joint.name}' is {joint.command}: sending 0 Nm "
+                                      "instead; look for a division by zero or an unset value in its controller")
                 joint.command = 0.0
         efforts = self._transmissions.joint_to_actuator_effort
         efforts.propagate()
@@ -247,8 +250,8 @@ class RmRobotHW(RobotHW):
     def _watch_temperature(self, actuator: Actuator) -> None:
         if actuator.temperature > WARM and actuator.name not in self._warned_warm:
             self._warned_warm.add(actuator.name)
-            report("warn", f"actuator '{actuator.name}' is at {actuator.temperature} C: above 99 C it is disabled; lower the "
-                   "load or let it rest")
+            report("warn", f"actuator '{actuator.name}' is at {actuator.temperature} C: above 99 C it is disabled; "
+                   "lower the load or let it rest")
         elif actuator.temperature < WARM - _COOLED:
             self._warned_warm.discard(actuator.name)
 

@@ -1,12 +1,12 @@
 """``rosrun rm_hw identify``: torque constant and friction of a motor from a CAN log.
 
-The motor turns a flywheel of known inertia J (kg m^2, at the rotor). Between two moments a and b the momentum changes by
+The motor turns a flywheel of known inertia J (kg m^2, at the rotor). Between two moments a and b the momentum changes:
 
     J (w_b - w_a) = k * integral(i) - b * integral(w) - c * integral(sign w)
 
-with the speed w (rad/s), the current i (A), the torque constant k (Nm/A), viscous friction b (Nm s/rad) and dry friction
-c (Nm). Each window of the log gives one such equation, least squares the three unknowns. Sums instead of derivatives: the
-speed comes in whole revolutions per minute, differences of it are mostly noise.
+with the speed w (rad/s), the current i (A), the torque constant k (Nm/A), viscous friction b (Nm s/rad) and dry
+friction c (Nm). Each window of the log gives one such equation, least squares the three unknowns. Sums instead of
+derivatives: the speed comes in whole revolutions per minute, differences of it are mostly noise.
 """
 from __future__ import annotations
 
@@ -56,7 +56,8 @@ def sending_times(arrivals: np.ndarray, period: float) -> np.ndarray:
     return slots + np.minimum.accumulate((arrivals - slots)[::-1])[::-1]
 
 
-def read_log(path: str, feedback_id: int, type_name: str, rate: float = 1000.0) -> Tuple[np.ndarray, np.ndarray, np.ndarray]:
+def read_log(path: str, feedback_id: int, type_name: str,
+             rate: float = 1000.0) -> Tuple[np.ndarray, np.ndarray, np.ndarray]:
     """(time s, speed rad/s, current A) of one motor, each (N,).
 
     :param rate: Hz, of the motor's frames.
@@ -65,7 +66,8 @@ def read_log(path: str, feedback_id: int, type_name: str, rate: float = 1000.0) 
     samples = [(m.timestamp, f.rpm, f.current) for m in can.LogReader(path) if m.arbitration_id == feedback_id
                for f in (unpack_feedback(bytes(m.data)),)]
     if len(samples) < 100:
-        raise ValueError(f"{path} has {len(samples)} frames of id 0x{feedback_id:03X}: record some seconds of that motor")
+        raise ValueError(f"{path} has {len(samples)} frames of id 0x{feedback_id:03X}: record some seconds of that "
+                         "motor")
     stamps, rpm, counts = np.array(samples, dtype=float).T
     return sending_times(stamps, 1.0 / rate), rpm * (math.pi / 30.0), counts * AMPERES_PER_COUNT[type_name]
 
@@ -102,7 +104,8 @@ def fit(stamps: np.ndarray, speed: np.ndarray, current: np.ndarray, inertia: flo
     return Identified(float(values[0]), float(values[1]), float(values[2]), tuple(errors), residual)
 
 
-def predict(stamps: np.ndarray, speed: np.ndarray, current: np.ndarray, inertia: float, found: Identified) -> np.ndarray:
+def predict(stamps: np.ndarray, speed: np.ndarray, current: np.ndarray, inertia: float,
+            found: Identified) -> np.ndarray:
     """(N,) rad/s: the speed that the identified motor would have had with the recorded current."""
     result, w = np.empty_like(speed), float(speed[0])
     for k in range(len(stamps)):
@@ -180,8 +183,8 @@ def main(arguments: Optional[List[str]] = None) -> int:
     excite.add_argument("--seconds", type=float, default=10.0)
     excite.set_defaults(run=_excite)
     fitting = commands.add_parser("fit", help="torque constant and friction from a log")
-    fitting.add_argument("--inertia", type=float, required=True, help="kg m^2 at the rotor: its own, and the load's divided "
-                         "by the square of the gear ratio")
+    fitting.add_argument("--inertia", type=float, required=True, help="kg m^2 at the rotor: its own, and the load's "
+                         "divided by the square of the gear ratio")
     fitting.add_argument("--rate", type=float, default=1000.0, help="of the motor's frames in Hz (%(default)g)")
     fitting.add_argument("--plot", metavar="FILE", help="write a picture")
     fitting.set_defaults(run=_fit)

@@ -74,7 +74,8 @@ class Imu:
         measured = tuple(v / norm for v in a)
         error = (measured[1] * up[2] - measured[2] * up[1], measured[2] * up[0] - measured[0] * up[2],
                  measured[0] * up[1] - measured[1] * up[0])
-        self.handle.orientation = _normalized(_multiply(self.handle.orientation, _rotation(*(_GAIN * e for e in error))))
+        correction = _rotation(*(_GAIN * e for e in error))
+        self.handle.orientation = _normalized(_multiply(self.handle.orientation, correction))
 
 
 def _diagonal(values: Tuple[float, float, float]) -> Tuple[float, ...]:

@@ -23,9 +23,9 @@ def become_realtime(priority: int) -> None:
         for thread in os.listdir("/proc/self/task"):
             os.sched_setscheduler(int(thread), os.SCHED_FIFO, os.sched_param(priority))
     except OSError as error:
-        rospy.logerr("Set scheduler failed, RUN THIS NODE AS SUPER USER. (%s) It runs on at normal priority, which is enough "
-                     "for the motor bench; for a robot allow real-time priority: put '@realtime - rtprio 99' into "
-                     "/etc/security/limits.d/realtime.conf, 'sudo usermod -aG realtime $USER', and log in again",
+        rospy.logerr("Set scheduler failed, RUN THIS NODE AS SUPER USER. (%s) It runs on at normal priority, which is "
+                     "enough for the motor bench; for a robot allow real-time priority: put '@realtime - rtprio 99' "
+                     "into /etc/security/limits.d/realtime.conf, 'sudo usermod -aG realtime $USER', and log in again",
                      error.strerror)
     sys.setswitchinterval(_SWITCH_INTERVAL)
 
@@ -79,6 +79,7 @@ class ControlLoop:
         if now < self._next_warning:
             return
         self._next_warning = now + _WARNING_PAUSE
-        rospy.logwarn("Cycle time exceeded error threshold by: %.6fs, cycle time: %.6fs, threshold: %.6fs (%d late cycles so "
-                      "far). If it happens often: stop other programs, lower loop_frequency, or use a real-time kernel",
+        rospy.logwarn("Cycle time exceeded error threshold by: %.6fs, cycle time: %.6fs, threshold: %.6fs (%d late "
+                      "cycles so far). If it happens often: stop other programs, lower loop_frequency, or use a "
+                      "real-time kernel",
                       excess, elapsed, self._threshold, self._late)

@@ -7,7 +7,7 @@ from typing import Optional
 _ROOT = math.sqrt(2.0)
 _NOTHING = 1e-12         # standing still reads 0, not ever smaller numbers
 _SMALLEST_TAN = 0.01     # a floor under the corner: about 3 Hz at 1 kHz
-_LARGEST_PHASE = math.pi / 4.0     # the corner is never above a quarter of the rate: after a gap the slope stays moderate
+_LARGEST_PHASE = math.pi / 4.0     # the corner is at most a quarter of the rate: after a gap the slope stays moderate
 
 
 class LowPass:

@@ -2,9 +2,9 @@
 
 python-can 4.1 asks the operating system for every single byte, raises on a line it cannot decode (and then on every
 later one), and takes the stick's acknowledgements for "nothing received"; pyserial reports a time-out for bytes that
-were written when the process was merely suspended meanwhile. This port reads in blocks, hands on frame lines and nothing
-else, counts the rest in ``rejected``, and writes a line whole or not at all. It is opened through pyserial's own URL look-up as
-``lines:///dev/ttyACM0`` once :func:`register` has been called; pyserial wants this module to be called
+were written when the process was merely suspended meanwhile. This port reads in blocks, hands on frame lines and
+nothing else, counts the rest in ``rejected``, and writes a line whole. It is opened through pyserial's own URL look-up
+as ``lines:///dev/ttyACM0`` once :func:`register` has been called; pyserial wants this module to be called
 ``protocol_lines``.
 """
 from __future__ import annotations
@@ -59,7 +59,10 @@ class LineSerial(serial.Serial):
         return self._ready[start:self._position]
 
     def write(self, data: bytes) -> int:
-        """Write all of ``data``. :raises serial.SerialTimeoutException: the device takes nothing within write_timeout."""
+        """Write all of ``data``.
+
+        :raises serial.SerialTimeoutException: the device takes nothing within ``write_timeout``.
+        """
         sent = 0
         while sent < len(data):
             try:

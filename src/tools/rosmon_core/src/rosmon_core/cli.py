@@ -28,7 +28,7 @@ options:
   --name=NAME               node name of rosmon itself (default: rosmon_<unique>)
   --no-start                start no node by itself
   --stop-timeout=SECONDS    time between SIGINT and SIGKILL when a node is stopped (default 5.0)
-  --output-attr=obey|ignore whether output="log" is assumed for nodes without an output attribute (default ignore: shown)
+  --output-attr=obey|ignore obey: hide the output of nodes without an output attribute (default ignore: show it)
   --cpu-limit=CORES         warn in /diagnostics above this load of one node (default 0.9)
   --memory-limit=SIZE       warn in /diagnostics above this memory of one node, for example 15MB (default 500MiB)
   --disable-diagnostics     do not publish /diagnostics
@@ -44,7 +44,8 @@ environment:
 
 _UNITS = {"": 1, "B": 1, "kB": 10 ** 3, "MB": 10 ** 6, "GB": 10 ** 9, "TB": 10 ** 12,
           "KiB": 2 ** 10, "MiB": 2 ** 20, "GiB": 2 ** 30, "TiB": 2 ** 40}
-_FLAGS = ("benchmark", "list-args", "disable-ui", "flush-log", "flush-stdout", "help", "no-start", "disable-diagnostics")
+_FLAGS = ("benchmark", "list-args", "disable-ui", "flush-log", "flush-stdout", "help", "no-start",
+          "disable-diagnostics")
 
 
 @dataclass
@@ -75,7 +76,8 @@ def parse_memory(text: str) -> int:
     """Bytes from ``15MB``, ``1.5 GiB`` or ``1000``. :raises RosmonError: something else."""
     match = re.fullmatch(r"\s*([0-9]*\.?[0-9]+)\s*([A-Za-z]*)\s*", text)
     if not match or match.group(2) not in _UNITS:
-        raise RosmonError(f"'{text}' is no amount of memory: write for example 15MB or 200MiB ({', '.join(_UNITS)[2:]})")
+        raise RosmonError(f"'{text}' is no amount of memory: write for example 15MB or 200MiB "
+                          f"({', '.join(_UNITS)[2:]})")
     return int(float(match.group(1)) * _UNITS[match.group(2)])
 
 
@@ -109,8 +111,8 @@ def find_launch_file(package: str, name: str) -> str:
         listed = ", ".join(sorted(set(launch_files))) or "no launch file at all"
         raise RosmonError(f"Could not find launch file '{name}' in package '{package}' ({root}); it has {listed}")
     if len(found) > 1:
-        raise RosmonError(f"Found multiple launch files named '{name}' in package '{package}': {', '.join(sorted(found))}; "
-                          "give the path of the one that is meant")
+        raise RosmonError(f"Found multiple launch files named '{name}' in package '{package}': "
+                          f"{', '.join(sorted(found))}; give the path of the one that is meant")
     return found[0]
 
 

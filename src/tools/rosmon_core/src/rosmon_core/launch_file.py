@@ -126,7 +126,8 @@ class _Loader(XmlLoader):
                 stop_timeout=parse_number(given.get("rosmon-stop-timeout", str(options.stop_timeout)),
                                           what + "rosmon-stop-timeout"),
                 memory_limit=parse_memory(given.get("rosmon-memory-limit", str(options.memory_limit))),
-                cpu_limit=parse_number(given.get("rosmon-cpu-limit", str(options.cpu_limit)), what + "rosmon-cpu-limit"),
+                cpu_limit=parse_number(given.get("rosmon-cpu-limit", str(options.cpu_limit)),
+                                       what + "rosmon-cpu-limit"),
                 spawn_delay=parse_number(given.get("rosmon-spawn-delay", "0"), what + "rosmon-spawn-delay"),
                 restart_warn_threshold=int(threshold),
                 coredumps=_boolean(given.get("enable-coredumps", "true"), what + "enable-coredumps"))
@@ -153,7 +154,8 @@ def load(options: Options) -> LaunchFile:
         loader.load(options.file, config, argv=["rosmon", *options.arguments], verbose=False)
         disable_ui = _boolean(loader.attributes.get("rosmon-disable-ui", "false"), "rosmon-disable-ui")
     except rospkg.ResourceNotFound as error:
-        raise RosmonError(f"{options.file}: package '{error.args[0]}' was not found: is it built and sourced?") from None
+        raise RosmonError(f"{options.file}: package '{error.args[0]}' was not found: is it built and sourced?"
+                          ) from None
     except _LOAD_ERRORS as error:
         raise RosmonError(f"Could not load launch file {options.file}: {_one_line(error)}") from None
     options.disable_ui = options.disable_ui or disable_ui
@@ -168,7 +170,8 @@ def list_arguments(options: Options) -> List[str]:
     loader = XmlLoader(resolve_anon=False, args_only=True)
     loader.ignore_unset_args = True
     try:
-        loader.load(options.file, roslaunch.config.ROSLaunchConfig(), argv=["rosmon", *options.arguments], verbose=False)
+        loader.load(options.file, roslaunch.config.ROSLaunchConfig(), argv=["rosmon", *options.arguments],
+                    verbose=False)
     except _LOAD_ERRORS as error:
         raise RosmonError(f"Could not load launch file {options.file}: {_one_line(error)}") from None
     return list(loader.root_context.resolve_dict.get("arg_doc", {}))

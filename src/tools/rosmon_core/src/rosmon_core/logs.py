@@ -32,7 +32,8 @@ class Log:
             else:
                 self._file = open(self.name, "w", encoding="utf-8")
         except OSError as error:
-            raise RosmonError(f"cannot log to {self.name}: {error.strerror}; choose another place with --log=FILE") from None
+            raise RosmonError(f"cannot log to {self.name}: {error.strerror}; choose another place with --log=FILE"
+                              ) from None
 
     def write(self, label: str, text: str, severity: str) -> None:
         text = without_escapes(text)
@@ -43,7 +44,8 @@ class Log:
             if self._flush:
                 self._file.flush()
         else:
-            self._syslog.emit(logging.LogRecord("rosmon", _LEVELS[severity], "", 0, f"rosmon: {label}: {text}", None, None))
+            self._syslog.emit(logging.LogRecord("rosmon", _LEVELS[severity], "", 0, f"rosmon: {label}: {text}", None,
+                                                None))
 
     def flush(self) -> None:
         if self._file:

@@ -85,9 +85,10 @@ class RosFace:
 def _arguments(arguments: List[str]) -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="motor_bench", description=__doc__.splitlines()[0], epilog=HELP,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--config", metavar="FILE", help="YAML: motors: {NAME: {bus, id, type, gear, load}}; without it "
-                        "the motor of rm_controls_tutorials with its arm")
-    parser.add_argument("--dir", default=BENCH_DIRECTORY, help="folder for the serial ports, BUS and BUS.monitor (%(default)s)")
+    parser.add_argument("--config", metavar="FILE", help="YAML: motors: {NAME: {bus, id, type, gear, load}}; without "
+                        "it the motor of rm_controls_tutorials with its arm")
+    parser.add_argument("--dir", default=BENCH_DIRECTORY,
+                        help="folder for the serial ports, BUS and BUS.monitor (%(default)s)")
     parser.add_argument("--log", metavar="FILE", help="record all frames (.log, .asc, .blf, .csv)")
     parser.add_argument("--replay", metavar="FILE", help="play the motors of a log instead of simulating some")
     parser.add_argument("--at", nargs=2, action="append", default=[], metavar=("SECONDS", "COMMAND"),

@@ -51,10 +51,11 @@ class MotorSpec:
 
 
 # M3508: 0.3 Nm/A behind 3591/187, 0.194 ohm, no load 482 rpm and 0.78 A at 24 V, time constant 50 ms at 72 rpm/Nm.
-# M2006: 0.18 Nm/A behind 36, 0.461 ohm, no load 500 rpm and 0.6 A. GM6020: 0.741 Nm/A, 1.8 ohm, 5.7 mH, no load 320 rpm.
+# M2006: 0.18 Nm/A behind 36, 0.461 ohm, no load 500 rpm and 0.6 A.
+# GM6020: 0.741 Nm/A, 1.8 ohm, 5.7 mH, no load 320 rpm.
 SPECS = {
-    "rm_3508": MotorSpec(torque_constant=0.3 / 19.2032, back_emf=0.0246, resistance=0.194, inertia=1.8e-5, coulomb=0.006,
-                         viscous=6.4e-6, gear=3591.0 / 187.0, counts_per_unit=16384 / 20.0,
+    "rm_3508": MotorSpec(torque_constant=0.3 / 19.2032, back_emf=0.0246, resistance=0.194, inertia=1.8e-5,
+                         coulomb=0.006, viscous=6.4e-6, gear=3591.0 / 187.0, counts_per_unit=16384 / 20.0,
                          counts_per_ampere=16384 / 20.0, max_counts=16384),
     "rm_2006": MotorSpec(torque_constant=0.18 / 36.0, back_emf=0.0126, resistance=0.461, inertia=4.0e-6, coulomb=0.0015,
                          viscous=8.0e-7, gear=36.0, counts_per_unit=1000.0, counts_per_ampere=1000.0, max_counts=10000,
