@@ -1,1 +1,1 @@
-"""Tools of the lab packages: `meshes` draws them, `urdf` looks into descriptions."""
+"""Tools of the lab packages: `meshes` draws, `urdf` looks into descriptions, `simulation` helps tests."""

@@ -1,0 +1,40 @@
+"""For tests that run a lab in the simulator."""
+import threading
+
+import rospy
+from gazebo_msgs.srv import GetPhysicsProperties, SetPhysicsProperties
+
+PATIENCE = 60  # s of wall time in which something must happen
+
+
+def run_free():
+    """Makes the simulator run as fast as the machine goes."""
+    rospy.wait_for_service("/gazebo/set_physics_properties", PATIENCE)
+    now = rospy.ServiceProxy("/gazebo/get_physics_properties", GetPhysicsProperties)()
+    rospy.ServiceProxy("/gazebo/set_physics_properties", SetPhysicsProperties)(
+        time_step=now.time_step, max_update_rate=0.0, gravity=now.gravity, ode_config=now.ode_config)
+
+
+class Topic:
+    """The messages of a topic, kept."""
+
+    def __init__(self, name, kind):
+        self.messages = []
+        self._name = name
+        self._changed = threading.Condition()
+        rospy.Subscriber(name, kind, self._receive, queue_size=10000, tcp_nodelay=True)
+
+    def _receive(self, message):
+        with self._changed:
+            self.messages.append(message)
+            self._changed.notify_all()
+
+    def wait_for(self, condition, what):
+        """The first message, among those that came and those to come, for which `condition` holds."""
+        def found():
+            return next((message for message in self.messages if condition(message)), None)
+        with self._changed:
+            if not self._changed.wait_for(lambda: found() is not None, timeout=PATIENCE):
+                last = self.messages[-1] if self.messages else "nothing"
+                raise AssertionError("%s: %s did not come; last was %s" % (self._name, what, last))
+            return found()

@@ -1,0 +1,72 @@
+#!/usr/bin/env python3
+"""The robot in the room: its laser measures the walls, it drives straight, turns, and all joints are reported."""
+import math
+import unittest
+
+import rospy
+import rostest
+from geometry_msgs.msg import Twist
+from lab_tools.simulation import Topic, run_free
+from nav_msgs.msg import Odometry
+from sensor_msgs.msg import JointState, LaserScan
+
+NOISE = 0.01  # m, standard deviation of a ray
+HALF_WALL = 0.075
+WALLS = {0.0: 5.18 - HALF_WALL, math.pi / 2: 0.68 - HALF_WALL, -math.pi / 2: 4.17 - HALF_WALL}  # bearing: distance
+
+
+def heading(odometry):
+    return 2 * math.atan2(odometry.pose.pose.orientation.z, odometry.pose.pose.orientation.w)
+
+
+class MbotRoom(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.odometry = Topic("/odom", Odometry)
+        cls.odometry.wait_for(lambda m: True, "odometry")
+        cls.commands = rospy.Publisher("/cmd_vel", Twist, queue_size=1, latch=True)
+        run_free()
+
+    def drive(self, forwards, turn, seconds):
+        """Commands for some seconds of simulated time; returns the odometry of the end."""
+        twist = Twist()
+        twist.linear.x, twist.angular.z = forwards, turn
+        self.commands.publish(twist)
+        end = self.odometry.messages[-1].header.stamp + rospy.Duration(seconds)
+        return self.odometry.wait_for(lambda m: m.header.stamp >= end, "odometry %s s on" % seconds)
+
+    def test_1_laser(self):
+        scan = Topic("/scan", LaserScan).wait_for(lambda m: True, "scan")
+        self.assertEqual((scan.header.frame_id, len(scan.ranges)), ("laser_link", 360))
+        for bearing, distance in WALLS.items():
+            ray = round((bearing - scan.angle_min) / scan.angle_increment)
+            angle = scan.angle_min + ray * scan.angle_increment - bearing
+            self.assertAlmostEqual(scan.ranges[ray] * math.cos(angle), distance, delta=5 * NOISE)
+
+    def test_2_drive(self):
+        start = self.odometry.messages[-1]
+        self.drive(0.5, 0.0, 4.0)
+        end = self.drive(0.0, 0.0, 2.0)
+        self.assertEqual((end.header.frame_id, end.child_frame_id), ("odom", "base_footprint"))
+        # it slows down for as long as it speeds up: the way is that of a drive at full speed
+        self.assertAlmostEqual(end.pose.pose.position.x - start.pose.pose.position.x, 2.0, delta=0.1)
+        self.assertAlmostEqual(end.pose.pose.position.y, start.pose.pose.position.y, delta=0.005)
+        self.assertAlmostEqual(heading(end), 0.0, delta=math.radians(0.5))
+
+    def test_3_turn_on_the_spot(self):
+        start = self.odometry.messages[-1].pose.pose.position
+        self.drive(0.0, 1.0, 2.0)
+        end = self.drive(0.0, 0.0, 2.0)
+        self.assertAlmostEqual(heading(end), 2.0, delta=0.2)  # to the left
+        self.assertAlmostEqual(end.pose.pose.position.x, start.x, delta=0.005)
+        self.assertAlmostEqual(end.pose.pose.position.y, start.y, delta=0.005)
+
+    def test_4_joint_states(self):
+        states = Topic("/joint_states", JointState)
+        for joint in ("left_wheel_joint", "right_wheel_joint", "front_caster_joint", "back_caster_joint"):
+            states.wait_for(lambda m, joint=joint: joint in m.name, joint)
+
+
+if __name__ == "__main__":
+    rospy.init_node("mbot_room_rostest")
+    rostest.rosrun("mbot_gazebo", "mbot_room", MbotRoom)
