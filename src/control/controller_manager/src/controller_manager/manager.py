@@ -300,7 +300,8 @@ class ControllerManager:
                 if self._switch is switch:
                     self._switch = None
             if not switch.finished.is_set():
-                rospy.logerr("Could not switch controllers: the control loop did not finish the switch")
+                if not (self._closing or rospy.core.is_shutdown_requested()):  # then it is no fault
+                    rospy.logerr("Could not switch controllers: the control loop did not finish the switch")
                 return False
         return not switch.failed
 
