@@ -22,7 +22,6 @@ NOTHING = -1  # of a segmentation image: no visual there
 MAX_LIGHTS = 16
 ANTIALIASING = ("none", "msaa")
 _MAX_TARGETS = 8  # frame buffers kept for cameras of different sizes
-_AFFORDABLE = 20_000  # triangles; drawing these once more costs llvmpipe about 4 ms
 _VISIBLE = 1.0 / 512.0  # a highlight darker than half a grey level is not computed
 
 # one record per drawn part in the instance buffer; the order is that of the attributes in shaders.py
@@ -106,8 +105,8 @@ class Renderer:
     """One OpenGL context with one scene. Use it from the thread that made it.
 
     :param backend: ``egl``, ``osmesa`` or ``auto``. :param antialiasing: ``none`` or ``msaa`` (4 samples).
-    :param shadows: of the sun, where the scene wants them: ``on``, ``off`` or ``auto`` (off where software GL would pay
-        for more than :data:`_AFFORDABLE` triangles again; the environment variable ``ODE_SIM_SHADOWS`` overrides it).
+    :param shadows: of the sun, where the scene wants them: ``on``, ``off`` or ``auto``: only where a graphics card draws,
+        because with software GL a shadow costs several times the picture (``ODE_SIM_SHADOWS`` overrides ``auto``).
     :raises RenderingUnavailable: no OpenGL.
     """
 
@@ -157,7 +156,6 @@ class Renderer:
             for number, seen in enumerate(scene.visuals):
                 parts += [(seen.link, number, seen.name, part) for part in self._assets.parts(seen.visual, seen.name)]
             self._names = tuple(seen.name for seen in scene.visuals)
-            self._parts = [part for _, _, _, part in parts]
             self._set_parts(parts)
             # a flat floor shades nothing, and would stretch the shadow map over all of its size
             self._casts = np.array([scene.visuals[number].visual.cast_shadows and part.look.alpha == 1.0
@@ -229,9 +227,8 @@ class Renderer:
         self._light_kinds = tuple(entry.light.type if entry.light.type in ("point", "spot") else "directional"
                                   for entry in lights)
         wants = scene.scene.shadows and self._shadows != "off" and self._casts.any()
-        if wants and self._shadows == "auto" and self._software:
-            wants = sum(len(self._assets.meshes[part.key].triangles)
-                        for part, casts in zip(self._parts, self._casts) if casts) <= _AFFORDABLE
+        if self._shadows == "auto" and self._software:
+            wants = False
         self._sun = next((i for i, entry in enumerate(lights) if wants and entry.light.cast_shadows
                           and self._light_kinds[i] == "directional"), -1)
         brightest = max([max(entry.light.specular[:3]) for entry in lights], default=0.0)
@@ -241,6 +238,8 @@ class Renderer:
             flags |= {"specular", "position"}
         if self._sun >= 0 or any(kind != "directional" for kind in self._light_kinds):
             flags.add("position")
+        if "position" not in flags:
+            flags.add("by_vertex")  # only suns and nothing glossy: exact on flat faces, and half the cost of a pixel
         self._color_flags = frozenset(flags)
 
     def _light_uniforms(self, matrices: np.ndarray) -> np.ndarray:
@@ -403,7 +402,7 @@ class Renderer:
         sun = self._sun if "color" in flags else -1
         key = (flags, lights, sun)
         if key not in self._programs:
-            self._programs[key] = self._ctx.program(vertex_shader=shaders.vertex_shader(flags),
+            self._programs[key] = self._ctx.program(vertex_shader=shaders.vertex_shader(flags, lights),
                                                     fragment_shader=shaders.fragment_shader(flags, lights, sun))
         return self._programs[key]
 

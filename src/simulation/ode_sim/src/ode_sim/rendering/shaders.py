@@ -9,46 +9,53 @@ from typing import Sequence
 
 _VERTEX = """#version 330
 in vec3 vertex;
-{normal_in}{uv_in}
+{inputs}
 in vec4 clip0, clip1, clip2, clip3;
-{world_in}{look_in}
-{outs}
+{outputs}
 void main() {{
     vec4 p = vec4(vertex, 1.0);
     gl_Position = vec4(dot(clip0, p), dot(clip1, p), dot(clip2, p), dot(clip3, p));
 {body}}}
 """
 
-def vertex_shader(flags: frozenset) -> str:
-    """``flags``: any of color, specular, textured, position, ident (and depth, which needs nothing here).
+
+def vertex_shader(flags: frozenset, lights: Sequence[str] = ()) -> str:
+    """``flags``: any of color, by_vertex (light is computed here and interpolated), specular, textured, position, ident (and
+    depth, which needs nothing here).
 
     ``base`` is emissive + ambient * scene ambient, and the opacity; ``world`` rows of the model matrix.
     """
-    outs, body = [], []
-    color = "color" in flags
-    if color:
-        outs += ["out vec3 n;", "flat out vec4 v_base;", "flat out vec3 v_diffuse;"]
-        body += ["n = vec3(dot(world0.xyz, normal * shrink), dot(world1.xyz, normal * shrink), "
-                 "dot(world2.xyz, normal * shrink));", "v_base = base;", "v_diffuse = diffuse;"]
+    inputs, outputs, body = [], [], []
+    if "color" in flags:
+        inputs += ["in vec3 normal;", "in vec4 world0, world1, world2;", "in vec3 shrink;", "in vec4 base;",
+                   "in vec3 diffuse;"]
+        turned = "vec3(" + ", ".join(f"dot(world{i}.xyz, normal * shrink)" for i in range(3)) + ")"
+        if "by_vertex" in flags:
+            inputs += [f"uniform vec4 lights[{5 * len(lights)}];"] if lights else []
+            outputs.append("out vec4 v_seen;")
+            body += [f"vec3 N = normalize({turned});", "vec3 shine = vec3(0.0);", "vec3 l;", "float k, c;"]
+            body += [_light(i, kind, False, False) for i, kind in enumerate(lights)]
+            body.append("v_seen = vec4(base.rgb + diffuse * shine, base.a);")
+        else:
+            outputs += ["out vec3 n;", "flat out vec4 v_base;", "flat out vec3 v_diffuse;"]
+            body += [f"n = {turned};", "v_base = base;", "v_diffuse = diffuse;"]
     if "specular" in flags:
-        outs.append("flat out vec4 v_specular;")
+        inputs.append("in vec4 specular;")
+        outputs.append("flat out vec4 v_specular;")
         body.append("v_specular = specular;")
     if "position" in flags:
-        outs.append("out vec3 p_W;")
+        outputs.append("out vec3 p_W;")
         body.append("p_W = vec3(dot(world0, p), dot(world1, p), dot(world2, p));")
     if "textured" in flags:
-        outs.append("out vec2 v_uv;")
+        inputs.append("in vec2 uv;")
+        outputs.append("out vec2 v_uv;")
         body.append("v_uv = uv;")
     if "ident" in flags:
-        outs.append("flat out int v_ident;")
+        inputs.append("in int ident;")
+        outputs.append("flat out int v_ident;")
         body.append("v_ident = ident;")
-    return _VERTEX.format(
-        normal_in="in vec3 normal;\n" if color else "",
-        uv_in="in vec2 uv;\n" if "textured" in flags else "",
-        world_in="in vec4 world0, world1, world2;\nin vec3 shrink;\n" if color else "",
-        look_in=("in vec4 base;\nin vec3 diffuse;\n" if color else "")
-        + ("in vec4 specular;\n" if "specular" in flags else "") + ("in int ident;\n" if "ident" in flags else ""),
-        outs="\n".join(outs), body="".join(f"    {line}\n" for line in body))
+    return _VERTEX.format(inputs="\n".join(inputs), outputs="\n".join(outputs),
+                          body="".join(f"    {line}\n" for line in body))
 
 
 def _light(index: int, kind: str, casts: bool, specular: bool) -> str:
@@ -88,25 +95,23 @@ def fragment_shader(flags: frozenset, lights: Sequence[str] = (), shadow_of: int
     head, body, target = ["#version 330"], [], 0
     if "color" in flags:
         specular, textured = "specular" in flags, "textured" in flags
-        head += ["in vec3 n;", "flat in vec4 v_base;", "flat in vec3 v_diffuse;",
-                 f"layout(location = {target}) out vec4 color;"]
+        head.append(f"layout(location = {target}) out vec4 color;")
         target += 1
-        if lights:
-            head.append(f"uniform vec4 lights[{5 * len(lights)}];")
-        if specular:
-            head += ["flat in vec4 v_specular;", "uniform vec3 eye;"]
-        if "position" in flags:
-            head.append("in vec3 p_W;")
+        if "by_vertex" in flags:
+            head.append("in vec4 v_seen;")
+            body.append("vec4 seen = v_seen;")
+        else:
+            head += ["in vec3 n;", "flat in vec4 v_base;", "flat in vec3 v_diffuse;"]
+            head += [f"uniform vec4 lights[{5 * len(lights)}];"] if lights else []
+            head += ["flat in vec4 v_specular;", "uniform vec3 eye;"] if specular else []
+            head += ["in vec3 p_W;"] if "position" in flags else []
+            head += [_SHADOW] if shadow_of >= 0 else []
+            body += ["vec3 N = normalize(n);", "vec3 shine = vec3(0.0);", "vec3 l;", "float k, c;"]
+            body += ["vec3 gloss = vec3(0.0);", "vec3 V = normalize(eye - p_W);"] if specular else []
+            body += [_light(i, kind, i == shadow_of, specular) for i, kind in enumerate(lights)]
+            body.append("vec4 seen = vec4(v_base.rgb + v_diffuse * shine, v_base.a);")
         if textured:
             head += ["in vec2 v_uv;", "uniform sampler2D image;"]
-        if shadow_of >= 0:
-            head.append(_SHADOW)
-        body += ["vec3 N = normalize(n);", "vec3 shine = vec3(0.0);", "vec3 l;", "float k, c;"]
-        if specular:
-            body += ["vec3 gloss = vec3(0.0);", "vec3 V = normalize(eye - p_W);"]
-        body += [_light(i, kind, i == shadow_of, specular) for i, kind in enumerate(lights)]
-        body.append("vec4 seen = vec4(v_base.rgb + v_diffuse * shine, v_base.a);")
-        if textured:
             body += ["seen *= texture(image, v_uv);", "if (seen.a < 0.02) discard;"]
         if specular:
             body.append("seen.rgb += v_specular.rgb * gloss;")
