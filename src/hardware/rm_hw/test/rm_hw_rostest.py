@@ -114,7 +114,7 @@ class RmHwTest(unittest.TestCase):
         self.assertEqual((self.watch.of("yaw_motor", "bus"), self.watch.of("yaw_motor", "id")), ("can1", 0x205))
         self.assertEqual(self.watch.of("arm_motor", "type"), "rm_3508")
         self.assertEqual(self.watch.of("arm_motor", "temperature"), 25)
-        self.assertGreater(self.watch.of("arm_motor", "frequency"), 10.0)
+        wait_until(lambda: self.watch.of("arm_motor", "frequency") > 100.0, "frames come fast")
         self.assertEqual(rosservice.get_service_type("/rm_hw/imu_trigger"), "rm_msgs/EnableImuTrigger")
         self.assertFalse(rospy.ServiceProxy("/rm_hw/imu_trigger", EnableImuTrigger)("none", True).is_success)
 

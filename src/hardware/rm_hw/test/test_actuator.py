@@ -80,6 +80,15 @@ def test_frames_closer_than_half_a_millisecond_are_dropped():
     assert actuator.position_raw == 30
 
 
+def test_turns_of_overtaken_frames_are_counted():
+    actuator = make()
+    actuator.on_feedback(Feedback(1000, 0, 0, 0), 1.0, 1.0)
+    for angle in (4000, 7000, 1800, 4800):
+        actuator.follow(angle)
+    actuator.on_feedback(Feedback(7800, 0, 0, 0), 1.1, 1.1)
+    assert actuator.circle == 1 and actuator.position_raw == 7800
+
+
 def test_a_clock_set_back_does_not_silence_a_motor():
     actuator = make()
     feed(actuator, [5], start=100.0)

@@ -40,23 +40,17 @@ class Actuator:
         self.stamp = 0.0
         self.halted = True
         self._heard: Optional[float] = None
-        self._first = True
+        self._angle: Optional[int] = None
 
     def on_feedback(self, feedback: Feedback, stamp: float, now: float) -> bool:
         """Take a RoboMaster frame received at ``stamp`` (s since the epoch) and monotonic time ``now`` (s).
 
         :returns: False if it came less than half a millisecond after the previous one and was dropped.
         """
+        self.follow(feedback.angle)
         if not self._accept(stamp, now):
             return False
         k = self.coefficients
-        if not self._first:
-            jump = feedback.angle - self.position_raw
-            if jump > 4096:
-                self.circle -= 1
-            elif jump < -4096:
-                self.circle += 1
-        self._first = False
         self.last_position_raw, self.position_raw = self.position_raw, feedback.angle
         self.velocity_raw, self.temperature = feedback.rpm, feedback.temperature
         self.position = k.act2pos * (feedback.angle + k.counts_per_turn * self.circle) + self.offset
@@ -64,19 +58,31 @@ class Actuator:
         self.effort = k.act2effort * feedback.current
         return True
 
+    def follow(self, angle: int) -> None:
+        """Count whole turns. For frames that a newer one has overtaken, too: after a pause of the driver the rotor may
+        have gone further in them than half a turn.
+        """
+        if self._angle is not None:
+            jump = angle - self._angle
+            if jump > 4096:
+                self.circle -= 1
+            elif jump < -4096:
+                self.circle += 1
+        self._angle = angle
+
     def on_cheetah(self, reply: CheetahReply, stamp: float, now: float) -> bool:
         """Take an MIT driver's reply, as :meth:`on_feedback`; its range of 25 rad is unwrapped in steps of 8 pi."""
         if not self._accept(stamp, now):
             return False
         k = self.coefficients
         within = k.act2pos * reply.position + k.act2pos_offset
-        if not self._first:
-            jump = within - (k.act2pos * self.position_raw + k.act2pos_offset)
+        if self._angle is not None:
+            jump = within - (k.act2pos * self._angle + k.act2pos_offset)
             if jump > _CHEETAH_RANGE / 2.0:
                 self.circle -= 1
             elif jump < -_CHEETAH_RANGE / 2.0:
                 self.circle += 1
-        self._first = False
+        self._angle = reply.position
         self.last_position_raw, self.position_raw = self.position_raw, reply.position
         self.velocity_raw = reply.velocity
         self.position = within + _CHEETAH_RANGE * self.circle + self.offset

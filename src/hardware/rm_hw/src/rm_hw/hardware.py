@@ -4,8 +4,9 @@ from __future__ import annotations
 import math
 import os
 import time as clock
-from typing import Dict, List, Tuple
+from typing import Callable, Dict, List, Tuple
 
+import can
 import rospkg
 import rospy
 import yaml
@@ -61,19 +62,28 @@ class _Bus:
         self._unknown = set()
 
     def read(self, now: float) -> None:
-        """Take all frames that have come. Of several from one motor the newest counts: they came in one breath."""
-        newest: Dict[Tuple[int, int], object] = {}
+        """Take all frames that have come. Of several from one motor the newest counts, the others only its turns."""
+        newest: Dict[Tuple[int, int], can.Message] = {}
         for message in self.can_bus.receive():
             motor = message.data[0] if message.arbitration_id == frames.CHEETAH_REPLY_ID and message.data else 0
+            overtaken = newest.get((message.arbitration_id, motor))
             newest[message.arbitration_id, motor] = message
+            if overtaken is not None and overtaken.arbitration_id in self.motors:
+                self._guarded(self._follow, overtaken, now)
         for message in newest.values():
-            try:
-                self._take(message.arbitration_id, bytes(message.data), message.timestamp, now)
-            except ValueError as error:
-                rospy.logwarn_throttle(1.0, f"{self.can_bus.name}: frame 0x{message.arbitration_id:03X} is ignored: "
-                                       f"{error}")
+            self._guarded(self._take, message, now)
 
-    def _take(self, identifier: int, data: bytes, stamp: float, now: float) -> None:
+    def _guarded(self, take: Callable[[can.Message, float], None], message: can.Message, now: float) -> None:
+        try:
+            take(message, now)
+        except ValueError as error:
+            rospy.logwarn_throttle(1.0, f"{self.can_bus.name}: frame 0x{message.arbitration_id:03X} ignored: {error}")
+
+    def _follow(self, message: can.Message, now: float) -> None:
+        self.motors[message.arbitration_id].follow(frames.unpack_feedback(bytes(message.data)).angle)
+
+    def _take(self, message: can.Message, now: float) -> None:
+        identifier, data, stamp = message.arbitration_id, bytes(message.data), message.timestamp
         if identifier in self.motors:
             self.motors[identifier].on_feedback(frames.unpack_feedback(data), stamp, now)
         elif identifier in self.gyros:
