@@ -43,12 +43,14 @@ def until(condition, what, seconds=20.0):
 
 
 class Ear:
-    """A subscriber that keeps everything, connected when made."""
+    """A subscriber that keeps everything. When it is made the simulator knows of it: an older, closed connection to the same
+    topic does not count."""
 
     def __init__(self, topic, kind):
         self.messages = []
+        before = connections(topic)
         self.subscriber = rospy.Subscriber(topic, kind, self.messages.append, queue_size=None, buff_size=1 << 24)
-        until(lambda: topic in connections(), f"connection of {topic}")
+        until(lambda: connections(topic) - before, f"connection of {topic}")
 
     def wait(self, count):
         until(lambda: len(self.messages) >= count, f"{count} messages on {self.subscriber.name}, only {len(self.messages)}")
@@ -101,6 +103,9 @@ class Cameras(unittest.TestCase):
                 "/eye/image_raw/compressed": "sensor_msgs/CompressedImage",
                 "/eye/image_raw/compressed/parameter_descriptions": description,
                 "/eye/image_raw/compressed/parameter_updates": config,
+                "/eye/image_raw/compressedDepth": "sensor_msgs/CompressedImage",
+                "/eye/image_raw/compressedDepth/parameter_descriptions": description,
+                "/eye/image_raw/compressedDepth/parameter_updates": config,
                 "/eye/parameter_descriptions": description, "/eye/parameter_updates": config,
                 "/robot/camera/image": "sensor_msgs/Image", "/robot/camera/info": "sensor_msgs/CameraInfo",
                 "/rig_ns/grey/image_raw": "sensor_msgs/Image", "/stereo/left/image_raw": "sensor_msgs/Image",
@@ -315,11 +320,11 @@ class Cameras(unittest.TestCase):
             self.assertBoxes(picture(self.take("/eye/image_raw")[0]))
 
 
-def connections():
-    """Topics of the node /gazebo that somebody is connected to."""
+def connections(topic):
+    """Numbers of the connections that subscribers of ``topic`` have to the node /gazebo."""
     uri = rosgraph.Master("/camera_test").lookupNode("/gazebo")
-    _, _, info = xmlrpc.client.ServerProxy(uri).getBusInfo("/camera_test")
-    return {row[4] for row in info if row[2] == "o" and row[5]}
+    _, _, rows = xmlrpc.client.ServerProxy(uri).getBusInfo("/camera_test")
+    return {row[0] for row in rows if row[2] == "o" and row[4] == topic and row[5]}
 
 
 if __name__ == "__main__":

@@ -21,5 +21,8 @@ class Camera(SensorPlugin):
         if self.camera.due(sensor.measurement_ns):
             self.camera.take()
 
+    def reset(self) -> None:
+        self.camera.reset()
+
     def shutdown(self) -> None:
         self.camera.shutdown()

@@ -77,6 +77,9 @@ class DepthCamera(SensorPlugin):
             width, height = width * height, 1
         return PointCloud2(header, height, width, _FIELDS, False, _POINT_STEP, _POINT_STEP * width, data, False)
 
+    def reset(self) -> None:
+        self.camera.reset()
+
     def shutdown(self) -> None:
         self.camera.shutdown()
         self.depth.shutdown()

@@ -17,6 +17,26 @@ COMPRESSED = (
     Parameter("png_level", int, 9, 1, 9, "PNG compression level"),
 )
 
+COMPRESSED_DEPTH = (
+    Parameter("depth_max", float, 10.0, 1.0, 100.0, "Maximum depth value (meter)"),
+    Parameter("depth_quantization", float, 100.0, 1.0, 150.0, "Depth value at which the sensor accuracy is 1 m"),
+    Parameter("png_level", int, 9, 1, 9, "PNG compression level"),
+)
+
+
+class _NotADepth(rospy.SubscribeListener):
+    """``compressedDepth`` of a colour image is offered and stays empty, as image_transport's: this says so once."""
+
+    def __init__(self, encoding: str):
+        self._encoding = encoding
+        self._said = False
+
+    def peer_subscribe(self, topic_name, topic_publish, peer_publish) -> None:
+        if not self._said:
+            self._said = True
+            rospy.logwarn("%s stays empty: it is for depth images, this one is %s; use compressed", topic_name,
+                          self._encoding)
+
 
 class ImageTopics:
     """Publishers of one image topic.
@@ -29,11 +49,15 @@ class ImageTopics:
                  compressible: bool = True):
         self._source, self._encoding, (self._height, self._width) = source, encoding, shape
         self._raw = rospy.Publisher(topic, Image, queue_size=queue_size)
-        self._compressed = self._parameters = None
+        self._compressed = self._depth = None
+        self._parameters: Tuple[Server, ...] = ()
         if compressible:
             self._settings = f"jpeg:{COMPRESSED[1].default}"
             self._compressed = rospy.Publisher(f"{topic}/compressed", CompressedImage, queue_size=queue_size)
-            self._parameters = Server(f"{topic}/compressed", COMPRESSED, self._configure)
+            self._depth = rospy.Publisher(f"{topic}/compressedDepth", CompressedImage, queue_size=queue_size,
+                                          subscriber_listener=_NotADepth(encoding))
+            self._parameters = (Server(f"{topic}/compressed", COMPRESSED, self._configure),
+                                Server(f"{topic}/compressedDepth", COMPRESSED_DEPTH, lambda config, level: None))
 
     def _configure(self, config: Dict, _level: int) -> None:
         kind = config["format"] if config["format"] in ("jpeg", "png") else "jpeg"
@@ -60,7 +84,8 @@ class ImageTopics:
                                                          bytes(data)))
 
     def shutdown(self) -> None:
-        self._raw.unregister()
-        if self._compressed is not None:
-            self._compressed.unregister()
-            self._parameters.shutdown()
+        for publisher in (self._raw, self._compressed, self._depth):
+            if publisher is not None:
+                publisher.unregister()
+        for parameters in self._parameters:
+            parameters.shutdown()

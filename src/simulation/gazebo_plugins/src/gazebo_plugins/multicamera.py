@@ -41,6 +41,10 @@ class Multicamera(SensorPlugin):
             for camera in self.cameras:
                 camera.take()
 
+    def reset(self) -> None:
+        for camera in self.cameras:
+            camera.reset()
+
     def shutdown(self) -> None:
         for camera in self.cameras:
             camera.shutdown()

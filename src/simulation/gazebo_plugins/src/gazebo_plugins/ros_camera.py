@@ -102,6 +102,10 @@ class RosCamera:
         self._last_ns = time_ns
         return True
 
+    def reset(self) -> None:
+        """Time starts anew."""
+        self._last_ns = None
+
     def header(self) -> Header:
         """Of a picture taken at the sensor's newest update."""
         return Header(stamp=self.sensor.measurement_time, frame_id=self.frame_id)
