@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
+from ode_sim import math3
 from ode_sim.mesh import with_normals
 
 HERE = Path(__file__).resolve().parent
@@ -25,7 +26,6 @@ class Solid:
 
     def at(self, x=0.0, y=0.0, z=0.0, roll=0.0, pitch=0.0, yaw=0.0):
         """Turned about the fixed axes, then moved."""
-        from ode_sim import math3
         pose = math3.from_rpy(x, y, z, roll, pitch, yaw)
         r = np.array(math3.quat_to_matrix(pose.q))
         return Solid(self.vertices @ r.T + pose.p, self.triangles, self.colour)
@@ -153,7 +153,8 @@ def cafe_table():
 def marble_table():
     """Below z = 0 the legs reach the floor, 0.648 m further down."""
     marble, top = (0.85, 0.83, 0.8), 0.1
-    legs = [cylinder(0.05, -0.6464, top - 0.04, STEEL, 16).at(x * 1.1, y * 0.75 - 0.12) for x in (-1, 1) for y in (-1, 1)]
+    legs = [cylinder(0.05, -0.6464, top - 0.04, STEEL, 16).at(x * 1.1, y * 0.75 - 0.12)
+            for x in (-1, 1) for y in (-1, 1)]
     return [box(2.6124, 1.903, 0.05, marble).at(y=-0.1226, z=top - 0.025)] + legs
 
 
@@ -174,7 +175,7 @@ def stop_sign():
     turn = math.pi / 8
     octagon = [(0.32 * math.cos(a + turn), 0.32 * math.sin(a + turn)) for a in np.arange(8) * math.pi / 4]
     plate = extruded(octagon, 0.006, RED).at(roll=math.pi / 2).at(y=-0.0085, z=1.52)
-    rim = extruded([(1.0 * x, 1.0 * y) for x, y in octagon], 0.004, WHITE).at(roll=math.pi / 2).at(y=-0.0035, z=1.52)
+    rim = extruded(octagon, 0.004, WHITE).at(roll=math.pi / 2).at(y=-0.0035, z=1.52)
     bars = [box(0.36, 0.002, 0.05, WHITE).at(y=-0.0118, z=1.52)]
     return [plate, rim, box(0.05, 0.0225, 1.8, STEEL).at(y=0.0, z=0.9)] + bars
 
@@ -195,8 +196,8 @@ def mailbox():
 
 def postbox():
     blue = (0.05, 0.15, 0.45)
-    box_side = [(-0.3424, 0.15), (0.3424, 0.15), (0.3424, 1.18)] + [
-        (0.3424 * math.cos(a), 1.18 + 0.344 * math.sin(a)) for a in np.linspace(0.0, math.pi, 13)[1:-1]] + [(-0.3424, 1.18)]
+    arch = [(0.3424 * math.cos(a), 1.18 + 0.344 * math.sin(a)) for a in np.linspace(0.0, math.pi, 13)[1:-1]]
+    box_side = [(-0.3424, 0.15), (0.3424, 0.15), (0.3424, 1.18)] + arch + [(-0.3424, 1.18)]
     body = extruded(box_side, 0.6818, blue).at(roll=math.pi / 2).at(yaw=math.pi / 2)
     legs = [box(0.06, 0.06, 0.15, blue).at(x * 0.3, y * 0.3, 0.075) for x in (-1, 1) for y in (-1, 1)]
     return [body, box(0.44, 0.02, 0.06, STEEL).at(y=-0.335, z=1.2)] + legs
@@ -213,7 +214,7 @@ def standpipe():
 
 
 def cardboard_box():
-    return [box(0.5, 0.4, 0.3, CARD).at(z=0.15)] + [box(0.5, 0.05, 0.002, (0.85, 0.75, 0.55)).at(z=0.299)]
+    return [box(0.5, 0.4, 0.298, CARD).at(z=0.149), box(0.5, 0.05, 0.002, (0.85, 0.75, 0.55)).at(z=0.299)]
 
 
 # model/meshes/file -> solids
@@ -262,7 +263,8 @@ def collada(solids, scale=(1.0, 1.0, 1.0)) -> str:
         rgba = " ".join(f"{c:g}" for c in colour) + " 1"
         effects.append(f'<effect id="e{i}"><profile_COMMON><technique sid="c"><phong>'
                        f"<ambient><color>{rgba}</color></ambient><diffuse><color>{rgba}</color></diffuse>"
-                       "<specular><color>0.1 0.1 0.1 1</color></specular></phong></technique></profile_COMMON></effect>")
+                       "<specular><color>0.1 0.1 0.1 1</color></specular></phong></technique></profile_COMMON>"
+                       "</effect>")
         materials.append(f'<material id="m{i}" name="m{i}"><instance_effect url="#e{i}"/></material>')
         geometries.append(
             f'<geometry id="g{i}" name="g{i}"><mesh>{_source(f"p{i}", vertices)}{_source(f"n{i}", normals)}'
@@ -288,7 +290,8 @@ def collada(solids, scale=(1.0, 1.0, 1.0)) -> str:
 def _source(name, rows) -> str:
     numbers = " ".join(f"{round(float(value), 5) + 0.0:g}" for value in np.asarray(rows).ravel())
     return (f'<source id="{name}"><float_array id="{name}a" count="{np.size(rows)}">{numbers}</float_array>'
-            f'<technique_common><accessor source="#{name}a" count="{len(rows)}" stride="3"><param name="X" type="float"/>'
+            f'<technique_common><accessor source="#{name}a" count="{len(rows)}" stride="3">'
+            '<param name="X" type="float"/>'
             '<param name="Y" type="float"/><param name="Z" type="float"/></accessor></technique_common></source>')
 
 

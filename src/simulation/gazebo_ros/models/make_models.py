@@ -110,9 +110,9 @@ def model_sdf(directory: str, model: Model) -> str:
     content = []
     if model.mass is not None:
         ixx, iyy, izz = model.inertia
-        content.append(tag("inertial", pose(model.com) if any(model.com) else "", tag("mass", f"{model.mass:.10g}"), tag(
-            "inertia", *(tag(key, f"{value:.10g}") for key, value in (
-                ("ixx", ixx), ("ixy", 0), ("ixz", 0), ("iyy", iyy), ("iyz", 0), ("izz", izz))))))
+        tensor = (("ixx", ixx), ("ixy", 0), ("ixz", 0), ("iyy", iyy), ("iyz", 0), ("izz", izz))
+        content.append(tag("inertial", pose(model.com) if any(model.com) else "", tag("mass", f"{model.mass:.10g}"),
+                           tag("inertia", *(tag(key, f"{value:.10g}") for key, value in tensor))))
     for shape in model.shapes:
         if shape.collides:
             content.append(tag("collision", pose(shape.pose), tag("geometry", shape.geometry), shape.surface,
@@ -168,7 +168,8 @@ def drc_barrier(title, description, name=""):
     return Model(title, description, (
         Shape("foot", box(0.6082, 1.8014, 0.07), (0, -0.0305, 0.035)),
         Shape("toe", box(0.42, 1.8014, 0.16), (0, -0.0305, 0.15)),
-        Shape("upright", box(0.27, 1.8014, 0.82), (0, -0.0305, 0.64))), static=True, name=name, mesh="jersey_barrier.dae")
+        Shape("upright", box(0.27, 1.8014, 0.82), (0, -0.0305, 0.64))), static=True, name=name,
+        mesh="jersey_barrier.dae")
 
 
 def plate(name, size, at):
@@ -213,7 +214,8 @@ MODELS = {
         (Shape("top", box(2.6124, 1.903, 0.05), (0, -0.1226, 0.075)),) + tuple(
             Shape(f"leg_{i}", cylinder(0.05, 0.6964), (x * 1.1, y * 0.75 - 0.12, -0.2982))
             for i, (x, y) in enumerate(((1, 1), (1, -1), (-1, -1), (-1, 1)))),
-        static=True, pose=(0, 0, 0.648), mesh="table_lightmap.dae", scripts={"Table/Marble_Lightmap": (0.85, 0.83, 0.8)}),
+        static=True, pose=(0, 0, 0.648), mesh="table_lightmap.dae",
+        scripts={"Table/Marble_Lightmap": (0.85, 0.83, 0.8)}),
     "cafe_table": Model(
         "Cafe table", "A square table on one column.",
         (Shape("surface", box(0.913, 0.913, 0.04), (0, 0, 0.755)),
@@ -241,7 +243,8 @@ MODELS = {
         mesh_pose=(0.0039, 0.0047, -0.18)),
     "beer": Model(
         "Beer", "A big can, 23 cm high.", (Shape("collision", cylinder(0.055, 0.23), (), colour(0.75, 0.55, 0.12)),),
-        mass=0.39, inertia=(0.00058, 0.00058, 0.00019), link_pose=(0, 0, 0.115), scripts={"Beer/Diffuse": (0.75, 0.55, 0.12)}),
+        mass=0.39, inertia=(0.00058, 0.00058, 0.00019), link_pose=(0, 0, 0.115),
+        scripts={"Beer/Diffuse": (0.75, 0.55, 0.12)}),
     "cricket_ball": Model(
         "Cricket ball", "A red ball of 7.5 cm.",
         (Shape("collision", sphere(0.0375), (), script("Gazebo/Red"), contact(True, **HARD)),),
@@ -269,7 +272,8 @@ MODELS = {
         (Shape("collision", box(3, 1, 3), (), script("Gazebo/Bricks")),), static=True, link="chassis",
         link_pose=(0, 0, 1.5), scripts={"BrickBox/Diffuse": (0.56, 0.3, 0.24)}),
     "asphalt_plane": Model(
-        "Asphalt plane", "A square of asphalt, 20 m by 20 m.", (Shape("collision", box(20, 20, 0.1), (), colour(0.2, 0.2, 0.21)),),
+        "Asphalt plane", "A square of asphalt, 20 m by 20 m.",
+        (Shape("collision", box(20, 20, 0.1), (), colour(0.2, 0.2, 0.21)),),
         static=True, scripts={"vrc/asphalt": (0.2, 0.2, 0.21)}),
     "mud_box": Model(
         "Mud box", "A low box that looks like mud, 8 m by 10 m.",
@@ -299,7 +303,8 @@ MODELS = {
         name="Construction Cone", mesh="construction_cone.dae"),
     "dumpster": Model(
         "Dumpster", "A waste container with a sloping lid.",
-        (Shape("body", box(2.3, 1.5352, 1.1014), (0, 0, 0.7693)), Shape("wheels", box(2.06, 1.16, 0.22), (0, 0, 0.1086)),
+        (Shape("body", box(2.3, 1.5352, 1.1014), (0, 0, 0.7693)),
+         Shape("wheels", box(2.06, 1.16, 0.22), (0, 0, 0.1086)),
          Shape("lid", box(2.36, 1.62, 0.35), (0, 0.01, 1.372, -0.309)),
          Shape("pockets", box(2.5052, 0.9, 0.16), (0, 0, 0.85))),
         name="Dumpster", mesh="dumpster.dae", scripts={"Dumpster/Diffuse": (0.1, 0.35, 0.16)}),
@@ -318,7 +323,8 @@ MODELS = {
         static=True, link="standpipe", link_pose=(0, 0, 0.1), mesh="standpipe.dae", mesh_pose=(0, 0, 0.15)),
     "stop_sign": Model(
         "Stop sign", "A road sign, 1.8 m high.",
-        (Shape("pole", box(0.05, 0.0225, 1.8), (0, 0, 0.9)), Shape("sign", box(0.593, 0.0118, 0.593), (0, -0.006, 1.52))),
+        (Shape("pole", box(0.05, 0.0225, 1.8), (0, 0, 0.9)),
+         Shape("sign", box(0.593, 0.0118, 0.593), (0, -0.006, 1.52))),
         static=True, name="Stop Sign", mesh="stop_sign.dae", scripts={"StopSign/Diffuse": (0.75, 0.06, 0.05)}),
     "first_2015_trash_can": Model(
         "FIRST 2015 trash can", "A round waste bin, 74 cm high.",
@@ -326,7 +332,8 @@ MODELS = {
         mass=4.83076, inertia=(0.281534052, 0.281534052, 0.126222831), com=(0, 0, 0.3683), mesh="trash_can.dae"),
     "mailbox": Model(
         "Mailbox", "A letter box on a post.",
-        (Shape("box", box(0.1335, 0.3551, 0.2072), (0.002, 0.01695, 0.9636)), Shape("post", box(0.06, 0.06, 0.86), (0, 0, 0.43))),
+        (Shape("box", box(0.1335, 0.3551, 0.2072), (0.002, 0.01695, 0.9636)),
+         Shape("post", box(0.06, 0.06, 0.86), (0, 0, 0.43))),
         name="Mailbox", mesh="mailbox.dae", scripts={"Mailbox/Diffuse": (0.62, 0.64, 0.66)}),
     "postbox": Model(
         "Post box", "A blue letter box, 1.5 m high.",

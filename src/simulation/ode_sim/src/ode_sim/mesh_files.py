@@ -39,7 +39,8 @@ def read_parts(path: str, stamp) -> List[MeshPart]:
     except DescriptionError:
         raise
     except ImportError as error:
-        raise DescriptionError(f"mesh {path}: needs the Python package {error.name}; scripts/setup installs it") from None
+        raise DescriptionError(f"mesh {path}: needs the Python package {error.name}; "
+                               "scripts/setup installs it") from None
     except Exception as error:  # a parser fed with a broken file may raise anything
         reason = " ".join(str(error).split())[:150] or type(error).__name__
         raise DescriptionError(f"mesh {path}: is broken, {reason}") from None

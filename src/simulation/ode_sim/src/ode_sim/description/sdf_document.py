@@ -33,7 +33,8 @@ def _version(root: Element) -> Tuple[int, ...]:
     try:
         return tuple(int(part) for part in root.get("version", "1.6").split("."))
     except ValueError:
-        raise DescriptionError(f"{source_of(root)}: '{root.get('version')}' is no SDF version; use 1.4 to 1.7") from None
+        raise DescriptionError(f"{source_of(root)}: '{root.get('version')}' is no SDF version; "
+                               "use 1.4 to 1.7") from None
 
 
 def first_entity(root: Element) -> Element:

@@ -217,7 +217,8 @@ class SdfModels(SdfShapes):
         known |= {f"{sub.name}::{link.name}" for sub in nested for link in sub.links}
         for role, link in (("parent", parent), ("child", child)):
             if link not in known and link != "world":
-                self.warn(element, f"{role} link '{link}' is not in model '{parts.name}'; the joint is left out", "error")
+                self.warn(element, f"{role} link '{link}' is not in model '{parts.name}'; the joint is left out",
+                          "error")
                 return []
         if child == "world" or parent == child:
             self.warn(element, f"cannot join '{parent}' to '{child}'; the joint is left out", "error")

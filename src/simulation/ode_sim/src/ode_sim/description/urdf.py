@@ -319,8 +319,8 @@ class _Conversion:
             child(form, "uri", _attribute(given, "filename"))
             child(form, "scale", " ".join(repr(v) for v in _scale(given)))
         else:
-            raise DescriptionError(f"{source_of(given)} of link '{link.name}': unknown shape; use box, cylinder, sphere "
-                                   "or mesh")
+            raise DescriptionError(f"{source_of(given)} of link '{link.name}': unknown shape; use box, cylinder, "
+                                   "sphere or mesh")
         if kind == "collision":
             self.extensions.insert_in_collision(element, link.name)
         else:

@@ -1,0 +1,368 @@
+"""Buildings from a short plan: walls with doors and windows, stairs, levels. The simulator's building editor.
+
+A plan is YAML; metres, radians. What is not given takes the defaults of Gazebo's building editor::
+
+    name: flat
+    wall: {thickness: 0.15, height: 2.5, material: Gazebo/CeilingTiled}   # for all walls
+    walls:
+      - path: [[0, 0], [6, 0], [6, 4], [0, 4], [0, 0]]
+        doors:   [{at: 1.5}]                 # metres along the path to the middle of the door
+        windows: [{at: 8.0, width: 1.2}]
+      - {from: [3, 0], to: [3, 2.5], color: [0.8, 0.7, 0.6]}
+    stairs: [{at: [5, 2], yaw: 1.57}]        # middle of the lowest step's front edge, climbing along yaw
+    levels:                                  # the floors above, each with walls, stairs, floor
+      - walls: [...]
+    models: [{model: table, at: [1, 2], yaw: 0.3}]
+
+or a floor plan drawn dark on light, also one that map_server wrote: ``image: plan.png``, ``resolution: 0.05`` (m per
+pixel), ``origin: [x, y, 0]``, ``occupied_thresh``, ``negate``.
+"""
+from __future__ import annotations
+
+import argparse
+import math
+import os
+import sys
+from dataclasses import dataclass, replace
+from typing import Any, Dict, List, Optional, Sequence, Tuple
+
+import yaml
+
+Point = Tuple[float, float]
+
+
+class PlanError(ValueError):
+    """The plan cannot be built. One line that names the entry."""
+
+
+@dataclass(frozen=True)
+class Look:
+    """A Gazebo material, or a plain colour (0..1) in its place."""
+
+    material: str = "Gazebo/Grey"
+    color: Optional[Tuple[float, float, float]] = None
+
+
+@dataclass(frozen=True)
+class Opening:
+    """A hole in a wall: ``at`` is the distance of its middle from the wall's start, ``sill`` its lower edge; m."""
+
+    kind: str  # "door" | "window"
+    at: float
+    width: float
+    height: float
+    sill: float
+
+
+@dataclass(frozen=True)
+class Wall:
+    """A straight piece between two points (m).
+
+    It reaches half its thickness beyond both, so that corners close; where it ends inside another wall, not at all.
+    """
+
+    start: Point
+    end: Point
+    thickness: float
+    height: float
+    look: Look
+    openings: Tuple[Opening, ...] = ()
+    butts: Tuple[bool, bool] = (False, False)  # start, end: ends inside another wall
+
+    @property
+    def reach(self) -> Tuple[float, float]:
+        """m beyond start and end."""
+        return tuple(0.0 if butts else 0.5 * self.thickness for butts in self.butts)
+
+    @property
+    def length(self) -> float:
+        return math.dist(self.start, self.end)
+
+    @property
+    def yaw(self) -> float:
+        return math.atan2(self.end[1] - self.start[1], self.end[0] - self.start[0])
+
+
+@dataclass(frozen=True)
+class Stairs:
+    """``at`` is the middle of the front edge of the lowest step; they climb along ``yaw``."""
+
+    at: Point
+    yaw: float
+    width: float
+    depth: float
+    height: float
+    steps: int
+    look: Look
+
+
+@dataclass(frozen=True)
+class Level:
+    base: float  # m, height of its floor
+    walls: Tuple[Wall, ...]
+    stairs: Tuple[Stairs, ...]
+    floor: Optional[Look] = None  # None: the ground
+
+
+@dataclass(frozen=True)
+class Placed:
+    """A model of the model path that stands in the building."""
+
+    model: str
+    name: str
+    at: Tuple[float, float, float]
+    yaw: float
+
+
+@dataclass(frozen=True)
+class Building:
+    name: str
+    levels: Tuple[Level, ...]
+    models: Tuple[Placed, ...] = ()
+
+
+# ---------------------------------------------------------------------------------------------- reading
+
+class _Entry:
+    """One mapping of the plan; knows its place (``walls[2].doors[0]``) for messages."""
+
+    def __init__(self, value: Any, place: str, known: Sequence[str]):
+        if not isinstance(value, dict):
+            raise PlanError(f"{place}: must be a mapping such as {{{known[0]}: ...}}, not {value!r}")
+        for key in value:
+            if key not in known:
+                raise PlanError(f"{place}: there is no '{key}' here; known are {', '.join(known)}")
+        self.value, self.place = value, place
+
+    def number(self, key: str, default: Optional[float] = None, positive: bool = True) -> float:
+        value = self.value.get(key, default)
+        if value is None:
+            raise PlanError(f"{self.place}: '{key}' is missing")
+        if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
+            raise PlanError(f"{self.place}.{key}: {value!r} is not a number")
+        if positive and value <= 0:
+            raise PlanError(f"{self.place}.{key}: {value:g} must be positive")
+        return float(value)
+
+    def point(self, key: str, sizes: Tuple[int, ...] = (2,)) -> Tuple[float, ...]:
+        if key not in self.value:
+            raise PlanError(f"{self.place}: '{key}' is missing")
+        return _point(self.value[key], f"{self.place}.{key}", sizes)
+
+    def entries(self, key: str) -> List[Tuple[Any, str]]:
+        value = self.value.get(key) or []
+        if not isinstance(value, list):
+            raise PlanError(f"{self.place + '.' if self.place else ''}{key}: must be a list")
+        prefix = self.place + "." if self.place != "plan" else ""
+        return [(item, f"{prefix}{key}[{i}]") for i, item in enumerate(value)]
+
+    def look(self, default: Look) -> Look:
+        color = self.value.get("color")
+        if color is not None:
+            rgb = _point(color, self.place + ".color", (3,))
+            if not all(0.0 <= c <= 1.0 for c in rgb):
+                raise PlanError(f"{self.place}.color: {color} must be three numbers from 0 to 1")
+            return Look(color=rgb)
+        return Look(str(self.value["material"])) if "material" in self.value else default
+
+
+def _point(value: Any, place: str, sizes: Tuple[int, ...]) -> Tuple[float, ...]:
+    if not isinstance(value, (list, tuple)) or len(value) not in sizes or not all(
+            isinstance(v, (int, float)) and not isinstance(v, bool) and math.isfinite(v) for v in value):
+        raise PlanError(f"{place}: {value!r} is not {' or '.join(str(size) for size in sizes)} numbers, [x, y]")
+    return tuple(float(v) for v in value)
+
+
+_LOOK = ("material", "color")
+_LEVEL = ("walls", "stairs", "height", "floor")
+
+
+def read_plan(path: str, resolution: Optional[float] = None) -> Building:
+    """A :class:`Building` from a YAML plan, or from an image (then ``resolution``, m per pixel, is needed).
+
+    :raises PlanError: one line that names file and entry.
+    """
+    if os.path.splitext(path)[1].lower() in (".yaml", ".yml"):
+        try:
+            with open(path, encoding="utf-8") as stream:
+                plan = yaml.safe_load(stream)
+        except OSError as error:
+            raise PlanError(f"{path}: {error.strerror}") from None
+        except yaml.YAMLError as error:
+            mark = getattr(error, "problem_mark", None)
+            line = f":{mark.line + 1}" if mark else ""
+            raise PlanError(f"{path}{line}: is no YAML, {getattr(error, 'problem', None) or error}") from None
+    else:
+        plan = {"image": os.path.abspath(path), "name": os.path.splitext(os.path.basename(path))[0]}
+    if isinstance(plan, dict) and "image" in plan:
+        plan = dict(plan)
+        plan.setdefault("name", os.path.splitext(os.path.basename(path))[0])
+        if resolution is not None:
+            plan["resolution"] = resolution
+    try:
+        return building_of(plan, os.path.dirname(os.path.abspath(path)))
+    except PlanError as error:
+        raise PlanError(f"{path}: {error}") from None
+
+
+def building_of(plan: Any, folder: str = ".") -> Building:
+    """As :func:`read_plan`, of a plan already read; ``folder`` is where its image is looked for."""
+    top = _Entry(plan, "plan", ("walls", "name", "wall", "stairs", "levels", "models", "height", "image", "resolution",
+                                "origin", "negate", "occupied_thresh", "free_thresh", "mode"))
+    defaults = _Entry(top.value.get("wall") or {}, "wall", ("thickness", "height") + _LOOK)
+    look = defaults.look(Look())
+    if "image" in top.value:
+        walls = _walls_of_image(top, defaults, look, folder)
+    else:
+        walls = _walls(top, defaults, look)
+    levels = [Level(0.0, tuple(walls), tuple(_stairs(top, look)))]
+    base = top.number("height", max([wall.height for wall in walls], default=2.5))
+    for value, place in top.entries("levels"):
+        entry = _Entry(value, place, _LEVEL)
+        floor = _Entry(entry.value.get("floor") or {}, place + ".floor", _LOOK).look(Look("Gazebo/Grey"))
+        walls = _walls(entry, defaults, look)
+        levels.append(Level(base, tuple(walls), tuple(_stairs(entry, look)), floor))
+        base += entry.number("height", max([wall.height for wall in walls], default=2.5))
+    if not any(level.walls or level.stairs for level in levels):
+        raise PlanError("walls: there are none; give at least one {from: [x, y], to: [x, y]}")
+    return Building(str(top.value.get("name") or "building"), tuple(levels), tuple(_models(top)))
+
+
+def _walls(parent: _Entry, defaults: _Entry, default_look: Look) -> List[Wall]:
+    walls: List[Wall] = []
+    for value, place in parent.entries("walls"):
+        entry = _Entry(value, place, ("from", "to", "path", "thickness", "height", "doors", "windows") + _LOOK)
+        if "path" in entry.value:
+            path = [_point(point, at, (2,)) for point, at in entry.entries("path")]
+        else:
+            path = [entry.point("from"), entry.point("to")]
+        if len(path) < 2 or any(math.dist(a, b) < 1e-6 for a, b in zip(path, path[1:])):
+            raise PlanError(f"{place}: a wall needs two different ends")
+        thickness = entry.number("thickness", defaults.number("thickness", 0.15))
+        height = entry.number("height", defaults.number("height", 2.5))
+        openings = _openings(entry, height)
+        look, done = entry.look(default_look), 0.0
+        total = sum(math.dist(a, b) for a, b in zip(path, path[1:]))
+        pieces: List[Wall] = []
+        for start, end in zip(path, path[1:]):
+            length = math.dist(start, end)
+            mine = [(o, at) for o, at in openings
+                    if done <= o.at < done + length or (o.at == total and end == path[-1])]
+            for opening, at in mine:
+                if min(opening.at - done, done + length - opening.at) < 0.5 * opening.width - 1e-9:
+                    raise PlanError(f"{at}: {opening.width:g} m wide at {opening.at:g} m does not fit; this piece of "
+                                    f"wall runs from {done:g} to {done + length:g} m")
+            pieces.append(Wall(start, end, thickness, height, look, tuple(
+                Opening(o.kind, o.at - done, o.width, o.height, o.sill) for o, _ in mine)))
+            done += length
+        for opening, at in openings:
+            if not 0.0 <= opening.at <= total:
+                raise PlanError(f"{at}: {opening.at:g} m is beyond the wall, which is {total:g} m long")
+        walls += pieces
+    return [replace(wall, butts=tuple(any(_ends_inside(end, other) for other in walls if other is not wall)
+                                      for end in (wall.start, wall.end))) for wall in walls]
+
+
+def _ends_inside(point: Point, wall: Wall) -> bool:
+    """Whether ``point`` lies in the body of ``wall``, away from its ends."""
+    dx, dy = point[0] - wall.start[0], point[1] - wall.start[1]
+    along = dx * math.cos(wall.yaw) + dy * math.sin(wall.yaw)
+    aside = abs(dy * math.cos(wall.yaw) - dx * math.sin(wall.yaw))
+    half = 0.5 * wall.thickness
+    return aside < half and half < along < wall.length - half
+
+
+def _openings(wall: _Entry, wall_height: float) -> List[Tuple[Opening, str]]:
+    found = []
+    for key, kind, width, height, sill in (("doors", "door", 0.9, 2.0, 0.0), ("windows", "window", 0.8, 0.8, 0.5)):
+        for value, place in wall.entries(key):
+            entry = _Entry(value, place, ("at", "width", "height", "sill"))
+            opening = Opening(kind, entry.number("at", positive=False), entry.number("width", width),
+                              entry.number("height", height), entry.number("sill", sill, positive=False))
+            if opening.sill < 0.0 or opening.sill + opening.height > wall_height + 1e-9:
+                raise PlanError(f"{place}: reaches from {opening.sill:g} to {opening.sill + opening.height:g} m; "
+                                f"the wall is {wall_height:g} m high")
+            found.append((opening, place))
+    return found
+
+
+def _stairs(parent: _Entry, default_look: Look) -> List[Stairs]:
+    stairs = []
+    for value, place in parent.entries("stairs"):
+        entry = _Entry(value, place, ("at", "yaw", "width", "depth", "height", "steps") + _LOOK)
+        steps = entry.number("steps", 15)
+        if steps != int(steps):
+            raise PlanError(f"{place}.steps: {steps:g} is no whole number")
+        stairs.append(Stairs(entry.point("at"), entry.number("yaw", 0.0, positive=False), entry.number("width", 1.0),
+                             entry.number("depth", 3.5), entry.number("height", 2.5), int(steps),
+                             entry.look(default_look)))
+    return stairs
+
+
+def _models(top: _Entry) -> List[Placed]:
+    models: List[Placed] = []
+    names: Dict[str, int] = {}
+    for value, place in top.entries("models"):
+        entry = _Entry(value, place, ("model", "at", "yaw", "name"))
+        model = entry.value.get("model")
+        if not model or not isinstance(model, str):
+            raise PlanError(f"{place}: 'model' is missing, the name of a model directory such as table")
+        count = names[model] = names.get(model, -1) + 1
+        name = str(entry.value.get("name") or (f"{model}_{count}" if count else model))
+        x, y, *z = entry.point("at", (2, 3))
+        models.append(Placed(model, name, (x, y, z[0] if z else 0.0), entry.number("yaw", 0.0, positive=False)))
+    return models
+
+
+def _walls_of_image(top: _Entry, defaults: _Entry, look: Look, folder: str) -> List[Wall]:
+    from gazebo_ros.building_image import wall_rectangles
+
+    if "walls" in top.value:
+        raise PlanError("image: takes the place of 'walls'; give one of the two")
+    resolution = top.number("resolution", None)
+    origin = top.point("origin", (2, 3)) if "origin" in top.value else (0.0, 0.0)
+    height = defaults.number("height", 2.5)
+    rectangles = wall_rectangles(os.path.join(folder, str(top.value["image"])), resolution, origin[:2],
+                                 top.number("occupied_thresh", 0.5), bool(top.value.get("negate", 0)))
+    walls = []
+    for x0, y0, x1, y1 in rectangles:  # a wall reaches half its thickness beyond its ends
+        half = 0.5 * min(x1 - x0, y1 - y0)
+        if x1 - x0 >= y1 - y0:
+            middle, ends = 0.5 * (y0 + y1), (x0 + half, x1 - half)
+            start, end = (ends[0], middle), (ends[1], middle)
+        else:
+            middle, ends = 0.5 * (x0 + x1), (y0 + half, y1 - half)
+            start, end = (middle, ends[0]), (middle, ends[1])
+        walls.append(Wall(start, end, 2.0 * half, height, look))
+    return walls
+
+
+# ---------------------------------------------------------------------------------------------- command
+
+def main(argv: Optional[Sequence[str]] = None) -> int:
+    from gazebo_ros import building_image, building_sdf
+
+    parser = argparse.ArgumentParser(
+        prog="build_world", description="Builds a world (or a model) from a plan of walls, doors, windows and stairs.",
+        epilog="A plan is YAML (see pydoc3 gazebo_ros.building) or an image, walls dark on light.")
+    parser.add_argument("plan", help="plan.yaml, a map of map_server, or an image with --resolution")
+    parser.add_argument("-o", "--output", required=True,
+                        help="FILE.world: with sun and floor; FILE.sdf: the model alone; DIR/: a model directory")
+    parser.add_argument("--preview", metavar="PNG", help="also draw the plan from above")
+    parser.add_argument("--resolution", type=float, help="metres per pixel of an image")
+    arguments = parser.parse_args(sys.argv[1:] if argv is None else argv)
+    try:
+        building = read_plan(arguments.plan, arguments.resolution)
+        building_sdf.write(building, arguments.output)
+        if arguments.preview:
+            building_image.draw(building).save(arguments.preview)
+    except PlanError as error:
+        print(f"build_world: {error}", file=sys.stderr)
+        return 1
+    except OSError as error:
+        print(f"build_world: cannot write {error.filename}: {error.strerror}", file=sys.stderr)
+        return 1
+    walls = sum(len(level.walls) for level in building.levels)
+    print(f"{arguments.output}: {building.name}, {walls} wall{'s' * (walls != 1)} on "
+          f"{len(building.levels)} level{'s' * (len(building.levels) != 1)}")
+    return 0

@@ -1,0 +1,116 @@
+"""Floor plans as pictures: walls found in one, and a building drawn from above."""
+from __future__ import annotations
+
+import math
+from typing import List, Tuple
+
+import numpy as np
+from PIL import Image, ImageDraw
+
+from gazebo_ros.building import Building, PlanError, Wall
+
+Rectangle = Tuple[float, float, float, float]  # x0, y0, x1, y1
+_MOST_RECTANGLES = 5000
+
+
+def wall_rectangles(path: str, resolution: float, origin: Tuple[float, float], occupied: float = 0.5,
+                    negate: bool = False) -> List[Rectangle]:
+    """The dark areas of an image as upright rectangles, in metres.
+
+    :param resolution: m per pixel. :param origin: x, y of the lower left corner, m.
+    :param occupied: as in map_server, how dark (0 white, 1 black) a wall is at least. :param negate: walls are light.
+    :raises PlanError: no image, nothing dark in it, or so many slanted edges that it is no floor plan.
+    """
+    try:
+        with Image.open(path) as image:
+            rgba = np.asarray(image.convert("RGBA"), dtype=float)
+    except (OSError, Image.DecompressionBombError) as error:
+        reason = getattr(error, "strerror", None) or "is no image that can be read"
+        raise PlanError(f"image {path}: {reason}") from None
+    alpha = rgba[..., 3] / 255.0
+    light = rgba[..., :3].mean(axis=-1) / 255.0 * alpha + (1.0 - alpha)  # what is transparent is white paper
+    dark = light if negate else 1.0 - light
+    rectangles = _merged_runs(dark >= occupied)
+    if not rectangles:
+        raise PlanError(f"image {path}: nothing in it is dark enough to be a wall")
+    if len(rectangles) > _MOST_RECTANGLES:
+        raise PlanError(f"image {path}: {len(rectangles)} pieces of wall; use a cleaner or coarser picture "
+                        "whose walls stand upright")
+    height = dark.shape[0]
+    return [(origin[0] + c0 * resolution, origin[1] + (height - r1) * resolution,
+             origin[0] + c1 * resolution, origin[1] + (height - r0) * resolution) for r0, c0, r1, c1 in rectangles]
+
+
+def _merged_runs(mask: np.ndarray) -> List[Tuple[int, int, int, int]]:
+    """Disjoint rectangles (row0, column0, row1, column1) that cover ``mask``: equal runs of rows joined."""
+    done: List[Tuple[int, int, int, int]] = []
+    open_runs = {}  # (column0, column1) -> first row
+    for row in range(mask.shape[0] + 1):
+        line = mask[row] if row < mask.shape[0] else np.zeros(mask.shape[1], bool)
+        edges = np.flatnonzero(np.diff(np.concatenate(([0], line.astype(np.int8), [0]))))
+        runs = set(zip(edges[::2].tolist(), edges[1::2].tolist()))
+        for run in [run for run in open_runs if run not in runs]:
+            done.append((open_runs.pop(run), run[0], row, run[1]))
+        for run in runs:
+            open_runs.setdefault(run, row)
+    return sorted(done)
+
+
+# ---------------------------------------------------------------------------------------------- drawing
+
+_PAPER, _GRID, _WALL, _DOOR, _WINDOW, _STEP, _MODEL = (
+    (255, 255, 255), (226, 230, 234), (60, 64, 72), (214, 158, 84), (86, 156, 214), (150, 150, 158), (96, 160, 96))
+
+
+def draw(building: Building, width: int = 1000) -> Image.Image:
+    """All levels from above, side by side, the lowest first: 1 m grid, walls dark, doors brown, windows blue."""
+    from gazebo_ros.building_sdf import outline
+
+    x0, y0, x1, y1 = outline(building.levels)
+    x0, x1 = (choose([x] + [placed.at[0] for placed in building.models]) for choose, x in ((min, x0), (max, x1)))
+    y0, y1 = (choose([y] + [placed.at[1] for placed in building.models]) for choose, y in ((min, y0), (max, y1)))
+    margin = 0.05 * max(x1 - x0, y1 - y0) + 0.3
+    x0, y0, x1, y1 = x0 - margin, y0 - margin, x1 + margin, y1 + margin
+    scale = width / (x1 - x0)
+    page = (width, max(1, round((y1 - y0) * scale)))
+    image = Image.new("RGB", (page[0] * len(building.levels), page[1]), _PAPER)
+    pen = ImageDraw.Draw(image)
+    for number, level in enumerate(building.levels):
+        def at(x: float, y: float) -> Tuple[float, float]:
+            return (number * page[0] + (x - x0) * scale, (y1 - y) * scale)
+
+        for x in range(math.ceil(x0), math.floor(x1) + 1):
+            pen.line([at(x, y0), at(x, y1)], fill=_GRID)
+        for y in range(math.ceil(y0), math.floor(y1) + 1):
+            pen.line([at(x0, y), at(x1, y)], fill=_GRID)
+        for stairs in level.stairs:
+            for i in range(stairs.steps):
+                tread = stairs.depth / stairs.steps
+                corners = _turned(stairs.at, stairs.yaw, (i + 0.5) * tread, 0.0, tread, stairs.width)
+                pen.polygon([at(*p) for p in corners], outline=_STEP)
+        for wall in level.walls:
+            _draw_wall(pen, wall, at)
+        if number == 0:
+            for placed in building.models:
+                x, y = at(*placed.at[:2])
+                pen.ellipse([x - 5, y - 5, x + 5, y + 5], fill=_MODEL)
+                pen.text((x + 8, y - 6), placed.name, fill=_MODEL)
+        pen.text((number * page[0] + 8, 6), f"{building.name}, level {number}   grid 1 m", fill=_WALL)
+    return image
+
+
+def _draw_wall(pen: ImageDraw.ImageDraw, wall: Wall, at) -> None:
+    (before, after), length = wall.reach, wall.length
+    pen.polygon([at(*p) for p in _turned(wall.start, wall.yaw, 0.5 * (length + after - before), 0.0,
+                                         length + before + after, wall.thickness)], fill=_WALL)
+    for opening in wall.openings:
+        corners = _turned(wall.start, wall.yaw, opening.at, 0.0, opening.width, wall.thickness)
+        pen.polygon([at(*p) for p in corners], fill=_DOOR if opening.kind == "door" else _WINDOW)
+
+
+def _turned(origin, yaw: float, x: float, y: float, length: float, width: float):
+    """Corners of a rectangle around (x, y) of a frame at ``origin`` turned by ``yaw``."""
+    c, s = math.cos(yaw), math.sin(yaw)
+    return [(origin[0] + c * (x + dx * length) - s * (y + dy * width),
+             origin[1] + s * (x + dx * length) + c * (y + dy * width))
+            for dx, dy in ((-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5))]

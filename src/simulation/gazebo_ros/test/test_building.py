@@ -1,0 +1,206 @@
+"""build_world: plans and pictures to SDF, read back by the simulator's own reader."""
+import xml.etree.ElementTree as ET
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from gazebo_ros import building, building_image, building_sdf
+from ode_sim.description import ResourceFinder, load_world, read_sdf_model
+
+FINDER = ResourceFinder(environment=False, stock="/nowhere")
+
+
+def build(plan):
+    made = building.building_of(plan)
+    model, problems = read_sdf_model(building_sdf.model_text(made), finder=FINDER)
+    assert not problems
+    return model
+
+
+def solid_at(model, x, y, z):
+    """Whether the point of the world lies in a box of the model."""
+    from ode_sim import math3
+    for link in model.links:
+        for collision in link.collisions:
+            pose = math3.compose(math3.compose(model.pose, link.pose), collision.pose)
+            p = math3.transform(math3.inverse(pose), (x, y, z))
+            if all(abs(a) <= 0.5 * size + 1e-9 for a, size in zip(p, collision.geometry.size)):
+                return True
+    return False
+
+
+def test_one_wall_as_the_editor_writes_it():
+    model = build({"name": "m", "walls": [{"from": [0, 0], "to": [0, 4]}]})
+    link, = model.links
+    assert (model.name, model.static, link.name) == ("m", True, "Wall_0")
+    assert [c.name for c in link.collisions] == ["Wall_0_Collision"]
+    assert [v.name for v in link.visuals] == ["Wall_0_Visual"]
+    assert link.collisions[0].geometry.size == pytest.approx((4.15, 0.15, 2.5))
+    assert model.pose.p == (0.0, 2.0, 0.0) and link.collisions[0].pose.p == (0.0, 0.0, 1.25)
+    assert solid_at(model, 0.0, 0.0, 0.1) and solid_at(model, 0.07, 3.9, 2.4) and not solid_at(model, 0.1, 2.0, 1.0)
+
+
+def test_corners_close():
+    model = build({"walls": [{"path": [[0, 0], [3, 0], [3, 2]]}]})
+    assert solid_at(model, 3.07, -0.07, 1.0)
+
+
+def test_a_wall_that_ends_in_another_does_not_reach_through():
+    made = building.building_of({"walls": [{"from": [0, 0], "to": [6, 0]}, {"from": [3, 0], "to": [3, 2]}]})
+    assert made.levels[0].walls[1].reach == (0.0, 0.075)
+    assert made.levels[0].walls[0].reach == (0.075, 0.075)
+
+
+def test_doors_and_windows_are_holes_and_nothing_else_is():
+    model = build({"walls": [{"from": [0, 0], "to": [6, 0], "doors": [{"at": 1.5}], "windows": [{"at": 4.0}]}]})
+    assert len(model.links[0].collisions) == 6
+    assert model.links[0].collisions[0].name == "Wall_0_Collision_0"
+    holes = {(1.5, 1.0), (1.06, 0.01), (1.94, 1.99), (4.0, 0.9), (3.61, 0.51), (4.39, 1.29)}
+    walls = {(1.5, 2.01), (1.04, 1.0), (1.96, 1.0), (4.0, 0.49), (4.0, 1.31), (3.59, 0.9), (4.41, 0.9), (0.0, 0.0),
+             (6.0, 2.4)}
+    assert [p for p in holes if solid_at(model, p[0], 0.0, p[1])] == []
+    assert [p for p in walls if not solid_at(model, p[0], 0.0, p[1])] == []
+    volume = sum(np.prod(c.geometry.size) for c in model.links[0].collisions)
+    assert volume == pytest.approx(0.15 * (6.15 * 2.5 - 0.9 * 2.0 - 0.8 * 0.8))  # no box twice, none missing
+
+
+def test_openings_that_overlap_are_one_hole():
+    model = build({"walls": [{"from": [0, 0], "to": [6, 0], "windows": [{"at": 2}, {"at": 2.4, "height": 1.2}]}]})
+    volume = sum(np.prod(c.geometry.size) for c in model.links[0].collisions)
+    assert volume == pytest.approx(0.15 * (6.15 * 2.5 - (0.4 * 0.8 + 0.8 * 1.2)))
+
+
+def test_openings_on_a_path_are_measured_along_it():
+    model = build({"walls": [{"path": [[0, 0], [3, 0], [3, 4]], "doors": [{"at": 5}]}]})
+    assert not solid_at(model, 3.0, 2.0, 1.0) and solid_at(model, 3.0, 1.0, 1.0) and solid_at(model, 2.0, 0.0, 1.0)
+
+
+def test_stairs_and_the_floor_above():
+    model = build({"walls": [{"path": [[0, 0], [6, 0], [6, 4], [0, 4], [0, 0]]}], "stairs": [{"at": [1, 2]}],
+                   "levels": [{"walls": [{"from": [0, 0], "to": [6, 0], "doors": [{"at": 3}]}], "height": 3}]})
+    assert [link.name for link in model.links] == [
+        "Wall_0", "Wall_1", "Wall_2", "Wall_3", "Stairs_0", "Wall_4", "Floor_1"]
+    stairs = model.links[4]
+    assert len(stairs.collisions) == 15 and stairs.collisions[14].geometry.size[2] == pytest.approx(2.5)
+    assert solid_at(model, 1.1, 2.0, 0.1) and not solid_at(model, 1.1, 2.0, 0.3) and solid_at(model, 4.4, 2.0, 2.4)
+    assert solid_at(model, 5.5, 1.0, 2.45) and not solid_at(model, 2.0, 2.0, 2.45)  # a floor, open above the stairs
+    assert solid_at(model, 1.0, 0.0, 3.0) and not solid_at(model, 3.0, 0.0, 3.0)  # the wall above and its door
+
+
+def test_looks():
+    model = build({"wall": {"material": "Gazebo/Bricks"}, "walls": [
+        {"from": [0, 0], "to": [1, 0]}, {"from": [0, 1], "to": [1, 1], "color": [1, 0, 0.5]}]})
+    bricks, plain = (link.visuals[0].material for link in model.links)
+    assert bricks.name == "Gazebo/Bricks" and plain.diffuse == (1.0, 0.0, 0.5, 1.0)
+
+
+@pytest.mark.parametrize("plan, message", [
+    ({"walls": [{"from": [0, 0]}]}, r"walls\[0\]: 'to' is missing"),
+    ({"walls": [{"from": [0, 0], "to": [0, 0]}]}, r"walls\[0\]: a wall needs two different ends"),
+    ({"walls": [{"from": [0, 0], "to": [0, "a"]}]}, r"walls\[0\].to: .* is not 2 numbers"),
+    ({"walls": [{"from": [0, 0], "to": [4, 0]}, {"from": [0, 1], "to": [4, 1], "doors": [{"at": 9}]}]},
+     r"walls\[1\].doors\[0\]: 9 m is beyond the wall, which is 4 m long"),
+    ({"walls": [{"from": [0, 0], "to": [4, 0], "doors": [{"at": 3.9}]}]}, r"doors\[0\]: 0.9 m wide .* does not fit"),
+    ({"walls": [{"from": [0, 0], "to": [4, 0], "windows": [{"at": 2, "height": 2.2}]}]}, r"windows\[0\]: reaches .* 2.5 m"),
+    ({"walls": [{"from": [0, 0], "to": [4, 0], "heigth": 2}]}, r"walls\[0\]: there is no 'heigth' here; known are .*height"),
+    ({"walls": [{"from": [0, 0], "to": [4, 0], "height": -2}]}, r"walls\[0\].height: -2 must be positive"),
+    ({"walls": [{"from": [0, 0], "to": [4, 0], "color": [255, 0, 0]}]}, r"color: .* from 0 to 1"),
+    ({"walls": []}, "walls: there are none"), ({"walls": "x"}, "walls: must be a list"), ("words", "plan: must be a mapping"),
+    ({"walls": [7]}, r"walls\[0\]: must be a mapping"),
+    ({"walls": [{"from": [0, 0], "to": [4, 0]}], "models": [{"at": [0, 0]}]}, r"models\[0\]: 'model' is missing"),
+    ({"walls": [{"from": [0, 0], "to": [4, 0]}], "stairs": [{"at": [0, 0], "steps": 2.5}]}, r"stairs\[0\].steps"),
+    ({"image": "gone.png", "resolution": 0.1}, "gone.png: No such file"),
+    ({"image": "gone.png"}, "'resolution' is missing"),
+])
+def test_a_wrong_entry_is_named(plan, message):
+    with pytest.raises(building.PlanError, match=message) as caught:
+        building.building_of(plan, "/nowhere")
+    assert "\n" not in str(caught.value)
+
+
+@pytest.fixture
+def picture(tmp_path):
+    """A room of 3 m by 2 m at 5 cm a pixel, walls of 10 cm, with a gap of 1 m in the lower wall."""
+    pixels = np.full((40, 60), 255, np.uint8)
+    pixels[:2], pixels[-2:], pixels[:, :2], pixels[:, -2:] = 0, 0, 0, 0
+    pixels[-2:, 20:40] = 255
+    file = tmp_path / "room.png"
+    Image.fromarray(pixels).save(file)
+    return file
+
+
+def test_walls_of_a_picture(picture):
+    made = building.read_plan(str(picture), resolution=0.05)
+    model, _ = read_sdf_model(building_sdf.model_text(made), finder=FINDER)
+    assert made.name == "room" and len(made.levels[0].walls) == 5
+    assert solid_at(model, 0.05, 1.0, 1.0) and solid_at(model, 0.02, 0.02, 1.0) and solid_at(model, 0.9, 0.05, 1.0)
+    assert not solid_at(model, 1.5, 0.05, 1.0) and not solid_at(model, 1.5, 1.0, 1.0) and solid_at(model, 1.5, 1.95, 2.4)
+    covered = sum(np.prod(c.geometry.size[:2]) for link in model.links for c in link.collisions)
+    assert covered == pytest.approx(2 * 3 * 0.1 + 2 * 1.8 * 0.1 - 1.0 * 0.1)
+
+
+def test_a_map_of_map_server(picture):
+    (picture.parent / "map.yaml").write_text(
+        "image: room.png\nresolution: 0.05\norigin: [-1.0, -1.0, 0.0]\nnegate: 0\noccupied_thresh: 0.65\n"
+        "free_thresh: 0.2\n")
+    made = building.read_plan(str(picture.parent / "map.yaml"))
+    model, _ = read_sdf_model(building_sdf.model_text(made), finder=FINDER)
+    assert solid_at(model, -0.95, 0.0, 1.0) and not solid_at(model, 0.5, -0.95, 1.0)
+
+
+def test_a_blank_picture_and_a_text_are_refused(tmp_path):
+    Image.new("L", (10, 10), 255).save(tmp_path / "blank.png")
+    with pytest.raises(building.PlanError, match="dark enough"):
+        building.read_plan(str(tmp_path / "blank.png"), 0.1)
+    (tmp_path / "text.png").write_text("no picture")
+    with pytest.raises(building.PlanError, match="no image that can be read"):
+        building.read_plan(str(tmp_path / "text.png"), 0.1)
+
+
+PLAN = """
+name: flat
+walls:
+  - {from: [0, 0], to: [4, 0], doors: [{at: 2}], color: [0.2, 0.2, 0.2]}
+models: [{model: table, at: [1, 2], yaw: 0.5}, {model: table, at: [3, 2]}]
+"""
+
+
+def test_command_writes_a_world_and_a_preview(tmp_path, capsys):
+    plan, world, png = tmp_path / "plan.yaml", tmp_path / "out.world", tmp_path / "out.png"
+    plan.write_text(PLAN)
+    assert building.main([str(plan), "-o", str(world), "--preview", str(png)]) == 0
+    assert capsys.readouterr().out == f"{world}: flat, 1 wall on 1 level\n"
+    uris = [(e.findtext("uri"), e.findtext("name")) for e in ET.parse(world).iter("include")]
+    assert uris == [("model://sun", None), ("model://ground_plane", None), ("model://table", "table"),
+                    ("model://table", "table_1")]
+    loaded, problems = load_world(str(world), FINDER)
+    assert [model.name for model in loaded.models] == ["flat"] and len(problems) == 3  # no stock models in this test
+    with Image.open(png) as image:
+        colours = {colour for _, colour in image.getcolors(1 << 24)}
+    assert {building_image._WALL, building_image._DOOR, building_image._MODEL} <= colours
+
+
+def test_command_writes_a_model_directory(tmp_path):
+    (tmp_path / "plan.yaml").write_text(PLAN)
+    assert building.main([str(tmp_path / "plan.yaml"), "-o", str(tmp_path / "models/flat") + "/"]) == 0
+    finder = ResourceFinder([tmp_path / "models"], environment=False, stock="/nowhere")
+    loaded, problems = load_world("<sdf version='1.6'><world name='w'><include><uri>model://flat</uri></include>"
+                                  "</world></sdf>", finder)
+    assert loaded.models[0].links[0].name == "Wall_0" and not problems
+
+
+@pytest.mark.parametrize("text, message", [
+    ("walls: [", ":2: is no YAML|:1: is no YAML"), ("walls: [{from: [0, 0], to: [1]}]", r"plan.yaml: walls\[0\].to")])
+def test_command_names_file_and_entry(tmp_path, capsys, text, message):
+    import re
+    (tmp_path / "plan.yaml").write_text(text)
+    assert building.main([str(tmp_path / "plan.yaml"), "-o", str(tmp_path / "a.world")]) == 1
+    error = capsys.readouterr().err
+    assert re.search(message, error) and error.count("\n") == 1 and not (tmp_path / "a.world").exists()
+
+
+def test_command_refuses_an_unknown_ending(tmp_path, capsys):
+    (tmp_path / "plan.yaml").write_text(PLAN)
+    assert building.main([str(tmp_path / "plan.yaml"), "-o", str(tmp_path / "a.txt")]) == 1
+    assert ".world or .sdf" in capsys.readouterr().err

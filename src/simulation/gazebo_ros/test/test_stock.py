@@ -1,0 +1,95 @@
+"""The models and worlds that come with the simulator."""
+import importlib.util
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from ode_sim import World, math3, mesh
+from ode_sim.description import ResourceFinder, load_world
+from ode_sim.description.model import Mesh
+
+STOCK = Path(__file__).resolve().parents[1]
+FINDER = ResourceFinder(environment=False, stock=str(STOCK))
+MODELS = FINDER.stock_models()
+WORLDS = FINDER.stock_worlds()
+
+
+def included(*names, pose=""):
+    body = "".join(f"<include><uri>model://{name}</uri>{pose}</include>" for name in names)
+    return f"<sdf version='1.6'><world name='w'>{body}</world></sdf>"
+
+
+def generated(script):
+    spec = importlib.util.spec_from_file_location(script, STOCK / "models" / f"{script}.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module.files()
+
+
+@pytest.mark.parametrize("script", ["make_meshes", "make_models"])
+def test_files_are_what_their_script_writes(script, monkeypatch):
+    monkeypatch.syspath_prepend(str(STOCK / "models"))
+    for name, text in generated(script).items():
+        assert (STOCK / "models" / name).read_text() == text, f"run models/{script}.py"
+
+
+@pytest.mark.parametrize("name", MODELS)
+def test_a_model_loads_without_a_word_and_its_meshes_are_whole(name):
+    world, problems = load_world(included(name), FINDER)
+    assert not problems and len(world.models) + len(world.lights) == 1
+    for model in world.models:
+        for link in model.links:
+            for shape in link.collisions + link.visuals:
+                if isinstance(shape.geometry, Mesh):
+                    surface = mesh.load(shape.geometry)
+                    assert mesh.mass_properties(surface).volume > 0.0
+
+
+@pytest.mark.parametrize("name", [name for name in MODELS if name not in ("sun", "ground_plane")])
+def test_what_collides_is_where_it_is_seen(name):
+    """The boxes around visuals and collisions of a model agree to a few centimetres."""
+    import numpy as np
+
+    def extent(shapes):
+        points = []
+        for shape in shapes:
+            g = shape.geometry
+            if isinstance(g, Mesh):
+                corners = mesh.load(g).vertices
+            else:
+                half = (tuple(v / 2 for v in g.size) if hasattr(g, "size") else
+                        (g.radius, g.radius, g.length / 2) if hasattr(g, "length") else (g.radius,) * 3)
+                corners = [(x * half[0], y * half[1], z * half[2]) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
+            points += [math3.transform(shape.pose, tuple(c)) for c in corners]
+        return np.array([np.min(points, axis=0), np.max(points, axis=0)])
+
+    link = load_world(included(name), FINDER)[0].models[0].links[0]
+    assert np.abs(extent(link.collisions) - extent(link.visuals)).max() < 0.11
+
+
+FALLING = [name for name in MODELS if name != "sun" and not load_world(included(name), FINDER)[0].models[0].static]
+
+
+@pytest.mark.parametrize("name", FALLING)
+def test_what_can_fall_stands(name):
+    """Put down where its file puts it, a model comes to rest upright, neither sinking in nor jumping off."""
+    world = World.load(included("ground_plane", name), finder=FINDER)
+    _, model = world.models.values()
+    link = next(iter(model.links.values()))
+    start = link.pose.p
+    world.step(1500)
+    roll, pitch, _ = math3.to_rpy(model.pose)
+    assert abs(roll) < 0.02 and abs(pitch) < 0.02 and math3.norm(link.com_velocity()) < 1e-3
+    drop = start[2] - link.pose.p[2]
+    assert (0.13 < drop < 0.14 if name == "car_wheel" else -0.01 < drop < 0.005)  # the wheel lies down from its rim
+    assert math3.norm(math3.sub(start, link.pose.p)[:2] + (0.0,)) < 0.005
+    assert not world.messages
+
+
+@pytest.mark.parametrize("name", WORLDS)
+def test_a_world_loads_without_a_word_and_runs(name):
+    world = World.load(name, finder=FINDER)
+    assert not world.problems
+    world.step(200)
+    assert not world.messages and world.time > 0.0
