@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Draws the meshes of the arm: python3 make_meshes.py [OUTPUT_DIR].
 
 All lengths are millimetres in the frame of the link that shows the part; only the servo is stored in centimetres,

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Draws kinect.dae: python3 make_meshes.py [OUTPUT_DIR].
 
 Millimetres; the sensor bar lies along x, the lenses look along -y, z is up; centred on the bounding box.

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Draws the meshes of the UR5: python3 make_meshes.py [OUTPUT_DIR].
 
 Millimetres in the frame of the link. Each joint is a stubby housing; the housing whose motor drives the next joint
