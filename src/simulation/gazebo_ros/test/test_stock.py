@@ -20,18 +20,19 @@ def included(*names, pose=""):
     return f"<sdf version='1.6'><world name='w'>{body}</world></sdf>"
 
 
-def generated(script):
-    spec = importlib.util.spec_from_file_location(script, STOCK / "models" / f"{script}.py")
+def generated(folder, script):
+    spec = importlib.util.spec_from_file_location(script, STOCK / folder / f"{script}.py")
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module.files()
 
 
-@pytest.mark.parametrize("script", ["make_meshes", "make_models"])
-def test_files_are_what_their_script_writes(script, monkeypatch):
+@pytest.mark.parametrize("folder, script", [
+    ("models", "make_meshes"), ("models", "make_models"), ("worlds", "make_worlds")])
+def test_files_are_what_their_script_writes(folder, script, monkeypatch):
     monkeypatch.syspath_prepend(str(STOCK / "models"))
-    for name, text in generated(script).items():
-        assert (STOCK / "models" / name).read_text() == text, f"run models/{script}.py"
+    for name, text in generated(folder, script).items():
+        assert (STOCK / folder / name).read_text() == text, f"run {folder}/{script}.py"
 
 
 @pytest.mark.parametrize("name", MODELS)
@@ -93,3 +94,18 @@ def test_a_world_loads_without_a_word_and_runs(name):
     assert not world.problems
     world.step(200)
     assert not world.messages and world.time > 0.0
+
+
+def test_only_the_slippery_boxes_slide():
+    world = World.load("worlds/friction_demo.world", finder=FINDER)
+    world.step(2000)
+    gone = {name for name, model in world.models.items()
+            if math3.norm(math3.sub(model.pose.p, model.initial_pose.p)) > 0.1}
+    assert gone == {"box_mu_0.05", "box_mu_0.15", "box_mu_0.25"}
+
+
+def test_the_seesaw_tips_to_the_heavy_side():
+    world = World.load("worlds/seesaw.world", finder=FINDER)
+    world.step(3000)
+    hinge = world.models["seesaw"].joints["hinge"]
+    assert abs(hinge.position() - 0.45) < 0.02 and math3.norm(world.models["seesaw"].links["base"].pose.p) < 1e-6

@@ -1,0 +1,121 @@
+#!/usr/bin/env python3
+"""Writes the worlds that repeat one thing many times, and those built from a plan in ``plans/``.
+
+Run after a change: ``python3 make_worlds.py``.
+"""
+import math
+import random
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent / "models"))
+
+from make_models import box, box_inertia, pose, script, tag  # noqa: E402
+
+from gazebo_ros import building, building_sdf  # noqa: E402
+
+SUN, FLOOR = (tag("include", tag("uri", uri)) for uri in ("model://sun", "model://ground_plane"))
+
+
+def world(comment, *content):
+    body = tag("world", *content, name="default")
+    return f'<?xml version="1.0"?>\n<!-- {comment} -->\n' + tag("sdf", body, version="1.5") + "\n"
+
+
+def block(name, size, at, mass, material, surface=""):
+    """A box that moves, or stands for ever when ``mass`` is None."""
+    inertial = ""
+    if mass is not None:
+        ixx, iyy, izz = box_inertia(mass, *size)
+        inertial = tag("inertial", tag("mass", f"{mass:g}"), tag(
+            "inertia", *(tag(key, f"{value:.6g}") for key, value in (("ixx", ixx), ("iyy", iyy), ("izz", izz)))))
+    link = tag("link", inertial, tag("collision", tag("geometry", box(*size)), surface, name="collision"),
+               tag("visual", tag("geometry", box(*size)), script(material), name="visual"), name="link")
+    return tag("model", tag("static", "true") if mass is None else "", pose(at), link, name=name)
+
+
+def friction(mu):
+    return tag("surface", tag("friction", tag("ode", tag("mu", mu), tag("mu2", mu))))
+
+
+def stacks():
+    """Towers of 3 to 8 cubes, and a pyramid."""
+    colours = ["Gazebo/Red", "Gazebo/Green", "Gazebo/Blue", "Gazebo/Yellow", "Gazebo/Orange", "Gazebo/Purple"]
+    blocks = [block(f"tower_{n}_{i}", (0.2, 0.2, 0.2), (0.5 * (n - 5), 0.0, 0.1 + 0.2 * i), 1.0, colours[n - 3])
+              for n in range(3, 9) for i in range(n)]
+    blocks += [block(f"pyramid_{row}_{i}", (0.3, 0.3, 0.3), (0.31 * (i - 0.5 * (4 - row)), 2.0, 0.15 + 0.3 * row),
+                     2.0, "Gazebo/Wood") for row in range(5) for i in range(5 - row)]
+    return world("Towers of three to eight cubes and a pyramid of fifteen.", SUN, FLOOR, *blocks)
+
+
+def friction_demo():
+    """Equal boxes on one slope of 0.3 rad (tan 0.309): those with mu below it slide."""
+    slope, half = 0.3, 0.1
+    blocks = [block("slope", (4.0, 3.0, 0.1), (0.0, 0.0, 0.8, 0.0, slope, 0.0), None, "Gazebo/Grey")]
+    for i, mu in enumerate((0.05, 0.15, 0.25, 0.35, 0.6, 1.0)):
+        x, up = -1.4, 0.05 + half
+        at = (x * math.cos(slope) + up * math.sin(slope), -1.1 + 0.44 * i,
+              0.8 - x * math.sin(slope) + up * math.cos(slope), 0.0, slope, 0.0)
+        blocks.append(block(f"box_mu_{mu:g}", (0.2, 0.2, 0.2), at, 1.0,
+                            "Gazebo/Red" if mu < math.tan(slope) else "Gazebo/Green", friction(mu)))
+    return world("Six boxes on a slope: the red ones have too little friction to stay.", SUN, FLOOR, *blocks)
+
+
+def rubble():
+    """Boards and blocks dropped into a heap, the same in every run."""
+    rng = random.Random(1)
+    blocks = []
+    for i in range(60):
+        size = tuple(round(rng.uniform(*limits), 3) for limits in ((0.1, 0.7), (0.08, 0.35), (0.04, 0.15)))
+        turn = [round(rng.uniform(-math.pi, math.pi), 4) for _ in range(3)]
+        at = (round(rng.uniform(-1.5, 1.5), 4), round(rng.uniform(-1.5, 1.5), 4), round(0.2 + 0.09 * i, 4), *turn)
+        mass, colour = round(600 * size[0] * size[1] * size[2], 3), rng.choice(["Grey", "DarkGrey", "Wood", "Bricks"])
+        blocks.append(block(f"piece_{i}", size, at, mass, "Gazebo/" + colour))
+    return world("Sixty pieces of rubble fall into a heap.", SUN, FLOOR, *blocks)
+
+
+def mud():
+    """A field of mud sunk between firm ground: slippery, and it gives way."""
+    soft = tag("surface", tag("friction", tag("ode", tag("mu", 0.15), tag("mu2", 0.15))),
+               tag("contact", tag("ode", tag("kp", 20000), tag("kd", 500), tag("max_vel", 0.01),
+                                  tag("min_depth", 0.02))))
+    colour = tag("material", tag("ambient", "0.3 0.2 0.12 1"), tag("diffuse", "0.3 0.2 0.12 1"))
+    field = tag("model", tag("static", "true"), pose((6, 0, 0.01)), tag(
+        "link", tag("collision", tag("geometry", box(8, 10, 0.02)), soft, name="collision"),
+        tag("visual", tag("geometry", box(8, 10, 0.02)), colour, name="visual"), name="link"), name="mud")
+    places = ((4, 5.5), (8.2, 5.5), (4, -5.5), (8.2, -5.5))
+    barriers = [tag("include", tag("uri", "model://jersey_barrier"), tag("name", f"barrier_{i}"), pose(place))
+                for i, place in enumerate(places)]
+    return world("A field of mud ahead: soft and slippery, barriers on both sides.", SUN, FLOOR, field, *barriers)
+
+
+def camera():
+    """A camera on a post that looks at a table with things on it."""
+    sensor = tag("sensor", tag("always_on", 1), tag("update_rate", 30), tag(
+        "camera", tag("horizontal_fov", 1.047), tag("image", tag("width", 640), tag("height", 480), tag(
+            "format", "R8G8B8")), tag("clip", tag("near", 0.1), tag("far", 100))), name="camera", type="camera")
+    eye = tag("model", tag("static", "true"), pose((-2, 0, 1.7, 0, 0.3, 0)), tag(
+        "link", tag("collision", tag("geometry", box(0.1, 0.1, 0.1)), name="collision"),
+        tag("visual", tag("geometry", box(0.1, 0.1, 0.1)), script("Gazebo/Black"), name="visual"), sensor, name="link"),
+        name="camera")
+    things = [tag("include", tag("uri", "model://" + model), pose(at))
+              for model, at in (("table", (0.5, 0, 0)), ("coke_can", (0.3, 0.2, 1.02)), ("beer", (0.4, -0.3, 1.02)),
+                                ("wood_cube_10cm", (0.7, 0, 1.02)), ("bookshelf", (2.5, 1, 0)))]
+    return world("A camera looks at a table.", SUN, FLOOR, eye, *things)
+
+
+def of_plan(name):
+    return building_sdf.world_text(building.read_plan(str(HERE / "plans" / f"{name}.yaml")))
+
+
+def files():
+    """Name of each file in this directory -> its text."""
+    return {"stacks.world": stacks(), "friction_demo.world": friction_demo(), "rubble.world": rubble(),
+            "mud.world": mud(), "camera.world": camera(), "cafe.world": of_plan("cafe"),
+            "willowgarage.world": of_plan("willowgarage")}
+
+
+if __name__ == "__main__":
+    for file, text in files().items():
+        (HERE / file).write_text(text)
