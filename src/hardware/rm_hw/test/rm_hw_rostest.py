@@ -179,7 +179,7 @@ class RmHwTest(unittest.TestCase):
         self.drive("wheel_effort", 0.1)
         bench("leave arm_motor")
         wait_until(lambda: self.watch.of("arm_motor", "halted"), "the absent motor is disabled")
-        self.assertTrue(self.watch.said(r"'arm_motor' .*sent nothing for 0.5 s and is disabled: check its power"))
+        self.assertTrue(self.watch.said(r"'arm_motor' .*sent nothing for 2 s and is disabled: check its power"))
         self.assertFalse(self.watch.of("wheel_motor", "halted"))
         self.assertGreater(self.watch.of("wheel_motor", "executed_effort"), 0.09)
         before = self.watch.real("wheel_motor", "position")
