@@ -109,3 +109,17 @@ def test_the_seesaw_tips_to_the_heavy_side():
     world.step(3000)
     hinge = world.models["seesaw"].joints["hinge"]
     assert abs(hinge.position() - 0.45) < 0.02 and math3.norm(world.models["seesaw"].links["base"].pose.p) < 1e-6
+
+
+def test_every_textured_gazebo_material_has_its_picture():
+    from PIL import Image
+
+    from ode_sim.description import materials
+    pictures = {material.name: material.texture for material in
+                (materials.gazebo_material(name, FINDER) for name in materials.NAMES) if material.texture}
+    assert {"Gazebo/Wood", "Gazebo/Bricks", "Gazebo/CeilingTiled", "Gazebo/Grass", "Gazebo/Road"} <= set(pictures)
+    for picture in set(pictures.values()):
+        with Image.open(picture) as image:
+            assert image.size == (128, 128)
+    named = {look.texture for look in materials._LOOKS.values() if look.texture}
+    assert named == {picture.rpartition("/")[2] for picture in pictures.values()}
