@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """The tutorial's session: load, start, hold level with a PD's sag, turn round and round."""
+import time
 import unittest
 
 import rospy
@@ -8,6 +9,7 @@ from controller_manager_msgs.srv import ListControllers, SwitchController
 from lab_tools.simulation import PATIENCE, Topic, run_free
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64
+from std_srvs.srv import Empty
 
 NAMES = ["joint_state_controller", "joint1_position_controller", "joint1_velocity_controller"]
 WEIGHT = 0.5 * 9.8 * 0.2  # N m, of the level bar about the axis
@@ -30,14 +32,15 @@ class Simulation(unittest.TestCase):
         rospy.wait_for_service("/controller_manager/list_controllers", PATIENCE)
         controllers = rospy.ServiceProxy("/controller_manager/list_controllers", ListControllers)
         while len(controllers().controller) < 3:
-            rospy.sleep(0.1)
+            time.sleep(0.1)  # simulated time stands still
         self.assertEqual({c.name: c.state for c in controllers().controller},
                          {"controllers/" + name: "initialized" for name in NAMES})
-        run_free()
-        self.switch(["joint_state_controller"], [""])
         states = Topic("/joint_states", JointState)
+        rospy.ServiceProxy("/gazebo/unpause_physics", Empty)()
+        self.switch(["joint_state_controller"], [""])
         swinging = states.wait_for(lambda m: abs(m.velocity[0]) > 0.1, "a bar that swings")
         self.assertEqual(swinging.name, ["joint1"])
+        run_free()
 
         self.switch(["joint1_position_controller"], ["joint1_velocity_controller"])
         self.command("joint1_position_controller", 0.0)

@@ -7,12 +7,13 @@ from gazebo_msgs.srv import GetPhysicsProperties, SetPhysicsProperties
 PATIENCE = 60  # s of wall time in which something must happen
 
 
-def run_free():
-    """Makes the simulator run as fast as the machine goes."""
+def run_free(times_real=None):
+    """Makes the simulator run as fast as the machine goes, or `times_real` as fast as the wall clock."""
     rospy.wait_for_service("/gazebo/set_physics_properties", PATIENCE)
     now = rospy.ServiceProxy("/gazebo/get_physics_properties", GetPhysicsProperties)()
+    rate = times_real / now.time_step if times_real else 0.0
     rospy.ServiceProxy("/gazebo/set_physics_properties", SetPhysicsProperties)(
-        time_step=now.time_step, max_update_rate=0.0, gravity=now.gravity, ode_config=now.ode_config)
+        time_step=now.time_step, max_update_rate=rate, gravity=now.gravity, ode_config=now.ode_config)
 
 
 class Topic:
