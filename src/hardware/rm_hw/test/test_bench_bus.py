@@ -243,7 +243,7 @@ def test_a_recording_replays_what_the_motors_said(tmp_path, suffix):
     bus = can.Bus(interface="slcan", channel=f"lines://{tmp_path}/{name}", bitrate=1000000, sleep_after_open=0)
     while not replay.buses[name].opened:
         replay.listen()
-    for _ in range(60):
+    for _ in range(600):
         replay.listen()
         replay.tick()
     assert [bytes(m.data) for m in take(bus, 50)] == sent and replay.finished

@@ -8,6 +8,8 @@ import can
 from rm_hw.bench.bus import TICK, BenchError, Bus, Frame
 from rm_hw.frames import RM_COMMAND_IDS
 
+_LINGER = 0.5            # s between the last frame and the end
+
 
 class Replay:
     """Plays what motors and IMUs sent; the commands in the log, which came from the driver, are left out.
@@ -34,11 +36,13 @@ class Replay:
         self.devices: Dict[str, object] = {}
         self._messages: Iterator[can.Message] = iter(
             m for m in messages if not m.is_error_frame and m.arbitration_id not in RM_COMMAND_IDS)
+        self._since_last = 0.0
         self._next: Optional[can.Message] = next(self._messages, None)
 
     @property
     def finished(self) -> bool:
-        return self._next is None
+        """All frames are sent, and have been read: closing a terminal takes away what is still in it."""
+        return self._since_last > _LINGER
 
     def listen(self) -> None:
         for bus in self.buses.values():
@@ -46,6 +50,8 @@ class Replay:
 
     def tick(self) -> None:
         """One millisecond; time stands still until somebody has opened the first port of a bus."""
+        if self._next is None:
+            self._since_last += TICK
         if not any(bus.opened for bus in self.buses.values()):
             return
         self.time += TICK
