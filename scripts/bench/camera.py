@@ -53,7 +53,22 @@ def arm_scene():
     text = subprocess.run(["xacro", file], check=True, capture_output=True, text=True).stdout
     arm, _ = read_urdf(text, finder=ResourceFinder([], [], pack.get_path))
     grey = Material(ambient=(0.3, 0.3, 0.3, 1.0), diffuse=(0.7, 0.7, 0.7, 1.0))
-    floor = Model("ground_plane", links=(Link("link", visuals=(Visual("floor", Pose(), Plane(size=(100, 100)), grey),)),))
+    floor = Model(
+    "ground_plane",
+    links=(
+        Link(
+            "link",
+            visuals=(
+                Visual(
+                    "floor",
+                    Pose(),
+                    Plane(
+                        size=(
+                            100,
+                            100)),
+                            grey),
+                            )),
+                            ))
     sun = Light("sun", "directional", Pose((0, 0, 10)), diffuse=(0.8, 0.8, 0.8, 1.0), direction=(-0.5, 0.1, -0.9),
                 cast_shadows=True)
     scene, poses = arrange([floor, arm], [sun])
@@ -80,12 +95,14 @@ class BareDraw:
                 local = pose_matrices(np.array(part.pose.p + part.pose.q))[0] @ np.diag([*part.scale, 1.0])
                 matrix = clip @ pose_matrices(poses[seen.link])[0] @ local
                 mesh = assets.meshes[part.key]
-                array = self.ctx.vertex_array(program, [(self.ctx.buffer(mesh.vertices.astype("f4").tobytes()), "3f", "p")],
+                vertices = self.ctx.buffer(mesh.vertices.astype("f4").tobytes())
+                array = self.ctx.vertex_array(program, [(vertices, "3f", "p")],
                                               self.ctx.buffer(mesh.triangles.astype("u4").tobytes()))
                 self.draws.append((array, matrix.T.astype("f4").tobytes(), (*part.look.diffuse, 1.0)))
         self.program = program
         self.triangles = sum(array.vertices // 3 for array, _, _ in self.draws)
-        self.frame = self.ctx.framebuffer([self.ctx.renderbuffer((SIZE, SIZE))], self.ctx.depth_renderbuffer((SIZE, SIZE)))
+        self.frame = self.ctx.framebuffer([self.ctx.renderbuffer((SIZE, SIZE))],
+                                          self.ctx.depth_renderbuffer((SIZE, SIZE)))
 
     def __call__(self):
         with self.ctx:
@@ -158,8 +175,8 @@ def real_time_factor(seconds):
         port = probe.getsockname()[1]
     with tempfile.TemporaryDirectory() as home:
         environment = dict(os.environ, ROS_MASTER_URI=f"http://localhost:{port}", ROS_HOME=home)
-        launch = subprocess.Popen(["roslaunch", "-p", str(port), "arm_gazebo", "arm_gazebo.launch", "gui:=false", "rviz:=false"],
-                                  env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        command = ["roslaunch", "-p", str(port), "arm_gazebo", "arm_gazebo.launch", "gui:=false", "rviz:=false"]
+        launch = subprocess.Popen(command, env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         try:
             out = subprocess.run([sys.executable, "-c", SUBSCRIBER, str(seconds)], env=environment, capture_output=True,
                                  text=True, timeout=90 + seconds)

@@ -30,7 +30,8 @@ MS = 1_000_000
 BAD = """<sdf version="1.6"><model name="bad"><static>true</static><link name="l">
 <sensor name="{name}" type="camera"><update_rate>10</update_rate>
 <camera><image><width>{width}</width><height>48</height></image></camera>
-<plugin name="p" filename="libgazebo_ros_camera.so"><cameraName>{name}</cameraName></plugin></sensor></link></model></sdf>"""
+<plugin name="p" filename="libgazebo_ros_camera.so"><cameraName>{name}</cameraName></plugin></sensor></link></model>
+</sdf>"""
 
 
 def until(condition, what, seconds=20.0):
@@ -43,8 +44,8 @@ def until(condition, what, seconds=20.0):
 
 
 class Ear:
-    """A subscriber that keeps everything. When it is made the simulator knows of it: an older, closed connection to the same
-    topic does not count."""
+    """A subscriber that keeps everything. When it is made the simulator knows of it: an older, closed connection to the
+    same topic does not count."""
 
     def __init__(self, topic, kind):
         self.messages = []
@@ -53,7 +54,8 @@ class Ear:
         until(lambda: connections(topic) - before, f"connection of {topic}")
 
     def wait(self, count):
-        until(lambda: len(self.messages) >= count, f"{count} messages on {self.subscriber.name}, only {len(self.messages)}")
+        until(lambda: len(self.messages) >= count,
+     f"{count} messages on {self.subscriber.name}, only {len(self.messages)}")
         return self.messages
 
     def __enter__(self):
@@ -163,7 +165,11 @@ class Cameras(unittest.TestCase):
         self.assertEqual(picture(grey)[60, 80 - OFF], 76)  # 0.299 of red
         bayer = self.take("/bayer/image_raw")[0]
         self.assertEqual((bayer.encoding, bayer.step), ("bayer_grbg8", 160))
-        self.assertBoxes(cv2.cvtColor(picture(bayer), cv2.COLOR_BayerGB2RGB), 2)  # OpenCV names a cell by its second row
+        self.assertBoxes(
+    cv2.cvtColor(
+        picture(bayer),
+        cv2.COLOR_BayerGB2RGB),
+         2)  # OpenCV names a cell by its second row
         odd = self.take("/odd/image_raw")[0]
         self.assertEqual(odd.encoding, "bgr8")
         self.assertBoxes(picture(odd)[..., ::-1])
@@ -221,7 +227,8 @@ class Cameras(unittest.TestCase):
         self.assertAlmostEqual(sky.mean(), 51, delta=0.2)
 
     def test_stereo(self):
-        with Ear("/stereo/right/image_raw", Image) as rights, Ear("/stereo/left/camera_info", CameraInfo) as left_infos, \
+        with Ear("/stereo/right/image_raw", Image) as rights, \
+                Ear("/stereo/left/camera_info", CameraInfo) as left_infos, \
                 Ear("/stereo/right/camera_info", CameraInfo) as right_infos:
             left, right = self.take("/stereo/left/image_raw")[0], rights.wait(1)[0]
             self.assertEqual(stamp_ns(left), stamp_ns(right))
@@ -306,10 +313,12 @@ class Cameras(unittest.TestCase):
     def test_a_model_that_comes_is_seen_and_its_camera_goes_with_it(self):
         spawn = rospy.ServiceProxy("/gazebo/spawn_sdf_model", SpawnModel)
         delete = rospy.ServiceProxy("/gazebo/delete_model", DeleteModel)
-        wall = """<sdf version="1.6"><model name="wall"><static>true</static><link name="l"><visual name="v"><pose>1.5 0 0 0 0 0
-            </pose><geometry><box><size>0.1 9 9</size></box></geometry><material><ambient>1 0 1 1</ambient></material></visual>
-            <sensor name="back" type="camera"><update_rate>10</update_rate><camera><image><width>32</width><height>24</height>
-            </image></camera><plugin name="p" filename="libgazebo_ros_camera.so"><cameraName>back</cameraName></plugin>
+        wall = """<sdf version="1.6"><model name="wall"><static>true</static><link name="l"><visual name="v">
+            <pose>1.5 0 0 0 0 0</pose><geometry><box><size>0.1 9 9</size></box></geometry>
+            <material><ambient>1 0 1 1</ambient></material></visual>
+            <sensor name="back" type="camera"><update_rate>10</update_rate>
+            <camera><image><width>32</width><height>24</height></image></camera>
+            <plugin name="p" filename="libgazebo_ros_camera.so"><cameraName>back</cameraName></plugin>
             </sensor></link></model></sdf>"""
         for _ in range(2):
             self.assertTrue(spawn("wall", wall, "/", Pose(), "world").success)

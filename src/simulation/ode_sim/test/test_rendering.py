@@ -1,10 +1,11 @@
 """Pictures of scenes whose pixels are known by geometry: empty, mirrored, upside-down or wrongly coloured ones fail."""
+import gc
 import math
 
 import numpy as np
 import pytest
-from ode_sim.description.model import (Box, Cylinder, DescriptionError, Light, Link, Material, Mesh, Model, Plane,
-                                       Polyline, Pose, Scene, Sphere, Visual)
+from ode_sim.description.model import (Box, Cylinder, DescriptionError, Heightmap, Light, Link, Material, Mesh, Model,
+                                       Plane, Polyline, Pose, Scene, Sphere, Visual)
 from ode_sim.math3 import from_rpy
 from ode_sim.rendering import NOTHING, Camera, CameraError, Distortion, Renderer, arrange, look_at
 from ode_sim.rendering.assets import Assets
@@ -47,8 +48,9 @@ def pixel(picture, camera, p_C):
     return tuple(int(v) for v in picture[round(row), round(column)])
 
 
-FOUR = (visual("left", Box((0.2, 0.4, 0.4)), (2, 0.6, 0), RED), visual("right", Box((0.2, 0.4, 0.4)), (2, -0.6, 0), GREEN),
-        visual("up", Box((0.2, 0.4, 0.4)), (2, 0, 0.6), BLUE), visual("down", Box((0.2, 0.4, 0.4)), (2, 0, -0.6), YELLOW))
+CUBOID = Box((0.2, 0.4, 0.4))
+FOUR = (visual("left", CUBOID, (2, 0.6, 0), RED), visual("right", CUBOID, (2, -0.6, 0), GREEN),
+        visual("up", CUBOID, (2, 0, 0.6), BLUE), visual("down", CUBOID, (2, 0, -0.6), YELLOW))
 
 
 def test_directions_and_colours(renderer):
@@ -174,7 +176,8 @@ def test_light_carried_by_a_link(renderer):
     scene = Scene(ambient=(0, 0, 0, 1), background=(0, 0, 0, 1), shadows=False)
     lamp = Light("lamp", "spot", direction=(1, 0, 0), range=20, linear=0, spot=(0.2, 0.3, 1.0))
     models = [Model("wall", links=(Link("w", visuals=(visual("v", Plane(normal=(-1, 0, 0), size=(9, 9)), (3, 0, 0),
-                                                             (1, 1, 1)),)),)), Model("torch", links=(Link("t", lights=(lamp,)),))]
+                                                             (1, 1, 1)),)),)),
+              Model("torch", links=(Link("t", lights=(lamp,)),))]
     described, poses = arrange(models, scene=scene)
     renderer.set_scene(described)
     half = math.radians(15) / 2
@@ -218,7 +221,8 @@ def test_a_camera_inside_a_closed_shape_sees_out(renderer):
     Polyline(((-0.4, -0.4), (0.4, -0.4), (0.4, 0.4), (0.0, 0.1), (-0.4, 0.4)), 0.6)])
 @pytest.mark.parametrize("eye", [(2, 0.3, 1), (-2, 0.5, 1.2), (0.3, 2, -1.5), (0.3, -2, 2)])
 def test_shapes_are_closed_and_face_outwards(renderer, geometry, eye):
-    """Seen from outside a convex hull's faces are all turned to the viewer: nothing shines through, depth is the near side."""
+    """Seen from outside a convex hull's faces are all turned to the viewer: nothing shines through, depth is the near
+    side."""
     camera = Camera(width=80, height=80, hfov=0.9, near=0.05, pose=look_at(eye, (0, 0, 0.1)))
     renderer.set_scene(scene_of(visual("shape", geometry, (0, 0, 0), RED)))
     depth = renderer.depth(camera, ORIGIN)
@@ -252,8 +256,27 @@ def test_texture_is_the_right_way_up(renderer, tmp_path):
     picture = draw(renderer, scene_of(sign), camera)
     # u runs along x and v along y: from above, with x up in the picture, the image is turned a quarter to the left
     at = {name: tuple(picture[look_down(camera, p)]) for name, p in
-          {"-x+y": (-0.25, 0.25, -1), "+x+y": (0.25, 0.25, -1), "-x-y": (-0.25, -0.25, -1), "+x-y": (0.25, -0.25, -1)}.items()}
+          {"-x+y": (-0.25, 0.25, -1), "+x+y": (0.25, 0.25, -1), "-x-y": (-0.25, -0.25, -1),
+           "+x-y": (0.25, -0.25, -1)}.items()}
     assert at == {"-x+y": bytes_of(RED), "+x+y": bytes_of(GREEN), "-x-y": bytes_of(BLUE), "+x-y": bytes_of(YELLOW)}
+
+
+def test_a_sky_is_blue(renderer):
+    picture = draw(renderer, scene_of(*FOUR, scene=Scene(background=(0.7, 0.7, 0.7, 1), sky=True)))
+    red, green, blue = picture[0, 0].astype(int)
+    assert blue > green + 30 > red + 60
+
+
+def test_heights_of_a_terrain(renderer, tmp_path):
+    from PIL import Image
+    grey = np.zeros((65, 65), np.uint8)
+    grey[:, 40:] = 255  # a step up towards +x
+    Image.fromarray(grey).save(tmp_path / "step.png")
+    terrain = Visual("t", Pose(), Heightmap(str(tmp_path / "step.png"), size=(10, 10, 2), pos=(0, 0, 0.5)))
+    camera = Camera(width=81, height=81, hfov=1.2, pose=look_at((-0.001, 0, 8), (0, 0, 0)))  # from above, +x is up
+    renderer.set_scene(scene_of(terrain))
+    depth = renderer.depth(camera, ORIGIN)
+    assert depth[60, 40] == pytest.approx(7.5, abs=0.01) and depth[20, 40] == pytest.approx(5.5, abs=0.01)
 
 
 def test_missing_texture_is_one_line_and_drawn_plain(renderer):
@@ -307,6 +330,23 @@ def test_egl_and_osmesa_agree(renderer):
     assert (np.abs(a["depth"][both] - b["depth"][both]) > 1e-3).mean() < 0.01
 
 
+@pytest.mark.parametrize("backend", ["egl", "osmesa"])
+def test_renderers_that_go_leave_the_others_alone(backend):
+    kept = Renderer(backend=backend)
+    kept.set_scene(scene_of(*FOUR))
+    expected = kept.color(CAMERA, ORIGIN)
+    for _ in range(3):
+        other = Renderer(backend=backend)
+        other.set_scene(scene_of(FOUR[0]))
+        other.color(CAMERA, ORIGIN)
+        other.set_scene(scene_of())
+        other.close()
+        del other
+        gc.collect()
+        assert np.array_equal(kept.color(CAMERA, ORIGIN), expected)
+    kept.close()
+
+
 def test_no_back_end_is_one_line(monkeypatch):
     with pytest.raises(RenderingUnavailable, match="vulkan"):
         Renderer(backend="vulkan")
@@ -335,7 +375,8 @@ def test_missing_egl_falls_back_to_osmesa(monkeypatch):
 
 
 @pytest.mark.parametrize("change", [dict(width=0), dict(height=-3), dict(width=10 ** 6), dict(hfov=0.0), dict(hfov=4.0),
-                                    dict(near=0.0), dict(near=5.0, far=1.0), dict(format="JPEG2000"), dict(noise_stddev=-1.0)])
+                                    dict(near=0.0), dict(near=5.0, far=1.0), dict(format="JPEG2000"),
+                                    dict(noise_stddev=-1.0)])
 def test_impossible_cameras_are_refused_in_one_line(change):
     with pytest.raises(CameraError) as caught:
         Camera(**change)

@@ -1,4 +1,5 @@
-"""The render process: same bytes as in-process drawing, no frame lost when waited for, no orphan, one line per trouble."""
+"""The render process: same bytes as in-process drawing, no frame lost when waited for, no orphan, one line per
+trouble."""
 import os
 import signal
 import subprocess
@@ -186,7 +187,8 @@ def test_compressed_images(studio_of):
 
 def test_depth_images_and_cloud(studio_of):
     wall = Model("wall", links=(Link("link", visuals=(shape("wall", Box((0.2, 1.0, 1.0)), (2.1, 0, 0), (1, 0, 0)),
-                                                      shape("near", Box((0.2, 0.1, 0.1)), (0.4, 0.15, 0), (0, 1, 0)))),))
+                                                      shape("near", Box((0.2, 0.1, 0.1)), (0.4, 0.15, 0),
+                                                            (0, 1, 0)))),))
     studio, _ = studio_of(World(wall))
     key = studio.add_camera(CAMERA, depth_range=(0.4, 5.0))
     data = take(studio, key, ("depth", "depth16", "cloud"))

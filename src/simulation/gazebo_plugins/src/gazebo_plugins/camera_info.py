@@ -61,8 +61,8 @@ class CameraInfoService:
     def _set(self, request):
         info = request.camera_info
         if (info.width, info.height) != (self.info.width, self.info.height):
-            return SetCameraInfoResponse(False, f"the calibration is for {info.width}x{info.height} pixels, the camera has "
-                                                f"{self.info.width}x{self.info.height}")
+            return SetCameraInfoResponse(False, f"the calibration is for {info.width}x{info.height} pixels, "
+                                                f"the camera has {self.info.width}x{self.info.height}")
         self.info = info
         file = os.path.join(rospkg.get_ros_home(), "camera_info", f"{self._name}.yaml")
         try:
@@ -81,6 +81,7 @@ def _as_yaml(name: str, info: CameraInfo) -> dict:
     """The layout of camera_calibration_parsers."""
     def matrix(rows: int, values) -> dict:
         return {"rows": rows, "cols": len(values) // rows if rows else 0, "data": [float(v) for v in values]}
-    return {"image_width": info.width, "image_height": info.height, "camera_name": name, "camera_matrix": matrix(3, info.K),
-            "distortion_model": info.distortion_model, "distortion_coefficients": matrix(1, info.D),
+    return {"image_width": info.width, "image_height": info.height, "camera_name": name,
+            "camera_matrix": matrix(3, info.K), "distortion_model": info.distortion_model,
+            "distortion_coefficients": matrix(1, info.D),
             "rectification_matrix": matrix(3, info.R), "projection_matrix": matrix(3, info.P)}

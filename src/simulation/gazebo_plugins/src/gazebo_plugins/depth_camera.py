@@ -14,13 +14,14 @@ from gazebo_plugins.image_message import PointCloud2
 from gazebo_plugins.image_topics import ImageTopics
 from gazebo_plugins.ros_camera import RosCamera, node_namespace
 
-_FIELDS = [PointField(name, offset, PointField.FLOAT32, 1) for name, offset in (("x", 0), ("y", 4), ("z", 8), ("rgb", 16))]
+_FIELDS = [PointField(name, offset, PointField.FLOAT32, 1)
+                      for name, offset in (("x", 0), ("y", 4), ("z", 8), ("rgb", 16))]
 _POINT_STEP = 32
 
 
 class DepthCamera(SensorPlugin):
-    """Depths nearer than ``<pointCloudCutoff>`` (m) are invalid; what is farther than the far clip lies on it. The cloud is
-    one row of points."""
+    """Depths nearer than ``<pointCloudCutoff>`` (m) are invalid; what is farther than the far clip lies on it. The
+    cloud is one row of points."""
 
     organised = False
 
@@ -35,8 +36,8 @@ class DepthCamera(SensorPlugin):
         self.depth_info = rospy.Publisher(
             join(camera.namespace, sdf.get("depthImageCameraInfoTopicName", "") or "depth/camera_info"), CameraInfo,
             queue_size=camera.queue_size)
-        self.points = rospy.Publisher(join(camera.namespace, sdf.get("pointCloudTopicName", "") or "points"), PointCloud2,
-                                      queue_size=camera.queue_size)
+        self.points = rospy.Publisher(join(camera.namespace, sdf.get("pointCloudTopicName", "") or "points"),
+                                      PointCloud2, queue_size=camera.queue_size)
         sensor.connect(self.measure, wanted=self.wanted)
 
     def depth_range(self, sdf):
@@ -88,8 +89,8 @@ class DepthCamera(SensorPlugin):
 
 
 class OpenniKinect(DepthCamera):
-    """Depths outside ``<pointCloudCutoff>`` .. ``<pointCloudCutoffMax>`` (m) are invalid. The cloud has the image's rows and
-    columns."""
+    """Depths outside ``<pointCloudCutoff>`` .. ``<pointCloudCutoffMax>`` (m) are invalid. The cloud has the image's
+    rows and columns."""
 
     organised = True
 

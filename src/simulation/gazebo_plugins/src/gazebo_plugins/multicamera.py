@@ -12,16 +12,16 @@ _SIDES = ("left", "right")
 
 
 class Multicamera(SensorPlugin):
-    """Topics in cameraName/left and cameraName/right; both pictures are of the same moment. ``<hackBaseline>`` shows in the
-    right camera's P only, as the stereo nodes want it."""
+    """Topics in cameraName/left and cameraName/right; both pictures are of the same moment. ``<hackBaseline>`` shows in
+    the right camera's P only, as the stereo nodes want it."""
 
     def load(self, server, sensor, sdf) -> None:
         elements = sensor.description.element.findall("camera")
         by_side = {side: [e for e in elements if side in e.get("name", "")] for side in _SIDES}
         if len(elements) != 2 or any(len(found) != 1 for found in by_side.values()):
             names = ", ".join(f"'{e.get('name', '')}'" for e in elements) or "none"
-            raise PluginError(f"sensor '{sensor.name}' needs exactly two cameras, one with 'left' and one with 'right' in "
-                              f"its name; it has: {names}")
+            raise PluginError(f"sensor '{sensor.name}' needs exactly two cameras, one with 'left' and one with 'right' "
+                              f"in its name; it has: {names}")
         namespace = node_namespace(sensor, sdf)
         self.cameras: List[RosCamera] = []
         try:

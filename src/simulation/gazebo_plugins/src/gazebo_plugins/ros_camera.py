@@ -80,9 +80,10 @@ class RosCamera:
 
     def _check_focal_length(self, given: float) -> None:
         if given and abs(given - self.camera.focal_length) > 1e-8:
-            rospy.logwarn("sensor '%s' of model '%s': <focalLength> %g does not fit width %d and horizontal_fov %g, which "
-                          "give %g; camera_info carries %g, the picture is drawn with the field of view", self.sensor.name,
-                          self.sensor.model.name, given, self.camera.width, self.camera.hfov, self.camera.focal_length,
+            rospy.logwarn("sensor '%s' of model '%s': <focalLength> %g does not fit width %d and horizontal_fov %g, "
+                          "which give %g; camera_info carries %g, the picture is drawn with the field of view",
+                          self.sensor.name, self.sensor.model.name, given, self.camera.width, self.camera.hfov,
+                          self.camera.focal_length,
                           given)
 
     def _set_rate(self, config, level: int) -> None:
@@ -122,7 +123,8 @@ class RosCamera:
             self.publish_info(self.header())
 
     def shoot(self, header: Header, outputs: Tuple[str, ...], deliver: Callable[[Header, Frame], None]) -> None:
-        """Have ``outputs`` (of the render process) of now; ``deliver(header, frame)`` is called in the pictures' thread."""
+        """Have ``outputs`` (of the render process) of now; ``deliver(header, frame)`` is called in the pictures'
+        thread."""
         def arrived(frame: Frame) -> None:
             if not self._closed:
                 deliver(header, frame)

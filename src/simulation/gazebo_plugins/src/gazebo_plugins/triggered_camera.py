@@ -38,7 +38,8 @@ class _Trigger:
 
 
 class TriggeredCamera(Camera):
-    """The picture is taken in the next step, whatever the sensor's rate; without a listener the trigger is used up too."""
+    """The picture is taken in the next step, whatever the sensor's rate; without a listener the trigger is used up
+    too."""
 
     def load(self, server, sensor, sdf) -> None:
         super().load(server, sensor, sdf)

@@ -19,7 +19,8 @@ _SHININESS = 10.0
 
 @dataclass(frozen=True)
 class Look:
-    """Colours 0..1 as drawn: ``ambient diffuse emissive`` rgb, ``specular`` rgb, ``alpha``; ``texture`` a file or ''."""
+    """Colours 0..1 as drawn: ``ambient diffuse emissive`` rgb, ``specular`` rgb, ``alpha``; ``texture`` a file or
+    ''."""
 
     ambient: Tuple[float, float, float]
     diffuse: Tuple[float, float, float]

@@ -76,7 +76,8 @@ class Camera:
         if self.format not in ENCODINGS:
             raise CameraError(f"unknown image format '{self.format}'; use one of {', '.join(ENCODINGS)}")
         if not (self.noise_stddev >= 0 and math.isfinite(self.noise_stddev) and math.isfinite(self.noise_mean)):
-            raise CameraError(f"noise mean {self.noise_mean:g}, stddev {self.noise_stddev:g}; stddev must not be negative")
+            raise CameraError(
+                f"noise mean {self.noise_mean:g}, stddev {self.noise_stddev:g}; stddev must not be negative")
 
     @property
     def focal_length(self) -> float:

@@ -22,6 +22,7 @@ class _OsmesaContext:
 
     _FORMAT, _RGBA, _PROFILE, _CORE, _MAJOR, _MINOR, _UBYTE = 0x22, 0x1908, 0x33, 0x34, 0x36, 0x37, 0x1401
     _SIZE = 4
+    _current = None  # the context in use, to go back to
 
     def __init__(self, **_moderngl_settings):
         self._lib = lib = ctypes.CDLL(ctypes.util.find_library("OSMesa") or "libOSMesa.so.8")
@@ -35,19 +36,25 @@ class _OsmesaContext:
         if not self._handle:
             raise RenderingUnavailable("OSMesa has no OpenGL 3.3")
         self._buffer = (ctypes.c_ubyte * (4 * self._SIZE * self._SIZE))()
-        self.__enter__()
+        self._use()
 
     def load(self, name: str) -> int:
         """Address of the GL function ``name``, 0 if there is none."""
         return self._lib.OSMesaGetProcAddress(name.encode()) or 0
 
     def __enter__(self):
-        if not self._lib.OSMesaMakeCurrent(self._handle, self._buffer, self._UBYTE, self._SIZE, self._SIZE):
-            raise RenderingUnavailable("OSMesa could not make its context current")
+        self._before, _OsmesaContext._current = _OsmesaContext._current, self
+        self._use()
         return self
 
     def __exit__(self, *_exc):
-        pass
+        _OsmesaContext._current = self._before
+        if self._before not in (None, self):
+            self._before._use()
+
+    def _use(self):
+        if not self._lib.OSMesaMakeCurrent(self._handle, self._buffer, self._UBYTE, self._SIZE, self._SIZE):
+            raise RenderingUnavailable("OSMesa could not make its context current")
 
     def release(self):
         self._lib.OSMesaDestroyContext(self._handle)
@@ -74,7 +81,8 @@ def create_context(backend: str = "auto"):
     if backend == "auto":
         backend = os.environ.get("ODE_SIM_GL", "") or "auto"
     if backend not in BACKENDS:
-        raise RenderingUnavailable(f"unknown OpenGL back-end '{backend}' (ODE_SIM_GL); use one of {', '.join(BACKENDS)}")
+        raise RenderingUnavailable(
+            f"unknown OpenGL back-end '{backend}' (ODE_SIM_GL); use one of {', '.join(BACKENDS)}")
     try:
         import moderngl
     except ImportError as error:
@@ -86,5 +94,6 @@ def create_context(backend: str = "auto"):
                 return _create_osmesa(moderngl)
             return moderngl.create_context(standalone=True, backend="egl", require=_GL_VERSION)
         except Exception as error:  # moderngl, glcontext and ctypes each raise types of their own
-            reasons.append(f"{name}: {str(error).strip().splitlines()[0] if str(error).strip() else type(error).__name__}")
+            reasons.append(
+                f"{name}: {str(error).strip().splitlines()[0] if str(error).strip() else type(error).__name__}")
     raise RenderingUnavailable(f"no OpenGL ({'; '.join(reasons)}); install libegl1 with libgl1-mesa-dri, or libosmesa6")

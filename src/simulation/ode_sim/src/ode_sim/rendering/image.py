@@ -26,8 +26,8 @@ def _noise_bank(mean: float, stddev: float) -> Tuple[np.ndarray, np.ndarray]:
 
 
 def add_noise(rgb: np.ndarray, camera: Camera, seed: int, time_ns: int) -> np.ndarray:
-    """``rgb`` (H,W,3) uint8 with the camera's Gaussian noise, saturating. The same ``seed`` and ``time_ns`` (sim time) give
-    the same bytes: pieces of a noise bank made once are laid over the picture at random places."""
+    """``rgb`` (H,W,3) uint8 with the camera's Gaussian noise, saturating. The same ``seed`` and ``time_ns`` (sim time)
+    give the same bytes: pieces of a noise bank made once are laid over the picture at random places."""
     if camera.noise_stddev == 0 and camera.noise_mean == 0:
         return rgb
     plus, minus = _noise_bank(camera.noise_mean, camera.noise_stddev)
@@ -84,8 +84,9 @@ def compress(image: np.ndarray, encoding: str, kind: str, level: int) -> np.ndar
 
 
 def cloud(depth: np.ndarray, image: np.ndarray, camera: Camera, valid: np.ndarray) -> np.ndarray:
-    """Organised cloud (H,W,8) float32: x y z in the optical frame (x right, y down, z forward), one unused, colour, three
-    unused. The colour is the image's bytes in their own order in the low bytes of one float; invalid points are NaN."""
+    """Organised cloud (H,W,8) float32: x y z in the optical frame (x right, y down, z forward), one unused, colour,
+    three unused. The colour is the image's bytes in their own order in the low bytes of one float; invalid points are
+    NaN."""
     height, width = depth.shape
     points = np.zeros((height, width, 8), np.float32)
     column = ((np.arange(width) - (width - 1) / 2) / camera.focal_length).astype(np.float32)

@@ -47,7 +47,8 @@ class Lens:
 
     @staticmethod
     def _undistort(target: np.ndarray, lens) -> np.ndarray:
-        """Ideal image coordinates (H,W,2), focal length 1, that the lens moves to ``target``; NaN where there are none."""
+        """Ideal image coordinates (H,W,2), focal length 1, that the lens moves to ``target``; NaN where there are
+        none."""
         ideal = target.copy()
         for _ in range(_SOLVER_STEPS):
             x, y = ideal[..., 0], ideal[..., 1]

@@ -51,6 +51,7 @@ class _Studio:
     def __init__(self, world):
         self.watch = SceneWatch(world)
         self.renderer = Renderer()
+        weakref.finalize(world, self.renderer.close)
 
 
 _studios: "weakref.WeakKeyDictionary" = weakref.WeakKeyDictionary()
@@ -58,7 +59,8 @@ _studios: "weakref.WeakKeyDictionary" = weakref.WeakKeyDictionary()
 
 def camera_seed(world, name: str) -> int:
     """The seed of a camera's noise: from the world's seed and the camera's (scoped) name alone. Not drawn from
-    ``world.rng``, whose numbers depend on how many were drawn before: a picture depends on the state shown and the time."""
+    ``world.rng``, whose numbers depend on how many were drawn before: a picture depends on the state shown and the
+    time."""
     return int.from_bytes(hashlib.sha256(f"{world.seed}/camera {name}".encode()).digest()[:8], "little")
 
 
@@ -66,8 +68,8 @@ def render(world, camera: Camera, kind: str = "image") -> np.ndarray:
     """What ``camera`` sees of ``world`` now. Call it from one thread only.
 
     :param kind: ``image``: as the sensor delivers it, in the camera's format, with its noise and lens, uint8 or uint16,
-        (H,W,3) or (H,W); ``depth``: (H,W) float32 m, +inf beyond the far clip; ``segmentation``: (H,W) int32, index into
-        :func:`segment_names`, -1 for the background.
+        (H,W,3) or (H,W); ``depth``: (H,W) float32 m, +inf beyond the far clip; ``segmentation``: (H,W) int32, index
+        into :func:`segment_names`, -1 for the background.
     :raises RenderingUnavailable: no OpenGL on this machine.
     """
     if kind not in KINDS:

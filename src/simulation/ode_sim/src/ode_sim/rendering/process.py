@@ -239,7 +239,8 @@ class RenderProcess:
         connection.close()
         if not self._closed:
             self._failures += 1
-            self._report(f"the render process ended unexpectedly ({'signal' if code < 0 else 'exit code'} {abs(code)}); "
+            how = f"{'signal' if code < 0 else 'exit code'} {abs(code)}"
+            self._report(f"the render process ended unexpectedly ({how}); "
                          + ("it is started again" if self._failures <= _RESTARTS else "cameras stay off"))
         for pending in left:
             self._release(pending)

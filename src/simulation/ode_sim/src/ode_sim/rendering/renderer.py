@@ -22,6 +22,7 @@ NOTHING = -1  # of a segmentation image: no visual there
 MAX_LIGHTS = 16
 ANTIALIASING = ("none", "msaa")
 _MAX_TARGETS = 8  # frame buffers kept for cameras of different sizes
+_SKY = (0.55, 0.70, 0.90)  # in place of Gazebo's moving clouds
 _VISIBLE = 1.0 / 512.0  # a highlight darker than half a grey level is not computed
 
 # one record per drawn part in the instance buffer; the order is that of the attributes in shaders.py
@@ -36,9 +37,9 @@ def pose_matrices(poses: np.ndarray) -> np.ndarray:
     poses = np.asarray(poses, float).reshape(-1, 7)
     x, y, z, w = poses[:, 3:].T
     matrix = np.zeros((len(poses), 4, 4))
-    matrix[:, 0, 0], matrix[:, 0, 1], matrix[:, 0, 2] = 1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)
-    matrix[:, 1, 0], matrix[:, 1, 1], matrix[:, 1, 2] = 2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)
-    matrix[:, 2, 0], matrix[:, 2, 1], matrix[:, 2, 2] = 2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)
+    matrix[:, 0, :3] = np.stack([1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)], axis=1)
+    matrix[:, 1, :3] = np.stack([2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)], axis=1)
+    matrix[:, 2, :3] = np.stack([2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)], axis=1)
     matrix[:, :3, 3] = poses[:, :3]
     matrix[:, 3, 3] = 1
     return matrix
@@ -105,8 +106,9 @@ class Renderer:
     """One OpenGL context with one scene. Use it from the thread that made it.
 
     :param backend: ``egl``, ``osmesa`` or ``auto``. :param antialiasing: ``none`` or ``msaa`` (4 samples).
-    :param shadows: of the sun, where the scene wants them: ``on``, ``off`` or ``auto``: only where a graphics card draws,
-        because with software GL a shadow costs several times the picture (``ODE_SIM_SHADOWS`` overrides ``auto``).
+    :param shadows: of the sun, where the scene wants them: ``on``, ``off`` or ``auto``: only where a graphics card
+        draws, because with software GL a shadow costs several times the picture (``ODE_SIM_SHADOWS`` overrides
+        ``auto``).
     :raises RenderingUnavailable: no OpenGL.
     """
 
@@ -119,7 +121,10 @@ class Renderer:
             raise ValueError(f"shadows '{shadows}'; use on, off or auto")
         self._ctx = create_context(backend)
         self._software = any(name in self._ctx.info["GL_RENDERER"] for name in ("llvmpipe", "softpipe"))
-        self._ctx.gc_mode = "auto"
+        # what is no longer used is deleted in set_scene, with this context current: a collector that runs while another
+        # renderer draws would delete that one's objects of the same number
+        self._ctx.gc_mode = "context_gc"
+        self._closed = False
         self._samples = 4 if antialiasing == "msaa" else 0
         self._shadows = shadows
         self._assets = assets or Assets()
@@ -143,8 +148,10 @@ class Renderer:
         return problems
 
     def close(self) -> None:
-        self._ctx.gc_mode = None  # or moderngl would release it once more at the end
-        self._ctx.release()
+        """Give up the context; the renderer is of no use any more."""
+        if not self._closed:
+            self._closed = True
+            self._ctx.release()
 
     # ------------------------------------------------------------------------------------------ scene
 
@@ -162,6 +169,7 @@ class Renderer:
                                     and part.key != "plane" for _, number, _, part in parts], bool)
             self._set_batches(parts)
             self._set_lights(scene)
+            self._ctx.gc()
             if self._shadow is not None:
                 self._shadow.forget()
             elif self._sun >= 0:
@@ -303,7 +311,8 @@ class Renderer:
             try:
                 X_WC = matrices[self._scene.links.index(camera.link)] @ X_WC
             except ValueError:
-                raise ValueError(f"camera '{camera.name}' is on link '{camera.link}', which is not in the scene") from None
+                raise ValueError(
+                    f"camera '{camera.name}' is on link '{camera.link}', which is not in the scene") from None
         X_CW = np.linalg.inv(X_WC)
         clip = self._projection(camera, width, height) @ X_CW
         world = np.concatenate([matrices, np.eye(4)[None]])[self._links] @ self._local  # row -1: the world itself
@@ -316,7 +325,7 @@ class Renderer:
         if self._sun >= 0 and uniforms is not None:
             self._draw_shadow(uniforms[self._sun, 1, :3].astype(float), world, X_WC[:3, 3])
         target = self._target(width, height, outputs)
-        target.clear(self._scene.scene.background)
+        target.clear(_SKY if self._scene.scene.sky else self._scene.scene.background)
         flags = (self._color_flags if "color" in outputs else frozenset()) | (frozenset(outputs) - {"color"})
         eye = X_WC[:3, 3]
         self._ctx.enable_only(self._ctx.DEPTH_TEST | self._ctx.CULL_FACE)

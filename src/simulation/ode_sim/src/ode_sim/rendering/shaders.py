@@ -20,8 +20,8 @@ void main() {{
 
 
 def vertex_shader(flags: frozenset, lights: Sequence[str] = ()) -> str:
-    """``flags``: any of color, by_vertex (light is computed here and interpolated), specular, textured, position, ident (and
-    depth, which needs nothing here).
+    """``flags``: any of color, by_vertex (light is computed here and interpolated), specular, textured, position, ident
+    (and depth, which needs nothing here).
 
     ``base`` is emissive + ambient * scene ambient, and the opacity; ``world`` rows of the model matrix.
     """
@@ -76,7 +76,8 @@ def _light(index: int, kind: str, casts: bool, specular: bool) -> str:
         lines.append("if (c > 0.0) k *= lit();")
     lines.append(f"shine += (k * c) * {u[2]}.rgb;")
     if specular:
-        lines.append(f"gloss += (c > 0.0 ? k * pow(max(dot(N, normalize(l + V)), 0.0), v_specular.a) : 0.0) * {u[3]}.rgb;")
+        lines.append(
+            f"gloss += (c > 0.0 ? k * pow(max(dot(N, normalize(l + V)), 0.0), v_specular.a) : 0.0) * {u[3]}.rgb;")
     return "    {\n" + "".join(f"        {line}\n" for line in lines) + "    }\n"
 
 
