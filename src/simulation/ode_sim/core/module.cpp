@@ -245,6 +245,20 @@ PYBIND11_MODULE(_core, m) {
       .def_readonly("counters", &World::counters)
       .def("add_model", &World::add_model)
       .def("remove_model", &World::remove_model)
+      .def("attach", [](World& w, Link* parent, Link& child) { return w.attach(parent, child); }, py::arg("parent").none(true), py::arg("child"))
+      .def("detach", &World::detach)
+      .def("detach_all", &World::detach_all)
+      .def("attached", [](World& w, int tie) { return w.find_tie(tie) != nullptr; })
+      .def("tie_pose", [](World& w, int tie) {
+        const Tie* t = w.find_tie(tie);
+        if (!t) throw std::runtime_error("these links are no longer attached");
+        return out(t->X_PC);
+      })
+      .def("set_tie_pose", [](World& w, int tie, T7 X) {
+        Tie* t = w.find_tie(tie);
+        if (!t) throw std::runtime_error("these links are no longer attached");
+        t->X_PC = in(X);
+      })
       .def("refresh", &World::refresh)
       .def("step", &World::step, py::call_guard<py::gil_scoped_release>())
       .def("take_messages", &World::take_messages)

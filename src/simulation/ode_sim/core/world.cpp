@@ -69,6 +69,38 @@ void set_limot(const Joint& j, int axis, int parameter, double value) {
   }
 }
 
+// Puts two bodies, for a moment, where a joint is to have its zero; then back, to the last bit.
+class Posed {
+ public:
+  // X_1J, X_2J: the joint frame in the first body, and in the second (in the world if there is none).
+  Posed(dBodyID first, dBodyID second, const Pose& X_1J, const Pose& X_2J) : bodies_{first, second} {
+    for (int i = 0; i < 2; ++i) {
+      if (!bodies_[i]) continue;
+      std::memcpy(p_[i], dBodyGetPosition(bodies_[i]), 3 * sizeof(dReal));
+      std::memcpy(q_[i], dBodyGetQuaternion(bodies_[i]), sizeof q_[i]);
+      std::memcpy(R_[i], dBodyGetRotation(bodies_[i]), sizeof R_[i]);
+    }
+    if (second) set_body_pose(second, {});  // second body, if any, at the origin
+    set_body_pose(first, X_2J * inverse(X_1J));
+  }
+  ~Posed() {
+    for (int i = 0; i < 2; ++i) {
+      if (!bodies_[i]) continue;
+      dBodySetPosition(bodies_[i], p_[i][0], p_[i][1], p_[i][2]);
+      dBodySetQuaternion(bodies_[i], q_[i]);
+      // Setting a quaternion normalises it, which costs the last bit.
+      std::memcpy(const_cast<dReal*>(dBodyGetQuaternion(bodies_[i])), q_[i], sizeof q_[i]);
+      std::memcpy(const_cast<dReal*>(dBodyGetRotation(bodies_[i])), R_[i], sizeof R_[i]);
+    }
+  }
+
+ private:
+  dBodyID bodies_[2];
+  dReal p_[2][3];
+  dQuaternion q_[2];
+  dMatrix3 R_[2];
+};
+
 constexpr double kStopSkin = 1e-12;  // a joint put exactly on its stop is to be found there despite rounding
 constexpr double kFastest = 1e6;  // m/s, rad/s: a force that would give more in one step is a mistake
 constexpr double kPi = 3.14159265358979323846;
@@ -132,6 +164,8 @@ void World::remove_model(Model& model) {
     if (link->body) dBodyDestroy(link->body), link->body = nullptr;
   }
   contacts_.clear();
+  for (size_t i = ties_.size(); i-- > 0;)
+    if ((ties_[i].parent && ties_[i].parent->model == &model) || ties_[i].child->model == &model) detach(ties_[i].id);
   model.world = nullptr;
   models_.erase(std::find_if(models_.begin(), models_.end(), [&](auto& m) { return m.get() == &model; }));
   renumber();
@@ -354,6 +388,9 @@ void World::recluster(Model& model) {
           model.clusters[l->cluster].has_joints = true;
           if (l->moving) l->carrier = true;
         }
+  for (auto& t : ties_)
+    for (Link* l : {t.parent, t.child})
+      if (l && l->model == &model && l->moving) l->carrier = true;
 
   for (auto& l : model.links)
     if (l->body) {
@@ -507,17 +544,8 @@ void World::install(Joint& j) {
     if (j.watched) dJointSetFeedback(j.joint, &j.ode_feedback);
   }
 
-  BodyState kept[2];
-  const dBodyID bodies[2] = {first, second};
-  for (int i = 0; i < 2; ++i)
-    if (bodies[i]) {
-      kept[i].p = vec(dBodyGetPosition(bodies[i]));
-      kept[i].q = quat(dBodyGetQuaternion(bodies[i]));
-      std::memcpy(kept[i].R, dBodyGetRotation(bodies[i]), sizeof kept[i].R);
-    }
-  Pose X_WJ = X_2J;  // second body, if any, at the origin
-  if (second) set_body_pose(second, {});
-  set_body_pose(first, X_2J * inverse(X_1J));
+  const Posed posed(first, second, X_1J, X_2J);
+  const Pose& X_WJ = X_2J;
   const Vec3 at = X_WJ.p, a0 = rotate(X_WJ.q, j.axes[0].xyz), a1 = rotate(X_WJ.q, j.axes[1].xyz);
   switch (j.type) {
     case JointType::Revolute:
@@ -535,15 +563,6 @@ void World::install(Joint& j) {
     case JointType::Ball: dJointSetBallAnchor(j.joint, at.x, at.y, at.z); break;
     case JointType::Fixed: dJointSetFixed(j.joint); break;
   }
-  for (int i = 0; i < 2; ++i)
-    if (bodies[i]) {
-      set_body_pose(bodies[i], {kept[i].p, kept[i].q});
-      // To the last bit, which setting a quaternion (it normalises) would not give.
-      const dReal q[4] = {kept[i].q.w, kept[i].q.x, kept[i].q.y, kept[i].q.z};
-      std::memcpy(const_cast<dReal*>(dBodyGetQuaternion(bodies[i])), q, sizeof q);
-      std::memcpy(const_cast<dReal*>(dBodyGetRotation(bodies[i])), kept[i].R, sizeof kept[i].R);
-    }
-
   for (int i = 0; i < j.axis_count; ++i) {
     j.inverse_inertia[i] = axis_inverse_inertia(j, i);
     set_limot(j, i, dParamStopERP, j.stop_erp);
@@ -686,6 +705,66 @@ void World::set_inertial(Link& link, double mass, const Vec3& com, const Sym3& i
   for (auto& j : link.model->joints) j->sane = sane_beyond(*j);
 }
 
+// ------------------------------------------------------------------------------------------------ ties
+
+// Holds the child where it is now relative to the parent (to the world if null). Returns the tie's number.
+int World::attach(Link* parent, Link& child) {
+  refresh();
+  ties_.push_back({next_tie_++, parent, &child, parent ? inverse(parent->X_WL) * child.X_WL : child.X_WL});
+  for (Link* l : {parent, &child})
+    if (l) wake(*l->model), l->model->dirty = true;
+  return ties_.back().id;
+}
+
+void World::detach(int id) {
+  for (size_t i = 0; i < ties_.size(); ++i) {
+    if (ties_[i].id != id) continue;
+    for (Link* l : {ties_[i].parent, ties_[i].child})
+      if (l) wake(*l->model), l->model->dirty = true;
+    ties_.erase(ties_.begin() + i);
+    return;
+  }
+}
+
+void World::detach_all() {
+  while (!ties_.empty()) detach(ties_.back().id);
+}
+
+Tie* World::find_tie(int id) {
+  for (auto& t : ties_)
+    if (t.id == id) return &t;
+  return nullptr;
+}
+
+// Links that are tied do not collide, nor does what is rigidly joined to them.
+bool World::tied(const Link& a, const Link& b) const {
+  const auto same = [](const Link* l, const Link& m) { return l && l->model == m.model && l->cluster == m.cluster; };
+  for (auto& t : ties_)
+    if ((same(t.parent, a) && same(t.child, b)) || (same(t.parent, b) && same(t.child, a))) return true;
+  return false;
+}
+
+Link* World::find_link(int id) const {
+  for (auto& m : models_)
+    for (auto& l : m->links)
+      if (l->id == id) return l.get();
+  return nullptr;
+}
+
+// Made anew for each step: which bodies carry the links changes when servo joints lock and unlock.
+void World::make_tie_joints() {
+  for (auto& t : ties_) {
+    t.joint = nullptr;
+    const dBodyID child = body_of(t.child), parent = body_of(t.parent);
+    if (child == parent || (!child && !parent)) continue;
+    t.joint = dJointCreateFixed(world_, contact_group_);
+    dJointAttach(t.joint, child ? child : parent, child ? parent : nullptr);
+    const Pose X_CB = X_BL(*t.child), X_PB = (t.parent ? X_BL(*t.parent) : Pose{}) * t.X_PC;
+    const Posed posed(child ? child : parent, child ? parent : nullptr, child ? X_CB : X_PB, child ? X_PB : X_CB);
+    dJointSetFixed(t.joint);
+  }
+}
+
 // ------------------------------------------------------------------------------------------------ collisions
 
 bool World::allowed(const Shape& a, const Shape& b) const {
@@ -700,7 +779,7 @@ bool World::allowed(const Shape& a, const Shape& b) const {
     if (la.cluster == lb.cluster && !la.moving && !lb.moving) return false;
     if (la.model->jointed.count(std::minmax(la.id, lb.id))) return false;
   }
-  return true;
+  return !tied(la, lb);
 }
 
 void World::near_callback(void* data, dGeomID ga, dGeomID gb) {
@@ -1237,6 +1316,8 @@ void World::solve() {
   for (auto& m : models_)
     for (auto& j : m->joints)
       if (j->joint) merge(node(j->parent), node(j->child));
+  for (auto& t : ties_)
+    if (t.joint) merge(node(t.parent), node(t.child));
   for (auto& c : contacts_)
     if (c.joint) merge(contact_node(c.a->link), contact_node(c.b->link));
 
@@ -1259,6 +1340,11 @@ void World::solve() {
         islands_[island_of[n]].joints = true;
         islands_[island_of[n]].rows += j->type == JointType::Ball ? 3 : j->type == JointType::Universal ? 6 : 6;
       }
+  for (auto& t : ties_)
+    if (const int n = std::max(node(t.parent), node(t.child)); t.joint && n >= 0) {
+      islands_[island_of[n]].joints = true;
+      islands_[island_of[n]].rows += 6;
+    }
   for (auto& c : contacts_)
     if (c.joint) {
       const int n = std::max(contact_node(c.a->link), contact_node(c.b->link));
@@ -1660,6 +1746,7 @@ void World::step_once() {
   }
   apply_forces();
   make_contact_joints();
+  make_tie_joints();
   solve();
   guard_nan();
   pull();
@@ -1727,6 +1814,12 @@ std::string World::save() {
   Writer f;
   f(dt); f(gravity); f(erp); f(cfm); f(sor); f(contact_max_vel); f(surface_layer); f(iters); f(max_contacts);
   f(seed); f(iterations); f(time_ns);
+  size_t count = ties_.size();
+  f(next_tie_), f(count);
+  for (auto& t : ties_) {
+    int parent = t.parent ? t.parent->id : -1;
+    f(t.id), f(parent), f(t.child->id), f(t.X_PC);
+  }
   for (auto& m : models_) {
     f(m->id);
     f(m->take_exempt);
@@ -1757,6 +1850,16 @@ void World::restore(const std::string& data) {
   Reader f{data};
   f(dt); f(gravity); f(erp); f(cfm); f(sor); f(contact_max_vel); f(surface_layer); f(iters); f(max_contacts);
   f(seed); f(iterations); f(time_ns);
+  size_t count;
+  f(next_tie_), f(count);
+  ties_.assign(count, {});
+  for (auto& t : ties_) {
+    int parent, child;
+    f(t.id), f(parent), f(child), f(t.X_PC);
+    t.parent = find_link(parent);
+    t.child = find_link(child);
+    if (!t.child) throw std::invalid_argument("the snapshot is of a world with other models");
+  }
   for (auto& m : models_) {
     int id;
     f(id);

@@ -183,6 +183,15 @@ struct Model {
   bool take_exempt = false;
 };
 
+// Two links of any models held together while the world runs, or a link held where it is in the world.
+struct Tie {
+  int id = 0;
+  Link* parent = nullptr;  // null = the world
+  Link* child = nullptr;
+  Pose X_PC;
+  dJointID joint = nullptr;  // of the step under way
+};
+
 struct Contact {
   Shape *a = nullptr, *b = nullptr;
   Vec3 pos, normal;  // the normal points into a
@@ -235,6 +244,11 @@ class World {
   void set_servo(Joint& joint, double target);
   void servo_off(Joint& joint);
   void set_inertial(Link& link, double mass, const Vec3& com, const Sym3& inertia);
+  int attach(Link* parent, Link& child);
+  void detach(int tie);
+  void detach_all();
+  Tie* find_tie(int id);
+  const std::vector<Tie>& ties() const { return ties_; }
   void refresh();  // bring clusters up to date
   void zero_velocities(Model& model);
   std::string save();
@@ -259,6 +273,8 @@ class World {
   dJointGroupID contact_group_;
   std::vector<std::shared_ptr<Model>> models_;
   std::map<int, Shape*> shapes_;
+  std::vector<Tie> ties_;
+  int next_tie_ = 1;
   int next_model_ = 0, next_link_ = 0, next_joint_ = 0, next_shape_ = 0;
   std::vector<Contact> contacts_;
   std::vector<dJointFeedback> feedback_;
@@ -294,6 +310,9 @@ class World {
   void apply_axis_force(Joint& joint, int axis, double force);
   void update_axis(Joint& joint, int axis);
   void make_contact_joints();
+  void make_tie_joints();
+  bool tied(const Link& a, const Link& b) const;
+  Link* find_link(int id) const;
   void solve();
   void run(bool direct, int iterations_wanted);
   void integrate_servos();

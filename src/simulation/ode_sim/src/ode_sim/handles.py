@@ -213,6 +213,7 @@ class JointHandle:
         self.position = core.position
         self.velocity = core.velocity
         self.motor = core.motor
+        self._servo = core.servo
 
     @property
     def index(self) -> int:
@@ -247,8 +248,9 @@ class JointHandle:
         model, the joint is a motor with the effort limit instead, so that it pushes, grips and stalls.
         Revolute and prismatic joints only.
         """
-        finite((position,), f"position command of joint {self.scoped_name}")
-        self.core.servo(position)
+        if position - position != 0.0:  # not a number, or infinite
+            raise ValueError(f"position command of joint {self.scoped_name} must be a finite number, not {position}")
+        self._servo(position)
 
     def servo_off(self) -> None:
         """Let go: the joint moves freely again."""
@@ -357,6 +359,33 @@ class JointHandle:
         if name not in setters:
             raise ValueError(f"joint {self.scoped_name} has no parameter '{name}'; there are {', '.join(setters)}")
         setters[name]()
+
+
+class Attachment:
+    """Two links held together by :meth:`ode_sim.World.attach`. Part of snapshots."""
+
+    def __init__(self, core, parent: Optional[LinkHandle], child: LinkHandle) -> None:
+        self.parent = parent  # None: the world
+        self.child = child
+        self._core = core
+        self._id = core.attach(parent.core if parent else None, child.core)
+
+    @property
+    def active(self) -> bool:
+        return self._core.attached(self._id)
+
+    @property
+    def pose(self) -> Pose:
+        """X_PC, where the child is held; may be changed a little in every step, to move it along a path."""
+        return pose_of(self._core.tie_pose(self._id))
+
+    @pose.setter
+    def pose(self, pose: Pose) -> None:
+        self._core.set_tie_pose(self._id, flat(pose, f"pose of attached link {self.child.scoped_name}"))
+
+    def detach(self) -> None:
+        """Let go; nothing happens if it has let go already."""
+        self._core.detach(self._id)
 
 
 def unlimited(limit: float) -> float:

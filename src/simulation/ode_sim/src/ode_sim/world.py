@@ -11,7 +11,7 @@ import numpy as np
 from ode_sim import _core
 from ode_sim.builder import Builder
 from ode_sim.description import model as d
-from ode_sim.handles import CollisionHandle, JointHandle, LinkHandle, ModelHandle, finite, flat
+from ode_sim.handles import Attachment, CollisionHandle, JointHandle, LinkHandle, ModelHandle, finite, flat
 from ode_sim.math3 import compose
 
 Entity = Union[ModelHandle, LinkHandle, CollisionHandle]
@@ -205,6 +205,16 @@ class World:
                 self._collisions.pop(collision.id, None)
         self.core.remove_model(handle.core)
 
+    def attach(self, parent: Optional[LinkHandle], child: LinkHandle) -> Attachment:
+        """Hold ``child`` where it is now relative to ``parent``, a link of any model (None: the world).
+
+        They do not collide until :meth:`Attachment.detach`. Ends when either model is removed and at every reset.
+        """
+        if parent is child or (parent or child).model.static and child.model.static:
+            raise ValueError(f"{child.scoped_name} cannot be attached to {parent.scoped_name if parent else 'the world'}: "
+                             "it takes two links of which at least one can move")
+        return Attachment(self.core, parent, child)
+
     def find_entity(self, name: str) -> Optional[Entity]:
         """The first model, link or collision, depth first, whose scoped or unscoped name this is."""
         for model in self.models.values():
@@ -261,6 +271,7 @@ class World:
 
     def reset(self) -> None:
         """Time 0, every model with its joints as it was spawned, everything at rest, random numbers from the start."""
+        self.core.detach_all()
         for model in self.models.values():
             for joint in model.joints.values():
                 for axis in range(joint.axis_count):
@@ -275,6 +286,7 @@ class World:
 
     def reset_poses(self) -> None:
         """Models back to where they were spawned, at rest. Time goes on and joints stay at their angles."""
+        self.core.detach_all()
         for model in self.models.values():
             model.pose = model.initial_pose
             model.core.zero_velocities()

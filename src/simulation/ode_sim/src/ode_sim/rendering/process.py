@@ -13,12 +13,11 @@ from __future__ import annotations
 
 import mmap
 import os
-import socket
 import subprocess
 import sys
 import threading
 from dataclasses import dataclass
-from multiprocessing.connection import Connection
+from multiprocessing.connection import Connection, Pipe
 from typing import Callable, Dict, List, Optional, Tuple
 
 import numpy as np
@@ -164,14 +163,14 @@ class RenderProcess:
     def _start(self) -> Optional[Connection]:
         if self._closed or self._failures > _RESTARTS:
             return None
-        ours, theirs = socket.socketpair()
+        ours, theirs = Pipe()  # blocking, whatever socket.setdefaulttimeout() a ROS library has left behind
         code = _START.format(path=sys.path, socket=theirs.fileno(), memory=self._memory_fd)
         # Mesa warns on every start that there is no graphics card
         environment = {"EGL_LOG_LEVEL": "fatal", **os.environ}
         self._process = subprocess.Popen([sys.executable, "-c", code], stdin=subprocess.DEVNULL, env=environment,
                                          pass_fds=(theirs.fileno(), self._memory_fd))
         theirs.close()
-        connection = self._connection = Connection(ours.detach())
+        connection = self._connection = ours
         for entry in self._cameras.values():
             self._send(connection, entry.message)
         self._watch.mark()
