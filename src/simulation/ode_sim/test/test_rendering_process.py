@@ -2,6 +2,7 @@
 trouble."""
 import os
 import signal
+import socket
 import subprocess
 import sys
 import time
@@ -269,6 +270,18 @@ def test_a_crashed_process_is_replaced(studio_of):
     wait_for(lambda: lines)
     assert "signal 9" in lines[0] and "\n" not in lines[0]
     assert take(studio, key)["image"] == picture
+
+
+def test_a_default_socket_timeout_does_not_end_it(studio_of):
+    """rospy sets one on the first request for a topic, in every process it lives in."""
+    before = socket.getdefaulttimeout()
+    socket.setdefaulttimeout(60.0)
+    try:
+        studio, lines = studio_of(World(ball("a", (2, 0, 0), (1, 0, 0))))
+        take(studio, studio.add_camera(CAMERA))
+    finally:
+        socket.setdefaulttimeout(before)
+    assert not lines
 
 
 def test_a_receiver_that_fails_disturbs_nobody(studio_of):
