@@ -33,7 +33,6 @@ class JointStateControllerTest(unittest.TestCase):
     def cycle(self, count):
         for _ in range(count):
             self.loop.cycle()
-            wait_until(lambda: self.loop.controller("states")._publisher.ready, "the message to go out")
 
     def message(self):
         self.cycle(1)

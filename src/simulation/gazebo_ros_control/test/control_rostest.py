@@ -438,7 +438,6 @@ class PluginTest(unittest.TestCase):
             del stamps[:]
             for _ in range(10):
                 robot.run(0.05)
-                wait_until(lambda: gate._publisher.ready, "the message to go out")
             wait_until(lambda: stamps and stamps[-1].to_sec() < 1.0, "joint states after the reset")
 
     def test_joint_states_at_regular_stamps(self):
@@ -451,7 +450,6 @@ class PluginTest(unittest.TestCase):
             robot.command("pos", 1.0)
             for _ in range(500):
                 robot.step()
-                wait_until(lambda: gate._publisher.ready, "the message to go out")
             wait_until(lambda: len(messages) >= 49, "joint states")
             messages = messages[1:]
             gaps = {(later.header.stamp - earlier.header.stamp).to_nsec()

@@ -70,7 +70,7 @@ class _PidController(Controller):
         """To be called every update; every tenth goes out, the first included."""
         due = self._updates % _STATE_DIVIDER == 0
         self._updates += 1
-        if not due or not self._state.ready or not self._state.has_subscribers:
+        if not due or not self._state.has_subscribers:
             return
         gains = self._pid.gains
         message = JointControllerState(

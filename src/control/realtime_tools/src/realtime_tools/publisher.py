@@ -1,77 +1,42 @@
 """A publisher for control loops, and the gate that makes it publish at a rate."""
 from __future__ import annotations
 
-import queue
-import threading
 from typing import Any
 
 import rospy
 
-_jobs: "queue.SimpleQueue[tuple]" = queue.SimpleQueue()
-_start = threading.Lock()
-_worker: "threading.Thread | None" = None
-
-
-def _work() -> None:
-    while True:
-        publisher, message = _jobs.get()
-        publisher._send(message)
-
-
-def _ensure_worker() -> None:
-    """One thread serves all publishers of the process: rospy queues per connection, so none holds up another."""
-    global _worker
-    with _start:
-        if _worker is None or not _worker.is_alive():
-            _worker = threading.Thread(target=_work, name="realtime_publisher", daemon=True)
-            _worker.start()
+from .prompt import make_prompt
 
 
 class RealtimePublisher:
-    """Serialises and sends in another thread; ``publish`` costs the loop about a microsecond and never waits.
+    """Serialises and sends at once; ``publish`` costs the loop some ten microseconds and never waits for a subscriber.
 
-    A message handed over belongs to the publisher until ``ready`` is true again: fill a fresh one, or reuse the same
-    one only while ``ready``. Without subscribers nothing is serialised at all.
+    A thread of its own would cost the loop more: in Python the two would take turns. Without subscribers nothing is
+    serialised at all.
 
     :param nh: NodeHandle (anything with ``publisher(name, type, queue_size)``).
     :param topic: name relative to ``nh``.
-    :param queue_size: per subscriber connection.
+    :param queue_size: per subscriber that has fallen behind.
     """
 
     def __init__(self, nh: Any, topic: str, message_type: type, queue_size: int = 4):
-        self._publisher = nh.publisher(topic, message_type, queue_size=queue_size)
-        self._pending = False
-        _ensure_worker()
-
-    @property
-    def ready(self) -> bool:
-        """True when the last message has been handed to the connections."""
-        return not self._pending
+        self._publisher = make_prompt(nh.publisher(topic, message_type, queue_size=queue_size), queue_size)
 
     @property
     def has_subscribers(self) -> bool:
         return bool(self._publisher.impl and self._publisher.impl.connections)
 
     def publish(self, message: Any) -> bool:
-        """Send ``message`` unless the last one is still being sent. :return: False if it was not taken; try again."""
-        if self._pending:
-            return False
-        implementation = self._publisher.impl
-        if implementation is None or not implementation.connections:
+        """Send ``message``, which may be filled anew afterwards. :return: True, for gates that count what was taken."""
+        if not self.has_subscribers:
             return True
-        self._pending = True
-        _jobs.put((self, message))
-        return True
-
-    def _send(self, message: Any) -> None:
         try:
             self._publisher.publish(message)
-        except rospy.ROSException:  # unregistered or shut down between publish() and now: nobody is left to tell
+        except rospy.ROSException:  # unregistered or shut down meanwhile: nobody is left to tell
             rospy.logdebug("publisher of %s is gone", self._publisher.name)
-        except Exception as error:  # a wrong field type must not end the thread that serves every other topic
+        except Exception as error:  # a wrong field type must not abort the controller
             rospy.logerr_throttle(5.0, f"message on {self._publisher.name} cannot be published: {error}")
-        finally:
-            self._pending = False
+        return True
 
 
 class RateGate:

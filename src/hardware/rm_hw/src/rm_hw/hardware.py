@@ -250,7 +250,7 @@ class RmRobotHW(RobotHW):
             self._guard.dismiss()
 
     def _publish(self) -> None:
-        if not self._publisher.ready or not self._publisher.has_subscribers:
+        if not self._publisher.has_subscribers:
             return
         message = ActuatorState(stamp=[rospy.Time.from_sec(a.stamp) for a, _, _ in self._actuators])
         for name in _ARRAYS:

@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import queue
 import threading
+import time
 from concurrent.futures import Future
 from typing import Any, Callable, Dict, Iterable, List, Optional, Tuple
 
@@ -15,6 +16,8 @@ from gazebo_ros.sensors import Sensor
 from gazebo_ros.throttle import Throttle
 
 _NS = 1_000_000_000
+_SLEEPERS = rospy.rostime.get_rostime_cond()  # who sleeps in sim time in this process waits on it
+_WALL_PERIOD_NS = 1_000_000  # uncapped, subscribers get at most one message per wall millisecond
 
 
 class Stopped(RuntimeError):
@@ -66,6 +69,26 @@ class CallbackList:
                     rospy.logerr("the simulator's own callback %r failed and is switched off: %r", connection.f, error)
                 else:
                     connection.owner.report(error)
+
+
+class WallLimit:
+    """Lets through at most one message per wall millisecond while the simulation runs as fast as it can.
+
+    In real time every step is let through: that is what Gazebo does, and what a subscriber can follow.
+    """
+
+    def __init__(self, server: Server):
+        self._server = server
+        self._last_ns = 0
+
+    def passes(self) -> bool:
+        if self._server.throttled:
+            return True
+        now = time.monotonic_ns()
+        if now - self._last_ns < _WALL_PERIOD_NS:
+            return False
+        self._last_ns = now
+        return True
 
 
 class ResolvedModel:
@@ -126,7 +149,9 @@ class Server:
         self._world_plugins: List[PluginInstance] = []
         self._models: Dict[str, _ModelRuntime] = {}
         self._sensors: Tuple[Sensor, ...] = ()
+        self._wake_limit = WallLimit(self)
         self._set_now()
+        self.stepped.connect(self._wake_sleepers)
         world.before_step.append(self._begin_step)
         world.after_step.append(self._end_step)
 
@@ -244,10 +269,13 @@ class Server:
         self._now = now
         if self._ros_time:  # what rospy does with a message of /clock
             rospy.rostime._rostime_current = now
-            waiting = rospy.rostime.get_rostime_cond()
-            if waiting._waiters:
-                with waiting:
-                    waiting.notify_all()
+            if _SLEEPERS._waiters and self._wake_limit.passes():
+                self._wake_sleepers()
+
+    @staticmethod
+    def _wake_sleepers() -> None:
+        with _SLEEPERS:
+            _SLEEPERS.notify_all()
 
     @staticmethod
     def _run_call(f: Callable[[], Any], future: Future) -> None:

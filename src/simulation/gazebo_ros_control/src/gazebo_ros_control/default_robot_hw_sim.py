@@ -45,6 +45,7 @@ class DefaultRobotHWSim(RobotHWSim):
         super().__init__()
         self._joints: Dict[str, JointSim] = {}
         self._writers: Tuple[JointSim, ...] = ()
+        self._readers: Tuple[tuple, ...] = ()  # (state, position(), velocity()): every step goes through them
         self._e_stop = False
 
     def init_sim(self, robot_namespace: str, model_nh: NodeHandle, model, urdf: Optional[str],
@@ -59,6 +60,7 @@ class DefaultRobotHWSim(RobotHWSim):
         for transmission in transmissions:
             self._add(transmission, model_nh, model, descriptions)
         self._writers = tuple(self._joints.values())
+        self._readers = tuple((sim.state, sim.joint.position, sim.joint.velocity) for sim in self._writers)
         if not self._writers:
             rospy.logwarn("model '%s': no joint has a transmission that can be used, so controllers find no joints",
                           model.name)
@@ -134,10 +136,9 @@ class DefaultRobotHWSim(RobotHWSim):
     # -- every step -----------------------------------------------------------------------------------------------------
 
     def read_sim(self, time: float, period: float) -> None:
-        for sim in self._writers:
-            state, joint = sim.state, sim.joint
-            state.position = joint.position()
-            state.velocity = joint.velocity()
+        for state, position, velocity in self._readers:
+            state.position = position()
+            state.velocity = velocity()
 
     def write_sim(self, time: float, period: float) -> None:
         for sim in self._writers:

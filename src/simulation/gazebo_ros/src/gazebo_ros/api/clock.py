@@ -1,34 +1,11 @@
 """/clock."""
 from __future__ import annotations
 
-import time
-
 import rospy
+from realtime_tools import make_prompt
 from rosgraph_msgs.msg import Clock
 
-from gazebo_ros.server import Server
-
-_WALL_PERIOD_NS = 1_000_000  # uncapped, subscribers get at most one message per wall millisecond
-
-
-class WallLimit:
-    """Lets through at most one message per wall millisecond while the simulation runs as fast as it can.
-
-    In real time every step is let through: that is what Gazebo does, and what a subscriber can follow.
-    """
-
-    def __init__(self, server: Server):
-        self._server = server
-        self._last_ns = 0
-
-    def passes(self) -> bool:
-        if self._server.throttled:
-            return True
-        now = time.monotonic_ns()
-        if now - self._last_ns < _WALL_PERIOD_NS:
-            return False
-        self._last_ns = now
-        return True
+from gazebo_ros.server import Server, WallLimit
 
 
 class ClockPublisher:
@@ -45,7 +22,7 @@ class ClockPublisher:
         self._limit = WallLimit(server)
         self._message = Clock()
         self._published_ns = -1
-        self._publisher = rospy.Publisher("/clock", Clock, queue_size=10, latch=True)
+        self._publisher = make_prompt(rospy.Publisher("/clock", Clock, queue_size=10, latch=True), 10)
         server.before_step(self._on_step)
         server.stepped.connect(self._publish)
 

@@ -24,7 +24,7 @@ class MetricsPublisher:
         server.stepped.connect(self._elapsed)  # a pause is no slow simulation
 
     def _on_step(self) -> None:
-        if self._publisher.get_num_connections() and time.monotonic_ns() - self._wall_ns >= _PERIOD_NS:
+        if self._publisher.impl.connections and time.monotonic_ns() - self._wall_ns >= _PERIOD_NS:
             self._publish()
 
     def _publish(self) -> None:

@@ -7,9 +7,8 @@ from typing import Any, Iterable, Tuple
 import rospy
 from gazebo_msgs.msg import LinkStates, ModelStates
 
-from gazebo_ros.api.clock import WallLimit
 from gazebo_ros.api.geometry import entity_twist
-from gazebo_ros.server import Server
+from gazebo_ros.server import Server, WallLimit
 
 
 class _Serialized:
@@ -54,8 +53,7 @@ class StatePublishers:
         server.stepped.connect(self._publish)
 
     def _on_step(self) -> None:
-        wanted = self._links.get_num_connections() or self._models.get_num_connections()
-        if wanted and self._limit.passes():
+        if (self._links.impl.connections or self._models.impl.connections) and self._limit.passes():
             self._publish()
 
     def _publish(self) -> None:
