@@ -1149,18 +1149,23 @@ void World::make_contact_joints() {
     d.surface.bounce = std::min(sa.restitution, sb.restitution);
     d.surface.bounce_vel = std::min(sa.bounce_threshold, sb.bounce_threshold);
 
-    // Depth beyond the tolerated one, cut so that it is corrected no faster than allowed.
+    // Depth beyond the tolerated one, cut so that it is corrected no faster than allowed. What the model's own weight presses
+    // in at this stiffness is no error to correct: cut as well, it would carry less than the weight, which then sinks and sinks.
     double depth = std::max(c.depth - std::max(std::min(sa.min_depth, sb.min_depth), slack), 0.0);
     double fastest = contact_max_vel;
     for (double v : {sa.max_vel, sb.max_vel})
       if (v >= 0) fastest = std::min(fastest, v);
-    if (soft_erp > 0) depth = std::min(depth, fastest * dt / soft_erp);
+    const double pressed_in = kp > 0 && inverse_mass > 0 ? norm(gravity) / (inverse_mass * kp) : 0;
+    if (soft_erp > 0) depth = std::min(depth, fastest * dt / soft_erp + pressed_in);
     d.geom.depth = depth;
 
-    // First friction direction: that of the first collision, as seen in the contact plane; else any tangent.
+    // First friction direction: what a collision asks for (of two that do, the one with less friction), as seen in the
+    // contact plane; else any tangent.
     Vec3 t1{};
-    if (norm(sa.fdir1) > 0) {
-      t1 = rotate(la->X_WL.q * c.a->X_LC.q, sa.fdir1);
+    const bool second = norm(sb.fdir1) > 0 && (norm(sa.fdir1) == 0 || sb.mu < sa.mu);
+    const Shape& directed = second ? *c.b : *c.a;
+    if (norm(directed.surface.fdir1) > 0) {
+      t1 = rotate(directed.link->X_WL.q * directed.X_LC.q, directed.surface.fdir1);
       t1 = t1 - n * dot(n, t1);
     }
     if (norm(t1) < 1e-6 && d.surface.mu == d.surface.mu2) {

@@ -49,6 +49,16 @@ def test_sliding_friction_is_the_same_in_every_direction(heading):
     assert np.linalg.norm(model.twist().linear) == pytest.approx(2 - 0.4 * G * 0.3, rel=0.01)
 
 
+def test_a_heavy_model_on_soft_contacts_does_not_sink():
+    """At kp 1e5, max_vel 0.01 m/s pushes back with less than the weight of 60 kg: what carries the weight is not cut."""
+    world = ode_sim.World()
+    world.spawn(ground())
+    model = world.spawn(box(mass=60.0, surface=Surface(kp=1e5, kd=1.0)))
+    world.step(3000)
+    assert 0.05 - model.pose.p[2] == pytest.approx(60 * G / 1e5 / 4, abs=1e-3)
+    assert abs(model.twist().linear[2]) < 1e-5
+
+
 def test_friction_is_the_smaller_of_the_two():
     world = ode_sim.World()
     world.spawn(ground(surface=Surface(mu=0.1, mu2=0.1)))
