@@ -109,7 +109,7 @@ def save_rviz(out: Path, name: str) -> list:
     from rviz_offscreen.cli import ScreenshotError, take
     from rviz_offscreen.views import parse_view
     config = os.path.join(rospkg.RosPack().get_path("arm_description"), "manipulator.rviz")
-    views = [parse_view(f"{view}:distance=1.0,x=0,y=0,z=0.18") for view in ("iso", "front")]
+    views = [parse_view(f"{view}:distance=0.75,x=0,y=0,z=0.17") for view in ("iso", "front")]
     try:
         return take(config, views, str(out / f"{name}.png"), size="900x700")["pictures"]
     except ScreenshotError as error:

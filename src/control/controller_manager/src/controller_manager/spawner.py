@@ -6,6 +6,7 @@ import os
 import time
 from typing import List, Optional, Sequence
 
+import node_signals
 import rosparam
 import rospy
 import yaml
@@ -79,7 +80,7 @@ class Spawner:
 
     def run(self) -> int:
         """:return: exit code."""
-        rospy.init_node("spawner", anonymous=True)
+        node_signals.init_node("spawner", anonymous=True)
         if self._options.shutdown_timeout is not None:
             rospy.logwarn("Controller Spawner: --shutdown-timeout has no effect")
         for service in ("load_controller", "switch_controller", "unload_controller"):
@@ -200,7 +201,7 @@ class Unspawner:
 
     def run(self) -> int:
         """:return: exit code."""
-        rospy.init_node("unspawner", anonymous=True)
+        node_signals.init_node("unspawner", anonymous=True)
         if not all(wait_for_service(f"controller_manager/{name}", None)
                    for name in ("list_controllers", "switch_controller")):
             return 0

@@ -1,4 +1,5 @@
 """The node arbotix: joints, controllers and pins of one board."""
+import node_signals
 import rospy
 from arbotix_msgs.srv import SetupChannel, SetupChannelResponse
 from diagnostic_msgs.msg import DiagnosticArray
@@ -138,7 +139,7 @@ class Driver:
 
 
 def main():
-    rospy.init_node("arbotix")
+    node_signals.init_node("arbotix")
     driver = Driver()
     try:
         driver.run()

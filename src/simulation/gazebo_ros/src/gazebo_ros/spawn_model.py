@@ -8,6 +8,7 @@ import xml.etree.ElementTree as ET
 from typing import List
 
 import rosgraph
+import node_signals
 import rospy
 from gazebo_msgs.msg import ModelStates
 from gazebo_msgs.srv import DeleteModel
@@ -156,7 +157,7 @@ def main() -> int:
     if not rosgraph.is_master_online():
         print(f"spawn_model: no ROS master at {rosgraph.get_master_uri()}; start the simulator first", file=sys.stderr)
         return 1
-    rospy.init_node("spawn_model", anonymous=True)
+    node_signals.init_node("spawn_model", anonymous=True)
     try:
         spawn(options)
     except Failure as error:
