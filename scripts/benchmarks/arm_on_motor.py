@@ -3,7 +3,7 @@
 
 Position 0.0 for four seconds, then velocity 3.1415 for six, each run with a roscore of its own::
 
-    scripts/bench/arm_on_motor.py --picture out/arm_on_motor.png
+    scripts/benchmarks/arm_on_motor.py --picture out/arm_on_motor.png
 """
 import argparse
 import os

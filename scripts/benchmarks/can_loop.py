@@ -3,9 +3,10 @@
 
 Starts a roscore of its own, the bench, rm_hw with a position controller on every motor, and plots the histograms::
 
-    scripts/bench/can_loop.py --seconds 20 --picture out/can_loop.png
+    scripts/benchmarks/can_loop.py --seconds 20 --picture out/can_loop.png
 """
 import argparse
+import json
 import os
 import signal
 import socket
@@ -83,10 +84,11 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--seconds", type=float, default=20.0)
     parser.add_argument("--picture", default="out/can_loop.png")
+    parser.add_argument("--json", metavar="FILE", help="write the figures there as well")
     parser.add_argument("--motors", type=int, nargs="+", default=[1, 4])
     options = parser.parse_args()
     _, axes = plt.subplots(len(options.motors), 1, figsize=(8, 3 * len(options.motors)), squeeze=False)
-    worst = 0.0
+    worst, figures = 0.0, {}
     for axis, motors in zip(axes[:, 0], options.motors):
         with tempfile.TemporaryDirectory(prefix="can_loop") as folder:
             cycles = run(motors, options.seconds, folder)
@@ -94,7 +96,9 @@ def main():
         worst = max(worst, p99)
         text = (f"{motors} motor{'s' * (motors > 1)}: {len(cycles)} cycles, median {p50:.3f} ms, p99 {p99:.3f} ms, "
                 f"p99.9 {p999:.3f} ms, longest {cycles.max():.3f} ms")
-        print(text)
+        print(text, flush=True)
+        figures.update({f"rm_hw at 1 kHz, {motors} motors: {name} cycle, ms": value for name, value in (
+            ("median", p50), ("p99", p99), ("p99.9", p999), ("longest", cycles.max()))})
         axis.hist(numpy.clip(cycles, BINS_MS[0], BINS_MS[-1]), BINS_MS, log=True)
         axis.axvline(p99, color="red", linewidth=1)
         axis.set(title=text, xlabel="cycle time in ms (longer ones in the last bin)", ylabel="cycles")
@@ -102,6 +106,9 @@ def main():
     plt.tight_layout()
     os.makedirs(os.path.dirname(options.picture) or ".", exist_ok=True)
     plt.savefig(options.picture, dpi=100)
+    if options.json:
+        with open(options.json, "w", encoding="utf-8") as out:
+            json.dump(figures, out, indent=2)
     return 0 if worst < 1.5 else 1
 
 

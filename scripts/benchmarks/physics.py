@@ -15,7 +15,7 @@ import time
 import numpy as np
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path.insert(0, os.path.join(HERE, "..", "test"))
+sys.path.insert(0, os.path.join(HERE, "..", "..", "src", "simulation", "ode_sim", "test"))
 
 import ode_sim  # noqa: E402
 from physics_models import arm, box, diff_drive, ground  # noqa: E402
@@ -90,11 +90,11 @@ def rays(count=360, obstacles=40, repeats=50):
     return (time.perf_counter() - start) / repeats * 1e6
 
 
-def bare(kind, steps):
+def bare(kind, steps, joints=6):
     with tempfile.TemporaryDirectory() as folder:
         program = os.path.join(folder, "bare_ode")
         subprocess.run(["cc", "-O2", "-DdDOUBLE", os.path.join(HERE, "bare_ode.c"), "-o", program, "-lode", "-lm"], check=True)
-        output = subprocess.run([program, kind, str(steps)], check=True, capture_output=True, text=True).stdout
+        output = subprocess.run([program, kind, str(steps), str(joints)], check=True, capture_output=True, text=True).stdout
         return tuple(float(word) for word in output.split())
 
 

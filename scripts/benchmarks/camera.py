@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """What a camera costs: the arm seen by an 800x800 camera, drawn, sent from the render process, and published at 30 Hz.
 
-    scripts/bench/camera.py                   a table
-    scripts/bench/camera.py --json out.json   the same, for programs
+    scripts/benchmarks/camera.py                   a table
+    scripts/benchmarks/camera.py --json out.json   the same, for programs
 
 ``frame`` is a colour picture of the renderer, ``bare draw`` the same triangles in one colour each, without light, drawn
 and read back by the shortest program that does it: the floor that no renderer on this machine can go below.
@@ -53,22 +53,7 @@ def arm_scene():
     text = subprocess.run(["xacro", file], check=True, capture_output=True, text=True).stdout
     arm, _ = read_urdf(text, finder=ResourceFinder([], [], pack.get_path))
     grey = Material(ambient=(0.3, 0.3, 0.3, 1.0), diffuse=(0.7, 0.7, 0.7, 1.0))
-    floor = Model(
-    "ground_plane",
-    links=(
-        Link(
-            "link",
-            visuals=(
-                Visual(
-                    "floor",
-                    Pose(),
-                    Plane(
-                        size=(
-                            100,
-                            100)),
-                            grey),
-                            )),
-                            ))
+    floor = Model("ground_plane", links=(Link("link", visuals=(Visual("floor", Pose(), Plane(size=(100, 100)), grey),)),))
     sun = Light("sun", "directional", Pose((0, 0, 10)), diffuse=(0.8, 0.8, 0.8, 1.0), direction=(-0.5, 0.1, -0.9),
                 cast_shadows=True)
     scene, poses = arrange([floor, arm], [sun])

@@ -1,0 +1,238 @@
+"""Measures what the project promises, section by section, and prints one table; see scripts/bench --help."""
+import argparse
+import contextlib
+import json
+import os
+import platform
+import re
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+ROBOT_TITLES = {"arm": "arm, 4 position controllers, joint states at 100 Hz",
+                "ur5": "UR5 on a trajectory at 1 kHz control, joint states at 50 Hz"}
+JOINTS = {"arm": 4, "ur5": 6}
+
+# What was asked for: a pattern of figure names, and the least or the most that is good.
+WANTED = [
+    (r"arm.*real-time factor, uncapped$", ">=", 20.0), (r"UR5.*real-time factor, uncapped$", ">=", 20.0),
+    (r"seconds to the first joint states", "<", 5.0), (r"memory of the server", "<", 300.0),
+    (r"arms: cost per arm against one arm", "<=", 1.05), (r"first picture of RViz", "<", 3.0),
+    (r"arm with 800x800 camera: real-time factor", ">=", 0.99), (r"frame / bare draw", "<=", 1.5),
+    (r"motors: p99 cycle", "<", 1.5),
+]
+
+
+def program(name, *arguments, environment=None, timeout=300):
+    """Run a script of this folder; its last line is JSON."""
+    done = subprocess.run([sys.executable, os.path.join(HERE, name), *map(str, arguments)], capture_output=True, text=True,
+                          timeout=timeout, env=environment)
+    if done.returncode:
+        raise RuntimeError(f"{name} {' '.join(map(str, arguments))}: {' '.join(done.stderr.split()[-30:])}")
+    return json.loads(done.stdout.strip().splitlines()[-1])
+
+
+def section_script(name, *arguments):
+    """Run a script of this folder that writes its figures with --json."""
+    with tempfile.TemporaryDirectory() as folder:
+        file = os.path.join(folder, "figures.json")
+        done = subprocess.run([sys.executable, os.path.join(HERE, name), "--json", file, *map(str, arguments)],
+                              stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, timeout=900)
+        if not os.path.exists(file):
+            raise RuntimeError(f"{name}: {' '.join(done.stderr.split()[-30:])}")
+        with open(file, encoding="utf-8") as figures:
+            return json.load(figures)
+
+
+@contextlib.contextmanager
+def master():
+    """A ROS master of its own; gives the environment that leads to it."""
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        port = probe.getsockname()[1]
+    with tempfile.TemporaryDirectory() as home:
+        environment = dict(os.environ, ROS_MASTER_URI=f"http://localhost:{port}", ROS_HOME=home)
+        quiet = {"env": environment, "stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+        core = subprocess.Popen(["roscore", "-p", str(port)], **quiet)
+        try:
+            while subprocess.run(["rosparam", "list"], **quiet).returncode:
+                time.sleep(0.1)
+            yield environment
+        finally:
+            core.send_signal(signal.SIGINT)
+            core.wait(timeout=30)
+
+
+def parts(robot, steps, copies=1):
+    with master() as environment:
+        return program("step_parts.py", robot, steps, copies, environment=environment)
+
+
+def other_engine(engine, robot, steps):
+    """us per step, or why there is none."""
+    if subprocess.run([sys.executable, "-c", f"import {engine}"], capture_output=True).returncode:
+        return f"{engine} is not installed: scripts/setup --bench"
+    done = subprocess.run([sys.executable, os.path.join(HERE, "other_engines.py"), engine, robot, str(steps)], check=True,
+                          capture_output=True, text=True, timeout=300)
+    return json.loads(done.stdout[done.stdout.rindex("{"):])["us per step"]
+
+
+def robot_figures(robot, quick):
+    import physics
+    title, steps = ROBOT_TITLES[robot], 5000 if quick else 20000
+    ran = program("launched.py", robot, 6 if quick else 15)
+    figures = {
+        f"{title}: real-time factor, uncapped": ran["real-time factor"],
+        f"{title}: joint states per sim second": ran["joint states"],
+        f"{title}: processor time of the server per step, us": ran["processor us per step"],
+    }
+    timed = parts(robot, steps)
+    step, wall = timed.pop("step"), timed.pop("wall")
+    timed.pop("memory")
+    for name, value in timed.items():
+        figures[f"{robot}, physics thread, us per step: {name}"] = value
+    figures[f"{robot}, physics thread, us per step: sum"] = step
+    figures[f"{robot}, physics thread, us per step: by the wall clock"] = wall
+    engines = {"bare C loop of ODE, as many boxes on hinge motors": min(physics.bare("arm", steps, JOINTS[robot])[0]
+                                                                       for _ in range(3))}
+    for engine in ("pybullet", "mujoco"):
+        engines[f"{engine} with a PD in Python"] = other_engine(engine, robot, steps)
+    for name, value in engines.items():
+        figures[f"{robot}, us per step: {name}"] = value
+        if not isinstance(value, str):
+            figures[f"{robot}: core / {name.split(',')[0].split(' with')[0]}"] = timed["core"] / value
+            figures[f"{robot}: whole step / {name.split(',')[0].split(' with')[0]}"] = step / value
+    return figures
+
+
+def start_up(quick):
+    runs = [program("launched.py", "arm", 1) for _ in range(1 if quick else 3)]
+    return {"arm_gazebo.launch without RViz: seconds to the first joint states": sorted(r["start"] for r in runs)[len(runs) // 2],
+            "arm_gazebo.launch: memory of the server, MB": max(r["memory"] for r in runs)}
+
+
+def scaling(quick):
+    figures = {}
+    for copies in (1, 2, 4) if quick else (1, 2, 4, 8):
+        cost = parts("arm", 2000 if quick else 10000, copies)["step"]
+        one = cost if copies == 1 else one
+        figures[f"{copies} arms, us per step"] = cost
+        if copies > 1:
+            figures[f"{copies} arms: cost per arm against one arm"] = cost / one / copies
+    return figures
+
+
+def tracking(quick):
+    seconds = 4 if quick else 10
+    return {f"UR5, {name} interface, 1 kHz, swings of 1.2 rad in 2 s: largest tracking error, rad":
+            program("launched.py", case, seconds)["largest error"]
+            for case, name in (("ur5", "position"), ("ur5_effort", "effort"))}
+
+
+def pendulum(quick):
+    import pendulum as module
+    return module.figures(quick)
+
+
+def camera(quick):
+    found = section_script("camera.py", "--seconds", 5 if quick else 15)
+    return {f"arm with 800x800 camera: {name}": value for name, value in found.items()}
+
+
+def rviz(quick):
+    """The arm's own RViz set-up, on a private display, from the command to the picture on disk."""
+    del quick
+    import robots
+    config = robots.find("arm_description", "manipulator.rviz")
+    with master() as environment, tempfile.TemporaryDirectory() as folder:
+        launch = subprocess.Popen(["roslaunch", "arm_description", "display.launch", "rviz:=false"], env=environment,
+                                  stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        try:
+            while subprocess.run(["rostopic", "echo", "-n1", "/tf_static"], env=environment, capture_output=True,
+                                 timeout=30).returncode:
+                time.sleep(0.2)
+            times = []
+            for number in range(3):
+                picture, start = os.path.join(folder, f"{number}.png"), time.monotonic()
+                subprocess.run(["rosrun", "rviz_offscreen", "screenshot", "--config", config, "--output", picture], check=True,
+                               env=environment, capture_output=True, timeout=120)
+                times.append(time.monotonic() - start)
+        finally:
+            launch.send_signal(signal.SIGINT)
+            launch.wait(timeout=30)
+    return {"first picture of RViz, s": sorted(times)[1]}
+
+
+SECTIONS = {
+    "arm": ("the arm as fast as possible, where its time goes, and other engines", lambda quick: robot_figures("arm", quick)),
+    "ur5": ("the UR5 on a trajectory, likewise", lambda quick: robot_figures("ur5", quick)),
+    "start": ("from roslaunch to the first joint states; memory", start_up),
+    "scaling": ("one to eight arms in a world", scaling),
+    "tracking": ("error of the joint trajectory controller", tracking),
+    "pendulum": ("error against step size", pendulum),
+    "physics": ("bare physics against bare ODE, and rays", lambda quick: section_script("physics.py")),
+    "camera": ("pictures per second, and what one costs", camera),
+    "rviz": ("time to a picture of RViz", rviz),
+    "can": ("cycles of rm_hw against the motor bench", lambda quick: section_script("can_loop.py", "--seconds", 5 if quick else 20)),
+}
+if os.path.exists(os.path.join(HERE, "mobile.py")):
+    SECTIONS["mobile"] = ("mbot with its sensors, many of them, and a pile of boxes", lambda quick: section_script("mobile.py"))
+
+
+def wanted(name):
+    """(text, check) of what was asked of a figure, or None."""
+    for pattern, relation, limit in WANTED:
+        if re.search(pattern, name):
+            return f"{relation} {limit:g}", {">=": lambda v: v >= limit, "<": lambda v: v < limit,
+                                             "<=": lambda v: v <= limit}[relation]
+    return None
+
+
+def show(name, value):
+    if isinstance(value, str):
+        print(f"  {name:78} {value}")
+        return
+    goal = wanted(name)
+    verdict = f"  wanted {goal[0]:8}{'' if goal[1](value) else '  MISSED'}" if goal else ""
+    print(f"  {name:78} {value:12.4g}{verdict}")
+
+
+def main():
+    parser = argparse.ArgumentParser(prog="scripts/bench", formatter_class=argparse.RawDescriptionHelpFormatter,
+                                     description="Print figures, each ratio measured in one run, and what was asked for.",
+                                     epilog="sections:\n" + "\n".join(f"  {n:10} {t}" for n, (t, _) in SECTIONS.items()))
+    parser.add_argument("sections", nargs="*", metavar="SECTION", help="which; default all")
+    parser.add_argument("--json", metavar="FILE", help="write the figures there as well")
+    parser.add_argument("--quick", action="store_true", help="shorter runs, rougher figures")
+    options = parser.parse_args()
+    unknown = [name for name in options.sections if name not in SECTIONS]
+    if unknown:
+        parser.error(f"no section {', '.join(unknown)}; there are {', '.join(SECTIONS)}")
+    report = {"machine": platform.platform(), "cores": os.cpu_count(), "load before": os.getloadavg()[0], "figures": {}}
+    failed = False
+    print(f"{report['machine']}, {report['cores']} cores, load {report['load before']:.1f}")
+    for name in options.sections or SECTIONS:
+        title, measure = SECTIONS[name]
+        load = os.getloadavg()[0]
+        print(f"\n{name}: {title} (load before {load:.1f})", flush=True)
+        try:
+            figures = measure(options.quick)
+        except (RuntimeError, OSError, ValueError, subprocess.SubprocessError) as error:
+            print(f"  failed: {error}")
+            failed = True
+            continue
+        report["figures"][name] = {"load before": load, **figures}
+        for figure, value in figures.items():
+            show(figure, value)
+    if options.json:
+        with open(options.json, "w", encoding="utf-8") as out:
+            json.dump(report, out, indent=2)
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
