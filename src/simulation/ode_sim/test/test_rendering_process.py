@@ -320,6 +320,12 @@ def wait_for(condition, seconds=10.0):
         time.sleep(0.01)
 
 
+def test_a_process_that_draws_nothing_loads_no_opencv():
+    code = ("import sys\nfrom ode_sim.rendering import Camera, RenderProcess, describe\nassert 'cv2' not in sys.modules\n"
+            "from ode_sim.rendering import NOTHING, Renderer, render, segment_names\nassert 'cv2' in sys.modules\n")
+    subprocess.run([sys.executable, "-c", code], check=True, env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)})
+
+
 def test_segment_names_in_process():
     world = World(ball("a", (2, 0, 0), (1, 0, 0)))
     ident = render(world, CAMERA, "segmentation")

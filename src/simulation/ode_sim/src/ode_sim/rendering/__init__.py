@@ -3,13 +3,22 @@
 :class:`Renderer` draws a scene in this process, :func:`render` the world as it is now, :class:`RenderProcess`
 beside it.
 """
+from importlib import import_module
+
 from ode_sim.rendering.camera import ENCODINGS, Camera, CameraError, Distortion, look_at, read_camera, read_distortion
 from ode_sim.rendering.context import RenderingUnavailable, create_context
-from ode_sim.rendering.live import render, segment_names
 from ode_sim.rendering.process import OUTPUTS, Frame, RenderProcess
-from ode_sim.rendering.renderer import NOTHING, Renderer
 from ode_sim.rendering.scene import SceneDescription, arrange, describe
 
 __all__ = ["Camera", "CameraError", "Distortion", "ENCODINGS", "Frame", "NOTHING", "OUTPUTS", "RenderProcess",
            "Renderer", "RenderingUnavailable", "SceneDescription", "arrange", "create_context", "describe", "look_at",
            "read_camera", "read_distortion", "render", "segment_names"]
+
+# Drawing in this process needs OpenCV, half a second to load; a simulator draws in another and comes up without it.
+_DRAWING = {"NOTHING": "renderer", "Renderer": "renderer", "render": "live", "segment_names": "live"}
+
+
+def __getattr__(name: str):
+    if name not in _DRAWING:
+        raise AttributeError(f"module '{__name__}' has no attribute '{name}'")
+    return getattr(import_module(f"{__name__}.{_DRAWING[name]}"), name)

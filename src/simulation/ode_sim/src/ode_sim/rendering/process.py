@@ -23,8 +23,8 @@ from typing import Callable, Dict, List, Optional, Tuple
 import numpy as np
 
 from ode_sim.rendering.camera import Camera
-from ode_sim.rendering.live import SceneWatch, camera_seed
 from ode_sim.rendering.messages import AddCamera, Done, Draw, Failed, ForgetCamera, Problems, SetScene
+from ode_sim.rendering.watch import SceneWatch, camera_seed
 
 #: What can be asked of a camera: the sensor image, compressed ones (``jpeg:QUALITY``, ``png:LEVEL``), depth in metres
 #: (float32, NaN where invalid) or millimetres (uint16, 0 where invalid), an organised point cloud (see image.cloud).
