@@ -65,3 +65,12 @@ def test_output_option_and_old_namespaces(write, tmp_path):
     out = tmp_path / "out.urdf"
     assert run(path, "-o", str(out)).returncode == 0
     assert '<link name="3"/>' in out.read_text()
+
+
+def test_a_broken_manifest_elsewhere_is_not_blamed_on_the_file(write, tmp_path, monkeypatch):
+    broken = tmp_path / "workspace" / "broken"
+    broken.mkdir(parents=True)
+    (broken / "package.xml").write_text("<package><name>x</nam></package>")
+    monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path / "workspace"))
+    result = run(write('<link name="$(find broken)"/>'))
+    assert result.returncode == 2 and "some package.xml on ROS_PACKAGE_PATH is not well-formed" in result.stderr

@@ -1,4 +1,6 @@
 """The one function of ament_index_python that xacro's ``$(find pkg)`` calls, answered from ROS_PACKAGE_PATH."""
+from xml.etree.ElementTree import ParseError
+
 import rospkg
 
 _rospack = None
@@ -25,3 +27,7 @@ def get_package_share_directory(package_name: str) -> str:
         raise PackageNotFoundError(
             f"package '{error.args[0]}' not found: is it built, and has its workspace's devel/setup.bash been sourced in "
             f"this shell?") from None
+    except ParseError as error:
+        raise PackageNotFoundError(
+            f"package '{package_name}' cannot be looked up: some package.xml on ROS_PACKAGE_PATH is not well-formed ({error}); "
+            f"`rospack find {package_name}` says which") from None
