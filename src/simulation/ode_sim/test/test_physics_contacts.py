@@ -69,10 +69,14 @@ def test_friction_is_the_smaller_of_the_two():
     assert model.twist().linear[0] == pytest.approx(1 - 0.1 * G * 0.2, rel=0.01)
 
 
-def test_fdir1_counts_on_the_first_collision_of_a_pair():
+@pytest.mark.parametrize("floor, thing", [
+    (Surface(mu=1.0, mu2=0.0, fdir1=(0, 1, 0)), Surface()),
+    (Surface(), Surface(mu=1.0, mu2=0.0, fdir1=(0, 1, 0))),  # also if the second of the pair asks for it
+    (Surface(mu=1.5, mu2=1.5, fdir1=(1, 0, 0)), Surface(mu=1.0, mu2=0.0, fdir1=(0, 1, 0)))])  # the slicker one has its way
+def test_fdir1_of_either_collision(floor, thing):
     world = ode_sim.World()
-    world.spawn(ground(surface=Surface(mu=1.0, mu2=0.0, fdir1=(0, 1, 0))))
-    model = world.spawn(box(surface=Surface(mu=1.0, mu2=1.0)))
+    world.spawn(ground(surface=floor))
+    model = world.spawn(box(surface=thing))
     world.step(100)
     model.set_twist((1, 1, 0), (0, 0, 0))
     world.step(50)

@@ -22,7 +22,7 @@ class Bumper(SensorPlugin):
         self.server, self.sensor, self.world = server, sensor, server.world
         contact = SdfElement(sensor.description.element).child("contact")
         wanted = [child.text for child in contact.children("collision")] if contact else []
-        own = {collision.name: collision for collision in sensor.link.collisions}
+        own = sensor.link.collisions
         unknown = [name for name in wanted if name not in own]
         if not wanted or unknown:
             raise PluginError(

@@ -1,11 +1,12 @@
 """Holding on to things: libgazebo_ros_vacuum_gripper.so and libgazebo_grasp_fix.so."""
 from __future__ import annotations
 
+import itertools
 import math
 from typing import Dict, Optional
 
 from gazebo_ros.plugin import ModelPlugin, PluginError
-from ode_sim import math3
+from ode_sim import Attachment, math3
 from std_msgs.msg import Bool
 from std_srvs.srv import Empty, EmptyResponse
 
@@ -84,7 +85,7 @@ class GraspFix(ModelPlugin):
             raise PluginError(f"<gripper_link> {', '.join(unknown) or 'is missing'}: no such link in model {model.name}")
         self.collisions: Dict[int, str] = {}
         for name in fingers:
-            for collision in model.links[name].collisions:
+            for collision in model.links[name].collisions.values():
                 self.collisions[collision.id] = name
                 server.world.watch_contacts(collision)
         self.angle = math.radians(sdf.get("forces_angle_tolerance", 120.0))
@@ -93,25 +94,24 @@ class GraspFix(ModelPlugin):
         self.most = sdf.get("max_grip_count", 8)
         self.release = sdf.get("release_tolerance", 0.005)
         self.counts: Dict[str, int] = {}
-        self.held: Optional[str] = None
-        self.joint = None
+        self.attachment: Optional[Attachment] = None
         self.finger_gap = 0.0
         self.next_ns = 0
         self.fingers = [model.links[name] for name in fingers]
         server.after_step(self.step)
 
     def _gap(self) -> float:
-        """Sum of distances of the fingers from the palm: grows when the gripper opens."""
-        points = [finger.pose.p for finger in self.fingers]
-        return sum(math3.norm(math3.sub(p, points[0])) for p in points)
+        """Sum of the distances between the fingers' centres of mass: grows when the gripper opens."""
+        points = [finger.com() for finger in self.fingers]
+        return sum(math3.norm(math3.sub(a, b)) for a, b in itertools.combinations(points, 2))
 
     def step(self) -> None:
         if self.server.world.time_ns < self.next_ns:
             return
         self.next_ns = self.server.world.time_ns + self.period_ns
-        if self.held is not None:
-            if self.held not in self.server.world.models or self._gap() > self.finger_gap + self.release:
-                self._let_go()
+        if self.attachment is not None:
+            if not self.attachment.active or self._gap() > self.finger_gap + self.release:
+                self.reset()
             return
         gripped = self._gripped()
         for name in list(self.counts):
@@ -139,15 +139,13 @@ class GraspFix(ModelPlugin):
                 if any(math3.dot(a, b) < math.cos(self.angle) for a in normals for b in normals)}
 
     def _hold(self, link) -> None:
-        self.held, self.finger_gap = link.model.name, self._gap()
-        self.joint = self.server.world.attach(self.palm, link)
+        self.finger_gap = self._gap()
+        self.attachment = self.server.world.attach(self.palm, link)
         self.counts.clear()
 
-    def _let_go(self) -> None:
-        if self.held in self.server.world.models:
-            self.server.world.detach(self.joint)
-        self.held = self.joint = None
-
     def reset(self) -> None:
-        if self.held is not None:
-            self._let_go()
+        if self.attachment is not None:
+            self.attachment.detach()
+            self.attachment = None
+
+    shutdown = reset

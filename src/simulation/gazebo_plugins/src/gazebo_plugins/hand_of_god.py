@@ -22,7 +22,7 @@ class HandOfGod(ModelPlugin):
         self.link.gravity = False
         self.frame = sdf.get("frameId", "hog") or "hog"
         self.stiffness = sdf.get("kl", 200.0), sdf.get("ka", 200.0)  # N/m, N m/rad
-        mass, inertia = self.link.mass, max(self.link.inertia[i][i] for i in range(3))
+        mass, inertia = self.link.mass, max(self.link.inertia[:3])
         self.damping = 2 * math.sqrt(mass * self.stiffness[0]), 2 * math.sqrt(inertia * self.stiffness[1])
         self.buffer = tf2_ros.Buffer()
         self.listener = tf2_ros.TransformListener(self.buffer)

@@ -15,19 +15,22 @@ from ode_sim import math3
 from sensor_msgs.msg import Imu
 from std_srvs.srv import Empty, EmptyResponse
 
-from gazebo_plugins.ros_side import Noise, RateGate, Topics, diagonal, find_link, required, subscribed
+from gazebo_plugins.ros_side import Noise, SensorGate, Topics, diagonal, find_link, required, subscribed
 
 
 class Differentiator:
-    """Acceleration of a link's origin in the world frame, by the difference of its velocity between two calls."""
+    """Acceleration of a point of a link in the world frame, by the difference of its velocity between two calls.
 
-    def __init__(self, link):
-        self._link = link
+    :param at: the point in the link frame, m
+    """
+
+    def __init__(self, link, at=(0.0, 0.0, 0.0)):
+        self._link, self._at = link, at
         self._last = None  # (time_ns, velocity)
 
     def __call__(self, time_ns: int) -> np.ndarray:
         """(3,) m/s^2; zero at the first call and after time went back."""
-        velocity = np.array(self._link.linear_velocity())
+        velocity = np.array(self._link.velocity_at(math3.transform(self._link.pose, self._at)))
         last, self._last = self._last, (time_ns, velocity)
         if last is None or time_ns <= last[0]:
             return np.zeros(3)
@@ -53,12 +56,12 @@ class ImuPlugin(ModelPlugin):
         service = sdf.get("serviceName", "/default_imu")
         if service:
             self.topics.service(service, Empty, lambda _: EmptyResponse())
-        self.gate = RateGate(sdf.get("updateRate", 0.0))
+        self.gate = SensorGate(sdf.get("updateRate", 0.0))
         server.after_step(self.step)
 
     def step(self) -> None:
         now = self.server.now()
-        if not self.publisher.get_num_connections() or not self.gate.open(now):
+        if not self.publisher.get_num_connections() or not self.gate.passes(now.to_nsec()):
             return
         q_WL = math3.quat_multiply(self.offset, self.link.pose.q)
         q_LW = math3.quat_inverse(q_WL)
@@ -121,10 +124,9 @@ class ImuSensor(SensorPlugin):
         for name in ("orientation_covariance", "angular_velocity_covariance", "linear_acceleration_covariance"):
             setattr(message, name, diagonal((sigma * sigma,) * 3))
         self.reference = math3.quat_inverse(self._orientation()) if sdf.get("initialOrientationAsReference", False) else None
-        self.acceleration = Differentiator(sensor.link)
+        self.acceleration = Differentiator(sensor.link, sensor.description.pose.p)
         self.last_ns = 0
-        self.gate = RateGate(sdf.get("updateRateHZ", 1.0) if sdf.has("updateRateHZ") else sensor.description.update_rate)
-        self.server = server
+        self.gate = SensorGate(sdf.get("updateRateHZ", 0.0))
         self.publisher = self.topics.publisher(sdf.get("topicName", "imu_data") or "imu_data", Imu)
         sensor.connect(self.measure, subscribed(self.publisher))
 
@@ -134,7 +136,7 @@ class ImuSensor(SensorPlugin):
     def measure(self, sensor) -> None:
         now_ns = sensor.measurement_ns
         acceleration_W = self.acceleration(now_ns) - np.asarray(self.world.gravity)
-        if not self.gate.open(self.server.now()):
+        if not self.gate.passes(now_ns):
             return
         dt, self.last_ns = (now_ns - self.last_ns) * 1e-9, now_ns
         q_WS = self._orientation()

@@ -11,7 +11,7 @@ from gazebo_ros.plugin import PluginError, SensorPlugin
 from ode_sim import math3
 from sensor_msgs.msg import ChannelFloat32, LaserScan, PointCloud, Range as RangeMsg
 
-from gazebo_plugins.ros_side import RateGate, Topics, subscribed
+from gazebo_plugins.ros_side import SensorGate, Topics, subscribed
 
 _MOST_RAYS = 1_000_000
 
@@ -187,13 +187,12 @@ class Range(SensorPlugin):
         message.min_range, message.max_range = self.fan.min, self.fan.max
         self.sigma = sdf.get("gaussianNoise", 0.0)
         self.rng = server.world.rng(sensor.scoped_name + "/range")
-        self.gate = RateGate(sdf.get("updateRate", 0.0))
-        self.server = server
+        self.gate = SensorGate(sdf.get("updateRate", 0.0))
         self.publisher = self.topics.publisher(sdf.get("topicName", "/range") or "/range", RangeMsg)
         sensor.connect(self.measure, subscribed(self.publisher))
 
     def measure(self, sensor) -> None:
-        if not self.gate.open(self.server.now()):
+        if not self.gate.passes(sensor.measurement_ns):
             return
         ranges, _ = self.fan.cast()
         nearest = float(np.min(ranges))

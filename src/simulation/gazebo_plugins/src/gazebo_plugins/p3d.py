@@ -7,7 +7,7 @@ from nav_msgs.msg import Odometry
 from ode_sim import math3
 from ode_sim.description.model import Pose
 
-from gazebo_plugins.ros_side import Noise, RateGate, Topics, diagonal, find_link, pose_msg, required
+from gazebo_plugins.ros_side import Noise, SensorGate, Topics, diagonal, find_link, pose_msg, required
 
 _WORLD = ("world", "/world", "map", "/map")
 
@@ -34,13 +34,13 @@ class P3D(ModelPlugin):
         message.header.frame_id = self.topics.frame(frame)
         message.child_frame_id = self.link.name
         message.pose.covariance = message.twist.covariance = diagonal((sigma * sigma,) * 6)
-        self.gate = RateGate(sdf.get("updateRate", 0.0))
+        self.gate = SensorGate(sdf.get("updateRate", 0.0))
         self.publisher = self.topics.publisher(required(sdf, "topicName"), Odometry)
         server.after_step(self.step)
 
     def step(self) -> None:
         now = self.server.now()
-        if not self.publisher.get_num_connections() or not self.gate.open(now):
+        if not self.publisher.get_num_connections() or not self.gate.passes(now.to_nsec()):
             return
         pose = self.link.pose
         linear, angular = self.link.linear_velocity(), self.link.angular_velocity()

@@ -4,6 +4,7 @@ from __future__ import annotations
 import math
 
 from gazebo_ros.plugin import ModelPlugin
+from ode_sim import math3
 
 from gazebo_plugins.ros_side import RateGate, Topics
 from gazebo_plugins.wheels import UNKNOWN, Command, OdometryPublisher, yaw_of
@@ -19,7 +20,7 @@ class PlanarMove(ModelPlugin):
         self.timeout = sdf.get("cmdTimeout", -1.0)
         self.command = Command(self.topics, sdf.get("commandTopic", "cmd_vel") or "cmd_vel")
         self.odometry = OdometryPublisher(self.topics, sdf, "base_footprint", (1e-5, 1e-5, UNKNOWN, UNKNOWN, UNKNOWN, 1e-3))
-        self.last_pose = model.pose
+        self.last_pose, self.last_time = model.pose, server.now()
         server.before_step(self.step)
 
     def step(self) -> None:
@@ -30,18 +31,27 @@ class PlanarMove(ModelPlugin):
         yaw = yaw_of(pose)
         cos, sin = math.cos(yaw), math.sin(yaw)
         x, y = self.command.x, self.command.y
-        self.model.set_twist((cos * x - sin * y, sin * x + cos * y, 0.0), (0.0, 0.0, self.command.yaw_rate))
-        elapsed = self.gate.open(now)
-        if elapsed:
+        self._glide((cos * x - sin * y, sin * x + cos * y, 0.0), (0.0, 0.0, self.command.yaw_rate), pose.p)
+        if self.gate.open(now):
+            elapsed = (now - self.last_time).to_sec()
             dx, dy = ((pose.p[i] - self.last_pose.p[i]) / elapsed for i in range(2))
             turned = math.remainder(yaw - yaw_of(self.last_pose), 2 * math.pi) / elapsed
-            self.last_pose = pose
+            self.last_pose, self.last_time = pose, now
             self.odometry.publish(now, pose, (cos * dx + sin * dy, cos * dy - sin * dx, turned), flat=True)
             self.odometry.send_tf(now, pose)
 
+    def _glide(self, linear, angular, origin) -> None:
+        """All links move as one rigid body about the model's origin. What no longer sinks is freed of its weight: friction
+        with the floor would take from the commanded speed."""
+        world = self.server.world
+        for link in self.model.links.values():
+            if abs(link.com_velocity()[2]) < 0.5 * abs(world.gravity[2]) * world.dt and link.gravity:
+                link.add_force(math3.scale(world.gravity, -link.mass))
+            link.set_twist(math3.add(linear, math3.cross(angular, math3.sub(link.com(), origin))), angular)
+
     def reset(self) -> None:
         self.command.clear()
-        self.last_pose = self.model.pose
+        self.last_pose, self.last_time = self.model.pose, self.server.now()
 
     def shutdown(self) -> None:
         self.topics.close()

@@ -86,6 +86,23 @@ class RateGate:
         return elapsed / _NS
 
 
+class SensorGate:
+    """``updateRate`` of a sensor's plugin: of the sensor's measurements, those that are a period or more apart.
+
+    :param rate: Hz of sim time; 0 or less = all
+    """
+
+    def __init__(self, rate: float):
+        self._period_ns = round(_NS / rate) if rate > 0.0 else 0
+        self._last_ns: Optional[int] = None
+
+    def passes(self, now_ns: int) -> bool:
+        if self._last_ns is not None and 0 <= now_ns - self._last_ns < self._period_ns:
+            return False
+        self._last_ns = now_ns
+        return True
+
+
 class Noise:
     """Zero-mean Gaussian noise, the same in every run of the same world and seed.
 

@@ -11,6 +11,8 @@ from sensor_msgs.msg import JointState
 from gazebo_plugins.ros_side import RateGate, TfBroadcaster, Topics, find_joint
 from gazebo_plugins.wheels import UNKNOWN, Command, EncoderOdometry, OdometryPublisher, from_encoders, ground_truth
 
+_FASTEST, _HOLDING = 20.0, 10.0  # steering without <steeringSpeed>: rad/s, and its torque in units of <wheelTorque>
+
 
 class TricycleDrive(ModelPlugin):
     """``linear.x`` is the rim speed of the driven wheel, ``angular.z`` the **steering angle** (rad, within +-pi/2)."""
@@ -46,6 +48,7 @@ class TricycleDrive(ModelPlugin):
         now = self.server.now()
         if self.encoders:
             self.encoders.integrate(self.server.world.dt)
+        self._steer()
         elapsed = self.gate.open(now)
         if elapsed:
             self._publish(now)
@@ -61,13 +64,15 @@ class TricycleDrive(ModelPlugin):
             self.rim_speed += max(-rate * elapsed, min(rate * elapsed, error))
         self.driven.set_motor(self.rim_speed / self.driven_radius, self.torque)
 
+    def _steer(self) -> None:
+        """A motor, not a position command: what the driven wheel pushes with must reach the frame."""
         angle = max(-math.pi / 2, min(math.pi / 2, self.command.yaw_rate))
-        if self.steering_speed <= 0.0:
-            self.steering.servo(angle)
-            return
         error = angle - self.steering.position()
-        rate = 0.0 if abs(error) < self.angle_tolerance else math.copysign(self.steering_speed, error)
-        self.steering.set_motor(rate, self.torque)
+        if self.steering_speed <= 0.0:
+            self.steering.set_motor(max(-_FASTEST, min(_FASTEST, error / (5 * self.server.world.dt))), _HOLDING * self.torque)
+        else:
+            rate = 0.0 if abs(error) < self.angle_tolerance else math.copysign(self.steering_speed, error)
+            self.steering.set_motor(rate, self.torque)
 
     def _publish(self, now: rospy.Time) -> None:
         pose, velocity = (self.encoders.pose, self.encoders.velocity) if self.encoders else ground_truth(self.model)

@@ -8,7 +8,7 @@ from geometry_msgs.msg import Vector3, Wrench, WrenchStamped
 from gazebo_ros.plugin import ModelPlugin
 from ode_sim import math3
 
-from gazebo_plugins.ros_side import Noise, RateGate, Topics, find_joint, find_link, required
+from gazebo_plugins.ros_side import Noise, SensorGate, Topics, find_joint, find_link, required
 
 
 class FTSensor(ModelPlugin):
@@ -22,19 +22,19 @@ class FTSensor(ModelPlugin):
         self.noise = Noise(server.world.rng(f"{model.name}/ft/{self.joint.name}"), sdf.get("gaussianNoise", 0.0))
         self.message = WrenchStamped()
         self.message.header.frame_id = self.topics.frame(self.joint.child.name)
-        self.gate = RateGate(sdf.get("updateRate", 0.0))
+        self.gate = SensorGate(sdf.get("updateRate", 0.0))
         self.publisher = self.topics.publisher(required(sdf, "topicName"), WrenchStamped)
         self.joint.feedback()  # asks the engine to compute it from now on
         server.after_step(self.step)
 
     def step(self) -> None:
         now = self.server.now()
-        if not self.publisher.get_num_connections() or not self.gate.open(now):
+        if not self.publisher.get_num_connections() or not self.gate.passes(now.to_nsec()):
             return
         feedback = self.joint.feedback()
         q_CW = math3.quat_inverse(self.joint.child.pose.q)
-        force = self.noise.vector(math3.quat_rotate(q_CW, tuple(feedback.force_child)))
-        torque = self.noise.vector(math3.quat_rotate(q_CW, tuple(feedback.torque_child)))
+        force = self.noise.vector(math3.quat_rotate(q_CW, feedback.child_force))
+        torque = self.noise.vector(math3.quat_rotate(q_CW, feedback.child_torque))
         self.message.header.stamp = now
         self.message.wrench = Wrench(Vector3(*force), Vector3(*torque))
         self.publisher.publish(self.message)
@@ -58,7 +58,7 @@ class F3D(ModelPlugin):
     def step(self) -> None:
         if self.publisher.get_num_connections():
             self.message.header.stamp = self.server.now()
-            self.message.wrench = Wrench(Vector3(*self.link.force()), Vector3(*self.link.torque()))
+            self.message.wrench = Wrench(Vector3(*self.link.applied_force()), Vector3(*self.link.applied_torque()))
             self.publisher.publish(self.message)
 
     def shutdown(self) -> None:

@@ -168,6 +168,14 @@ class LinkHandle:
         """Set or added for the next step, N m, about the centre of mass."""
         return self.core.torque()
 
+    def applied_force(self) -> Vec3:
+        """What :meth:`force` was in the last step, N."""
+        return self.core.applied_force()
+
+    def applied_torque(self) -> Vec3:
+        """What :meth:`torque` was in the last step, N m."""
+        return self.core.applied_torque()
+
     @property
     def mass(self) -> float:
         """kg."""

@@ -1,0 +1,16 @@
+# For packages that ask for Gazebo itself. Their nodes and worlds need nothing of it; C++ plugins cannot be built: there are
+# no headers and libraries of Gazebo here, its plugins are Python classes (see gazebo_ros).
+set(GAZEBO_VERSION "11.0.0")
+set(GAZEBO_MAJOR_VERSION 11)
+set(GAZEBO_INCLUDE_DIRS "")
+set(GAZEBO_LIBRARIES "")
+set(GAZEBO_LIBRARY_DIRS "")
+set(GAZEBO_PLUGIN_PATH "")
+set(GAZEBO_MODEL_PATH "")
+set(GAZEBO_MEDIA_PATH "")
+set(GAZEBO_PROTO_PATH "")
+set(GAZEBO_CXX_FLAGS "")
+set(GAZEBO_FOUND TRUE)
+if(NOT gazebo_FIND_QUIETLY)
+  message(STATUS "gazebo: nodes, worlds and models build; C++ plugins (#include <gazebo/...>) do not")
+endif()

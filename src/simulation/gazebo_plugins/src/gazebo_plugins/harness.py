@@ -1,0 +1,74 @@
+"""libgazebo_ros_harness.so: a model hangs from the world, is lowered by a winch, and let go."""
+from __future__ import annotations
+
+import math
+from typing import Optional
+
+import rospy
+from gazebo_ros.plugin import ModelPlugin, PluginError
+from ode_sim import Attachment, math3
+from ode_sim.description.model import Pose
+from std_msgs.msg import Bool, Float32
+
+from gazebo_plugins.ros_side import Topics, required
+
+
+class Harness(ModelPlugin):
+    """``<joint>`` elements with a ``<child>`` link, ``<winch><joint>``, ``<detach>`` as upstream.
+
+    Topics ``harness/velocity`` (m/s along the joint's axis) and ``harness/detach`` in the model's namespace. The winch moves
+    exactly as commanded, within the joint's limits, whatever the load: its ``<pid>`` is not needed.
+    """
+
+    def load(self, server, model, sdf) -> None:
+        self.server, self.model = server, model
+        joints = {joint.attrib.get("name", ""): joint for joint in sdf.children("joint")}
+        winch = sdf.child("winch")
+        name = required(winch, "joint") if winch else required(sdf, "detach")
+        if name not in joints:
+            raise PluginError(f"<winch> names the joint '{name}', which is not among the plugin's: {', '.join(joints) or 'none'}")
+        joint = joints[name]
+        child = required(joint, "child")
+        if child not in model.links:
+            raise PluginError(f"joint {name}: model {model.name} has no link '{child}'; it has {', '.join(model.links)}")
+        self.link = model.links[child]
+        axis = joint.child("axis")
+        limit = axis.child("limit") if axis else None
+        self.axis = math3.unit(axis.get("xyz", (0.0, 0.0, 1.0)) if axis else (0.0, 0.0, 1.0))  # world, as the joint is at the start
+        self.lower = limit.get("lower", -math.inf) if limit else -math.inf
+        self.upper = limit.get("upper", math.inf) if limit else math.inf
+        self.velocity = self.way = 0.0
+        self.start: Optional[Pose] = None
+        self.attachment: Optional[Attachment] = None
+        self._hold()
+        self.topics = Topics(sdf, model.name, "A")
+        self.topics.subscriber("harness/velocity", Float32, self._wind)
+        self.topics.subscriber("harness/detach", Bool, self._release)
+        server.before_step(self.step)
+
+    def _hold(self) -> None:
+        self.start, self.way, self.velocity = self.link.pose, 0.0, 0.0
+        self.attachment = self.server.world.attach(None, self.link)
+
+    def _wind(self, message: Float32) -> None:
+        if math.isfinite(message.data):
+            self.velocity = message.data
+        else:
+            rospy.logwarn("%s: a winch velocity that is not a finite number is ignored", self.topics.resolve("harness/velocity"))
+
+    def _release(self, message: Bool) -> None:
+        if message.data:
+            self.server.call(self.attachment.detach)
+
+    def step(self) -> None:
+        if self.velocity and self.attachment.active:
+            self.way = max(self.lower, min(self.upper, self.way + self.velocity * self.server.world.dt))
+            self.attachment.pose = Pose(math3.add(self.start.p, math3.scale(self.axis, self.way)), self.start.q)
+
+    def reset(self) -> None:
+        self.attachment.detach()
+        self._hold()
+
+    def shutdown(self) -> None:
+        self.attachment.detach()
+        self.topics.close()

@@ -1,0 +1,46 @@
+"""What the rostests share: a subscriber that keeps everything, and conditions that come true in the end."""
+import time
+import xmlrpc.client
+
+import rosgraph
+import rospy
+
+
+def until(condition, what, seconds=20.0):
+    """ROS delivers when it pleases; what has been sent arrives within ``seconds`` or the test fails."""
+    end = time.monotonic() + seconds
+    while not condition():
+        if time.monotonic() > end:
+            raise AssertionError(f"no {what}")
+        time.sleep(0.002)
+
+
+def connections(topic):
+    """Numbers of the connections that subscribers of ``topic`` have to the node /gazebo, as that node sees them."""
+    uri = rosgraph.Master(rospy.get_name()).lookupNode("/gazebo")
+    _, _, rows = xmlrpc.client.ServerProxy(uri).getBusInfo(rospy.get_name())
+    return {row[0] for row in rows if row[2] == "o" and row[4] == topic and row[5]}
+
+
+class Ear:
+    """A subscriber that keeps everything; when it is made the simulator is connected."""
+
+    def __init__(self, topic, kind):
+        self.messages = []
+        before = connections(topic)
+        self.subscriber = rospy.Subscriber(topic, kind, self.messages.append, queue_size=None, tcp_nodelay=True)
+        until(lambda: connections(topic) - before, f"connection of {topic}")
+
+    def close(self):
+        self.subscriber.unregister()
+
+
+class Mouth:
+    """A publisher that the simulator listens to."""
+
+    def __init__(self, topic, kind):
+        self.publisher = rospy.Publisher(topic, kind, queue_size=10)
+        until(lambda: self.publisher.get_num_connections(), f"subscriber of {topic}")
+
+    def say(self, *values, **fields):
+        self.publisher.publish(*values, **fields)

@@ -1,0 +1,437 @@
+#!/usr/bin/env python3
+"""Every plugin but the cameras against what the physics must give. Time passes only through the step service."""
+import math
+import unittest
+
+import numpy as np
+import rospy
+import rostest
+import tf2_ros
+from dynamic_reconfigure.client import Client
+from gazebo_msgs.msg import ContactsState, ModelState, ODEJointProperties
+from gazebo_msgs.srv import GetJointProperties, GetLinkState, GetModelState, SetJointProperties, SetModelState, SpawnModel
+from gazebo_ros.srv import StepWorld
+from gazebo_ros_link_attacher.srv import Attach
+from geometry_msgs.msg import (Point, Pose, Quaternion, TransformStamped, Twist, Vector3, Vector3Stamped, Wrench,
+                               WrenchStamped)
+from listening import Ear, Mouth, until
+from models import box, elements, joint, link, plugin, ray, sdf, wheel
+from nav_msgs.msg import Odometry
+from rosgraph_msgs.msg import Log
+from sensor_msgs.msg import Imu, JointState, LaserScan, MagneticField, NavSatFix, PointCloud, Range
+from std_msgs.msg import Bool, Float32, String
+from std_srvs.srv import Empty
+from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
+
+G = 9.8
+LASER = (0.5, 0.3)  # where the scanners stand in the room
+ROOM = (3.0, 2.0)  # half sides
+COVERS = "<vertical><samples>3</samples><min_angle>-0.2</min_angle><max_angle>0.2</max_angle></vertical>"
+
+
+def xyz(vector):
+    return np.array((vector.x, vector.y, vector.z))
+
+
+def yaw_of(pose):
+    return 2 * math.atan2(pose.orientation.z, pose.orientation.w)
+
+
+def to_wall(angles):
+    """Analytic distances from LASER to the walls."""
+    with np.errstate(divide="ignore"):
+        x = np.where(np.cos(angles) > 0, ROOM[0] - LASER[0], ROOM[0] + LASER[0]) / np.abs(np.cos(angles))
+        y = np.where(np.sin(angles) > 0, ROOM[1] - LASER[1], ROOM[1] + LASER[1]) / np.abs(np.sin(angles))
+    return np.minimum(x, y)
+
+
+class Plugins(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        rospy.wait_for_message("/gazebo/ready", Bool, 60)
+        for name, kind in {"step": StepWorld, "spawn_sdf_model": SpawnModel, "get_model_state": GetModelState,
+                           "get_link_state": GetLinkState, "get_joint_properties": GetJointProperties,
+                           "set_model_state": SetModelState}.items():
+            setattr(cls, "_" + name, staticmethod(rospy.ServiceProxy("/gazebo/" + name, kind, persistent=True)))
+
+    def spawn(self, name, text, x, y, z=0.0):
+        answer = self._spawn_sdf_model(name, text, "", Pose(Point(x, y, z), Quaternion(0, 0, 0, 1)), "")
+        self.assertTrue(answer.success, answer.status_message)
+
+    def step(self, seconds):
+        self.assertTrue(self._step(round(seconds * 1000)).success)
+
+    def pose(self, name):
+        return self._get_model_state(name, "").pose
+
+    def link(self, name):
+        return self._get_link_state(name, "").link_state
+
+    def joint(self, name):
+        return self._get_joint_properties(name).position[0]
+
+    def measure(self, topic, kind, seconds=0.1, count=1):
+        """The last of the messages that this much time brings, which are ``count``; 0: of those of every step, which
+        nobody needs to get all."""
+        ear = Ear(topic, kind)
+        self.step(seconds)
+        until(lambda: len(ear.messages) >= max(count, 1), f"{count} messages on {topic}, only {len(ear.messages)}")
+        ear.close()
+        if count:
+            self.assertEqual(len(ear.messages), count, topic)
+        return ear.messages[-1]
+
+    def until_stepped(self, condition, what):
+        """Something was published: it has arrived when time brings this about."""
+        until(lambda: (self.step(0.01), condition())[1], what)
+
+    # ---------------------------------------------------------------------------------------------------- rays
+
+    def test_rays(self):
+        def tags(topic):
+            return dict(topicName=topic, frameName="scanner")
+        sensors = [
+            ray("plain", plugin("gazebo_ros_laser", **tags("plain"))),
+            ray("gpu", plugin("gazebo_ros_gpu_laser", **tags("gpu")), kind="gpu_ray", samples=90),
+            ray("noisy", plugin("gazebo_ros_laser", **tags("noisy")), noise=0.02, far=10),
+            ray("fine", plugin("gazebo_ros_laser", **tags("fine")), samples=181, resolution=2, low=-0.5, high=0.5, far=10),
+            ray("tall", plugin("gazebo_ros_laser", **tags("tall")), samples=5, low=-0.4, high=0.4, vertical=COVERS, far=10),
+            ray("cloud", plugin("gazebo_ros_block_laser", **tags("cloud")), samples=91, low=-1, high=1, far=10),
+            ray("range", plugin("gazebo_ros_range", fov=0.3, radiation="infrared", **tags("range")), samples=5, low=-0.1,
+                high=0.1, far=5),
+            ray("blind", plugin("gazebo_ros_range", **tags("blind")), samples=5, low=-0.1, high=0.1, far=1),
+            ray("sonar", plugin("hector_gazebo_ros_sonar", topicName="sonar", frameId="s"), samples=5, low=-0.1, high=0.1,
+                far=5, vertical=COVERS)]
+        self.spawn("scanners", sdf(link("l", extra="".join(sensors)), static=True), *LASER)
+
+        scan = self.measure("/plain", LaserScan, seconds=1.0, count=10)
+        self.assertEqual((scan.header.frame_id, scan.scan_time, scan.time_increment), ("scanner", 0.0, 0.0))
+        angles = scan.angle_min + scan.angle_increment * np.arange(360)
+        self.assertAlmostEqual(angles[-1], scan.angle_max, places=5)
+        expected, ranges = to_wall(angles), np.array(scan.ranges)
+        inside = expected < 3.2
+        self.assertTrue(0 < np.count_nonzero(~inside) < 360)
+        self.assertTrue(np.all(np.isposinf(ranges[~inside])))  # REP 117
+        np.testing.assert_allclose(ranges[inside], expected[inside], atol=1e-4)
+        east = inside & (np.abs(np.tan(angles)) * 2.5 < 1.6) & (np.cos(angles) > 0)
+        self.assertEqual((set(np.array(scan.intensities)[east]), scan.intensities[0]), ({7.0}, 0.0))
+
+        np.testing.assert_allclose(np.minimum(self.measure("/gpu", LaserScan).ranges, 3.2),
+                                   np.minimum(to_wall(np.linspace(-math.pi, 3.12413936, 90)), 3.2), atol=1e-4)
+        noisy = np.array(self.measure("/noisy", LaserScan).ranges) - expected
+        self.assertAlmostEqual(noisy.std(), 0.02, delta=0.003)
+        self.assertAlmostEqual(noisy.mean(), 0.0, delta=0.004)
+        fine = self.measure("/fine", LaserScan)
+        self.assertEqual(len(fine.ranges), 362)
+        np.testing.assert_allclose(fine.ranges, to_wall(np.linspace(-0.5, 0.5, 362)), atol=2e-3)
+        tall = np.array(self.measure("/tall", LaserScan).ranges).reshape(3, 5)
+        level = to_wall(np.linspace(-0.4, 0.4, 5))
+        np.testing.assert_allclose(tall[1:], [level, level / math.cos(0.2)], atol=1e-4)  # lowest row first
+        np.testing.assert_allclose(tall[0], np.minimum(level / math.cos(0.2), 0.5 / math.sin(0.2)), atol=1e-4)
+        cloud = self.measure("/cloud", PointCloud)
+        points = np.array([xyz(p) for p in cloud.points])
+        np.testing.assert_allclose(np.hypot(*points[:, :2].T), to_wall(np.linspace(-1, 1, 91)), atol=1e-4)
+        self.assertEqual(len(cloud.channels[0].values), 91)
+        near = self.measure("/range", Range)
+        self.assertAlmostEqual(near.range, 2.5, places=4)
+        self.assertEqual((near.radiation_type, round(near.field_of_view, 6), near.max_range), (Range.INFRARED, 0.3, 5.0))
+        self.assertEqual(self.measure("/blind", Range).range, 1.0)
+        self.assertAlmostEqual(self.measure("/sonar", Range).range, 2.5, places=4)
+
+    # ---------------------------------------------------------------------------------------------------- motion
+
+    def test_inertial_and_position(self):
+        """A link without weight that turns with 2 rad/s about z, its sensor 0.5 m off; and one that stands on the floor."""
+        body = {"bodyName": "l"}
+        sensor = f"""<sensor name="imu" type="imu"><pose>0.5 0 0 0 0 0</pose><update_rate>100</update_rate>
+            {plugin("gazebo_ros_imu_sensor", topicName="imu", frameName="imu_link", robotNamespace="/{0}", updateRateHZ=100)}
+            </sensor>"""
+        plugins = (plugin("gazebo_ros_p3d", topicName="truth", frameName="map", robotNamespace="/{0}", updateRate=50, **body)
+                   + plugin("gazebo_ros_imu", topicName="bare_imu", serviceName="{0}/calibrate", robotNamespace="/{0}", **body)
+                   + plugin("hector_gazebo_ros_imu", topicName="hector_imu", robotNamespace="/{0}", **body)
+                   + plugin("hector_gazebo_ros_gps", robotNamespace="/{0}", updateRate=10, referenceLatitude=30,
+                            referenceLongitude=120, referenceAltitude=5, **body)
+                   + plugin("hector_gazebo_ros_magnetic", robotNamespace="/{0}", useMagneticFieldMsgs="true", inclination=60,
+                            **body))
+        for name, gravity, x in (("turning", False, 10.0), ("standing", True, 12.0)):
+            text = sdf(link("l", mass=2, gravity=gravity, shape=box(0.2, 0.2, 0.2), extra=sensor), plugins)
+            self.spawn(name, text.replace("{0}", name), x, 0.0, 0.1 if gravity else 1.0)
+        spin = ModelState("turning", Pose(Point(10, 0, 1), Quaternion(0, 0, 0, 1)), Twist(Vector3(1, 0, 0), Vector3(0, 0, 2)), "")
+        self.step(0.5)
+        self._set_model_state(spin)
+
+        self.measure("/turning/imu", Imu, 0.1, 10)
+        imu = self.measure("/turning/imu", Imu, 0.1, 10)
+        np.testing.assert_allclose(xyz(imu.angular_velocity), (0, 0, 2), atol=1e-3)
+        np.testing.assert_allclose(xyz(imu.linear_acceleration), (-2, 0, G), atol=0.02)  # towards the middle: w^2 r
+        state = self._get_model_state("turning", "")
+        self.assertAlmostEqual(yaw_of(imu), yaw_of(state.pose), delta=0.021)
+        truth = self.measure("/turning/truth", Odometry, 0.2, 10)
+        self.assertEqual((truth.header.frame_id, truth.child_frame_id), ("map", "l"))
+        np.testing.assert_allclose(xyz(truth.twist.twist.linear), (1, 0, 0), atol=1e-6)  # world axes
+        np.testing.assert_allclose(xyz(truth.twist.twist.angular), (0, 0, 2), atol=1e-6)
+        bare = self.measure("/turning/bare_imu", Imu, 0.01, 0)
+        np.testing.assert_allclose(xyz(bare.angular_velocity), (0, 0, 2), atol=1e-6)
+
+        rest = self.measure("/standing/imu", Imu, 0.1, 10)
+        np.testing.assert_allclose(xyz(rest.linear_acceleration), (0, 0, G), atol=0.02)
+        self.assertEqual(rest.header.frame_id, "imu_link")
+        np.testing.assert_allclose(xyz(self.measure("/standing/bare_imu", Imu, 0.01, 0).linear_acceleration), 0, atol=0.02)
+        hector = self.measure("/standing/hector_imu", Imu, 0.01, 0)
+        np.testing.assert_allclose(xyz(hector.linear_acceleration), (0, 0, G), atol=0.02)
+        fix = self.measure("/standing/fix", NavSatFix, 0.2, 2)
+        # reference heading 0: x is north, y west. A degree of latitude there is 110.85 km
+        self.assertAlmostEqual((fix.latitude - 30) * 110852, 12.0, delta=0.02)
+        self.assertAlmostEqual(fix.longitude, 120.0, places=7)
+        self.assertAlmostEqual(fix.altitude, 5.1, places=3)
+        velocity = self.measure("/turning/fix_velocity", Vector3Stamped, 0.2, 2)
+        np.testing.assert_allclose(xyz(velocity.vector), (1, 0, 0), atol=1e-6)
+        field = self.measure("/standing/magnetic", MagneticField, 0.01, 0)
+        np.testing.assert_allclose(xyz(field.magnetic_field), (0.5, 0, -math.sin(math.pi / 3)), atol=1e-4)
+
+    # ---------------------------------------------------------------------------------------------------- forces
+
+    def test_contact_and_force(self):
+        def contact(library, topic):
+            return f"""<sensor name="{topic}" type="contact"><update_rate>50</update_rate><contact><collision>c</collision>
+                </contact>{plugin(library, bumperTopicName=topic, frameName="world")}</sensor>"""
+        self.spawn("load", sdf(link("l", mass=2, shape=box(0.2, 0.2, 0.2), extra=contact("gazebo_ros_bumper", "bumped")
+                                    + contact("gazebo_ros_contact", "touched"))), 20, 0, 0.1)
+        hang = joint("bolt", "fixed", "world", "post") + joint(
+            "scale", "fixed", "post", "weight", extra="<physics><provide_feedback>true</provide_feedback></physics>")
+        self.spawn("scales", sdf(link("post", (0, 0, 1)), link("weight", (0.3, 0, 0.8), mass=3), hang, plugin(
+            "gazebo_ros_ft_sensor", jointName="scale", topicName="ft", updateRate=100)), 22, 0)
+        self.spawn("pushed", sdf(link("l", gravity=False), plugin("gazebo_ros_force", bodyName="l", topicName="push")
+                                 + plugin("gazebo_ros_f3d", bodyName="l", topicName="felt")), 24, 0, 1)
+        self.step(1.0)
+        for topic in ("/bumped", "/touched"):
+            message = self.measure(topic, ContactsState, 0.1, 5)
+            self.assertEqual(len(message.states), 20)  # one pair in each step since the last message
+            state = message.states[-1]
+            sign = 1 if state.collision1_name == "load::l::c" else -1
+            self.assertEqual({state.collision1_name, state.collision2_name}, {"load::l::c", "floor::link::c"})
+            np.testing.assert_allclose(xyz(state.total_wrench.force) * sign, (0, 0, 2 * G), atol=0.05)
+            np.testing.assert_allclose(xyz(state.contact_normals[0]) * sign, (0, 0, 1), atol=1e-6)
+            self.assertTrue(all(abs(p.z) < 1e-3 for p in state.contact_positions))
+        lifted = ModelState("load", Pose(Point(20, 0, 5), Quaternion(0, 0, 0, 1)), Twist(), "")
+        self._set_model_state(lifted)
+        self.step(0.05)
+        self.assertEqual(self.measure("/bumped", ContactsState, 0.1, 5).states, [])
+
+        wrench = self.measure("/ft", WrenchStamped, 0.1, 10)
+        self.assertEqual(wrench.header.frame_id, "weight")
+        np.testing.assert_allclose(xyz(wrench.wrench.force), (0, 0, 3 * G), atol=0.05)
+        np.testing.assert_allclose(xyz(wrench.wrench.torque), 0, atol=0.05)  # about the joint, which is the weight's origin
+
+        push = Mouth("/push", Wrench)
+        push.say(Vector3(0, 2, 0), Vector3(0, 0, 0))
+        speed = lambda: self._get_model_state("pushed", "").twist.linear.y  # noqa: E731
+        self.until_stepped(lambda: speed() > 0, "effect of /push")
+        before = speed()
+        felt = self.measure("/felt", WrenchStamped, 0.5, 0)
+        self.assertAlmostEqual(speed() - before, 1.0, places=3)
+        np.testing.assert_allclose(xyz(felt.wrench.force), (0, 2, 0))
+
+    # ---------------------------------------------------------------------------------------------------- holding
+
+    def test_holding(self):
+        self.spawn("sucker", sdf(link("cup", mass=5, gravity=False), plugin(
+            "gazebo_ros_vacuum_gripper", bodyName="cup", topicName="grasping", robotNamespace="/sucker")), 30, 0, 1)
+        self.spawn("sucked", sdf(link("l", mass=0.1, inertia=0.001)), 30, 0, 0.98)
+        self.spawn("hanging", sdf(link("l", mass=20), plugin("gazebo_ros_harness", robotNamespace="/hanging").replace(
+            "</plugin>", f"""{joint('rope', 'prismatic', 'world', 'l', lower=-0.3, upper=1)}
+            <winch><joint>rope</joint></winch><detach>rope</detach></plugin>""")), 32, 0, 2)
+        for name, x in (("one", 34.0), ("two", 34.5)):
+            self.spawn(name, sdf(link("l", gravity=name == "two", mass=10 if name == "one" else 0.1)), x, 0, 1)
+        on, off = (rospy.ServiceProxy("/sucker/" + name, Empty) for name in ("on", "off"))
+        on()
+        attach, detach = (rospy.ServiceProxy("/link_attacher_node/" + name, Attach) for name in ("attach", "detach"))
+        self.assertFalse(attach("one", "nothing", "two", "l").ok)
+        self.assertTrue(attach("one", "l", "two", "l").ok)
+        self.assertTrue(self.measure("/sucker/grasping", Bool, 0.5, 0).data)
+        self.assertAlmostEqual(self.pose("sucked").position.z, self.pose("sucker").position.z, delta=0.011)
+        one, two = self.pose("one"), self.pose("two")
+        self.assertAlmostEqual(math.dist(xyz(one.position), xyz(two.position)), 0.5, places=3)
+        self.assertTrue(detach("one", "l", "two", "l").ok)
+        self.assertFalse(detach("one", "l", "two", "l").ok)
+        off()
+        self.assertAlmostEqual(self.pose("hanging").position.z, 2.0, places=4)
+        velocity, release = Mouth("/hanging/harness/velocity", Float32), Mouth("/hanging/harness/detach", Bool)
+        velocity.say(-0.5)
+        self.until_stepped(lambda: self.pose("hanging").position.z < 1.99, "effect of the winch")
+        self.step(1.0)
+        self.assertAlmostEqual(self.pose("hanging").position.z, 1.7, places=3)  # the rope's end
+        self.assertGreater(two.position.z - self.pose("two").position.z, 0.4)
+        self.assertLess(self.pose("sucked").position.z, 0.6)
+        release.say(True)
+        self.until_stepped(lambda: self.pose("hanging").position.z < 1.6, "fall after detach")
+
+    def test_grasp_fix(self):
+        """Two fingers close on a box too slippery to be held by friction; the hand rises with it, opens, and it falls."""
+        fingers = "".join(link(name, (0, y, 0.1), mass=0.2, shape=box(0.04, 0.02, 0.1), mu=0.01)
+                          + joint(name, "prismatic", "palm", name, (0, -math.copysign(1, y), 0), 0, 0.08)
+                          for name, y in (("left", 0.1), ("right", -0.1)))
+        fix = plugin("gazebo_grasp_fix", forces_angle_tolerance=100, update_rate=20, grip_count_threshold=3, max_grip_count=8,
+                     release_tolerance=0.005, arm=elements(arm_name="hand", palm_link="palm", gripper_link="left")
+                     + "").replace("</arm>", "<gripper_link>right</gripper_link></arm>")
+        trajectory = plugin("gazebo_ros_joint_trajectory", topicName="hand_motion")
+        self.spawn("hand", sdf(link("palm", (0, 0, 0.25)), joint("lift", "prismatic", "world", "palm", lower=0, upper=1),
+                               fingers, fix, trajectory), 40, 0)
+        self.spawn("slippery", sdf(link("l", mass=0.3, inertia=0.0002, shape=box(0.04, 0.06, 0.12), mu=0.01)), 40, 0, 0.06)
+        motor = rospy.ServiceProxy("/gazebo/set_joint_properties", SetJointProperties)
+
+        def drive(name, speed, force):
+            self.assertTrue(motor(f"hand::{name}", ODEJointProperties(vel=[speed], fmax=[force])).success)
+        drive("lift", 0.0, 200.0)
+        for name in ("left", "right"):
+            drive(name, 0.2, 10.0)
+        self.step(1.5)
+        drive("lift", 0.2, 200.0)
+        self.step(1.0)
+        self.assertAlmostEqual(self.pose("slippery").position.z, 0.06 + 0.2, delta=0.01)
+        drive("lift", 0.0, 200.0)
+        for name in ("left", "right"):
+            drive(name, -0.2, 10.0)
+        self.step(1.0)
+        self.assertLess(self.pose("slippery").position.z, 0.1)
+
+    def test_hand_of_god(self):
+        self.spawn("guided", sdf(link("l", mass=2), plugin("gazebo_ros_hand_of_god", linkName="l", frameId="hog")), 50, 0, 1)
+        transform = TransformStamped()
+        transform.header.frame_id, transform.child_frame_id = "world", "hog_desired"
+        transform.transform.translation, transform.transform.rotation = Vector3(50.2, 0.1, 1.5), Quaternion(0, 0, 1, 0)
+        broadcaster = tf2_ros.StaticTransformBroadcaster()
+        broadcaster.sendTransform(transform)
+        self.until_stepped(lambda: self.pose("guided").position.x > 50.001, "pull")
+        self.step(2.0)
+        pose = self.pose("guided")
+        np.testing.assert_allclose(xyz(pose.position), (50.2, 0.1, 1.5), atol=1e-3)
+        self.assertAlmostEqual(abs(pose.orientation.z), 1.0, places=3)
+
+    # ---------------------------------------------------------------------------------------------------- joints
+
+    def test_joints(self):
+        arm = [link("base", (0, 0, 1), mass=5), joint("bolt", "fixed", "world", "base")]
+        for name, z in (("leader", 1.0), ("follower", 1.5)):
+            arm += [link(name + "_link", (0, 0, z)), joint(name, "revolute", "base", name + "_link", (1, 0, 0), -2, 2)]
+        self.spawn("linked", sdf(*arm, plugin("roboticsgroup_gazebo_mimic_joint_plugin", joint="leader", mimicJoint="follower",
+                                              multiplier=-0.5, offset=0.1),
+                                 plugin("gazebo_ros_joint_pose_trajectory", topicName="points"),
+                                 plugin("gazebo_ros_joint_state_publisher", jointName=" follower, leader ", updateRate=50)), 60, 0)
+        points = [JointTrajectoryPoint(positions=[q], time_from_start=rospy.Duration(0.1)) for q in (0.2, 0.4, 0.6)]
+        Mouth("/points", JointTrajectory).say(joint_names=["leader"], points=points)
+        self.until_stepped(lambda: self.joint("leader") > 0.1, "effect of the trajectory")
+        self.assertAlmostEqual(self.joint("leader"), 0.2, delta=0.05)
+        self.step(0.25)
+        self.assertAlmostEqual(self.joint("leader"), 0.6, delta=0.1)
+        state = self.measure("/linked/joint_states", JointState, 0.1, 5)
+        self.assertEqual((state.name, len(state.velocity), list(state.effort)), (["follower", "leader"], 2, []))
+        self.assertAlmostEqual(state.position[0], 0.1 - 0.5 * state.position[1], places=3)
+
+    def test_elevator(self):
+        self.spawn("lift", sdf(link("cabin", (0, 0, 0.1), mass=50), joint("shaft", "prismatic", "world", "cabin", lower=0, upper=10),
+                               link("door", (0.5, 0, 0.1), mass=5), joint("slide", "prismatic", "cabin", "door", (0, 1, 0), 0, 1),
+                               plugin("gazebo_ros_elevator", lift_joint="shaft", door_joint="slide", floor_height=1.5,
+                                      door_wait_time=2)), 70, 0)
+        Mouth("/elevator", String).say("2")
+        self.until_stepped(lambda: self.joint("lift::shaft") > 0.01, "start of the cabin")
+        self.step(3.5)
+        self.assertAlmostEqual(self.joint("lift::shaft"), 3.0, places=3)
+        self.assertGreater(self.joint("lift::slide"), 0.3)
+        self.step(4.0)
+        self.assertAlmostEqual(self.joint("lift::slide"), 0.0, places=3)
+
+    # ---------------------------------------------------------------------------------------------------- drives
+
+    def base(self, **wheels):
+        """A flat box on wheels of 0.1 m, each given by its place."""
+        parts = [link("base_link", (0, 0, 0.15), mass=10, inertia=0.3, shape=box(0.5, 0.3, 0.05))]
+        for name, at in wheels.items():
+            parts += [wheel(name, (*at, 0.1)), joint(name + "_joint", "revolute", "base_link", name, (0, 1, 0))]
+        return "".join(parts)
+
+    def drive(self, namespace, forwards, turn, odometry, arrived, sideways=0.0):
+        """Command, wait until ``arrived(odometry)``; odometry and the model's state 1 s apart."""
+        ear = Ear(odometry, Odometry)
+        Mouth(namespace + "/cmd_vel", Twist).say(Vector3(forwards, sideways, 0), Vector3(0, 0, turn))
+        self.until_stepped(lambda: ear.messages and arrived(ear.messages[-1].twist.twist), "motion of " + namespace)
+        first = self._get_model_state(namespace[1:], "")
+        self.step(1.0)
+        last = self._get_model_state(namespace[1:], "")
+        until(lambda: ear.messages[-1].header.stamp >= last.header.stamp - rospy.Duration(0.06), "last odometry")
+        ear.close()
+        return ear.messages[-1], first.pose, last.pose
+
+    def test_skid_steer(self):
+        corners = dict(left_front=(0.15, 0.2), right_front=(0.15, -0.2), left_rear=(-0.15, 0.2), right_rear=(-0.15, -0.2))
+        self.spawn("skid", sdf(self.base(**corners), plugin("gazebo_ros_skid_steer_drive", robotNamespace="/skid",
+                                                             wheelSeparation=0.4, wheelDiameter=0.2, torque=20)), 0, 80)
+        odometry, first, last = self.drive("/skid", 0.5, 0, "/skid/odom", lambda t: abs(t.linear.x - 0.5) < 1e-3)
+        self.assertAlmostEqual(last.position.x - first.position.x, 0.5, delta=0.005)
+        self.assertAlmostEqual(last.position.y, 80, delta=0.005)
+        self.assertAlmostEqual(odometry.pose.pose.position.x, last.position.x, delta=0.01)
+        odometry, first, last = self.drive("/skid", 0, 1.0, "/skid/odom", lambda t: t.angular.z > 0.1)
+        self.assertTrue(0.2 < yaw_of(last) - yaw_of(first) <= 1.0)  # wheels scrub
+        self.assertAlmostEqual(odometry.twist.covariance[0], 1e-4)
+
+    def test_planar_move(self):
+        self.spawn("planar", sdf(self.base(wheel=(0, 0)), plugin("gazebo_ros_planar_move", robotNamespace="/planar")), 0, 90)
+        self.step(0.2)
+        odometry, first, last = self.drive("/planar", 0.3, 0.0, "/planar/odom", lambda t: abs(t.linear.y + 0.4) < 1e-3, -0.4)
+        np.testing.assert_allclose(xyz(last.position) - xyz(first.position), (0.3, -0.4, 0), atol=1e-3)
+        self.assertEqual(odometry.pose.pose.position.z, 0.0)
+        _, first, last = self.drive("/planar", 0.0, 0.5, "/planar/odom", lambda t: abs(t.angular.z - 0.5) < 1e-3)
+        self.assertAlmostEqual(yaw_of(last) - yaw_of(first), 0.5, delta=1e-3)
+        np.testing.assert_allclose(xyz(last.position), xyz(first.position), atol=2e-3)
+
+    def test_tricycle(self):
+        parts = sdf(self.base(left=(-0.2, 0.25), right=(-0.2, -0.25)), link("fork", (0.3, 0, 0.2)),
+                    joint("front_steering_joint", "revolute", "base_link", "fork"), wheel("front", (0.3, 0, 0.1)),
+                    joint("front_wheel_joint", "revolute", "fork", "front", (0, 1, 0)), plugin(
+                        "gazebo_ros_tricycle_drive", robotNamespace="/tricycle", encoderWheelLeftJoint="left_joint",
+                        encoderWheelRightJoint="right_joint", actuatedWheelDiameter=0.2, encoderWheelDiameter=0.2,
+                        encoderWheelSeparation=0.5, odometrySource="encoder", wheelTorque=20, publishWheelJointState="true"))
+        self.spawn("tricycle", parts, 0, 100)
+        steering = 0.4
+        odometry, first, last = self.drive("/tricycle", 0.5, steering, "/tricycle/odom", lambda t: t.linear.x > 0.44)
+        turned = 0.5 * math.sin(steering) / 0.5  # rim speed across the wheel base
+        self.assertAlmostEqual(yaw_of(last) - yaw_of(first), turned, delta=0.03 * turned)
+        self.assertAlmostEqual(odometry.twist.twist.angular.z, turned, delta=0.03 * turned)
+        state = self.measure("/tricycle/joint_states", JointState, 0.1, 9)
+        self.assertAlmostEqual(state.position[state.name.index("front_steering_joint")], steering, delta=0.01)
+
+    def test_wheel_slip(self):
+        """On a slope a rolling robot that slips sideways drifts; told not to, it keeps its line."""
+        wheels = "".join(f'<wheel link_name="{name}">' + elements(
+            slip_compliance_lateral=0, slip_compliance_longitudinal=0.5, wheel_normal_force=60, wheel_radius=0.1) + "</wheel>"
+            for name in ("left", "right"))
+        slip = plugin("gazebo_ros_wheel_slip", robotNamespace="/slippy").replace("</plugin>", wheels + "</plugin>")
+        drive = plugin("gazebo_ros_diff_drive", robotNamespace="/slippy", leftJoint="left_joint", rightJoint="right_joint",
+                       wheelSeparation=0.5, wheelDiameter=0.2, wheelTorque=20)
+        self.spawn("slippy", sdf(self.base(left=(0, 0.25), right=(0, -0.25)).replace(
+            '</link>', f'<collision name="s"><pose>0 0 -0.1 0 0 0</pose><geometry>{box(0.45, 0.01, 0.1)}</geometry><surface><friction><ode>'
+            '<mu>0.3</mu><mu2>0.3</mu2></ode></friction></surface></collision></link>', 1), drive, slip), 0, 110)
+        _, first, last = self.drive("/slippy", 0.5, 0, "/slippy/odom", lambda t: t.linear.x > 0.3)
+        slow = last.position.x - first.position.x
+        Client("/slippy/wheel_slip", timeout=10).update_configuration({"slip_compliance_unitless_longitudinal": 0.0})
+        first = self.pose("slippy")
+        self.step(1.0)
+        fast = self.pose("slippy").position.x - first.position.x
+        self.assertGreater(fast, slow * 1.02)
+        self.assertAlmostEqual(fast, 0.5, delta=0.01)
+
+    def test_unknown_and_unseen_ones(self):
+        ear = Ear("/rosout", Log)
+        self.spawn("odd", sdf(link("l"), plugin("gazebo_ros_projector"), plugin("gazebo_ros_power_monitor"), plugin(
+            "gazebo_ros_p3d", bodyName="nothing", topicName="t")), 120, 0)
+
+        def said(text):
+            return [log for log in ear.messages if text in log.msg]
+        until(lambda: said("<bodyName> names the link 'nothing'"), "error about a wrong link")
+        self.assertEqual([log.level for log in said("power_monitor")], [Log.WARN])
+        self.assertEqual([log.level for log in said("projector of model")], [Log.INFO])
+
+
+if __name__ == "__main__":
+    rospy.init_node("plugins_test", disable_rostime=True)
+    rostest.rosrun("gazebo_plugins", "plugins", Plugins)
