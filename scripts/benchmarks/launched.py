@@ -89,7 +89,8 @@ def measure(robot, namespace, seconds):
     time.sleep(3.0)  # the launch files' other nodes come up
     run_free()
     robot.command(namespace)
-    time.sleep(1.0)
+    time.sleep(2.0)
+    del errors[:]  # of getting to where the swings begin
     factors, rates, costs = [], [], []
     for _ in range(WINDOWS):
         wall, sim, count, (_, busy) = time.monotonic(), watch.stamp, watch.count, server_status()
