@@ -74,3 +74,14 @@ def test_a_broken_manifest_elsewhere_is_not_blamed_on_the_file(write, tmp_path, 
     monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path / "workspace"))
     result = run(write('<link name="$(find broken)"/>'))
     assert result.returncode == 2 and "some package.xml on ROS_PACKAGE_PATH is not well-formed" in result.stderr
+
+
+def test_a_macro_without_prefix_is_expanded_with_one_warning(write):
+    path = write('<xacro:macro name="wheel" params="side"><link name="${side}_wheel"/></xacro:macro>\n'
+                 '<xacro:macro name="camera"><link name="never"/></xacro:macro>\n'
+                 '<wheel side="left"/><wheel side="right"/><sensor><camera name="head"/></sensor>')
+    result = run(path)
+    assert result.returncode == 0
+    assert '<link name="left_wheel"/>' in result.stdout and '<link name="right_wheel"/>' in result.stdout
+    assert '<camera name="head"/>' in result.stdout and "never" not in result.stdout
+    assert result.stderr.count("is called without prefix") == 1 and f"{path}:4" in result.stderr

@@ -16,6 +16,8 @@ import xacro
 import xacro.cli
 from ament_index_python.packages import PackageNotFoundError
 
+from noetic_xacro.reserved import RESERVED
+
 _PLACE = "xacro_place"  # attribute set on DOM elements: "file:line"
 
 
@@ -62,6 +64,32 @@ def _keep_place_in_clones() -> None:
     xml.dom.minidom._clone_node = clone_node
 
 
+def _accept_macros_without_prefix() -> None:
+    """``<wheel .../>`` for ``<xacro:wheel .../>``, as packages from before Noetic have it: expanded, with one warning a name.
+
+    Without it the element stays in the URDF, is ignored there, and a robot without wheels or inertias is spawned. Names
+    that URDF and SDF use themselves (``<camera>`` in a sensor) are never taken for a macro.
+    """
+    original = xacro.handle_macro_call
+    warned = set()
+
+    def handle_macro_call(node, macros, symbols):
+        name = node.tagName
+        if ":" not in name and name not in RESERVED:
+            try:
+                xacro.resolve_macro(name, macros, symbols)
+            except KeyError:
+                return False
+            if name not in warned and xacro.verbosity > 0:
+                warned.add(name)
+                print(f"xacro: warning: {getattr(node, _PLACE, '')}: macro '{name}' is called without prefix; write "
+                      f"<xacro:{name}> (Noetic ignores the old form, here it is expanded)", file=sys.stderr)
+            node.tagName = node.nodeName = f"xacro:{name}"
+        return original(node, macros, symbols)
+
+    xacro.handle_macro_call = handle_macro_call
+
+
 def _place_of(error: BaseException) -> str:
     """Place of the innermost element that the failing call chain was working on, '' if unknown."""
     place = ""
@@ -88,6 +116,7 @@ def main() -> None:
     options, file_name = xacro.cli.process_args(sys.argv[1:])
     xacro.parse = _parse
     _keep_place_in_clones()
+    _accept_macros_without_prefix()
     if options.root_dir:
         xacro.root_dir = options.root_dir
     try:
