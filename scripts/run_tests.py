@@ -78,11 +78,17 @@ def count(report: Path) -> tuple:
     return total - failed - skipped, failed, skipped
 
 
+def _listen_to_ctrl_c() -> None:
+    """Started in the background of a script, this process ignores SIGINT; what it tests must not inherit that."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
 def run(job: Job, scratch: Path) -> Result:
     """One file in a session of its own; whatever it leaves behind is ended and counts as a failure."""
     home = Path(tempfile.mkdtemp(prefix=job.package.name + "_", dir=scratch))
     environment = dict(os.environ, ROS_HOME=str(home), ROS_TEST_RESULTS_DIR=str(home / "results"),
-                       PYTHONDONTWRITEBYTECODE="1")
+                       PYTHONDONTWRITEBYTECODE="1",
+                       PYTHONUNBUFFERED="1")  # tests read what nodes print, as it is printed
     if job.kind == "pytest":
         command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "--durations=5", "--durations-min=2",
                    f"--junitxml={home / 'report.xml'}", str(job.path)]
@@ -90,7 +96,8 @@ def run(job: Job, scratch: Path) -> Result:
         command = ["rostest", str(job.path)]
     start = time.monotonic()
     process = subprocess.Popen(command, cwd=home, env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                               stderr=subprocess.STDOUT, text=True, errors="replace", start_new_session=True)
+                               stderr=subprocess.STDOUT, text=True, errors="replace", start_new_session=True,
+                               preexec_fn=_listen_to_ctrl_c)
     try:
         output, _ = process.communicate(timeout=TIME_LIMIT)
     except subprocess.TimeoutExpired:
