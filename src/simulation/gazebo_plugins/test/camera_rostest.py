@@ -6,6 +6,7 @@ import time
 import unittest
 import xmlrpc.client
 
+import av
 import cv2
 import dynamic_reconfigure.client
 import numpy as np
@@ -22,6 +23,7 @@ from sensor_msgs.msg import CameraInfo, CompressedImage, Image, PointCloud2
 from sensor_msgs.srv import SetCameraInfo
 from std_msgs.msg import Bool, Empty
 from std_srvs.srv import Empty as EmptyService
+from theora_image_transport.msg import Packet
 
 RED, GREEN, BLUE, YELLOW, BACKGROUND = (255, 0, 0), (0, 255, 0), (0, 0, 255), (255, 255, 0), (51, 102, 153)
 F = 80 / np.tan(0.6)  # focal length of the 160x120 cameras, pixels
@@ -108,6 +110,9 @@ class Cameras(unittest.TestCase):
                 "/eye/image_raw/compressedDepth": "sensor_msgs/CompressedImage",
                 "/eye/image_raw/compressedDepth/parameter_descriptions": description,
                 "/eye/image_raw/compressedDepth/parameter_updates": config,
+                "/eye/image_raw/theora": "theora_image_transport/Packet",
+                "/eye/image_raw/theora/parameter_descriptions": description,
+                "/eye/image_raw/theora/parameter_updates": config,
                 "/eye/parameter_descriptions": description, "/eye/parameter_updates": config,
                 "/robot/camera/image": "sensor_msgs/Image", "/robot/camera/info": "sensor_msgs/CameraInfo",
                 "/rig_ns/grey/image_raw": "sensor_msgs/Image", "/stereo/left/image_raw": "sensor_msgs/Image",
@@ -193,6 +198,45 @@ class Cameras(unittest.TestCase):
             np.testing.assert_array_equal(decode(png), picture(raw.messages[0]))
             client.update_configuration({"format": "jpeg", "jpeg_quality": 80})
             client.close()
+
+    def assertStream(self, packets, pictures):
+        """Three headers, then ``pictures`` packets: what ffmpeg decodes shows the boxes. An empty packet says that
+        nothing has changed, which ffmpeg would take for the end."""
+        self.assertEqual([packet.data[:7] for packet in packets[:3]], [b"\x80theora", b"\x81theora", b"\x82theora"])
+        self.assertEqual([packet.b_o_s for packet in packets], [1] + [0] * (len(packets) - 1))
+        self.assertEqual([packet.packetno for packet in packets], list(range(3 + pictures)))
+        decoder = av.CodecContext.create("theora", "r")
+        decoder.extradata = b"".join(len(packet.data).to_bytes(2, "big") + packet.data for packet in packets[:3])
+        coded = [packet.data for packet in packets[3:] if packet.data]
+        frames = [frame for data in coded for frame in decoder.decode(av.Packet(data))] + decoder.decode(None)
+        self.assertTrue(packets[3].data)
+        self.assertEqual(len(frames), len(coded))
+        for frame in frames:
+            full = av.VideoFrame.from_ndarray(frame.to_ndarray(), format="yuvj420p")
+            self.assertBoxes(full.to_ndarray(format="rgb24"), 40)  # colour is stored at half the resolution
+
+    def test_theora(self):
+        first = self.take("/eye/image_raw/theora", Packet, steps=200, count=3 + 6)
+        self.assertStream(first, 6)
+        with Ear("/eye/image_raw/theora", Packet) as late:
+            self.step(100)
+            self.assertStream(late.wait(3 + 3), 3)
+            client = dynamic_reconfigure.client.Client("/eye/image_raw/theora", timeout=10)
+            client.update_configuration({"quality": 5})
+            self.step(100)
+            worse = late.wait(6 + 3 + 3)[6:]
+            self.assertStream(worse, 3)
+            self.assertLess(len(worse[3].data), len(first[3].data))
+            client.update_configuration({"quality": 31})
+            client.close()
+
+    def test_theora_of_grey_and_of_what_it_cannot_carry(self):
+        grey = self.take("/rig_ns/grey/image_raw/theora", Packet, count=3 + 1)
+        self.assertEqual([packet.b_o_s for packet in grey], [1, 0, 0, 0])
+        with Ear("/rosout", Log) as log, Ear("/bayer/image_raw/theora", Packet) as bayer:
+            until(lambda: any("/bayer/image_raw/theora stays empty" in m.msg for m in log.messages), "line on bayer")
+            self.take("/bayer/image_raw")
+            self.assertFalse(bayer.messages)
 
     def test_imager_rate(self):
         client = dynamic_reconfigure.client.Client("/eye", timeout=10)

@@ -1,12 +1,15 @@
 """An image topic as image_transport offers it: the raw image, and compressed ones beside it with their parameters."""
 from __future__ import annotations
 
-from typing import Dict, Tuple
+from functools import lru_cache
+from typing import Dict, Optional, Tuple
 
 import rospy
 from dynamic_parameters import Parameter, Server
 from ode_sim.rendering import Frame
 from sensor_msgs.msg import CompressedImage
+from theora_image_transport.encoder import available as theora_available
+from theora_image_transport.publisher import TheoraPublisher
 
 from gazebo_plugins.image_message import Image
 
@@ -38,11 +41,21 @@ class _NotADepth(rospy.SubscribeListener):
                           self._encoding)
 
 
+@lru_cache(maxsize=1)
+def _theora() -> bool:
+    """Whether there can be theora topics; says once why not."""
+    if not theora_available():
+        rospy.logwarn("cameras offer no theora topics: PyAV is missing; install python3-av")
+        return False
+    return True
+
+
 class ImageTopics:
     """Publishers of one image topic.
 
     :param topic: absolute name. :param source: output of the render process that is the raw image.
-    :param compressible: offer ``<topic>/compressed``. :param queue_size: messages kept for a slow subscriber.
+    :param compressible: offer ``<topic>/compressed`` and ``<topic>/theora``.
+    :param queue_size: messages kept for a slow subscriber.
     """
 
     def __init__(self, topic: str, encoding: str, shape: Tuple[int, int], queue_size: int, source: str = "image",
@@ -50,6 +63,7 @@ class ImageTopics:
         self._source, self._encoding, (self._height, self._width) = source, encoding, shape
         self._raw = rospy.Publisher(topic, Image, queue_size=queue_size)
         self._compressed = self._depth = None
+        self._theora: Optional[TheoraPublisher] = None
         self._parameters: Tuple[Server, ...] = ()
         if compressible:
             self._settings = f"jpeg:{COMPRESSED[1].default}"
@@ -58,6 +72,8 @@ class ImageTopics:
                                           subscriber_listener=_NotADepth(encoding))
             self._parameters = (Server(f"{topic}/compressed", COMPRESSED, self._configure),
                                 Server(f"{topic}/compressedDepth", COMPRESSED_DEPTH, lambda config, level: None))
+            if _theora():
+                self._theora = TheoraPublisher(topic, encoding, shape, queue_size)
 
     def _configure(self, config: Dict, _level: int) -> None:
         kind = config["format"] if config["format"] in ("jpeg", "png") else "jpeg"
@@ -65,7 +81,8 @@ class ImageTopics:
 
     def outputs(self) -> Tuple[str, ...]:
         """What somebody listens to now."""
-        wanted = (self._source,) if self._raw.get_num_connections() else ()
+        theora = self._theora is not None and self._theora.wanted()
+        wanted = (self._source,) if theora or self._raw.get_num_connections() else ()
         if self._compressed is not None and self._compressed.get_num_connections():
             wanted += (self._settings,)
         return wanted
@@ -77,6 +94,8 @@ class ImageTopics:
             if name == self._source:
                 self._raw.publish(Image(header, self._height, self._width, self._encoding, 0, len(data) // self._height,
                                         data))
+                if self._theora is not None:
+                    self._theora.publish(header, data)
             elif kind in ("jpeg", "png") and self._compressed is not None:
                 colour = "rgb" in self._encoding or "bgr" in self._encoding
                 target = ("bgr16" if kind == "png" and self._encoding.endswith("16") else "bgr8") if colour else ""
@@ -87,5 +106,7 @@ class ImageTopics:
         for publisher in (self._raw, self._compressed, self._depth):
             if publisher is not None:
                 publisher.unregister()
+        if self._theora is not None:
+            self._theora.shutdown()
         for parameters in self._parameters:
             parameters.shutdown()

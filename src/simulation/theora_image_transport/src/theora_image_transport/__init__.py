@@ -1,0 +1,1 @@
+"""Image topics as a Theora stream: :mod:`.encoder` (free of ROS) and :class:`.publisher.TheoraPublisher`."""
