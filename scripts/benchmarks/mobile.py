@@ -107,7 +107,7 @@ class Count:
 
 
 def measure(path, robots, topics, commands=("/cmd_vel",)):
-    """:returns: real-time factor, processor seconds per second of wall time and of sim time, rate of each topic (sim Hz)"""
+    """:returns: real-time factor, processor seconds per second of wall time and of sim time, rate of topics (sim Hz)"""
     import rospy
     from geometry_msgs.msg import Twist
     from gazebo_msgs.srv import GetWorldProperties

@@ -148,7 +148,8 @@ class Grabber:
         picture = QImage(self.frame.size(), QImage.Format_RGB32)
         painter = QPainter(picture)
         self.frame.render(painter)
-        view = next(w for w in self.frame.findChildren(QWidget)
+        # below the central widget: Image and Camera displays have render panels of their own in the docks
+        view = next(w for w in self.frame.centralWidget().findChildren(QWidget)
                     if w.metaObject().className() in ("rviz::RenderPanel", "rviz::QtOgreRenderWindow"))
         painter.drawImage(view.mapTo(self.frame, view.rect().topLeft()), scene.scaled(view.size()))
         painter.end()
