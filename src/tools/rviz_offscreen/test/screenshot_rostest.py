@@ -65,6 +65,17 @@ class Screenshot(unittest.TestCase):
         self.assertGreater(window[:40].mean(), 180, "the light menu and tool bars are there")
         self.assertTrue((window == BACKGROUND).all(axis=2).mean() > 0.3, "and the dark 3D view")
 
+    def test_window_with_the_panel_of_an_image(self):
+        """The 3D view is laid over its own place, not over the image's panel in the dock."""
+        config, path = (os.path.join(self.folder, name) for name in ("image.rviz", "image.png"))
+        with open(CONFIG) as plain, open(config, "w") as file:
+            file.write(plain.read().replace(
+                "  Displays:\n", "  Displays:\n    - {Class: rviz/Image, Name: Eye, Enabled: true, Image Topic: /nothing}\n", 1))
+        result = screenshot("-d", config, "-o", path, "--window", "--timeout", "1")
+        self.assertIn("Eye (Warn)", result.stderr)
+        window = np.asarray(Image.open(path).convert("RGB"))
+        self.assertTrue((window == BACKGROUND).all(axis=2).mean() > 0.3, "the dark 3D view has its full size")
+
     def test_no_node_is_left_in_the_graph(self):
         self.picture("xvfb")
         nodes = {n for group in rosgraph.Master("/test").getSystemState() for _, names in group for n in names}
