@@ -9,19 +9,19 @@ import rosgraph
 import rospy
 from controller_manager_msgs.srv import (ListControllers, LoadController, SwitchController, SwitchControllerRequest,
                                          UnloadController)
-from std_srvs.srv import Empty
+from std_srvs.srv import Empty, Trigger
 
 
 _advance = None
 
 
-def advance() -> None:
-    """Let a little simulated time pass, see node.TestRobotNode."""
+def advance() -> float:
+    """Let a little simulated time pass, see node.TestRobotNode. :return: the robot's time, s"""
     global _advance
     if _advance is None:
         rospy.wait_for_service("/test_robot/advance", 30.0)
-        _advance = rospy.ServiceProxy("/test_robot/advance", Empty, persistent=True)
-    _advance()
+        _advance = rospy.ServiceProxy("/test_robot/advance", Trigger, persistent=True)
+    return float(_advance().message)
 
 
 def wait_until(condition: Callable[[], Any], what: str, timeout: float = 10.0) -> Any:
@@ -67,10 +67,16 @@ class Topic:
         self.messages = []
 
     def next(self, timeout: float = 10.0) -> Any:
-        """Wait for a message that comes after this call."""
+        """Wait for a message that was sent after this call; one that was still under way then does not count."""
         messages = self.messages
-        count = len(messages)
-        wait_until(lambda: len(messages) > count, f"a message on {self.name}", timeout)
+        count, now = len(messages), advance()
+
+        def newer() -> bool:
+            if len(messages) <= count:
+                return False
+            header = getattr(messages[-1], "header", None)
+            return header is None or header.stamp.to_sec() > now - 1e-6
+        wait_until(newer, f"a message on {self.name}", timeout)
         return messages[-1]
 
     def close(self) -> None:

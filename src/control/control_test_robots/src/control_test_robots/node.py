@@ -7,7 +7,7 @@ import time as wall
 import rospy
 from controller_manager import ControllerManager
 from rosgraph_msgs.msg import Clock
-from std_srvs.srv import Empty, EmptyResponse
+from std_srvs.srv import Empty, EmptyResponse, Trigger, TriggerResponse
 
 from .robot import TestRobot
 
@@ -35,7 +35,7 @@ class TestRobotNode:
         self._clock = rospy.Publisher("/clock", Clock, queue_size=10)
         self._manager = ControllerManager(self._robot, "")
         rospy.Service("~apply_faults", Empty, self._apply_faults)
-        rospy.Service("~advance", Empty, self._advance)
+        rospy.Service("~advance", Trigger, self._advance)
         rospy.Service("~reset", Empty, self._reset)
 
     def run(self) -> None:
@@ -58,12 +58,13 @@ class TestRobotNode:
         self._manager.update(time, self._dt)
         self._robot.write(time, self._dt)
 
-    def _advance(self, _request) -> EmptyResponse:
+    def _advance(self, _request) -> TriggerResponse:
+        """Answers the time, in s: a client's own clock and topics may lag behind it."""
         with self._changed:
             self._granted += ADVANCE
             self._changed.notify_all()
             self._changed.wait_for(lambda: self._granted == 0 or rospy.is_shutdown(), 5.0)
-        return EmptyResponse()
+        return TriggerResponse(True, repr(self._cycle * self._dt))
 
     def _reset(self, _request) -> EmptyResponse:
         """As when a simulation is reset: time begins anew, the joints are where they began."""

@@ -112,7 +112,7 @@ class MbotBag(unittest.TestCase):
         ways = []
         for scan in scans.messages:
             before = [stamp for stamp in along if stamp <= scan.header.stamp]
-            if before:
+            if before and (scan.header.stamp - max(before)).to_sec() <= 0.02:  # odometry may be dropped on a busy machine
                 ways.append(along[max(before)])
                 ahead = scan.ranges[round(-scan.angle_min / scan.angle_increment)]
                 self.assertAlmostEqual(ahead + ways[-1], WALL, delta=5 * NOISE + 0.02 * SPEED)
