@@ -36,5 +36,6 @@ def test_ctrl_c_leaves_no_process(tmp_path):
         text = log.read_text()
         assert "Traceback" not in text and "escalating" not in text, text
     finally:
-        if launch.poll() is None:
-            os.killpg(launch.pid, signal.SIGKILL)
+        if launch.poll() is None:  # roslaunch puts each node into a session of its own
+            for process in [*psutil.Process(launch.pid).children(recursive=True), launch]:
+                process.kill()
