@@ -359,6 +359,24 @@ def test_state_of_a_saved_world(finder):
     assert state.light_poses[0][0] == "sun" and names(w.models) == ["m", "late"]
 
 
+def test_what_was_stretched_in_the_window_is_as_large_as_it_was(finder):
+    shapes = {"box": "<box><size>1 1 1</size></box>", "ball": "<sphere><radius>0.5</radius></sphere>",
+              "post": "<cylinder><radius>0.5</radius><length>1</length></cylinder>"}
+    parts = "".join(f'<collision name="{name}"><pose>0 0 3 0 0 0</pose><geometry>{shape}</geometry></collision>'
+                    f'<visual name="{name}"><geometry>{shape}</geometry></visual>' for name, shape in shapes.items())
+    models = "".join(f'<model name="{name}"><link name="l">{parts}</link></model>' for name in ("wall", "crate", "odd"))
+    w, problems = world(f"""{models}<state world_name="w">
+        <model name="wall"><scale>0.2 7.5 2</scale></model><model name="crate"><scale>1 1 1</scale></model>
+        <model name="odd"><scale>1 0 1</scale></model></state>""", finder)
+    wall, crate, odd = (m.links[0] for m in w.models)
+    for parts in (wall.collisions, wall.visuals):
+        assert [part.geometry for part in parts] == [Box((0.2, 7.5, 2.0)), Sphere(3.75), Cylinder(3.75, 2.0)]
+    assert wall.collisions[0].pose.p == (0.0, 0.0, 3.0) and wall.inertial == Inertial()
+    for link in (crate, odd):
+        assert [part.geometry for part in link.collisions] == [Box(), Sphere(0.5), Cylinder(0.5, 1.0)]
+    assert "model 'odd': scale 1 0 1" in text(problems)
+
+
 @pytest.mark.parametrize("distribution, region", [
     ("<type>random</type>", "<box><size>4 4 0.1</size></box>"),
     ("<type>uniform</type>", "<box><size>4 4 0.1</size></box>"),

@@ -14,9 +14,12 @@ from ode_sim import math3
 from ode_sim.description.model import (
     DescriptionError, Light, LinkState, Model, ModelState, Physics, Scene, World, WorldState)
 from ode_sim.description.population import population
+from ode_sim.description.scaling import scaled_model
 from ode_sim.description.sdf_frames import relative_to, world_frames
 from ode_sim.description.sdf_model import SdfModels
 from ode_sim.description.xmlsource import is_true, source_of, text_of
+
+_UNSCALED = (1.0, 1.0, 1.0)
 
 
 class SdfReader(SdfModels):
@@ -73,6 +76,8 @@ class SdfReader(SdfModels):
                 add_model(inserted)
             elif inserted.tag == "light":
                 lights.append(self.light(inserted))
+        if state is not None:
+            models = self._scaled(models, state, element)
         coordinates = element.find("spherical_coordinates")
         default = World()
         return World(
@@ -86,6 +91,18 @@ class SdfReader(SdfModels):
                                    self.number(coordinates, "elevation", 0.0),
                                    self.number(coordinates, "heading_deg", 0.0)),
             source=source_of(element))
+
+    def _scaled(self, models: List[Model], state: WorldState, world: ET.Element) -> List[Model]:
+        """What was stretched in the simulator's window is saved at its old size, with the factors in ``<state>``."""
+        scales = {}
+        for saved in state.models:
+            if all(0.0 < factor < math.inf for factor in saved.scale):
+                scales[saved.name] = saved.scale
+            else:
+                self.warn(world.find("state"), f"model '{saved.name}': scale {' '.join(f'{f:g}' for f in saved.scale)} "
+                                               "must be positive; the model keeps its size")
+        return [scaled_model(model, scales[model.name]) if scales.get(model.name, _UNSCALED) != _UNSCALED else model
+                for model in models]
 
     def _physics(self, world: ET.Element) -> Physics:
         blocks = world.findall("physics")
