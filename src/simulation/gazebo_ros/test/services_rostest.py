@@ -137,7 +137,8 @@ class Models(Case):
         self.near(xyz(state.pose.position), (2, 0, 0))
         self.near((state.pose.orientation.z, state.pose.orientation.w), (-half, half))
         self.near(xyz(state.twist.linear), (-1, 0, 0))
-        self.assertEqual(self.sim.model("other").header.seq, state.header.seq + 1)
+        self.sim.model("crate")  # counted on its own
+        self.assertEqual([state.header.seq, self.sim.model("other").header.seq], [1, 2])
         self.refused(self.sim.model("other", "nowhere"), "GetModelState: ", "nowhere")
         self.refused(self.sim.model("ghost"), "ghost")
         self.done(self.sim.delete("other"))
@@ -364,6 +365,13 @@ class Lights(Case):
         self.done(delete("torch"))
         self.refused(get("torch"), "torch", "lamp")
         self.refused(delete("torch"), "torch")
+        self.done(self.sim.spawn("car", """<sdf version="1.6"><model name="any"><static>1</static><link name="l">
+            <light name="beam" type="spot"><pose>1 0 0 0 0 0</pose></light></link></model></sdf>""", pose(7, 0, 1)))
+        self.done(change("car::l::beam", True, red, ColorRGBA(), 0.5, 0.25, 0.125, down, pose(8, 0, 1)))
+        self.assertEqual((get("beam").diffuse.g, get("beam").attenuation_constant), (0, 0.5))
+        self.done(delete("beam"))
+        self.refused(get("beam"), "beam", "lamp")
+        self.done(self.sim.delete("car"))
         self.refused(change("lamp", True, ColorRGBA(NAN, 0, 0, 1), ColorRGBA(), 1, 0, 0, Vector3(), pose()), "nan")
 
 
@@ -508,6 +516,18 @@ class States(Case):
         self.assertEqual(messages["models"].twist[1], state.twist)
         self.assertEqual(messages["links"].twist[1], self.sim.link("crate::box").link_state.twist)
         self.assertEqual(len(messages["links"].pose), 4)
+
+    def test_links_of_models_in_models_are_told_too(self):
+        self.done(self.sim.spawn("outer", """<sdf version="1.6"><model name="any"><link name="own"/><include>
+            <uri>model://unit_box</uri><name>sub</name></include></model></sdf>""", pose(30, 0, 3)))
+        names = []
+        topic = rospy.Subscriber("/gazebo/link_states", LinkStates, lambda m: names.append(m.name[-2:]))
+        while ["outer::own", "outer::sub::link"] not in names and not rospy.is_shutdown():
+            self.sim.step(1)
+            rospy.rostime.wallsleep(0.01)
+        topic.unregister()
+        self.assertTrue(self.sim.link("outer::sub::link").success)
+        self.done(self.sim.delete("outer"))
 
 
 if __name__ == "__main__":

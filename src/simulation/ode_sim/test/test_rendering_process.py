@@ -6,6 +6,7 @@ import socket
 import subprocess
 import sys
 import time
+from dataclasses import replace
 from types import SimpleNamespace
 
 import cv2
@@ -37,7 +38,8 @@ class World:
 
     def spawn(self, model):
         first = len(self.link_poses)
-        links = {link.name: SimpleNamespace(index=first + i, scoped_name=f"{model.name}::{link.name}", description=link)
+        links = {link.name: SimpleNamespace(index=first + i, scoped_name=f"{model.name}::{link.name}", description=link,
+                                            lights={light.name: light for light in link.lights})
                  for i, link in enumerate(model.links)}
         self.models[model.name] = SimpleNamespace(name=model.name, description=model, links=links)
         self.link_poses = np.concatenate([self.link_poses, arrange([model])[1]])
@@ -120,6 +122,13 @@ def test_what_comes_later_is_seen(studio_of):
     world.lights["sun"] = Light("sun", "directional", direction=(1, 0, 0))
     assert centre()[0] > 200
     world.lights["sun"] = Light("sun", "directional", direction=(1, 0, 0), diffuse=(0.2, 0.2, 0.2, 1))
+    assert 40 < centre()[0] < 60
+    del world.lights["sun"]
+    beam = Light("beam", "directional", direction=(1, 0, 0))
+    carrier = world.models["late"].links["link"]
+    carrier.lights["beam"] = beam
+    assert centre()[0] > 200
+    carrier.lights["beam"] = replace(beam, diffuse=(0.2, 0.2, 0.2, 1))
     assert 40 < centre()[0] < 60
 
 

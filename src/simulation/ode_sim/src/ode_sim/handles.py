@@ -98,6 +98,7 @@ class LinkHandle:
         self.scoped_name = f"{model.name}::{link.name}"
         self.core = core
         self.collisions: Dict[str, CollisionHandle] = {}
+        self.lights: Dict[str, description.Light] = {light.name: light for light in link.lights}  # poses in the link frame
 
     @property
     def index(self) -> int:

@@ -7,7 +7,8 @@ from typing import Any, Tuple
 import rospy
 from gazebo_msgs.msg import LinkState, ModelState
 from gazebo_msgs.srv import (DeleteModel, GetLinkProperties, GetLinkState, GetModelProperties, GetModelState,
-                             GetWorldProperties, SetLinkProperties, SetLinkState, SetModelConfiguration, SetModelState)
+                             GetModelStateResponse, GetWorldProperties, SetLinkProperties, SetLinkState,
+                             SetModelConfiguration, SetModelState)
 from geometry_msgs.msg import Point, Pose as PoseMsg, Quaternion
 from ode_sim import LinkHandle, math3
 from ode_sim.description.model import Inertial, Pose, Vec3
@@ -15,6 +16,14 @@ from ode_sim.description.model import Inertial, Pose, Vec3
 from gazebo_ros.api.geometry import entity_twist, frame_entity, pose_msg, pose_of, twist_msg, vector_of
 from gazebo_ros.api.handlers import Refused, advertise, finite, listing
 from gazebo_ros.server import Server, Stopped
+
+
+class _NumberedState(GetModelStateResponse):
+    _has_header = False  # rospy would number the answers about all models together
+
+
+class _GetNumberedState(GetModelState):
+    _response_class = _NumberedState
 
 
 class ModelServices:
@@ -25,7 +34,7 @@ class ModelServices:
         for name, service, f in (
                 ("delete_model", DeleteModel, self._delete_model),
                 ("get_model_properties", GetModelProperties, self._get_model_properties),
-                ("get_model_state", GetModelState, self._get_model_state),
+                ("get_model_state", _GetNumberedState, self._get_model_state),
                 ("get_world_properties", GetWorldProperties, self._get_world_properties),
                 ("get_link_properties", GetLinkProperties, self._get_link_properties),
                 ("get_link_state", GetLinkState, self._get_link_state),

@@ -63,5 +63,5 @@ class StatePublishers:
             self._models.publish(self._model_message)
         if self._links.get_num_connections():
             self._link_message.set((link.scoped_name.encode(), link) for model in models
-                                   for link in model.links.values() if "::" not in link.name)
+                                   for link in model.links.values())
             self._links.publish(self._link_message)

@@ -39,9 +39,10 @@ class SceneDescription:
     scene: Scene = Scene()
 
 
-def _of_link(row: int, scoped: str, link) -> Tuple[List[SceneVisual], List[SceneLight]]:
-    return ([SceneVisual(row, f"{scoped}::{visual.name}", visual) for visual in link.visuals],
-            [SceneLight(row, light) for light in link.lights])
+def _of_link(row: int, scoped: str, visuals: Iterable[Visual],
+             lights: Iterable[Light]) -> Tuple[List[SceneVisual], List[SceneLight]]:
+    return ([SceneVisual(row, f"{scoped}::{visual.name}", visual) for visual in visuals],
+            [SceneLight(row, light) for light in lights])
 
 
 def describe(world) -> SceneDescription:
@@ -50,7 +51,7 @@ def describe(world) -> SceneDescription:
     for model in world.models.values():
         for link in model.links.values():
             links[link.index] = link.scoped_name
-            seen, shining = _of_link(link.index, link.scoped_name, link.description)
+            seen, shining = _of_link(link.index, link.scoped_name, link.description.visuals, link.lights.values())
             visuals += seen
             lights += shining
     names = tuple(links.get(row, "") for row in range(max(links, default=-1) + 1))
@@ -68,7 +69,7 @@ def arrange(models: Iterable[Model], lights: Iterable[Light] = (),
     for model in models:
         for link in model.links:
             scoped = f"{model.name}::{link.name}"
-            seen, of_link = _of_link(len(names), scoped, link)
+            seen, of_link = _of_link(len(names), scoped, link.visuals, link.lights)
             visuals += seen
             shining += of_link
             names.append(scoped)

@@ -27,7 +27,8 @@ class SceneWatch:
     def news(self) -> Optional[SceneDescription]:
         """The scene if it is another one than at the last call, else None. Physics thread."""
         world = self._world()
-        settings = (world.scene, *world.lights.values())
+        settings = (world.scene, *world.lights.values(), *(
+            light for model in world.models.values() for link in model.links.values() for light in link.lights.values()))
         if not self._changed and settings == self._settings:
             return None
         self._changed, self._settings = False, settings
