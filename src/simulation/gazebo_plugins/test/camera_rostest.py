@@ -2,21 +2,19 @@
 """Topics, rates, encodings, numbers and pixels of the camera plugins. The world cameras.world stands still and in
 lock-step: time passes only through the step service, so every frame and every stamp is known."""
 import hashlib
-import time
 import unittest
-import xmlrpc.client
 
 import av
 import cv2
 import dynamic_reconfigure.client
 import numpy as np
-import rosgraph
 import rospy
 import rostest
 from dynamic_reconfigure.msg import ConfigDescription
 from gazebo_msgs.srv import DeleteModel, SpawnModel
 from gazebo_ros.srv import StepWorld
 from geometry_msgs.msg import Pose
+from listening import Ear, until
 from polled_camera.srv import GetPolledImage
 from rosgraph_msgs.msg import Log
 from sensor_msgs.msg import CameraInfo, CompressedImage, Image, PointCloud2
@@ -34,37 +32,6 @@ BAD = """<sdf version="1.6"><model name="bad"><static>true</static><link name="l
 <camera><image><width>{width}</width><height>48</height></image></camera>
 <plugin name="p" filename="libgazebo_ros_camera.so"><cameraName>{name}</cameraName></plugin></sensor></link></model>
 </sdf>"""
-
-
-def until(condition, what, seconds=20.0):
-    """ROS delivers when it pleases; what has been sent arrives within ``seconds`` or the test fails."""
-    end = time.monotonic() + seconds
-    while not condition():
-        if time.monotonic() > end:
-            raise AssertionError(f"no {what}")
-        time.sleep(0.005)
-
-
-class Ear:
-    """A subscriber that keeps everything. When it is made the simulator knows of it: an older, closed connection to the
-    same topic does not count."""
-
-    def __init__(self, topic, kind):
-        self.messages = []
-        before = connections(topic)
-        self.subscriber = rospy.Subscriber(topic, kind, self.messages.append, queue_size=None, buff_size=1 << 24)
-        until(lambda: connections(topic) - before, f"connection of {topic}")
-
-    def wait(self, count):
-        until(lambda: len(self.messages) >= count,
-     f"{count} messages on {self.subscriber.name}, only {len(self.messages)}")
-        return self.messages
-
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
-        self.subscriber.unregister()
 
 
 def picture(message):
@@ -170,11 +137,8 @@ class Cameras(unittest.TestCase):
         self.assertEqual(picture(grey)[60, 80 - OFF], 76)  # 0.299 of red
         bayer = self.take("/bayer/image_raw")[0]
         self.assertEqual((bayer.encoding, bayer.step), ("bayer_grbg8", 160))
-        self.assertBoxes(
-    cv2.cvtColor(
-        picture(bayer),
-        cv2.COLOR_BayerGB2RGB),
-         2)  # OpenCV names a cell by its second row
+        # OpenCV names a cell by its second row
+        self.assertBoxes(cv2.cvtColor(picture(bayer), cv2.COLOR_BayerGB2RGB), 2)
         odd = self.take("/odd/image_raw")[0]
         self.assertEqual(odd.encoding, "bgr8")
         self.assertBoxes(picture(odd)[..., ::-1])
@@ -371,13 +335,6 @@ class Cameras(unittest.TestCase):
             self.assertTrue(delete("wall").success)
             self.assertNotIn("/back/image_raw", dict(rospy.get_published_topics()))
             self.assertBoxes(picture(self.take("/eye/image_raw")[0]))
-
-
-def connections(topic):
-    """Numbers of the connections that subscribers of ``topic`` have to the node /gazebo."""
-    uri = rosgraph.Master("/camera_test").lookupNode("/gazebo")
-    _, _, rows = xmlrpc.client.ServerProxy(uri).getBusInfo("/camera_test")
-    return {row[0] for row in rows if row[2] == "o" and row[4] == topic and row[5]}
 
 
 if __name__ == "__main__":

@@ -3,6 +3,7 @@
 import io
 import os
 import signal
+import socket
 import subprocess
 import sys
 import tempfile
@@ -20,12 +21,17 @@ BENCH = os.path.join(os.path.dirname(os.path.abspath(__file__)), "worlds", "benc
 
 
 class Server:
-    """A gzserver in a namespace of its own, ended at the end of the block."""
+    """A gzserver in a namespace of its own, ended at the end of the block.
 
-    def __init__(self, name, *arguments):
+    :param master: URI; that of the test unless given
+    """
+
+    def __init__(self, name, *arguments, master=None):
         self.name = name
+        self.environment = {**os.environ, "ROS_MASTER_URI": master or rosgraph.get_master_uri()}
         self.process = subprocess.Popen(["rosrun", "gazebo_ros", "gzserver", *arguments, f"__ns:=/{name}"], text=True,
-                                        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True)
+                                        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True,
+                                        env=self.environment)
 
     def __enter__(self):
         return self
@@ -130,6 +136,37 @@ class Options(unittest.TestCase):
             self.assertEqual([topic for topic, nodes in publishers if "/mute/gazebo" in nodes], ["/rosout", "/clock"])
             self.assertEqual([name for name, nodes in services if "/mute/gazebo" in nodes and "logger" not in name], [])
         self.assertEqual({b - a for a, b in zip(times[1:], times[2:])} - {20_000_000, 30_000_000}, {10_000_000})
+
+
+class Masters(unittest.TestCase):
+    def test_simulators_of_the_same_name_under_two_masters_do_not_meet(self):
+        with socket.socket() as free:
+            free.bind(("localhost", 0))
+            uri = f"http://localhost:{free.getsockname()[1]}"
+        master = subprocess.Popen(["rosmaster", "--core", "-p", uri.rpartition(":")[2]], stdout=subprocess.DEVNULL,
+                                  env={**os.environ, "ROS_MASTER_URI": uri})
+        try:
+            while not rosgraph.is_master_online(uri):
+                self.assertIsNone(master.poll())
+                rospy.rostime.wallsleep(0.01)
+            with Server("", "-u", BENCH) as near, Server("", "-u", BENCH, master=uri) as far:
+                def gz(*command):
+                    return subprocess.run(["gz", *command], env=far.environment, text=True, capture_output=True, timeout=30)
+
+                sim = Simulator("/gazebo")
+                while gz("world", "-m", "1").returncode:  # until it is there
+                    self.assertIsNone(far.process.poll())
+                self.assertEqual(gz("world", "-m", "99").stderr, "")
+                self.assertEqual(gz("model", "-m", "crate", "-x", "9", "-z", "4").stderr, "")
+                self.assertEqual((sim.world().sim_time, sim.model("crate").pose.position.x), (0.0, 5.0))
+                self.assertTrue(sim.step(3).success)
+                near.end()
+                self.assertEqual(gz("world", "-s").stderr, "")
+                self.assertEqual(gz("model", "-m", "crate", "-p").stdout.split()[:3], ["9", "0", "4"])
+                self.assertIn("SimTime[0.10]", gz("stats", "-d", "0.1").stdout)  # 101 steps of its own, none of the other's
+        finally:
+            master.terminate()
+            master.wait(timeout=20)
 
 
 class Ends(unittest.TestCase):
