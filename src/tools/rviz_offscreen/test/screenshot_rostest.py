@@ -8,9 +8,11 @@ import tempfile
 import unittest
 
 import numpy as np
+import PIL.Image
 import rosgraph
+import rospy
 import rostest
-from PIL import Image
+from sensor_msgs.msg import Image, LaserScan
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 CONFIG = os.path.join(HERE, "cross.rviz")
@@ -38,7 +40,7 @@ class Screenshot(unittest.TestCase):
         result = screenshot("--config", CONFIG, "--output", path, "--size", f"{WIDTH}x{HEIGHT}", "--backend", backend,
                             "--view", "front:pitch=0,distance=3", *arguments)
         self.assertEqual(result.returncode, 0, result.stderr)
-        return np.asarray(Image.open(path).convert("RGB")).astype(int)
+        return np.asarray(PIL.Image.open(path).convert("RGB")).astype(int)
 
     def test_boxes_stand_where_geometry_says_with_both_backends(self):
         pictures = {backend: self.picture(backend) for backend in ("xvfb", "osmesa")}
@@ -60,21 +62,67 @@ class Screenshot(unittest.TestCase):
         result = screenshot("-d", CONFIG, "-o", path, "--window", "--view", "top", "--view", "yaw=1")
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(result.stdout.split(), [os.path.join(self.folder, n) for n in ("v-top.png", "v-2.png")])
-        window = np.asarray(Image.open(os.path.join(self.folder, "v-2.png")).convert("RGB"))
+        window = np.asarray(PIL.Image.open(os.path.join(self.folder, "v-2.png")).convert("RGB"))
         self.assertEqual(window.shape, (800, 1280, 3))
         self.assertGreater(window[:40].mean(), 180, "the light menu and tool bars are there")
         self.assertTrue((window == BACKGROUND).all(axis=2).mean() > 0.3, "and the dark 3D view")
 
-    def test_window_with_the_panel_of_an_image(self):
-        """The 3D view is laid over its own place, not over the image's panel in the dock."""
-        config, path = (os.path.join(self.folder, name) for name in ("image.rviz", "image.png"))
-        with open(CONFIG) as plain, open(config, "w") as file:
-            file.write(plain.read().replace(
-                "  Displays:\n", "  Displays:\n    - {Class: rviz/Image, Name: Eye, Enabled: true, Image Topic: /nothing}\n", 1))
-        result = screenshot("-d", config, "-o", path, "--window", "--timeout", "1")
-        self.assertIn("Eye (Warn)", result.stderr)
-        window = np.asarray(Image.open(path).convert("RGB"))
-        self.assertTrue((window == BACKGROUND).all(axis=2).mean() > 0.3, "the dark 3D view has its full size")
+    def config(self, *displays):
+        """The configuration of the cross with more displays in it."""
+        path = os.path.join(self.folder, "more.rviz")
+        with open(CONFIG) as plain, open(path, "w") as file:
+            lines = "".join(f"    - {{{display}, Enabled: true}}\n" for display in displays)
+            file.write(plain.read().replace("  Displays:\n", "  Displays:\n" + lines, 1))
+        return path
+
+    def test_window_with_panels_of_images(self):
+        """Each image in its own panel in the dock, the 3D view in its place."""
+        config = self.config("Class: rviz/Image, Name: Left eye, Image Topic: /red",
+                             "Class: rviz/Image, Name: Right eye, Image Topic: /yellow")
+        publishers = []
+        for topic, colour in (("/red", (255, 0, 0)), ("/yellow", (255, 255, 0))):
+            publishers.append(rospy.Publisher(topic, Image, latch=True, queue_size=1))
+            publishers[-1].publish(Image(height=120, width=160, step=480, encoding="rgb8", data=bytes(colour) * 19200))
+        for backend in ("xvfb", "osmesa"):
+            path = os.path.join(self.folder, "image.png")
+            result = screenshot("-d", config, "-o", path, "--window", "--backend", backend)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            window = np.asarray(PIL.Image.open(path).convert("RGB"))
+            self.assertTrue((window == BACKGROUND).all(axis=2).mean() > 0.3, "the dark 3D view has its full size")
+            rows = {}
+            for topic, colour in (("/red", (255, 0, 0)), ("/yellow", (255, 255, 0))):
+                pixels = np.argwhere((window == colour).all(axis=2))
+                self.assertGreater(len(pixels), 5000, f"{backend}: the image of {topic}")
+                self.assertLess(np.percentile(pixels[:, 1], 99), 400, "in a dock left of the 3D view")
+                rows[topic] = pixels[:, 0].mean()
+            self.assertLess(rows["/red"], rows["/yellow"], "each under its own title")
+
+    def test_what_nobody_publishes_is_named_and_not_waited_for(self):
+        config = self.config("Class: rviz/Image, Name: Eye, Image Topic: /nothing", "Class: rviz/LaserScan, Name: Laser, Topic: /none")
+        path = os.path.join(self.folder, "nothing.png")
+        # whoever waited would not be back within the limit of this test
+        result = screenshot("-d", config, "-o", path, "--window", "--timeout", "1000", "--grace", "0.5")
+        self.assertEqual(result.returncode, 3)
+        self.assertEqual(result.stderr.splitlines(), ["screenshot: nobody publishes /nothing of display 'Eye'",
+                                                      "screenshot: nobody publishes /none of display 'Laser'"])
+        self.assertTrue(os.path.getsize(path))
+
+    def test_the_first_message_is_waited_for(self):
+        config = self.config("Class: rviz/LaserScan, Name: Laser, Topic: /slow, Style: Points, Size (Pixels): 6, "
+                             "Color Transformer: FlatColor, Color: 255; 0; 255")
+        path = os.path.join(self.folder, "scan.png")
+        publisher = rospy.Publisher("/slow", LaserScan, queue_size=1)
+        result = screenshot("-d", config, "-o", path, "--timeout", "1")
+        self.assertEqual(result.returncode, 3)
+        self.assertIn("Laser (no message on /slow yet)", result.stderr)
+        scan = LaserScan(angle_min=-1, angle_increment=0.01, range_max=9, ranges=[1.0] * 200)
+        scan.header.frame_id = "base_link"
+        timer = rospy.Timer(rospy.Duration(1), lambda _: publisher.publish(scan))
+        result = screenshot("-d", config, "-o", path, "--timeout", "60")
+        timer.shutdown()
+        self.assertEqual(result.returncode, 0, result.stderr)
+        picture = np.asarray(PIL.Image.open(path).convert("RGB"))
+        self.assertGreater((picture == (255, 0, 255)).all(axis=2).sum(), 100)
 
     def test_no_node_is_left_in_the_graph(self):
         self.picture("xvfb")
@@ -107,4 +155,5 @@ class Screenshot(unittest.TestCase):
 
 
 if __name__ == "__main__":
+    rospy.init_node("screenshot_rostest")
     rostest.rosrun("rviz_offscreen", "screenshot", Screenshot, sys.argv)

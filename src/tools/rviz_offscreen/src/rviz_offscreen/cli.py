@@ -26,7 +26,7 @@ class ScreenshotError(RuntimeError):
 
 
 def parser() -> argparse.ArgumentParser:
-    p = argparse.ArgumentParser(prog="screenshot", description=__doc__)
+    p = argparse.ArgumentParser(prog="screenshot", description=__doc__, epilog=main.__doc__)
     p.add_argument("--config", "-d", default="", help="RViz configuration (default: RViz's own default.rviz)")
     p.add_argument("--output", "-o", default="rviz.png", help="PNG to write; with several views -NAME or -NUMBER is added")
     p.add_argument("--view", action="append", default=[], metavar="VIEW",
@@ -37,6 +37,8 @@ def parser() -> argparse.ArgumentParser:
                    help="xvfb: a private X server with Mesa's software OpenGL; osmesa: no X server at all")
     p.add_argument("--fixed-frame", "-f", default="", help="fixed frame instead of the configuration's")
     p.add_argument("--timeout", type=float, default=15.0, help="seconds to wait until every display is drawn (default 15)")
+    p.add_argument("--grace", type=float, default=3.0,
+                   help="seconds after which a display is not waited for if nobody publishes its topic (default 3)")
     p.add_argument("--anti-aliasing", action="store_true", help="smooth edges (xvfb only; about eight times the work)")
     return p
 
@@ -85,11 +87,12 @@ def backend(name: str, size: str) -> Iterator[Dict[str, str]]:
 
 
 def take(config: str, views: List[View], output: str, *, size: str = "1280x800", window: bool = False, fixed_frame: str = "",
-         timeout: float = 15.0, backend_name: str = "xvfb", anti_aliasing: bool = False) -> dict:
+         timeout: float = 15.0, grace: float = 3.0, backend_name: str = "xvfb", anti_aliasing: bool = False) -> dict:
     """Take the pictures.
 
     :param views: [] for the configuration's own view.
-    :returns: ``pictures`` (paths), ``not_ok`` (display name -> status of displays not drawn in time), ``seconds`` to the first picture.
+    :returns: ``pictures`` (paths), ``not_ok`` (display -> what it says, of those not drawn in time), ``unpublished``
+        (display -> its topics, of those that nobody publishes), ``seconds`` to the first picture.
     :raises ScreenshotError: no picture.
     """
     views = views or [View("")]
@@ -110,7 +113,7 @@ def take(config: str, views: List[View], output: str, *, size: str = "1280x800",
         # RViz itself would open a dialog that ignores Ctrl-C.
         raise ScreenshotError(f"no ROS master at {os.environ.get('ROS_MASTER_URI')}: start roscore or a launch file first")
     job = {"config": config, "window": window, "size": [width, height], "fixed_frame": fixed_frame, "timeout": timeout,
-           "anti_aliasing": anti_aliasing,
+           "grace": grace, "anti_aliasing": anti_aliasing,
            "pictures": [{"path": p, "view": v.values} for p, v in zip(paths, views)]}
     with tempfile.TemporaryDirectory(prefix="rviz_offscreen_") as home, backend(backend_name, f"{width}x{height}") as variables:
         # RViz writes ~/.rviz on exit; a picture must neither read nor change the user's.
@@ -155,12 +158,14 @@ def run_grabber(job: dict, environment: Dict[str, str], limit: float) -> dict:
 
 
 def main(argv: Optional[List[str]] = None) -> int:
-    """Exit code 0: all drawn; 1: no picture; 3: pictures written though some display was not ready."""
+    """Exit code 0: every display drew something; 3: pictures written, but some display had nothing to draw (a line says which
+    and why); 1: no picture; 2: wrong options.
+    """
     options = parser().parse_args(rospy.myargv(sys.argv if argv is None else argv)[1:])
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
     try:
         result = take(options.config, [parse_view(text) for text in options.view], options.output, size=options.size,
-                      window=options.window, fixed_frame=options.fixed_frame, timeout=options.timeout,
+                      window=options.window, fixed_frame=options.fixed_frame, timeout=options.timeout, grace=options.grace,
                       backend_name=options.backend, anti_aliasing=options.anti_aliasing)
     except (ScreenshotError, DisplayError, ViewError) as error:
         print(f"screenshot: {error}", file=sys.stderr)
@@ -169,9 +174,17 @@ def main(argv: Optional[List[str]] = None) -> int:
         return 130
     for path in result["pictures"]:
         print(path)
+    missing = missing_lines(result, options.timeout)
+    for line in missing:
+        print(f"screenshot: {line}", file=sys.stderr)
+    return 3 if missing else 0
+
+
+def missing_lines(result: dict, timeout: float) -> List[str]:
+    """What the pictures of :func:`take` lack; none if all displays drew something."""
+    lines = [f"nobody publishes {topics} of display '{name}'" if topics else f"display '{name}' has no topic set"
+             for name, topics in sorted(result["unpublished"].items())]
     if result["not_ok"]:
         waiting = ", ".join(f"{name} ({status})" for name, status in sorted(result["not_ok"].items()))
-        print(f"screenshot: not ready after {options.timeout:g} s: {waiting}; is their topic published and their frame in tf?",
-              file=sys.stderr)
-        return 3
-    return 0
+        lines.append(f"not ready after {timeout:g} s: {waiting}; is their topic published and their frame in tf?")
+    return lines

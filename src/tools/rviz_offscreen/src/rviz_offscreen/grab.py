@@ -12,10 +12,13 @@ import sys
 import time
 from typing import Dict, List
 
-from python_qt_binding.QtCore import Qt
+from PyQt5 import sip
+from python_qt_binding.QtCore import QPoint, QRect
 from python_qt_binding.QtGui import QImage, QPainter
-from python_qt_binding.QtWidgets import QApplication, QDockWidget, QTreeView, QWidget
+from python_qt_binding.QtWidgets import QApplication, QDockWidget, QWidget
 from rviz import bindings as rviz
+
+from . import displays
 
 _SETTLE_FRAMES = 3  # frames to draw after a change before the picture is taken: OGRE shows it one or two frames later
 
@@ -73,48 +76,25 @@ class Grabber:
             self.manager.queueRender()
             self._run(0.01)
 
-    def _statuses(self) -> Dict[str, str]:
-        """'Ok', 'Warn' or 'Error' of the global status and of each enabled display, as the Displays panel shows them."""
-        statuses: Dict[str, str] = {}
-        for tree in self.frame.findChildren(QTreeView):
-            model = tree.model()
-            if model is None or model.columnCount() < 2:
-                continue
-            for row in range(model.rowCount()):
-                self._collect(model, model.index(row, 0), statuses)
-        return statuses
+    def wait_until_drawn(self) -> Dict[str, Dict[str, str]]:
+        """Until every enabled display has drawn something, or the time limit; what nobody publishes only for the grace.
 
-    def _collect(self, model, index, statuses: Dict[str, str]) -> None:
-        name = str(model.data(index, Qt.DisplayRole) or "")
-        if name.startswith("Global Status: "):
-            statuses["Global Status"] = name.rpartition(": ")[2]
-            return
-        enabled = model.data(index.sibling(index.row(), 1), Qt.CheckStateRole)
-        if enabled is not None and int(enabled) == Qt.Unchecked:
-            return
-        for row in range(model.rowCount(index)):
-            child = model.index(row, 0, index)
-            text = str(model.data(child, Qt.DisplayRole) or "")
-            if text.startswith("Status: "):
-                statuses[name] = text.rpartition(": ")[2]
-            elif model.rowCount(child):
-                self._collect_group(model, child, statuses)
-
-    def _collect_group(self, model, index, statuses: Dict[str, str]) -> None:
-        """Displays inside a Group display."""
-        if any(str(model.data(model.index(row, 0, index), Qt.DisplayRole) or "").startswith("Status: ")
-               for row in range(model.rowCount(index))):
-            self._collect(model, index, statuses)
-
-    def wait_until_drawn(self) -> Dict[str, str]:
-        """Until every enabled display reports Ok, or the time limit; what is not Ok then, by display name."""
-        end = time.monotonic() + self.job["timeout"]
+        :returns: ``not_ok`` (display: what it says) and ``unpublished`` (display: topics), as they are then.
+        """
+        start = time.monotonic()
         while True:
             self._draw(2)
-            bad = {name: status for name, status in self._statuses().items() if status.lower() != "ok"}
-            if not bad or time.monotonic() > end:
+            waiting = [state for state in displays.states(self.manager) if not state.drawn]
+            unpublished = []
+            late = time.monotonic() - start > min(self.job["grace"], self.job["timeout"])
+            if late and any(state.topics for state in waiting):
+                published = displays.published_topics()
+                unpublished = [state for state in waiting if displays.nobody_publishes(state, published)]
+                waiting = [state for state in waiting if state not in unpublished]
+            if not waiting or time.monotonic() - start > self.job["timeout"]:
                 self._draw(_SETTLE_FRAMES)
-                return bad
+                return {"not_ok": {state.name: state.problem for state in waiting},
+                        "unpublished": {state.name: ", ".join(filter(None, state.topics)) for state in unpublished}}
             self._run(0.03)
 
     # ------------------------------------------------------------------------------------------ pictures
@@ -138,42 +118,57 @@ class Grabber:
 
     def save(self, path: str) -> None:
         self._draw(_SETTLE_FRAMES)
-        write_frame_buffer(path)
         if self.job["window"]:
             self._paint_window(path)
+        else:
+            write_frame_buffer(render_windows()[0], path)
 
     def _paint_window(self, path: str) -> None:
-        """The whole window: Qt's widgets, with the 3D picture laid where the 3D view is."""
-        scene = QImage(path)
+        """The whole window: Qt's widgets, and what OGRE draws laid over the 3D view and the panels of images."""
         picture = QImage(self.frame.size(), QImage.Format_RGB32)
         painter = QPainter(picture)
         self.frame.render(painter)
-        # below the central widget: Image and Camera displays have render panels of their own in the docks
-        view = next(w for w in self.frame.centralWidget().findChildren(QWidget)
-                    if w.metaObject().className() in ("rviz::RenderPanel", "rviz::QtOgreRenderWindow"))
-        painter.drawImage(view.mapTo(self.frame, view.rect().topLeft()), scene.scaled(view.size()))
+        for panel in self.frame.findChildren(QWidget):
+            if panel.metaObject().className() == "rviz::RenderPanel" and not panel.visibleRegion().isEmpty():
+                write_frame_buffer(window_of(panel), path)
+                painter.drawImage(QRect(panel.mapTo(self.frame, QPoint(0, 0)), panel.size()), QImage(path))
         painter.end()
         if not picture.save(path, "PNG"):
             raise RuntimeError(f"cannot write {path}")
 
-def write_frame_buffer(path: str) -> None:
-    """Ogre::RenderWindow::writeContentsToFile of RViz's main window, which the bindings do not expose.
 
-    The symbols are those of OGRE 1.12's stable C++ ABI (Itanium mangling).
-    """
+# ---------------------------------------------------------------------------------------------- OGRE
+# The bindings do not expose OGRE; the symbols below are those of OGRE 1.12's stable C++ ABI (Itanium mangling).
+
+def render_windows() -> List[int]:
+    """Addresses of the OGRE windows of RViz, in the order of their making: the 3D view, then those of Image displays."""
     ogre = _library("libOgreMain.so")
     root = ogre._ZN4Ogre4Root15getSingletonPtrEv
     root.restype = ctypes.c_void_p
     get_target = ogre._ZN4Ogre4Root15getRenderTargetERKNSt7__cxx1112basic_stringIcSt11char_traitsIcESaIcEEE
     get_target.restype = ctypes.c_void_p
     get_target.argtypes = [ctypes.c_void_p, ctypes.c_void_p]
-    write = ogre._ZN4Ogre12RenderTarget19writeContentsToFileERKNSt7__cxx1112basic_stringIcSt11char_traitsIcESaIcEEE
+    windows = []
+    while not windows or windows[-1]:
+        with _StdString(b"OgreWindow(%d)" % (len(windows) + 1)) as name:  # RViz's numbers; 0 is never shown
+            windows.append(get_target(root(), name))
+    if len(windows) < 2:
+        raise RuntimeError("RViz has no 3D window")
+    return windows[:-1]
+
+
+def window_of(panel: QWidget) -> int:
+    """Address of the OGRE window of a render panel: rviz::RenderWidget keeps it behind its QWidget."""
+    words = ctypes.cast(sip.unwrapinstance(panel), ctypes.POINTER(ctypes.c_void_p))
+    windows = render_windows()
+    return next(word for word in words[:16] if word in windows)
+
+
+def write_frame_buffer(window: int, path: str) -> None:
+    """Ogre::RenderTarget::writeContentsToFile."""
+    write = _library("libOgreMain.so")._ZN4Ogre12RenderTarget19writeContentsToFileERKNSt7__cxx1112basic_stringIcSt11char_traitsIcESaIcEEE
     write.restype = None
     write.argtypes = [ctypes.c_void_p, ctypes.c_void_p]
-    with _StdString(b"OgreWindow(1)") as name:
-        window = get_target(root(), name)
-    if not window:
-        raise RuntimeError("RViz has no 3D window")
     with _StdString(path.encode()) as file:
         write(window, file)
     if not os.path.getsize(path):
@@ -206,12 +201,12 @@ def main() -> None:
     answer = os.fdopen(3, "w")
     start = time.monotonic()
     grabber = Grabber(job)
-    bad = grabber.wait_until_drawn()
+    result = grabber.wait_until_drawn()
     drawn = time.monotonic() - start
     for picture in job["pictures"]:
         grabber.set_view(picture["view"])
         grabber.save(picture["path"])
-    json.dump({"not_ok": bad, "seconds": round(drawn, 3)}, answer)
+    json.dump({**result, "seconds": round(drawn, 3)}, answer)
     answer.write("\n")
     answer.flush()
     _library("libroscpp.so")._ZN3ros8shutdownEv()  # unregisters the node

@@ -1,0 +1,86 @@
+"""What RViz's displays say of themselves: the properties that its Displays panel shows. Runs in RViz's own process."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Dict, Iterator, Tuple
+
+import rosgraph
+
+_RVIZ = rosgraph.names.make_caller_id("rviz")  # relative topics are relative to this node's namespace
+
+
+@dataclass(frozen=True)
+class State:
+    """An enabled display, or RViz's global status."""
+
+    name: str
+    level: str  # 'Ok', 'Warn' or 'Error'
+    silent: bool = False  # it reports Ok though no message has come yet
+    topics: Tuple[str, ...] = ()  # resolved names; '' for one that is not set
+
+    @property
+    def drawn(self) -> bool:
+        return self.level.lower() == "ok" and not self.silent
+
+    @property
+    def problem(self) -> str:
+        return f"no message on {', '.join(self.topics)} yet" if self.silent else self.level
+
+
+def _children(prop) -> Dict[str, object]:
+    return {str(prop.childAt(number).getName()): prop.childAt(number) for number in range(prop.numChildren())}
+
+
+def _status(children: Dict[str, object]) -> Tuple[str, Dict[str, str]]:
+    """Level, and the lines below it."""
+    for name, prop in children.items():
+        if name.startswith(("Status: ", "Global Status: ")):
+            return name.rpartition(": ")[2], {key: str(line.getValue()) for key, line in _children(prop).items()}
+    return "Ok", {}
+
+
+def _state(display) -> State:
+    children = _children(display)
+    level, lines = _status(children)
+    topics = [str(prop.getValue()) for name, prop in children.items() if name.endswith("Topic")]
+    silent = False
+    if "Queue Size" in children:  # a display of messages with a frame: Ok as soon as it has subscribed
+        if "Namespaces" in children:  # markers
+            silent = not children["Namespaces"].numChildren()
+        elif "Topic" in children:
+            silent = lines.get("Topic") == "OK"  # later '5 messages received'
+    return State(str(display.getName()), level, silent,
+                 tuple(rosgraph.names.resolve_name(topic, _RVIZ) if topic else "" for topic in topics))
+
+
+def _enabled(group) -> Iterator:
+    for number in range(group.numDisplays()):
+        display = group.getDisplayAt(number)
+        if not display.getValue():
+            continue
+        inner = group.getGroupAt(number)
+        if inner is None:
+            yield display
+        else:
+            yield from _enabled(inner)
+
+
+def states(manager) -> Iterator[State]:
+    """The global status and each enabled display, also those in groups.
+
+    :param manager: RViz's VisualizationManager.
+    """
+    root = manager.getRootDisplayGroup()
+    yield State("Global Status", _status(_children(root))[0])
+    yield from map(_state, _enabled(root))
+
+
+def published_topics() -> frozenset:
+    """Names of topics that somebody publishes, as the master knows them."""
+    return frozenset(name for name, _ in rosgraph.Master(_RVIZ).getSystemState()[0])
+
+
+def nobody_publishes(state: State, published: frozenset) -> bool:
+    """True if no topic of the display has a publisher. An image may be sent compressed only: a topic below its name."""
+    return bool(state.topics) and not any(
+        topic and any(name == topic or name.startswith(topic + "/") for name in published) for topic in state.topics)
