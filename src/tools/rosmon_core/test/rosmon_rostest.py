@@ -22,7 +22,7 @@ sys.path.insert(0, os.path.dirname(__file__))
 from screen import F6, F7, F8, F9, F10, Screen  # noqa: E402
 
 ROSMON = ["rosrun", "rosmon_core", "rosmon"]
-PATIENCE = 20.0
+PATIENCE = 60.0
 
 
 def children_said(history):
@@ -49,41 +49,42 @@ class TerminalTest(unittest.TestCase):
         screen.wait_for("alpha-says 3 tty=True")
         screen.wait_for("beta-says 3")
         screen.wait(lambda s: s.on_screen("a alpha") and s.on_screen("b deep/beta"), "node boxes")
-        screen.wait(lambda s: s.colours(" alpha")[1] == "green", "alpha's box is green")
+        screen.wait(lambda s: s.background(" alpha") == "green", "alpha's box is green")
         self.assertEqual(xmlrpc.client.ServerProxy(os.environ["ROS_MASTER_URI"]).getParam("/t", "/answer")[2], 42)
 
         screen.type("a")
         screen.wait(lambda s: s.on_screen("Actions for 'alpha'") and s.on_screen("k: stop"), "the node's menu")
         screen.type("k")
-        screen.wait(lambda s: "goodbye" in s.history and s.colours(" alpha")[1] == "default",
+        screen.wait(lambda s: "goodbye" in s.history and s.background(" alpha") == "default",
                     "alpha is stopped and plain")
         screen.type("as")
-        screen.wait(lambda s: s.colours(" alpha")[1] == "green", "alpha runs again")
+        screen.wait(lambda s: s.background(" alpha") == "green", "alpha runs again")
 
         screen.type("bm")
-        screen.wait(lambda s: s.colours("b deep/beta")[1] == "blue", "beta's key shows that it is muted")
-        mark = len(screen.history)
+        screen.wait(lambda s: s.background("b deep/beta") == "blue", "beta's key shows that it is muted")
+        mark = screen.next_lines("alpha-says", "F10:")
         screen.wait(lambda s: s.history[mark:].count("alpha-says") > 10, "alpha goes on")
-        self.assertLessEqual(screen.history[mark:].count("beta-says"), 2)
+        self.assertNotIn("beta-says", screen.history[mark:])
         screen.type("bu")
         mark = len(screen.history)
         screen.wait(lambda s: "beta-says" in s.history[mark:], "beta is heard again")
 
         screen.type(F8)
-        mark = len(screen.history)
+        screen.wait(lambda s: s.reversed("F8:"), "F8's key shows that only warnings pass")
+        mark = screen.next_lines("watch out", "F10:")
         screen.wait(lambda s: s.history[mark:].count("watch out") > 10, "warnings pass")
-        self.assertLessEqual(screen.history[mark:].count("beta-says"), 3)
+        self.assertNotIn("beta-says", screen.history[mark:])
         screen.type(F8)
         screen.type(F9)
-        screen.wait(lambda s: s.colours("a alpha")[1] == s.colours("b deep/beta")[1] == "blue", "all are muted")
+        screen.wait(lambda s: s.background("a alpha") == s.background("b deep/beta") == "blue", "all are muted")
         screen.type(F10)
         mark = len(screen.history)
         screen.wait(lambda s: "beta-says" in s.history[mark:] and "alpha-says" in s.history[mark:], "all are heard")
 
         screen.type(F7)
-        screen.wait(lambda s: s.colours(" alpha")[1] == s.colours(" deep/beta")[1] == "default", "F7 stops all")
+        screen.wait(lambda s: s.background(" alpha") == s.background(" deep/beta") == "default", "F7 stops all")
         screen.type(F6)
-        screen.wait(lambda s: s.colours(" alpha")[1] == s.colours(" deep/beta")[1] == "green", "F6 starts all")
+        screen.wait(lambda s: s.background(" alpha") == s.background(" deep/beta") == "green", "F6 starts all")
 
         screen.type("/be")
         screen.wait(lambda s: s.on_screen("Searching for: be"), "the search line")
@@ -92,9 +93,8 @@ class TerminalTest(unittest.TestCase):
         screen.type("\x1b")
         screen.wait(lambda s: s.on_screen("F6:"), "Escape leaves the menu")
         screen.type("\x03")
-        code, seconds = screen.finish()
-        self.assertEqual(code, 0)
-        self.assertLess(seconds, 5.0, "two processes that end at once are gone long before the stop timeout")
+        self.assertEqual(screen.finish(), 0)
+        self.assertNotIn("does not stop", screen.history, "two processes that end at once need no killing")
 
     def test_ways_to_end(self):
         screen = self.launch("lives.launch", ROSMON_COLOR_MODE="ansi")
@@ -105,13 +105,13 @@ class TerminalTest(unittest.TestCase):
         screen.wait_for("phoenix-life 1")
         screen.wait(lambda s: s.history.count("phoenix-life 1") >= 2, "phoenix rises")
         self.assertNotIn("quiet-says", screen.history)
-        screen.wait(lambda s: s.colours(" failing")[1] == s.colours(" dying")[1] == "red", "crashed boxes are red")
-        self.assertEqual(screen.colours(" short")[1], "default")
-        screen.wait(lambda s: s.colours(" phoenix")[1] in ("brown", "yellow"), "phoenix waits in yellow")
+        screen.wait(lambda s: s.background(" failing") == s.background(" dying") == "red", "crashed boxes are red")
+        screen.wait(lambda s: s.background(" short") == "default", "what has ended well is plain")
+        screen.wait(lambda s: s.background(" phoenix") in ("brown", "yellow"), "phoenix waits in yellow")
         screen.type("dk")
-        screen.wait(lambda s: s.colours(" phoenix")[1] == "default", "stopping wins over respawn")
+        screen.wait(lambda s: s.background(" phoenix") == "default", "stopping wins over respawn")
         screen.type("\x03")
-        self.assertEqual(screen.finish()[0], 0)
+        self.assertEqual(screen.finish(), 0)
 
     def test_no_process_survives(self):
         screen = self.launch("stubborn.launch")
@@ -127,7 +127,7 @@ class TerminalTest(unittest.TestCase):
     def test_no_start(self):
         screen = self.launch("pair.launch", "--no-start", ROSMON_COLOR_MODE="ansi")
         screen.wait(lambda s: s.on_screen("a alpha"), "node boxes")
-        self.assertEqual(screen.colours(" alpha")[1], "default")
+        self.assertEqual(screen.background(" alpha"), "default")
         screen.type("as")
         screen.wait_for("alpha-says 1")
         self.assertNotIn("beta-says", screen.history)
@@ -139,14 +139,16 @@ class TerminalTest(unittest.TestCase):
         self.addCleanup(screen.__exit__)
         screen.wait(lambda s: s.on_screen("a alpha") and s.on_screen("b deep/beta"), "node boxes in a small window")
         screen.type("\x03")
-        self.assertEqual(screen.finish()[0], 0)
+        self.assertEqual(screen.finish(), 0)
 
 
 class WaitingTest(unittest.TestCase):
     def test_waits_for_a_roscore(self):
-        with socket.socket() as probe:
-            probe.bind(("127.0.0.1", 0))
-            port = probe.getsockname()[1]
+        place = socket.socket()  # keeps the port for the roscore, which may bind it too; nobody answers there before
+        self.addCleanup(place.close)
+        place.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        place.bind(("", 0))
+        port = place.getsockname()[1]
         uri = f"http://localhost:{port}"
         screen = Screen([*ROSMON, "rosmon_core", "params_only.launch"], ROS_MASTER_URI=uri)
         self.addCleanup(screen.__exit__)
@@ -157,7 +159,7 @@ class WaitingTest(unittest.TestCase):
         self.addCleanup(master.wait)
         self.addCleanup(master.terminate)
         screen.wait_for("no nodes to launch")
-        self.assertEqual(screen.finish()[0], 0)
+        self.assertEqual(screen.finish(), 0)
         self.assertEqual(xmlrpc.client.ServerProxy(uri).getParam("/t", "/only_this")[2], 7)
 
     def test_interrupt_while_waiting(self):
@@ -165,7 +167,7 @@ class WaitingTest(unittest.TestCase):
         self.addCleanup(screen.__exit__)
         screen.wait_for("roscore is not running")
         screen.type("\x03")
-        self.assertEqual(screen.finish()[0], 1)
+        self.assertEqual(screen.finish(), 1)
         self.assertIn("given up", screen.history)
 
 
@@ -178,7 +180,7 @@ class PlainTest(unittest.TestCase):
         self.assertEqual(process.returncode, 1, "a required node has failed")
         self.assertRegex(output, r"(?m)^   key: hello 10 tty=True$")
         self.assertIn("required node 'key' has ended", output)
-        self.assertIn(" other: goodbye", output)
+        self.assertIn(" other: stopped", output)
         self.assertNotIn("\x1b", output)
         log = os.path.join(os.environ.get("ROS_TEST_RESULTS_DIR") or "/tmp", f"{self.id()}.log")
         with open(log) as file:
@@ -190,7 +192,9 @@ class PlainTest(unittest.TestCase):
                                    stdout=subprocess.PIPE, stdin=subprocess.DEVNULL, text=True)
         seen = ""
         while len(children_said(seen)) < 2:
-            seen += process.stdout.readline()
+            line = process.stdout.readline()
+            self.assertTrue(line, f"rosmon has ended, after\n{seen}")
+            seen += line
         pids = children_said(seen)
         process.send_signal(signal.SIGTERM)
         process.communicate(timeout=60)
@@ -207,7 +211,7 @@ class RosInterfaceTest(unittest.TestCase):
         rospy.Subscriber("/monitor/state", State, cls.on_state)
         rospy.Subscriber("/diagnostics", DiagnosticArray,
                          lambda m: cls.diagnostics.update({s.name: s for s in m.status}))
-        rospy.wait_for_service("/monitor/start_stop", 30)
+        rospy.wait_for_service("/monitor/start_stop", PATIENCE)
         cls.start_stop = staticmethod(rospy.ServiceProxy("/monitor/start_stop", StartStop))
 
     @classmethod
@@ -222,6 +226,11 @@ class RosInterfaceTest(unittest.TestCase):
     def wait_for_state(self, name, state):
         wait_until(lambda: name in self.states and self.states[name].state == state, f"{name} is in state {state}")
 
+    def wait_for_level(self, name, level):
+        label = f"monitor:{name}"
+        wait_until(lambda: label in self.diagnostics and self.diagnostics[label].level == level,
+                   f"{label} has level {level}")
+
     def test_1_states(self):
         self.assertEqual(rosservice.get_service_type("/monitor/start_stop"), "rosmon_msgs/StartStop")
         self.wait_for_state("quiet", NodeState.RUNNING)
@@ -229,10 +238,11 @@ class RosInterfaceTest(unittest.TestCase):
         self.wait_for_state("dying", NodeState.CRASHED)
         wait_until(lambda: self.states["phoenix"].restart_count >= 1, "phoenix is counted")
         wait_until(lambda: self.states["quiet"].memory > 1 << 20, "memory is measured")
-        wait_until(lambda: "monitor:dying" in self.diagnostics, "diagnostics")
-        self.assertEqual(self.diagnostics["monitor:dying"].level, DiagnosticStatus.ERROR)
+        # a topic of its own: what it said before may still be the last that came
+        self.wait_for_level("dying", DiagnosticStatus.ERROR)
         self.assertEqual(self.diagnostics["monitor:dying"].message, "Process has crashed")
-        wait_until(lambda: self.diagnostics["monitor:phoenix"].level == DiagnosticStatus.WARN, "restarts are a warning")
+        self.wait_for_level("phoenix", DiagnosticStatus.WARN)
+        self.assertIn("restart count > 0", self.diagnostics["monitor:phoenix"].message)
 
     def test_2_start_stop(self):
         self.start_stop("qu.*", "", StartStopRequest.STOP)

@@ -1,5 +1,6 @@
 """A person at a terminal, for tests: starts a command in a pseudo-terminal, reads its screen, types keys."""
 import os
+import re
 import signal
 import time
 
@@ -7,7 +8,7 @@ import pexpect
 import pyte
 
 F6, F7, F8, F9, F10 = "\x1b[17~", "\x1b[18~", "\x1b[19~", "\x1b[20~", "\x1b[21~"
-_PATIENCE = 15.0         # s
+_PATIENCE = 60.0         # s
 
 
 class Screen:
@@ -47,13 +48,22 @@ class Screen:
             self.history += text
             self._stream.feed(text)
 
-    def colours(self, text):
-        """(foreground, background) of the first character of the lowest ``text`` on the screen."""
+    def _character(self, text):
+        """The first one of the lowest ``text`` on the screen; None while it is not there, as between two drawings."""
         for y, line in reversed(list(enumerate(self.lines))):
             if text in line:
-                character = self._screen.buffer[y][line.index(text)]
-                return character.fg, character.bg
-        raise AssertionError(f"'{text}' is not on the screen:\n" + "\n".join(self.lines))
+                return self._screen.buffer[y][line.index(text)]
+        return None
+
+    def background(self, text):
+        """Colour behind ``text``, None while that is not on the screen."""
+        character = self._character(text)
+        return character and character.bg
+
+    def reversed(self, text):
+        """Whether ``text`` is on the screen with its colours exchanged."""
+        character = self._character(text)
+        return character is not None and character.reverse
 
     def type(self, keys):
         self._child.send(keys)
@@ -72,16 +82,26 @@ class Screen:
         """Until ``text`` has been written."""
         self.wait(lambda s: text in s.history, f"'{text}'")
 
+    def next_lines(self, text, of_block):
+        """Until a burst of lines that has ``text`` begins after the one that may be on its way now: lines of nodes are
+        written in bursts, and ``of_block``, the end of the screen, is drawn anew below each.
+
+        :return: where in the history it begins
+        """
+        pattern = re.compile(f"{re.escape(text)}.*?{re.escape(of_block)}.*?(?={re.escape(text)})", re.DOTALL)
+        mark = len(self.history)
+        self.wait(lambda s: pattern.search(s.history, mark), f"'{text}' before and after '{of_block}'")
+        return pattern.search(self.history, mark).end()
+
     def on_screen(self, text):
         return any(text in line for line in self.lines)
 
     def finish(self):
-        """(exit code, seconds) after waiting for the end."""
-        start = time.monotonic()
-        while self._child.isalive() and time.monotonic() - start < _PATIENCE:
+        """The exit code after waiting for the end; None if it had to be killed."""
+        end = time.monotonic() + _PATIENCE
+        while self._child.isalive() and time.monotonic() < end:
             self._update()
             time.sleep(0.01)
-        seconds = time.monotonic() - start
         self._update()
         self._child.close(force=True)
-        return self._child.exitstatus, seconds
+        return self._child.exitstatus
