@@ -10,6 +10,7 @@ from control_test_robots import client
 from control_test_robots.base_client import Base, displacement, duration, turned
 from dynamic_reconfigure.client import Client as ReconfigureClient
 from geometry_msgs.msg import TwistStamped
+from rosgraph_msgs.msg import Log
 
 
 class DiffDrive(unittest.TestCase):
@@ -120,6 +121,7 @@ class DiffDrive(unittest.TestCase):
             self.assertEqual({name: echo[name] for name in new}, new)
             base.odometry.clear()
             client.sim_sleep(2.0)
+            base.odometry.next()  # those before have arrived
             self.assertAlmostEqual(len(base.odometry.messages), 20, delta=4)
             self.assertEqual(base.odometry.last.pose.pose.position, before.pose.pose.position)  # new radii move nothing
             reconfigure.close()
@@ -135,7 +137,8 @@ class DiffDrive(unittest.TestCase):
     def test_reset_simulation_moves_nothing(self):
         with client.running("plain"), Base("plain") as base:
             base.drive(1.0, 0.5, 3.0)
-            base.send(1.0, 0.5)
+            base.send(0.5, 0.5)
+            client.wait_until(lambda: abs(base.odometry.last.twist.twist.linear.x - 0.5) < 1e-6, "the last command")
             before = base.odometry.next().pose.pose.position
             client.reset()
             base.odometry.clear()
@@ -149,9 +152,12 @@ class DiffDrive(unittest.TestCase):
     def test_stopped_controller_ignores_commands(self):
         with client.running("plain"), Base("plain") as base:
             base.drive(1.0, 0.0, 0.5)
+            log = client.Topic("/rosout", Log)
+            client.wait_until(lambda: client.sends("/test_robot", "/rosout"), "the robot's log")
             client.switch(stop=["plain"])
             base.send(1.0, 0.0)
-            client.sim_sleep(0.5)
+            client.wait_until(lambda: any("Controller is not running" in line.msg for line in log.messages), "the refusal")
+            log.close()
             client.switch(["plain"])
             base.odometry.clear()
             client.sim_sleep(1.0)
@@ -184,7 +190,7 @@ class DiffDrive(unittest.TestCase):
 
     def test_a_limit_without_a_maximum_is_zero(self):
         with client.running("no_maximum"), Base("no_maximum") as base:
-            self.assertEqual(base.drive(1.0, 0.0, 0.5)[-1].twist.twist.linear.x, 0.0)
+            self.assertEqual(base.drive(1.0, 0.0, 0.5, obeys=False)[-1].twist.twist.linear.x, 0.0)
 
     def test_commands_that_are_not_numbers_are_ignored(self):
         with client.running("velocity_limits"), Base("velocity_limits") as base:
@@ -217,7 +223,7 @@ class DiffDrive(unittest.TestCase):
             try:
                 client.wait_until(lambda: client.publisher_count("/one_publisher/cmd_vel") == 2,
                                   "the second publisher", 600.0)
-                client.wait_until(lambda: base.drive(0.5, 0.0, 1.0)[-1].twist.twist.linear.x == 0.0,
+                client.wait_until(lambda: base.drive(0.5, 0.0, 1.0, obeys=False)[-1].twist.twist.linear.x == 0.0,
                                   "the robot to stop", 600.0)
             finally:
                 second.terminate()

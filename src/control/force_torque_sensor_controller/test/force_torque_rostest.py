@@ -13,6 +13,7 @@ class ForceTorque(unittest.TestCase):
         with client.running("forces"):
             wrist.next()
             client.sim_sleep(2.0)
+            scales.next()
         force, torque = wrist.last.wrench.force, wrist.last.wrench.torque
         self.assertEqual((force.x, force.y, force.z, torque.x, torque.y, torque.z), (1.0, 2.0, 3.0, 4.0, 5.0, 6.0))
         self.assertEqual((scales.last.wrench.force.z, scales.last.wrench.torque.z), (-9.8, 0.0))

@@ -72,7 +72,8 @@ class Gripper(unittest.TestCase):
             client.set_faults()
             state = client.Topic("/joint_states", JointState)
             client.sim_sleep(0.5)
-            held = state.last.position[state.last.name.index("finger")]
+            last = state.next()
+            held = last.position[last.name.index("finger")]
             self.assertTrue(0.1 < held < 4.5, held)
             state.close()
 

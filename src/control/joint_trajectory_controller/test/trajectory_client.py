@@ -5,8 +5,8 @@ import unittest
 import actionlib
 import rospy
 from actionlib_msgs.msg import GoalStatus
-from control_msgs.msg import (FollowJointTrajectoryAction, FollowJointTrajectoryGoal, JointTolerance,
-                              JointTrajectoryControllerState)
+from control_msgs.msg import (FollowJointTrajectoryAction, FollowJointTrajectoryActionFeedback,
+                              FollowJointTrajectoryGoal, JointTolerance, JointTrajectoryControllerState)
 from control_msgs.srv import QueryTrajectoryState
 from control_test_robots import client
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
@@ -28,11 +28,9 @@ class Goal:
     """A goal sent to the action, followed through its life."""
 
     def __init__(self, action_client, message, path=(), goal=(), goal_time=0.0):
-        self.feedback = []
         self._handle = action_client.send_goal(
             FollowJointTrajectoryGoal(message, [JointTolerance(*t) for t in path], [JointTolerance(*t) for t in goal],
-                                      rospy.Duration.from_sec(goal_time)),
-            feedback_cb=lambda _, feedback: self.feedback.append(feedback))
+                                      rospy.Duration.from_sec(goal_time)))
 
     @property
     def status(self):
@@ -42,7 +40,7 @@ class Goal:
         client.wait_until(lambda: self.status == GoalStatus.ACTIVE, "the goal to become active")
         return self
 
-    def finish(self, timeout=10.0):
+    def finish(self, timeout=30.0):
         """(status, error code, text) at the end."""
         client.wait_until(lambda: self._handle.get_comm_state() == actionlib.CommState.DONE, "the goal to end", timeout)
         result = self._handle.get_result()
@@ -85,7 +83,8 @@ class TrajectoryCase(unittest.TestCase):
         if client.controller_state(self.controller) == "running":
             client.switch(stop=[self.controller])
         client.switch([self.controller])
-        self.publish((0.1, list(self.home), [0.0] * len(self.joints)))
+        # as a goal, because its end tells that it has come: a topic may come later than the first goal of the test
+        self.send((0.1, list(self.home), [0.0] * len(self.joints))).finish()
         self.wait_still_at(self.home)
         self.state.clear()
 
@@ -98,10 +97,16 @@ class TrajectoryCase(unittest.TestCase):
     def send(self, *points, joints=None, stamp=0.0, **tolerances):
         return Goal(self.action, trajectory(joints or self.joints, *points, stamp=stamp), **tolerances)
 
+    def listen_to_feedback(self):
+        """Feedback messages from now on; an action client is deaf to those that come after the result."""
+        feedback = client.Topic(f"/{self.controller}/follow_joint_trajectory/feedback", FollowJointTrajectoryActionFeedback)
+        self.addCleanup(feedback.close)
+        return feedback
+
     def positions(self):
         return self.state.last.actual.positions
 
-    def wait_still_at(self, positions, timeout=10.0):
+    def wait_still_at(self, positions, timeout=30.0):
         """Until desired and actual positions are there and at rest, angles taken as they are counted."""
         def there():
             state = self.state.next()

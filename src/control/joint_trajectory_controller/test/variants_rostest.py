@@ -57,7 +57,7 @@ class PartialGoals(TrajectoryCase):
         self.assertStates(self.state.next().actual.positions, [1.0, 1.0])
 
     def test_goal_stamped_in_the_future_is_active_at_once_and_moves_later(self):
-        start = rospy.get_time() + 1.0
+        start = rospy.get_time() + 5.0
         goal = self.send((0.0, [0.0], [0.0]), (0.3, [0.5], [0.0]), joints=["p1"], stamp=start).wait_active()
         self.assertLess(rospy.get_time(), start)
         self.assertEqual(goal.finish()[0], GoalStatus.SUCCEEDED)
@@ -147,10 +147,11 @@ class Reset(TrajectoryCase):
         client.sim_sleep(2.0)
         client.reset()
         self.state.clear()
-        goal = self.send((0.5, [-0.5, 0.2], REST), stamp=rospy.get_time() + 0.5)
+        feedback = self.listen_to_feedback()
+        goal = self.send((0.5, [-0.5, 0.2], REST), stamp=rospy.get_time() + 1.0)
         self.assertEqual(goal.finish()[0], GoalStatus.SUCCEEDED)
         self.assertStates(self.state.next().actual.positions, [-0.5, 0.2])
-        self.assertGreaterEqual(len(goal.feedback), 5)
+        client.wait_until(lambda: len(feedback.messages) >= 5, "feedback")
 
 
 class PosVel(TrajectoryCase):

@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any, List
+from typing import Any, Callable, List
 
 import rospy
 from geometry_msgs.msg import Twist
@@ -43,20 +43,42 @@ class Base:
         message.linear.x, message.angular.z = linear, angular
         self.command.publish(message)
 
-    def drive(self, linear: float, angular: float, seconds: float) -> List[Odometry]:
-        """Command a twist over and over. :return: odometry of the last ``seconds``, after it came into force"""
-        self.send(linear, angular)
-        client.sim_sleep(0.5)
+    def drive(self, linear: float, angular: float, seconds: float, obeys: bool = True) -> List[Odometry]:
+        """Command a twist over and over. :return: odometry of ``seconds`` after it came into force"""
+        return self.follow(lambda: self.send(linear, angular), seconds, obeys)
+
+    def follow(self, send: Callable[[], None], seconds: float, obeys: bool = True) -> List[Odometry]:
+        """Call ``send``, which commands a motion, over and over. :return: odometry of ``seconds`` of that motion
+
+        However late a command arrives, what the base did before does not count.
+
+        :param obeys: the command changes the motion of the base; half a second of it is not counted, for it to be steady
+        """
+        before = self.odometry.next().twist.twist
+        send()
+        if obeys:
+            client.wait_until(lambda: _differ(self.odometry.last.twist.twist, before), "the command to come into force")
+        self._go_on(send, 0.5)
         self.odometry.clear()
-        end = rospy.get_time() + seconds
-        while rospy.get_time() < end:
-            self.send(linear, angular)
-            client.sim_sleep(min(0.3, max(0.01, end - rospy.get_time())))
+        self._go_on(send, seconds)
+        self.odometry.next()  # what came before it has arrived
         return list(self.odometry.messages)
+
+    @staticmethod
+    def _go_on(send: Callable[[], None], seconds: float) -> None:
+        end = client.advance() + seconds
+        while client.advance() < end:
+            send()
+            client.sim_sleep(min(0.2, max(0.01, end - rospy.get_time())))
 
     def transforms(self) -> set:
         """(frame, child) of the transforms seen so far."""
         return {(t.header.frame_id, t.child_frame_id) for message in list(self.tf.messages) for t in message.transforms}
+
+
+def _differ(a: Twist, b: Twist) -> bool:
+    """Whether two motions in the plane differ by more than rounding."""
+    return max(abs(a.linear.x - b.linear.x), abs(a.linear.y - b.linear.y), abs(a.angular.z - b.angular.z)) > 1e-4
 
 
 def yaw(odometry: Odometry) -> float:

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import time as wall
+import xmlrpc.client
 from contextlib import contextmanager
 from typing import Any, Callable, Iterator, List, Sequence
 
@@ -12,19 +13,28 @@ from controller_manager_msgs.srv import (ListControllers, LoadController, Switch
 from std_srvs.srv import Empty, Trigger
 
 
+_ROUNDING = 1e-6  # s
 _advance = None
 
 
 def advance() -> float:
-    """Let a little simulated time pass, see node.TestRobotNode. :return: the robot's time, s"""
+    """Let a little simulated time pass, see node.TestRobotNode. The clock of this process then shows it, too.
+
+    :return: the robot's time, s
+    """
     global _advance
     if _advance is None:
-        rospy.wait_for_service("/test_robot/advance", 30.0)
+        rospy.wait_for_service("/test_robot/advance", 60.0)
         _advance = rospy.ServiceProxy("/test_robot/advance", Trigger, persistent=True)
-    return float(_advance().message)
+    now, wall_deadline = float(_advance().message), wall.monotonic() + 60.0
+    while rospy.get_time() < now - _ROUNDING:
+        if wall.monotonic() > wall_deadline:
+            raise AssertionError("/clock does not arrive")
+        wall.sleep(0.0002)
+    return now
 
 
-def wait_until(condition: Callable[[], Any], what: str, timeout: float = 10.0) -> Any:
+def wait_until(condition: Callable[[], Any], what: str, timeout: float = 30.0) -> Any:
     """Let time pass until ``condition`` is true. :return: its value.
 
     :param timeout: s of simulated time
@@ -46,7 +56,7 @@ def wait_until(condition: Callable[[], Any], what: str, timeout: float = 10.0) -
 
 def sim_sleep(seconds: float) -> None:
     """Let ``seconds`` of simulated time pass."""
-    end = rospy.get_time() + seconds
+    end = advance() + seconds - _ROUNDING
     wait_until(lambda: rospy.get_time() >= end, f"{seconds} s to pass", seconds + 10.0)
 
 
@@ -56,17 +66,26 @@ class Topic:
     def __init__(self, name: str, message_type: type):
         self.messages: List[Any] = []
         self.name = name
-        self._subscriber = rospy.Subscriber(name, message_type, lambda message: self.messages.append(message),
-                                            tcp_nodelay=True)
+        self._since = 0.0
+        self._subscriber = rospy.Subscriber(name, message_type, self._receive, tcp_nodelay=True)
+
+    def _receive(self, message: Any) -> None:
+        header, since = getattr(message, "header", None), self._since
+        # sent before the last clear; unless time has begun anew
+        late = header is not None and header.stamp.to_sec() < since - _ROUNDING and rospy.get_time() > since - _ROUNDING
+        if not late:
+            self.messages.append(message)
 
     @property
     def last(self) -> Any:
         return self.messages[-1]
 
     def clear(self) -> None:
+        """Forget all messages, those with a stamp also when they are still under way."""
+        self._since = advance()
         self.messages = []
 
-    def next(self, timeout: float = 10.0) -> Any:
+    def next(self, timeout: float = 30.0) -> Any:
         """Wait for a message that was sent after this call; one that was still under way then does not count."""
         messages = self.messages
         count, now = len(messages), advance()
@@ -75,7 +94,7 @@ class Topic:
             if len(messages) <= count:
                 return False
             header = getattr(messages[-1], "header", None)
-            return header is None or header.stamp.to_sec() > now - 1e-6
+            return header is None or header.stamp.to_sec() > now - _ROUNDING
         wait_until(newer, f"a message on {self.name}", timeout)
         return messages[-1]
 
@@ -86,7 +105,7 @@ class Topic:
 def publisher(name: str, message_type: type) -> rospy.Publisher:
     """A publisher that is connected to its subscriber."""
     result = rospy.Publisher(name, message_type, queue_size=10)
-    wait_until(lambda: result.get_num_connections() > 0, f"a subscriber of {name}", 30.0)
+    wait_until(lambda: result.get_num_connections() > 0, f"a subscriber of {name}", 60.0)
     return result
 
 
@@ -117,20 +136,20 @@ def controller_state(name: str) -> str:
 def set_faults(**faults: dict) -> None:
     """Give joints of the test robot faults (see robot.Faults); all others have none."""
     rospy.set_param("/test_robot/faults", faults)
-    rospy.wait_for_service("/test_robot/apply_faults", 30.0)
+    rospy.wait_for_service("/test_robot/apply_faults", 60.0)
     rospy.ServiceProxy("/test_robot/apply_faults", Empty)()
 
 
 def reset() -> None:
     """Begin time anew, with the joints where they began; back when everybody here knows."""
     before = rospy.get_time()
-    rospy.wait_for_service("/test_robot/reset", 30.0)
+    rospy.wait_for_service("/test_robot/reset", 60.0)
     rospy.ServiceProxy("/test_robot/reset", Empty)()
     wait_until(lambda: 0.0 < rospy.get_time() < before, "time to begin anew", 1e9)
 
 
 def _call(manager_service: str, kind: type, **request: Any) -> Any:
-    rospy.wait_for_service("/controller_manager/" + manager_service, 30.0)
+    rospy.wait_for_service("/controller_manager/" + manager_service, 60.0)
     return rospy.ServiceProxy("/controller_manager/" + manager_service, kind)(**request)
 
 
@@ -150,6 +169,13 @@ def running(*names: str) -> Iterator[None]:
 def published(topic: str) -> bool:
     """Whether somebody publishes ``topic``."""
     return topic in (name for name, _ in rospy.get_published_topics())
+
+
+def sends(node: str, topic: str) -> bool:
+    """Whether ``node`` is connected to this process and sends it ``topic``."""
+    me = rospy.get_name()
+    connections = xmlrpc.client.ServerProxy(rosgraph.Master(me).lookupNode(node)).getBusInfo(me)[2]
+    return any(connection[1:5] == [me, "o", "TCPROS", topic] for connection in connections)
 
 
 def publisher_count(topic: str) -> int:

@@ -6,6 +6,7 @@ import time as wall
 
 import rospy
 from controller_manager import ControllerManager
+from realtime_tools import make_prompt
 from rosgraph_msgs.msg import Clock
 from std_srvs.srv import Empty, EmptyResponse, Trigger, TriggerResponse
 
@@ -32,7 +33,7 @@ class TestRobotNode:
         self._granted = 0
         self._changed = threading.Condition()
         self._cycle = 0
-        self._clock = rospy.Publisher("/clock", Clock, queue_size=10)
+        self._clock = make_prompt(rospy.Publisher("/clock", Clock, queue_size=10), 10)
         self._manager = ControllerManager(self._robot, "")
         rospy.Service("~apply_faults", Empty, self._apply_faults)
         rospy.Service("~advance", Trigger, self._advance)
