@@ -19,7 +19,7 @@ from models import box, elements, joint, link, plugin, ray, sdf, wheel
 from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Log
 from sensor_msgs.msg import Imu, JointState, LaserScan, MagneticField, NavSatFix, PointCloud, Range
-from std_msgs.msg import Bool, Float32, String
+from std_msgs.msg import Bool, Float32, Header, String
 from std_srvs.srv import Empty
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
@@ -133,6 +133,7 @@ class Plugins(unittest.TestCase):
         points = np.array([xyz(p) for p in cloud.points])
         np.testing.assert_allclose(np.hypot(*points[:, :2].T), to_wall(np.linspace(-1, 1, 91)), atol=1e-4)
         self.assertEqual(len(cloud.channels[0].values), 91)
+        self.assertEqual(cloud.channels[0].values[45], 7.0)  # as bright as the east wall, whatever hokuyoMinIntensity says
         near = self.measure("/range", Range)
         self.assertAlmostEqual(near.range, 2.5, places=4)
         self.assertEqual((near.radiation_type, round(near.field_of_view, 6), near.max_range), (Range.INFRARED, 0.3, 5.0))
@@ -146,7 +147,8 @@ class Plugins(unittest.TestCase):
         body = {"bodyName": "l"}
         sensor = f"""<sensor name="imu" type="imu"><pose>0.5 0 0 0 0 0</pose><update_rate>100</update_rate>
             {plugin("gazebo_ros_imu_sensor", topicName="imu", frameName="imu_link", robotNamespace="/{0}", updateRateHZ=100)}
-            </sensor>"""
+            </sensor><sensor name="slow" type="imu"><update_rate>50</update_rate>{plugin("gazebo_ros_imu_sensor",
+            topicName="slow_imu", frameName="l", robotNamespace="/{0}", rpyOffset="0 0 0.5")}</sensor>"""
         plugins = (plugin("gazebo_ros_p3d", topicName="truth", frameName="map", robotNamespace="/{0}", updateRate=50, **body)
                    + plugin("gazebo_ros_imu", topicName="bare_imu", serviceName="{0}/calibrate", robotNamespace="/{0}", **body)
                    + plugin("hector_gazebo_ros_imu", topicName="hector_imu", robotNamespace="/{0}", **body)
@@ -177,6 +179,8 @@ class Plugins(unittest.TestCase):
         rest = self.measure("/standing/imu", Imu, 0.1, 10)
         np.testing.assert_allclose(xyz(rest.linear_acceleration), (0, 0, G), atol=0.02)
         self.assertEqual(rest.header.frame_id, "imu_link")
+        slow = self.measure("/standing/slow_imu", Imu, 2.0, 2)  # 1 Hz unless <updateRateHZ> says otherwise
+        self.assertAlmostEqual(yaw_of(slow), 0.5, places=3)
         np.testing.assert_allclose(xyz(self.measure("/standing/bare_imu", Imu, 0.01, 0).linear_acceleration), 0, atol=0.02)
         hector = self.measure("/standing/hector_imu", Imu, 0.01, 0)
         np.testing.assert_allclose(xyz(hector.linear_acceleration), (0, 0, G), atol=0.02)
@@ -232,6 +236,22 @@ class Plugins(unittest.TestCase):
         felt = self.measure("/felt", WrenchStamped, 0.5, 0)
         self.assertAlmostEqual(speed() - before, 1.0, places=3)
         np.testing.assert_allclose(xyz(felt.wrench.force), (0, 2, 0))
+
+    def test_bumper_of_a_link_behind_a_fixed_joint(self):
+        """The links are merged; what the student wrote is felt, and a wrong name is told."""
+        shape = '<collision><geometry><box size="0.2 0.2 0.1"/></geometry></collision>'
+        inertial = '<inertial><mass value="1"/><inertia ixx="0.1" iyy="0.1" izz="0.1" ixy="0" ixz="0" iyz="0"/></inertial>'
+        with Ear("/rosout", Log) as log:
+            self.spawn("rover", f"""<robot name="r"><link name="base">{inertial}{shape}</link><link name="pad">{shape}</link>
+                <joint name="j" type="fixed"><parent link="base"/><child link="pad"/><origin xyz="0 0 -0.1"/></joint>
+                <gazebo reference="pad"><sensor name="feel" type="contact"><update_rate>50</update_rate><contact>
+                <collision>pad_collision</collision><collision>paw_collision</collision></contact>
+                {plugin("gazebo_ros_bumper", bumperTopicName="pad")}</sensor></gazebo></robot>""", 26, 0, 0.15)
+            until(lambda: any("'paw_collision', which does not exist" in m.msg for m in log.messages), "line about the paw")
+        self.step(0.5)
+        state = self.measure("/pad", ContactsState, 0.1, 5).states[-1]
+        names = {state.collision1_name, state.collision2_name}
+        self.assertEqual(names, {"rover::base::base_fixed_joint_lump__pad_collision_1", "floor::link::c"})
 
     # ---------------------------------------------------------------------------------------------------- holding
 
@@ -319,15 +339,34 @@ class Plugins(unittest.TestCase):
                                               multiplier=-0.5, offset=0.1),
                                  plugin("gazebo_ros_joint_pose_trajectory", topicName="points"),
                                  plugin("gazebo_ros_joint_state_publisher", jointName=" follower, leader ", updateRate=50)), 60, 0)
-        points = [JointTrajectoryPoint(positions=[q], time_from_start=rospy.Duration(0.1)) for q in (0.2, 0.4, 0.6)]
-        Mouth("/points", JointTrajectory).say(joint_names=["leader"], points=points)
+        def trajectory(*points):
+            return [JointTrajectoryPoint(positions=[q], time_from_start=rospy.Duration(seconds)) for q, seconds in points]
+
+        mouth = Mouth("/points", JointTrajectory)
+        mouth.say(joint_names=["leader"], points=trajectory((0.2, 0.1), (0.4, 0.2), (0.6, 0.3)))
         self.until_stepped(lambda: self.joint("leader") > 0.1, "effect of the trajectory")
-        self.assertAlmostEqual(self.joint("leader"), 0.2, delta=0.05)
-        self.step(0.25)
-        self.assertAlmostEqual(self.joint("leader"), 0.6, delta=0.1)
+        seen = []
+        for _ in range(60):
+            seen.append(self.joint("leader"))
+            self.step(0.01)
+        np.testing.assert_allclose(seen[:8], 0.2, atol=1e-3)
+        np.testing.assert_allclose(seen[12:28], 0.4, atol=1e-3)  # a point lasts as long as it says, and does not sag
+        np.testing.assert_allclose(seen[32:55], 0.6, atol=1e-3)
         state = self.measure("/linked/joint_states", JointState, 0.1, 0)
         self.assertEqual((state.name, len(state.velocity), list(state.effort)), (["follower", "leader"], 2, []))
         self.assertAlmostEqual(state.position[0], 0.1 - 0.5 * state.position[1], places=3)
+
+        floating = [link(name, (0, 0, z), gravity=False) for name, z in (("trunk", 0), ("arm", 1))]
+        self.spawn("floating", sdf(*floating, joint("wave", "revolute", "trunk", "arm", (1, 0, 0), -2, 2)), 62, 0, 2)
+        header = Header(frame_id="floating::arm")  # that link stays, the rest of its model moves
+        mouth.say(header=header, joint_names=["wave"], points=trajectory((1.0, 0.5)))
+        self.until_stepped(lambda: self.joint("wave") > 0.5, "motion about the arm")
+        np.testing.assert_allclose(xyz(self.link("floating::arm").pose.position), (62, 0, 3), atol=1e-6)
+        roll = self.link("floating::trunk").pose.orientation
+        self.assertAlmostEqual(2 * math.atan2(roll.x, roll.w), -1.0, places=6)
+        with Ear("/rosout", Log) as log:
+            mouth.say(header=Header(frame_id="nowhere"), joint_names=["wave"], points=trajectory((0.0, 0.5)))
+            until(lambda: any("'nowhere' names no link" in m.msg for m in log.messages), "line about the frame")
 
     def test_elevator(self):
         self.spawn("lift", sdf(link("cabin", (0, 0, 0.1), mass=50), joint("shaft", "prismatic", "world", "cabin", lower=0, upper=10),

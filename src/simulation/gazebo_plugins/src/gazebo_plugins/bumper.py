@@ -3,15 +3,25 @@ from __future__ import annotations
 
 from typing import List
 
+import rospy
 from gazebo_msgs.msg import ContactsState, ContactState
 from geometry_msgs.msg import Vector3, Wrench
 from gazebo_ros import SdfElement
 from gazebo_ros.plugin import PluginError, SensorPlugin
-from ode_sim import math3
+from ode_sim import CollisionHandle, math3
+from ode_sim.description.urdf_extensions import LUMP
 
 from gazebo_plugins.ros_side import Topics, subscribed
 
 _MOST_STEPS = 100  # contacts of at most so many steps between two messages
+
+
+def _lumped_as(collision: str, named: str) -> bool:
+    """Whether ``named`` is what the conversion from URDF makes of ``CHILD_collision`` in a contact sensor
+    (``PARENT_collision_CHILD``), and ``collision`` one of that child in the link it was merged into."""
+    _, lumped, own = collision.partition(LUMP)
+    child = own.rpartition("_collision")[0]
+    return bool(lumped) and named.endswith("_collision_" + child)
 
 
 class Bumper(SensorPlugin):
@@ -20,17 +30,10 @@ class Bumper(SensorPlugin):
 
     def load(self, server, sensor, sdf) -> None:
         self.server, self.sensor, self.world = server, sensor, server.world
-        contact = SdfElement(sensor.description.element).child("contact")
-        wanted = [child.text for child in contact.children("collision")] if contact else []
-        own = sensor.link.collisions
-        unknown = [name for name in wanted if name not in own]
-        if not wanted or unknown:
-            raise PluginError(
-                f"sensor {sensor.scoped_name}: <contact><collision> {', '.join(unknown) or 'is missing'}; link "
-                f"{sensor.link.scoped_name} has {', '.join(own) or 'no collision'}")
-        self.collisions = {own[name].id for name in wanted}
-        for name in wanted:
-            server.world.watch_contacts(own[name])
+        collisions = self._watched()
+        self.collisions = {collision.id for collision in collisions}
+        for collision in collisions:
+            server.world.watch_contacts(collision)
         self.topics = Topics(sdf, sensor.model.name, "C")
         self.frame = self.topics.frame(sdf.get("frameName", "world") or "world")
         self.states: List[ContactState] = []
@@ -39,6 +42,22 @@ class Bumper(SensorPlugin):
         self.wanted = subscribed(self.publisher)
         server.after_step(self.collect)
         sensor.connect(self.measure, self.wanted)
+
+    def _watched(self) -> List[CollisionHandle]:
+        """The collisions that ``<contact>`` names; one that is not there is an ERROR line and feels nothing."""
+        contact = SdfElement(self.sensor.description.element).child("contact")
+        wanted = [child.text for child in contact.children("collision")] if contact else []
+        where, own = f"sensor {self.sensor.scoped_name}: <contact><collision>", self.sensor.link.collisions
+        there = f"link {self.sensor.link.scoped_name} has {', '.join(own) or 'no collision'}"
+        if not wanted:
+            raise PluginError(f"{where} is missing; {there}")
+        found = []
+        for name in wanted:
+            meant = [collision for written, collision in own.items() if written == name or _lumped_as(written, name)]
+            if not meant:
+                rospy.logerr("%s names '%s', which does not exist; %s", where, name, there)
+            found += meant
+        return found
 
     def collect(self) -> None:
         """Contacts of this step: one state per colliding pair."""

@@ -126,7 +126,7 @@ class ImuSensor(SensorPlugin):
         self.reference = math3.quat_inverse(self._orientation()) if sdf.get("initialOrientationAsReference", False) else None
         self.acceleration = Differentiator(sensor.link, sensor.description.pose.p)
         self.last_ns = 0
-        self.gate = SensorGate(sdf.get("updateRateHZ", 0.0))
+        self.gate = SensorGate(sdf.get("updateRateHZ", 1.0))
         self.publisher = self.topics.publisher(sdf.get("topicName", "imu_data") or "imu_data", Imu)
         sensor.connect(self.measure, subscribed(self.publisher))
 
@@ -146,7 +146,7 @@ class ImuSensor(SensorPlugin):
         rates = [noise(value, dt) for noise, value in zip(self.axis_noise[0], rates)]
         acceleration = [noise(value, dt) for noise, value in zip(self.axis_noise[1], acceleration)]
         orientation = math3.quat_multiply(self.reference, q_WS) if self.reference else q_WS
-        orientation = math3.quat_multiply(orientation, self.offset)
+        orientation = math3.quat_multiply(self.offset, orientation)
         message = self.message
         message.header.stamp = sensor.measurement_time
         message.orientation = Quaternion(*self.noise.vector(orientation))

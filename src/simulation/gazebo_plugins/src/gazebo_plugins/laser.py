@@ -140,14 +140,14 @@ class Laser(SensorPlugin):
 
 
 class BlockLaser(SensorPlugin):
-    """sensor_msgs/PointCloud of the hits in the sensor frame; what is out of range lies at infinity."""
+    """sensor_msgs/PointCloud of the hits in the sensor frame; what is out of range lies at infinity. ``<hokuyoMinIntensity>``
+    has no effect, upstream neither."""
 
     def load(self, server, sensor, sdf) -> None:
         self.fan = RayFan(server, sensor)
         self.topics = Topics(sdf, sensor.model.name, "C")
         self.frame = self.topics.frame(sdf.get("frameName", "/world") or "/world")
         self.sigma = sdf.get("gaussianNoise", 0.0)
-        self.min_intensity = sdf.get("hokuyoMinIntensity", 101.0)
         self.rng = server.world.rng(sensor.scoped_name + "/block_laser")
         self.publisher = self.topics.publisher(sdf.get("topicName", "/world") or "/world", PointCloud)
         sensor.connect(self.measure, subscribed(self.publisher))
@@ -166,7 +166,7 @@ class BlockLaser(SensorPlugin):
         message = PointCloud()
         message.header.stamp, message.header.frame_id = sensor.measurement_time, self.frame
         message.points = [Point32(*map(float, point)) for point in points]
-        message.channels = [ChannelFloat32("", np.maximum(intensities, self.min_intensity).tolist())]
+        message.channels = [ChannelFloat32("", intensities.tolist())]
         self.publisher.publish(message)
 
     def shutdown(self) -> None:
