@@ -33,7 +33,7 @@ class Board(unittest.TestCase):
     @classmethod
     def tearDownClass(cls):
         cls.driver.send_signal(2)
-        cls.driver.wait(timeout=20)
+        cls.driver.wait(timeout=60)
         speeds = cls.board.wheel_speeds[-1]
         cls.board.close()
         assert speeds == (0, 0), "the driver left the wheels turning"

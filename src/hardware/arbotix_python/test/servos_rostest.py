@@ -26,7 +26,7 @@ class Servos(unittest.TestCase):
     def setUp(self):
         self.states = Collector("/joint_states", JointState)
         self.client = actionlib.SimpleActionClient("/head/follow_joint_trajectory", FollowJointTrajectoryAction)
-        self.assertTrue(self.client.wait_for_server(rospy.Duration(100)))
+        self.client.wait_for_server()
 
     def tearDown(self):
         self.states.close()
@@ -73,6 +73,7 @@ class Servos(unittest.TestCase):
     def test_disabled_servo_takes_no_commands(self):
         self.publisher("tilt").publish(0.0)
         self.arrive("tilt", 0.0, TILT_TICK)
+        rospy.wait_for_service("/tilt/enable", 60)
         enable = rospy.ServiceProxy("/tilt/enable", Enable)
         self.assertFalse(enable(False).state)
         self.publisher("tilt").publish(0.7)
@@ -85,7 +86,7 @@ class Servos(unittest.TestCase):
 
     def test_trajectory(self):
         self.assertEqual(self.client.send_goal_and_wait(
-            self.goal((1.0, (0.4, -0.4)), (2.0, (-0.3, 0.6))), rospy.Duration(100)), GoalStatus.SUCCEEDED)
+            self.goal((1.0, (0.4, -0.4)), (2.0, (-0.3, 0.6))), rospy.Duration(300)), GoalStatus.SUCCEEDED)
         state = self.arrive("tilt", 0.6, TILT_TICK)
         self.assertAlmostEqual(place_of(state, "pan"), -0.3, delta=PAN_TICK)
         most = max(place_of(m, "pan") for m in self.states.messages)
@@ -93,14 +94,14 @@ class Servos(unittest.TestCase):
 
     def test_bad_goals_are_refused(self):
         for goal in (self.goal((1.0, (0.1,)), joints=("pan",)), self.goal(), self.goal((1.0, (0.1,)))):
-            self.assertEqual(self.client.send_goal_and_wait(goal, rospy.Duration(100)), GoalStatus.ABORTED)
+            self.assertEqual(self.client.send_goal_and_wait(goal, rospy.Duration(300)), GoalStatus.ABORTED)
 
     def test_cancel(self):
         self.client.send_goal(self.goal((500.0, (1.0, 1.0))))
         while self.client.get_state() == GoalStatus.PENDING:
             rospy.sleep(0.1)
         self.client.cancel_goal()
-        self.assertTrue(self.client.wait_for_result(rospy.Duration(100)))
+        self.assertTrue(self.client.wait_for_result(rospy.Duration(300)))
         self.assertEqual(self.client.get_state(), GoalStatus.PREEMPTED)
 
 

@@ -70,7 +70,7 @@ class SimulatedBase(unittest.TestCase):
             states.wait_for(lambda m: m._connection_header["callerid"] == "/broken", "joint states all the same")
         finally:
             driver.send_signal(signal.SIGINT)
-            errors = driver.communicate(timeout=20)[1]
+            errors = driver.communicate(timeout=60)[1]
         self.assertRegex(errors, "wings has type flapping_controller")
         self.assertRegex(errors, "/broken/controllers/narrow/base_width is not set")
         self.assertRegex(errors, "joint neck of /broken/controllers/head/joints")
