@@ -2,20 +2,18 @@
 from __future__ import annotations
 
 import math
-from typing import List
+from typing import List, Optional, Tuple
 
 import rospy
 from control_msgs.msg import JointTrajectoryControllerState
-from controller_interface import Controller, NodeHandle, ParameterError, RealtimePublisher
+from controller_interface import Controller, NodeHandle, ParameterError, RealtimePublisher, to_stamp
 from dynamic_parameters import Parameter, Server
 from geometry_msgs.msg import TwistStamped
 from hardware_interface import VelocityJointInterface
 from urdf_geometry_parser import robot_geometry
 
-from .odometry import PlanarOdometry, WheelTravel, differential
-from .odometry_publisher import OdometryPublisher
-from .speed_limiter import load_limiter
-from .velocity_command import VelocityCommand
+from .odometry import WheelTravel, differential
+from .wheeled_base import WheeledBase, length
 
 _TABLE = [
     Parameter("left_wheel_radius_multiplier", float, 1.0, 0.5, 1.5, "Left wheel radius multiplier."),
@@ -26,43 +24,26 @@ _TABLE = [
 ]
 
 
-class DiffDriveController(Controller):
+class DiffDriveController(WheeledBase, Controller):
     """A base with one or more wheels on each side, all wheels of a side turning alike."""
 
     interface = VelocityJointInterface
 
     def init(self, hw, root_nh: NodeHandle, controller_nh: NodeHandle) -> None:
-        names = [wheel_names(controller_nh, side) for side in ("left_wheel", "right_wheel")]
-        if len(names[0]) != len(names[1]):
-            raise ParameterError(f"{controller_nh.namespace}: left_wheel names {len(names[0])} joints and right_wheel "
-                                 f"{len(names[1])}; both sides need as many")
-        self._separation = controller_nh.param("wheel_separation", 0.0)
-        self._radius = controller_nh.param("wheel_radius", 0.0)
-        if not (controller_nh.has_param("wheel_separation") and controller_nh.has_param("wheel_radius")):
-            robot = robot_geometry(root_nh, search=False)
-            if not controller_nh.has_param("wheel_separation"):
-                self._separation = robot.distance(names[0][0], names[1][0])
-            if not controller_nh.has_param("wheel_radius"):
-                self._radius = robot.wheel_radius(names[0][0])
-        for name, value in (("wheel_separation", self._separation), ("wheel_radius", self._radius)):
-            if not value > 0.0:
-                raise ParameterError(f"{controller_nh.namespace}: {name} must be greater than 0 m, it is {value:g}; "
-                                     "set it by parameter")
-        multiplier = controller_nh.param("wheel_radius_multiplier", 1.0)
-        self._multipliers = (
-            controller_nh.param("wheel_separation_multiplier", 1.0),
-            multiplier if controller_nh.has_param("wheel_radius_multiplier")
-            else controller_nh.param("left_wheel_radius_multiplier", 1.0),
-            multiplier if controller_nh.has_param("wheel_radius_multiplier")
-            else controller_nh.param("right_wheel_radius_multiplier", 1.0))
-        self._open_loop = controller_nh.param("open_loop", False)
-        self._limit_linear = load_limiter(controller_nh, "linear/x")
-        self._limit_angular = load_limiter(controller_nh, "angular/z")
-
-        self._left, self._right = ([hw.get_handle(name) for name in side] for side in names)
-        self._odometry = PlanarOdometry(controller_nh.param("velocity_rolling_window_size", 10))
-        self._travel = WheelTravel(), WheelTravel()
-        self._publisher = OdometryPublisher(root_nh, controller_nh)
+        left, right = (wheel_names(controller_nh, side) for side in ("left_wheel", "right_wheel"))
+        if len(left) != len(right):
+            raise ParameterError(f"{controller_nh.namespace}: left_wheel names {len(left)} joints and right_wheel "
+                                 f"{len(right)}; both sides need as many")
+        self._separation = length(controller_nh, "wheel_separation", lambda: robot_geometry(
+            root_nh, search=False).distance(left[0], right[0]))
+        self._radius = length(controller_nh, "wheel_radius", lambda: robot_geometry(
+            root_nh, search=False).wheel_radius(left[0]))
+        multipliers = [controller_nh.param(row.name, row.default) for row in _TABLE[:3]]
+        if controller_nh.has_param("wheel_radius_multiplier"):
+            multipliers[:2] = [controller_nh.param("wheel_radius_multiplier", 1.0)] * 2
+        self._multipliers = tuple(multipliers)
+        self._left, self._right = ([hw.get_handle(name) for name in side] for side in (left, right))
+        self.init_base(root_nh, controller_nh, (WheelTravel(), WheelTravel()))
         self._command_publisher = self._wheel_publisher = None
         if controller_nh.param("publish_cmd", False):
             self._command_publisher = RealtimePublisher(controller_nh, "cmd_vel_out", TwistStamped, queue_size=100)
@@ -71,71 +52,51 @@ class DiffDriveController(Controller):
                                                       JointTrajectoryControllerState, queue_size=100)
         self._desired = [0.0] * (2 * len(self._left))  # wheel positions as commanded, rad
         self._last_velocities = ([0.0] * len(self._desired), [0.0] * len(self._desired))
-        self._command = VelocityCommand(controller_nh, self._brake)
         controller_nh.own(Server(controller_nh.namespace, _TABLE, self._reconfigure, initial=dict(
-            zip((row.name for row in _TABLE), (*self._multipliers[1:], self._multipliers[0], self._publisher.rate,
-                                               self._publisher.tf_enabled)))))
+            zip((row.name for row in _TABLE), (*multipliers, self._publisher.rate, self._publisher.tf_enabled)))))
 
     def _reconfigure(self, config, level: int) -> None:
         if level == -1:
             return  # the server repeats what was loaded, clamped to what a slider shows: the loaded values hold
-        self._multipliers = (config["wheel_separation_multiplier"], config["left_wheel_radius_multiplier"],
-                             config["right_wheel_radius_multiplier"])
+        self._multipliers = tuple(config[row.name] for row in _TABLE[:3])
         self._publisher.tf_enabled = config["enable_odom_tf"]
         self._publisher.set_rate(config["publish_rate"])
 
-    def starting(self, time: float) -> None:
-        self._brake()
-        self._limit_linear.reset()
-        self._limit_angular.reset()
-        self._odometry.restart(time)
-        self._publisher.restart(time)
-        self._command.start(time)
+    def brake(self) -> None:
+        self._drive(0.0, 0.0)
 
-    def stopping(self, time: float) -> None:
-        self._command.stop()
-        self._brake()
+    def _drive(self, left: float, right: float) -> None:
+        """Command wheel velocities, rad/s."""
+        for handle in self._left:
+            handle.command = left
+        for handle in self._right:
+            handle.command = right
 
-    def aborting(self, time: float) -> None:
-        self.stopping(time)
+    def _geometry(self) -> Tuple[float, float, float]:
+        """Radius of the left and of the right wheels and the distance of the sides, m."""
+        left, right, separation = self._multipliers
+        return self._radius * left, self._radius * right, self._separation * separation
 
-    def _brake(self) -> None:
-        for handle in (*self._left, *self._right):
-            handle.command = 0.0
+    def measured_way(self) -> Optional[Tuple[float, float]]:
+        left_radius, right_radius, separation = self._geometry()
+        left = sum(handle.state.position for handle in self._left) / len(self._left)
+        right = sum(handle.state.position for handle in self._right) / len(self._right)
+        if not (math.isfinite(left) and math.isfinite(right)):
+            return None
+        return differential(self._travel[0](left) * left_radius, self._travel[1](right) * right_radius, separation)
 
     def update(self, time: float, period: float) -> None:
-        separation_multiplier, left_multiplier, right_multiplier = self._multipliers
-        separation = self._separation * separation_multiplier
-        left_radius, right_radius = self._radius * left_multiplier, self._radius * right_multiplier
-
-        if self._odometry.interval(time) < 0.0:  # the simulation was reset, and the wheels with it: not a way travelled
-            self._odometry.restart(time)
-            for travel in self._travel:
-                travel.restart()
-        if self._open_loop:
-            self._odometry.commanded(self._limit_linear.last, self._limit_angular.last, time)
-        else:
-            left = sum(handle.state.position for handle in self._left) / len(self._left)
-            right = sum(handle.state.position for handle in self._right) / len(self._right)
-            if not (math.isfinite(left) and math.isfinite(right)):
-                return
-            self._odometry.travelled(*differential(self._travel[0](left) * left_radius,
-                                                   self._travel[1](right) * right_radius, separation), time)
-        self._publisher.publish(self._odometry, time)
-
-        linear, angular = self._command.at(time)
-        linear = self._limit_linear.limit(linear, period)
-        angular = self._limit_angular.limit(angular, period)
+        if not self.update_odometry(time):
+            return
+        linear, angular = self.limited_command(time, period)
+        left_radius, right_radius, separation = self._geometry()
         left_velocity = (linear - 0.5 * angular * separation) / left_radius
         right_velocity = (linear + 0.5 * angular * separation) / right_radius
-        for handle in self._left:
-            handle.command = left_velocity
-        for handle in self._right:
-            handle.command = right_velocity
+        self._drive(left_velocity, right_velocity)
 
         if self._command_publisher is not None:
             message = TwistStamped()
-            message.header.stamp = rospy.Time.from_sec(time)
+            message.header.stamp = to_stamp(time)
             message.twist.linear.x = linear
             message.twist.angular.z = angular
             self._command_publisher.publish(message)
@@ -150,7 +111,7 @@ class DiffDriveController(Controller):
         for index, velocity in enumerate(desired):
             self._desired[index] += velocity * period
         message = JointTrajectoryControllerState(joint_names=[state.name for state in states])
-        message.header.stamp = rospy.Time.from_sec(time)
+        message.header.stamp = to_stamp(time)
         for point, velocities, last in zip((message.desired, message.actual), (desired, actual), self._last_velocities):
             point.velocities = velocities
             point.accelerations = [(v - v0) / period if period > 0.0 else 0.0 for v, v0 in zip(velocities, last)]

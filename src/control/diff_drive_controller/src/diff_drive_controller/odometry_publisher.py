@@ -2,10 +2,10 @@
 from __future__ import annotations
 
 import math
-from typing import List
+from typing import List, Optional
 
 import rospy
-from controller_interface import NodeHandle, ParameterError, RateGate, RealtimePublisher
+from controller_interface import NodeHandle, ParameterError, RateGate, RealtimePublisher, to_stamp
 from geometry_msgs.msg import TransformStamped
 from nav_msgs.msg import Odometry
 from tf2_msgs.msg import TFMessage
@@ -19,7 +19,7 @@ class OdometryPublisher:
     :param odom_frame: fixed name of the odometry frame; None reads the parameter ``odom_frame_id``
     """
 
-    def __init__(self, root_nh: NodeHandle, controller_nh: NodeHandle, odom_frame: str = None):
+    def __init__(self, root_nh: NodeHandle, controller_nh: NodeHandle, odom_frame: Optional[str] = None):
         self.rate = controller_nh.param("publish_rate", 50.0)
         self.base_frame = controller_nh.param("base_frame_id", "base_link")
         self.odom_frame = odom_frame or controller_nh.param("odom_frame_id", "odom")
@@ -33,23 +33,19 @@ class OdometryPublisher:
 
     def restart(self, time: float) -> None:
         self._now = time
-        self._gate = RateGate(self.rate, time)
+        self._gate.restart(time)
 
     def set_rate(self, rate: float) -> None:
         """Publish at ``rate`` Hz from now on; 0 for never."""
         self.rate = rate
         self._gate = RateGate(rate, self._now)
 
-    def due(self, time: float) -> bool:
-        """Whether ``publish`` would send now."""
-        return self._gate.due(time)
-
-    def publish(self, odometry: PlanarOdometry, time: float) -> None:
-        """Send if it is time to. Realtime safe."""
+    def publish(self, odometry: PlanarOdometry, time: float) -> bool:
+        """Send if it is time to. Realtime safe. :return: whether it was"""
         self._now = time
-        if not self.due(time):
-            return
-        stamp = rospy.Time.from_sec(time)
+        if not self._gate.due(time):
+            return False
+        stamp = to_stamp(time)
         sine, cosine = math.sin(0.5 * odometry.heading), math.cos(0.5 * odometry.heading)
         message = Odometry(child_frame_id=self.base_frame)
         message.header.stamp = stamp
@@ -63,9 +59,7 @@ class OdometryPublisher:
         message.twist.twist.linear.y = odometry.linear_y
         message.twist.twist.angular.z = odometry.angular
         message.twist.covariance = self._twist_covariance
-        if not self._odom.publish(message):
-            return
-        self._gate.passed()
+        self._odom.publish(message)
         if self.tf_enabled:
             transform = TransformStamped(child_frame_id=self.base_frame)
             transform.header.stamp = stamp
@@ -75,6 +69,7 @@ class OdometryPublisher:
             transform.transform.rotation.z = sine
             transform.transform.rotation.w = cosine
             self._tf.publish(TFMessage([transform]))
+        return True
 
 
 def _diagonal(nh: NodeHandle, name: str) -> List[float]:

@@ -1,10 +1,9 @@
 """The force-torque publisher."""
 from __future__ import annotations
 
-import rospy
-from controller_interface import Controller, RateGate, RealtimePublisher
+from controller_interface import Controller, RateGate, RealtimePublisher, to_stamp
 from geometry_msgs.msg import WrenchStamped
-from hardware_interface import ForceTorqueSensorInterface
+from hardware_interface import ForceTorqueSensorHandle, ForceTorqueSensorInterface
 
 
 class ForceTorqueSensorController(Controller):
@@ -23,13 +22,16 @@ class ForceTorqueSensorController(Controller):
 
     def update(self, time: float, period: float) -> None:
         for sensor, publisher, gate in self._sensors:
-            if not gate.due(time):
-                continue
-            message = WrenchStamped()
-            message.header.stamp = rospy.Time.from_sec(time)
-            message.header.frame_id = sensor.frame_id
-            for part, values in ((message.wrench.force, sensor.force), (message.wrench.torque, sensor.torque)):
-                if values is not None:
-                    part.x, part.y, part.z = values
-            if publisher.publish(message):
-                gate.passed()
+            if gate.due(time):
+                publisher.publish(wrench_message(sensor, time))
+
+
+def wrench_message(sensor: ForceTorqueSensorHandle, time: float) -> WrenchStamped:
+    """What a sensor measures now; zeros for what it cannot measure."""
+    message = WrenchStamped()
+    message.header.stamp = to_stamp(time)
+    message.header.frame_id = sensor.frame_id
+    for part, values in ((message.wrench.force, sensor.force), (message.wrench.torque, sensor.torque)):
+        if values is not None:
+            part.x, part.y, part.z = values
+    return message

@@ -2,48 +2,37 @@
 from __future__ import annotations
 
 import math
-from typing import Any, List
+from typing import Any, List, Tuple
 
-import rospy
-from controller_interface import MultiInterfaceController, NodeHandle, ParameterError, RealtimePublisher
-from diff_drive_controller.odometry import MIN_INTERVAL, PlanarOdometry, RollingMean
-from diff_drive_controller.odometry_publisher import OdometryPublisher
-from diff_drive_controller.speed_limiter import load_limiter
-from diff_drive_controller.velocity_command import VelocityCommand
+from controller_interface import MultiInterfaceController, NodeHandle, ParameterError, RealtimePublisher, to_stamp
+from diff_drive_controller.command_topic import CommandTopic
+from diff_drive_controller.odometry import MIN_INTERVAL, RollingMean
+from diff_drive_controller.wheeled_base import WheeledBase, length
 from four_wheel_steering_msgs.msg import FourWheelSteering, FourWheelSteeringStamped
 from hardware_interface import PositionJointInterface, VelocityJointInterface
 from urdf_geometry_parser import RobotGeometry, robot_geometry
 
 from .kinematics import Axle, Base, axle_angle
 
-_NONE = (0.0, 0.0, 0.0, -math.inf)  # speed m/s, front and rear angle rad, when it came
+_RIGHT_ANGLE = 0.5 * math.pi
 
 
-class FourWheelSteeringController(MultiInterfaceController):
+class FourWheelSteeringController(WheeledBase, MultiInterfaceController):
     """Obeys ``cmd_vel`` or ``cmd_four_wheel_steering``, whichever came last."""
 
     interfaces = (VelocityJointInterface, PositionJointInterface)
 
     def init(self, hw, root_nh: NodeHandle, controller_nh: NodeHandle) -> None:
-        self._name = controller_nh.namespace
         wheels, steering = hw.get(VelocityJointInterface), hw.get(PositionJointInterface)
         self._wheels = [wheels.get_handle(name) for axle in ("front", "rear")
                         for name in _pair(controller_nh, f"{axle}_wheel")]
         self._steering = [steering.get_handle(name) for axle in ("front", "rear")
                           for name in _pair(controller_nh, f"{axle}_steering")]
-        self._publisher = OdometryPublisher(root_nh, controller_nh, odom_frame="odom")
+        self.init_base(root_nh, controller_nh, jerk=False, odom_frame="odom")
         self._base = self._geometry(robot_geometry(root_nh, search=False), controller_nh)
-        self._limit_linear = load_limiter(controller_nh, "linear/x", jerk=False)
-        self._limit_angular = load_limiter(controller_nh, "angular/z", jerk=False)
-        window = controller_nh.param("velocity_rolling_window_size", 10)
-        self._odometry = PlanarOdometry(window)
-        self._rates = _Rates(window)
-        self._timeout = controller_nh.param("cmd_vel_timeout", 0.5)
-        self._running = False
-        self._now = 0.0
-        self._wanted = _NONE
-        self._twist = VelocityCommand(controller_nh, self._brake)
-        controller_nh.subscriber("cmd_four_wheel_steering", FourWheelSteering, self._on_steering, queue_size=1)
+        self._rates = _Rates(controller_nh.param("velocity_rolling_window_size", 10))
+        self._steering_command = CommandTopic(controller_nh, "cmd_four_wheel_steering", FourWheelSteering,
+                                              _steering_values, "four wheel steering")
         self._steer_publisher = RealtimePublisher(controller_nh, "odom_steer", FourWheelSteeringStamped, queue_size=100)
 
     def _geometry(self, robot: RobotGeometry, nh: NodeHandle) -> Base:
@@ -54,73 +43,51 @@ class FourWheelSteeringController(MultiInterfaceController):
         def between(first: str, second: str) -> float:
             return math.dist(robot.position(first, link)[:2], robot.position(second, link)[:2])
 
-        def length(name: str, find) -> float:
-            value = nh.param(name, 0.0) if nh.has_param(name) else find()
-            if not value > 0.0:
-                raise ParameterError(f"{self._name}: {name} must be greater than 0 m, it is {value:g}; set it by "
-                                     "parameter")
-            nh.set_param(name, value)
-            return value
-
-        track = length("track", lambda: between(names[0], names[1]))
-        base = length("wheel_base", lambda: between(names[0], names[2]))
-        radius = length("wheel_radius", lambda: robot.wheel_radius(names[0], shapes=("cylinder",)))
+        track = length(nh, "track", lambda: between(names[0], names[1]))
+        base = length(nh, "wheel_base", lambda: between(names[0], names[2]))
+        radius = length(nh, "wheel_radius", lambda: robot.wheel_radius(names[0], shapes=("cylinder",)))
         offset = between(self._steering[0].name, names[0])
-        nh.set_param("wheel_steering_y_offset", offset)
+        for name, value in (("track", track), ("wheel_base", base), ("wheel_radius", radius),
+                            ("wheel_steering_y_offset", offset)):
+            nh.set_param(name, value)
         return Base(track - 2.0 * offset, base, radius, offset)
 
     def starting(self, time: float) -> None:
-        self._brake()
-        self._limit_linear.reset()
-        self._limit_angular.reset()
-        self._odometry.restart(time)
+        super().starting(time)
         self._rates.restart()
-        self._publisher.restart(time)
-        self._now = time
-        self._wanted = _NONE
-        self._running = True
-        self._twist.start(time)
+        self._steering_command.start(time)
 
     def stopping(self, time: float) -> None:
-        self._running = False
-        self._twist.stop()
-        self._brake()
+        self._steering_command.stop()
+        super().stopping(time)
 
-    def aborting(self, time: float) -> None:
-        self.stopping(time)
-
-    def _brake(self) -> None:
+    def brake(self) -> None:
         for handle in (*self._wheels, *self._steering):
             handle.command = 0.0
 
     def update(self, time: float, period: float) -> None:
-        self._now = time
-        self._update_odometry(time)
-        linear, angular = self._twist.at(time)
-        speed, front, rear, stamp = self._wanted
-        if stamp > time:  # from before a simulation was reset
-            self._wanted = _NONE
-        if not 0.0 <= time - stamp <= self._timeout:
-            speed = front = rear = 0.0
-        if self._twist.stamp > stamp:
+        self._measure(time)
+        linear, angular = self._command.at(time)
+        speed, front, rear = self._steering_command.at(time)
+        if self._command.stamp > self._steering_command.stamp:
             axles = self._base.from_twist(self._limit_linear.limit(linear, period),
                                           self._limit_angular.limit(angular, period))
         else:
-            axles = self._base.from_steering(self._limit_linear.limit(speed, period), front, rear)
+            axles = self._base.from_steering(self._limit_linear.limit(speed, period), _clamp(front), _clamp(rear))
         for axle, wheels, steering in zip(axles, (self._wheels[:2], self._wheels[2:]),
                                           (self._steering[:2], self._steering[2:])):
             wheels[0].command, wheels[1].command = axle.left_speed, axle.right_speed
             steering[0].command, steering[1].command = axle.left_angle, axle.right_angle
 
-    def _update_odometry(self, time: float) -> None:
+    def _measure(self, time: float) -> None:
+        """Odometry and odom_steer from the joints; skipped while one of them is not known."""
         angles = [handle.position for handle in self._steering]
         speeds = [handle.velocity for handle in self._wheels]
         if not all(map(math.isfinite, (*angles, *speeds))):
             return
         front, rear = Axle(*angles[:2], *speeds[:2]), Axle(*angles[2:], *speeds[2:])
         dt = self._odometry.interval(time)
-        if dt < 0.0:  # the simulation was reset
-            self._odometry.restart(time)
+        self.notice_reset(time)
         self._odometry.moved(*self._base.motion(front, rear), time)
         state = FourWheelSteering()
         state.front_steering_angle, state.rear_steering_angle = axle_angle(front), axle_angle(rear)
@@ -128,21 +95,10 @@ class FourWheelSteeringController(MultiInterfaceController):
         if dt >= MIN_INTERVAL:
             self._rates.update(state, dt)
         self._rates.fill(state)
-        if self._publisher.due(time):
+        if self._publisher.publish(self._odometry, time):
             message = FourWheelSteeringStamped(data=state)
-            message.header.stamp = rospy.Time.from_sec(time)
+            message.header.stamp = to_stamp(time)
             self._steer_publisher.publish(message)
-        self._publisher.publish(self._odometry, time)
-
-    def _on_steering(self, message: FourWheelSteering) -> None:
-        values = (message.speed, message.front_steering_angle, message.rear_steering_angle)
-        if not self._running:
-            rospy.logerr_throttle(1.0, f"{self._name}: Can't accept new commands. Controller is not running.")
-        elif not all(map(math.isfinite, values)):
-            rospy.logwarn_throttle(1.0, f"{self._name}: Received NaN in four wheel steering command. Ignoring.")
-        else:
-            right_angle = 0.5 * math.pi
-            self._wanted = (values[0], *(max(-right_angle, min(right_angle, angle)) for angle in values[1:]), self._now)
 
 
 class _Rates:
@@ -172,6 +128,15 @@ class _Rates:
     def fill(self, state: FourWheelSteering) -> None:
         for name, value in self._values.items():
             setattr(state, name, value)
+
+
+def _steering_values(message: FourWheelSteering) -> Tuple[float, float, float]:
+    """Speed (m/s) and the angles of the front and the rear axle (rad)."""
+    return message.speed, message.front_steering_angle, message.rear_steering_angle
+
+
+def _clamp(angle: float) -> float:
+    return max(-_RIGHT_ANGLE, min(_RIGHT_ANGLE, angle))
 
 
 def _pair(nh: NodeHandle, name: str) -> List[str]:

@@ -1,8 +1,7 @@
 """The IMU publisher."""
 from __future__ import annotations
 
-import rospy
-from controller_interface import Controller, RateGate, RealtimePublisher
+from controller_interface import Controller, RateGate, RealtimePublisher, to_stamp
 from hardware_interface import ImuSensorHandle, ImuSensorInterface
 from sensor_msgs.msg import Imu
 
@@ -25,14 +24,14 @@ class ImuSensorController(Controller):
 
     def update(self, time: float, period: float) -> None:
         for sensor, publisher, gate in self._sensors:
-            if gate.due(time) and publisher.publish(imu_message(sensor, time)):
-                gate.passed()
+            if gate.due(time):
+                publisher.publish(imu_message(sensor, time))
 
 
 def imu_message(sensor: ImuSensorHandle, time: float) -> Imu:
     """What a sensor measures now. What it cannot measure has a covariance that begins with -1."""
     message = Imu()
-    message.header.stamp = rospy.Time.from_sec(time)
+    message.header.stamp = to_stamp(time)
     message.header.frame_id = sensor.frame_id
     for name in ("orientation", "angular_velocity", "linear_acceleration"):
         values, covariance = getattr(sensor, name), getattr(sensor, name + "_covariance")

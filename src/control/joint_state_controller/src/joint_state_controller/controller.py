@@ -70,7 +70,6 @@ class JointStateController(Controller):
     def update(self, time: float, period: float) -> None:
         if self._gate.due(time):
             self._publish(time)
-            self._gate.passed()
 
     def _publish(self, time: float) -> None:
         if not self._publisher.has_subscribers:

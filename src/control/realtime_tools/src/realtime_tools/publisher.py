@@ -26,17 +26,16 @@ class RealtimePublisher:
     def has_subscribers(self) -> bool:
         return bool(self._publisher.impl and self._publisher.impl.connections)
 
-    def publish(self, message: Any) -> bool:
-        """Send ``message``, which may be filled anew afterwards. :return: True, for gates that count what was taken."""
+    def publish(self, message: Any) -> None:
+        """Send ``message``, which may be filled anew afterwards."""
         if not self.has_subscribers:
-            return True
+            return
         try:
             self._publisher.publish(message)
         except rospy.ROSException:  # unregistered or shut down meanwhile: nobody is left to tell
             rospy.logdebug("publisher of %s is gone", self._publisher.name)
         except Exception as error:  # a wrong field type must not abort the controller
             rospy.logerr_throttle(5.0, f"message on {self._publisher.name} cannot be published: {error}")
-        return True
 
 
 class RateGate:
@@ -69,16 +68,14 @@ class RateGate:
         self._jumped = last - self._TOLERANCE
 
     def due(self, time: float) -> bool:
-        """True if ``time`` (s) is past the next opening. Call ``passed`` once the message has really been taken.
+        """True, once per opening, if ``time`` (s) is past the next one.
 
         Time that goes backwards (a simulation was reset) starts the count anew.
         """
         if time > self._next:
+            self._count += 1
+            self._schedule()
             return True
         if time < self._jumped:
             self.restart(time)
         return False
-
-    def passed(self) -> None:
-        self._count += 1
-        self._schedule()

@@ -1,0 +1,99 @@
+"""What all wheeled bases do alike."""
+from __future__ import annotations
+
+from typing import Callable, Optional, Tuple
+
+from controller_interface import ControllerBase, NodeHandle, ParameterError
+
+from .command_topic import VelocityCommand
+from .odometry import PlanarOdometry, WheelTravel
+from .odometry_publisher import OdometryPublisher
+from .speed_limiter import load_limiter
+
+
+class WheeledBase(ControllerBase):
+    """A base that obeys ``cmd_vel`` within its speed limits and publishes its odometry.
+
+    Derive from it first, from Controller or MultiInterfaceController second, and call ``init_base`` in ``init``.
+    """
+
+    def init_base(self, root_nh: NodeHandle, controller_nh: NodeHandle, travel: Tuple[WheelTravel, ...] = (),
+                  jerk: bool = True, odom_frame: Optional[str] = None) -> None:
+        """Parameters and topics common to all bases.
+
+        :param travel: counters to be restarted when a simulation was reset
+        :param jerk: whether there are limits of jerk
+        :param odom_frame: fixed name of the odometry frame; None reads the parameter ``odom_frame_id``
+        """
+        self._travel = travel
+        self._open_loop = controller_nh.param("open_loop", False)
+        self._limit_linear = load_limiter(controller_nh, "linear/x", jerk)
+        self._limit_angular = load_limiter(controller_nh, "angular/z", jerk)
+        self._odometry = PlanarOdometry(controller_nh.param("velocity_rolling_window_size", 10))
+        self._publisher = OdometryPublisher(root_nh, controller_nh, odom_frame)
+        self._command = VelocityCommand(controller_nh, self.brake)
+
+    # -- what a kind of base adds --------------------------------------------------------------------------------------
+
+    def brake(self) -> None:
+        """Command the base to stand still. Realtime safe."""
+        raise NotImplementedError
+
+    def measured_way(self) -> Optional[Tuple[float, float]]:
+        """(m forward, rad turned) since the last call, from the wheels; None if they are not known. Realtime safe."""
+        raise NotImplementedError
+
+    # -- life-cycle ----------------------------------------------------------------------------------------------------
+
+    def starting(self, time: float) -> None:
+        self.brake()
+        self._limit_linear.reset()
+        self._limit_angular.reset()
+        self._odometry.restart(time)
+        self._publisher.restart(time)
+        self._command.start(time)
+
+    def stopping(self, time: float) -> None:
+        self._command.stop()
+        self.brake()
+
+    def aborting(self, time: float) -> None:
+        self.stopping(time)
+
+    # -- for update ----------------------------------------------------------------------------------------------------
+
+    def notice_reset(self, time: float) -> None:
+        """When a simulation was reset, the wheels went back with it: that is no way travelled."""
+        if self._odometry.interval(time) < 0.0:
+            self._odometry.restart(time)
+            for travel in self._travel:
+                travel.restart()
+
+    def update_odometry(self, time: float) -> bool:
+        """Bring the odometry up to ``time`` and publish it. :return: False if the wheels are not known."""
+        self.notice_reset(time)
+        if self._open_loop:
+            self._odometry.commanded(self._limit_linear.last, self._limit_angular.last, time)
+        else:
+            way = self.measured_way()
+            if way is None:
+                return False
+            self._odometry.travelled(*way, time)
+        self._publisher.publish(self._odometry, time)
+        return True
+
+    def limited_command(self, time: float, period: float) -> Tuple[float, float]:
+        """(linear x m/s, angular z rad/s) to be done now."""
+        linear, angular = self._command.at(time)
+        return self._limit_linear.limit(linear, period), self._limit_angular.limit(angular, period)
+
+
+def length(nh: NodeHandle, name: str, find: Callable[[], float]) -> float:
+    """A length (m) from parameter ``name``, else from ``find``.
+
+    :raises ParameterError: it is not positive
+    """
+    value = nh.param(name, 0.0) if nh.has_param(name) else find()
+    if not value > 0.0:
+        raise ParameterError(f"{nh.namespace}: {name} must be greater than 0 m, it is {value:g}; set it by parameter")
+    return value
