@@ -11,7 +11,7 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "models"))
 
-from make_models import box, box_inertia, pose, script, tag  # noqa: E402
+from make_models import box, box_inertia, numbers, pose, script, tag  # noqa: E402
 
 from gazebo_ros import building, building_sdf  # noqa: E402
 
@@ -105,17 +105,72 @@ def camera():
     return world("A camera looks at a table.", SUN, FLOOR, eye, *things)
 
 
-def of_plan(name):
-    return building_sdf.world_text(building.read_plan(str(HERE / "plans" / f"{name}.yaml")))
+def part(name, size, at, look):
+    """A collision and a visual of one box."""
+    return "\n".join(tag(kind, pose(at), tag("geometry", box(*size)), material, name=f"{name}_{kind}")
+                     for kind, material in (("collision", ""), ("visual", script(look))))
+
+
+def link(name, mass, size, *content, at=()):
+    """A link whose mass is spread over a box of ``size``."""
+    inertia = zip(("ixx", "iyy", "izz"), box_inertia(mass, *size))
+    return tag("link", pose(at) if at else "", tag("inertial", tag("mass", mass), tag(
+        "inertia", *(tag(key, f"{value:.6g}") for key, value in inertia))), *content, name=name)
+
+
+def slide(name, parent, child, axis, upper):
+    limit = tag("limit", tag("lower", 0), tag("upper", upper))
+    return tag("joint", tag("parent", parent), tag("child", child), tag("axis", tag("xyz", numbers(axis)), limit),
+               name=name, type="prismatic")
+
+
+def elevator():
+    """A cabin between three floors, three metres apart. Its doorway is at +x, the door slides to the left (+y)."""
+    cabin = link("cabin", 400, (2, 2, 2.2), *(part(name, size, at, look) for name, size, at, look in (
+        ("floor", (2, 2, 0.1), (0, 0, 0.05), "Gazebo/Grey"), ("lid", (2, 2, 0.05), (0, 0, 2.225), "Gazebo/Grey"),
+        ("left", (1.9, 0.05, 2.1), (0, 0.975, 1.15), "Gazebo/Orange"),
+        ("right", (1.9, 0.05, 2.1), (0, -0.975, 1.15), "Gazebo/Orange"),
+        ("back", (0.05, 2, 2.1), (-0.975, 0, 1.15), "Gazebo/Orange"),
+        ("front", (0.05, 1, 2.1), (0.975, 0.5, 1.15), "Gazebo/Orange"))))
+    size = (0.04, 1, 2.1)
+    door = link("door", 20, size, part("panel", size, (0, 0, 0), "Gazebo/Blue"), at=(1.03, -0.5, 1.15))
+    plugin = tag("plugin", tag("lift_joint", "elevator::lift"), tag("door_joint", "elevator::door"),
+                 tag("floor_height", 3), tag("door_wait_time", 10), tag("topic", "elevator"), name="elevator_plugin",
+                 filename="libgazebo_ros_elevator.so")
+    lift = tag("model", cabin, door, slide("lift", "world", "cabin", (0, 0, 1), 6), slide(
+        "door", "cabin", "door", (0, 1, 0), 1), plugin, name="elevator")
+    walls = tag("link", *(part(name, size, at, "Gazebo/White") for name, size, at in (
+        ("back", (0.1, 2.4, 9), (-1.15, 0, 4.5)), ("left", (2.2, 0.1, 9), (0, 1.15, 4.5)),
+        ("right", (2.2, 0.1, 9), (0, -1.15, 4.5)))), name="walls")
+    shaft = tag("model", tag("static", "true"), walls, name="shaft")
+    storeys = [block(f"storey_{n}", (4, 4, 0.1), (3.08, 0, 3 * n + 0.05), None, "Gazebo/Wood") for n in range(3)]
+    ramp = block("ramp", (1.5, 4, 0.02), (5.82, 0, 0.04, 0, 0.0667, 0), None, "Gazebo/Wood")
+    return world("An elevator between three storeys: rostopic pub -1 /elevator std_msgs/String 2 sends it up.",
+                 SUN, FLOOR, lift, shaft, *storeys, ramp)
+
+
+def plan(name):
+    return building.read_plan(str(HERE / "plans" / f"{name}.yaml"))
+
+
+def willowgarage():
+    things = [tag("include", tag("uri", "model://" + thing.model), tag("name", thing.name),
+                  pose((*thing.at, 0, 0, thing.yaw))) for thing in plan("willowgarage").models]
+    office = tag("include", tag("uri", "model://willowgarage"))
+    return world("An office floor with its furniture.", SUN, FLOOR, office, *things)
 
 
 def files():
-    """Name of each file in this directory -> its text."""
+    """Name of each file, seen from this directory -> its text."""
     return {"stacks.world": stacks(), "friction_demo.world": friction_demo(), "rubble.world": rubble(),
-            "mud.world": mud(), "camera.world": camera(), "cafe.world": of_plan("cafe"),
-            "willowgarage.world": of_plan("willowgarage")}
+            "mud.world": mud(), "camera.world": camera(), "elevator_ros.world": elevator(),
+            "cafe.world": building_sdf.world_text(plan("cafe")), "willowgarage.world": willowgarage(),
+            "../models/willowgarage/model.sdf": building_sdf.model_text(plan("willowgarage")),
+            "../models/willowgarage/model.config": building_sdf.config_text(plan("willowgarage"))}
 
 
 if __name__ == "__main__":
     for file, text in files().items():
-        (HERE / file).write_text(text)
+        path = HERE / file
+        path.parent.mkdir(exist_ok=True)
+        path.write_text(text)

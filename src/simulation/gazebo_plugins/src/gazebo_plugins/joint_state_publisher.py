@@ -4,7 +4,7 @@ from __future__ import annotations
 from gazebo_ros.plugin import ModelPlugin, PluginError
 from sensor_msgs.msg import JointState
 
-from gazebo_plugins.ros_side import RateGate, Topics
+from gazebo_plugins.ros_side import RateGate, Topics, joint_named
 
 
 class JointStatePublisher(ModelPlugin):
@@ -16,11 +16,7 @@ class JointStatePublisher(ModelPlugin):
         names = "".join(sdf.get("jointName", "").split())
         if not names:
             raise PluginError("<jointName> is missing: a comma-separated list of joints")
-        unknown = [name for name in names.split(",") if name not in model.joints]
-        if unknown:
-            raise PluginError(f"<jointName> names {', '.join(unknown)}, which model {model.name} does not have; "
-                              f"it has {', '.join(model.joints) or 'none'}")
-        self.joints = [model.joints[name] for name in names.split(",")]
+        self.joints = [joint_named(model, name, "jointName") for name in names.split(",") if name]
         self.publisher = self.topics.publisher("joint_states", JointState, 1000)
         self.gate = RateGate(sdf.get("updateRate", 100.0))
         server.before_step(self.step)

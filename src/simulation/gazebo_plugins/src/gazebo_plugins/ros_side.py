@@ -144,8 +144,15 @@ def find_joint(model, sdf, tag: str, default: str) -> Any:
 
     :raises PluginError: the model has no such joint; says which it has
     """
-    name = sdf.get(tag, default) or default
-    joint = model.joints.get(name)
+    return joint_named(model, sdf.get(tag, default) or default, tag)
+
+
+def joint_named(model, name: str, tag: str) -> Any:
+    """The joint ``name``, which ``<tag>`` gives, of ``model``: ``joint`` or ``model::joint``.
+
+    :raises PluginError: the model has no such joint; says which it has
+    """
+    joint = model.joints.get(name.removeprefix(model.name + "::"))
     if joint is None:
         raise PluginError(f"<{tag}> names the joint '{name}', which model {model.name} does not have; "
                           f"it has {_listed(model.joints)}")
