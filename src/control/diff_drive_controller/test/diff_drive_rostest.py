@@ -102,14 +102,14 @@ class DiffDrive(unittest.TestCase):
         with client.running("no_tf"), Base("no_tf") as base:
             client.sim_sleep(1.0)
             self.assertEqual(base.transforms(), set())
-            reconfigure = ReconfigureClient("/no_tf", timeout=10.0)
+            reconfigure = ReconfigureClient("/no_tf", timeout=60.0)
             reconfigure.update_configuration({"enable_odom_tf": True})
             client.wait_until(lambda: ("odom", "base_link") in base.transforms(), "the transform")
             reconfigure.close()
 
     def test_dynamic_reconfigure(self):
         with client.running("tuned"), Base("tuned") as base:
-            reconfigure = ReconfigureClient("/tuned", timeout=10.0)
+            reconfigure = ReconfigureClient("/tuned", timeout=60.0)
             parameters = reconfigure.get_parameter_descriptions()
             self.assertEqual([(p["name"], p["default"]) for p in parameters], [
                 ("left_wheel_radius_multiplier", 1.0), ("right_wheel_radius_multiplier", 1.0),

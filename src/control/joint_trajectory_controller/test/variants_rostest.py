@@ -74,7 +74,7 @@ class WrappedEncoders(TrajectoryCase):
     def faults(self):
         return {"w1": {"wrap": True}, "w2": {"wrap": True}}
 
-    def wait_still_at(self, positions, timeout=10.0):
+    def wait_still_at(self, positions, timeout=30.0):
         """The controller may have started anywhere: compare angles."""
         def there():
             state = self.state.next()

@@ -88,7 +88,7 @@ class Cameras(unittest.TestCase):
                 "/depth_cam/points": "sensor_msgs/PointCloud2"}.items():
             self.assertEqual(types.get(topic), kind, topic)
         self.assertNotIn("/plain/image_raw", types)
-        rate = rospy.wait_for_message("/eye/parameter_descriptions", ConfigDescription, 10)
+        rate = rospy.wait_for_message("/eye/parameter_descriptions", ConfigDescription, 60)
         self.assertEqual([part.doubles[0].value for part in (rate.min, rate.dflt, rate.max)], [1.0, 2.0, 50.0])
         self.assertEqual(rate.dflt.doubles[0].name, "imager_rate")
 
@@ -152,7 +152,7 @@ class Cameras(unittest.TestCase):
             self.assertBoxes(decode(jpeg), 40)  # colour is stored at half the resolution
             raw.wait(1)
             self.assertEqual(stamp_ns(jpeg), stamp_ns(raw.messages[0]))
-            client = dynamic_reconfigure.client.Client("/eye/image_raw/compressed", timeout=10)
+            client = dynamic_reconfigure.client.Client("/eye/image_raw/compressed", timeout=60)
             client.update_configuration({"jpeg_quality": 5})
             worse = self.take("/eye/image_raw/compressed", CompressedImage)[0]
             self.assertLess(len(worse.data), len(jpeg.data))
@@ -185,7 +185,7 @@ class Cameras(unittest.TestCase):
         with Ear("/eye/image_raw/theora", Packet) as late:
             self.step(100)
             self.assertStream(late.wait(3 + 3), 3)
-            client = dynamic_reconfigure.client.Client("/eye/image_raw/theora", timeout=10)
+            client = dynamic_reconfigure.client.Client("/eye/image_raw/theora", timeout=60)
             client.update_configuration({"quality": 5})
             self.step(100)
             worse = late.wait(6 + 3 + 3)[6:]
@@ -203,7 +203,7 @@ class Cameras(unittest.TestCase):
             self.assertFalse(bayer.messages)
 
     def test_imager_rate(self):
-        client = dynamic_reconfigure.client.Client("/eye", timeout=10)
+        client = dynamic_reconfigure.client.Client("/eye", timeout=60)
         client.update_configuration({"imager_rate": 5.0})
         stamps = [stamp_ns(m) for m in self.take("/eye/image_raw", steps=1000, count=5)]
         client.update_configuration({"imager_rate": 30.0})
@@ -263,7 +263,7 @@ class Cameras(unittest.TestCase):
         poll = rospy.ServiceProxy("/prosilica/request_image", GetPolledImage)
         answer = poll(response_namespace="answers")
         self.assertTrue(answer.success, answer.status_message)
-        frame = rospy.wait_for_message("/prosilica/answers/image_raw", Image, 10)
+        frame = rospy.wait_for_message("/prosilica/answers/image_raw", Image, 60)
         self.assertEqual(frame.header.stamp, answer.stamp)
         self.assertBoxes(picture(frame))
         self.assertFalse(poll(response_namespace="answers", binning_x=2).success)

@@ -6,7 +6,7 @@ import rosgraph
 import rospy
 
 
-def until(condition, what, seconds=20.0):
+def until(condition, what, seconds=60.0):
     """ROS delivers when it pleases; what has been sent arrives within ``seconds`` or the test fails."""
     end = time.monotonic() + seconds
     while not condition():

@@ -453,7 +453,7 @@ class Plugins(unittest.TestCase):
             '<mu>0.3</mu><mu2>0.3</mu2></ode></friction></surface></collision></link>', 1), drive, slip), 0, 110)
         _, first, last = self.drive("/slippy", 0.5, 0, "/slippy/odom", lambda t: t.linear.x > 0.3)
         slow = last.position.x - first.position.x
-        Client("/slippy/wheel_slip", timeout=10).update_configuration({"slip_compliance_unitless_longitudinal": 0.0})
+        Client("/slippy/wheel_slip", timeout=60).update_configuration({"slip_compliance_unitless_longitudinal": 0.0})
         first = self.pose("slippy")
         self.step(1.0)
         fast = self.pose("slippy").position.x - first.position.x

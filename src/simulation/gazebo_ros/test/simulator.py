@@ -50,7 +50,7 @@ class Simulator:
 
     @functools.lru_cache(maxsize=None)
     def proxy(self, name, service):
-        rospy.wait_for_service(f"{self.namespace}/{name}", 10)
+        rospy.wait_for_service(f"{self.namespace}/{name}", 60)
         return rospy.ServiceProxy(f"{self.namespace}/{name}", service, persistent=True)
 
     def step(self, steps):

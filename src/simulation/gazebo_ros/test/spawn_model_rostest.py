@@ -51,14 +51,14 @@ class SpawnModel(unittest.TestCase):
         node = self.bond("bound", "-x", "30")
         self.wait(lambda: "bound" in self.sim.world().model_names)
         os.killpg(node.pid, signal.SIGINT)
-        node.wait(20)
+        node.wait(60)
         self.wait(lambda: "bound" not in self.sim.world().model_names)
 
     def test_killing_the_spawner_harms_nobody(self):
         node = self.bond("orphan", "-x", "40")
         self.wait(lambda: "orphan" in self.sim.world().model_names)
         os.killpg(node.pid, signal.SIGKILL)
-        node.wait(20)
+        node.wait(60)
         self.assertTrue(self.sim.step(10).success)
         self.assertTrue(self.sim.delete("orphan").success)
 

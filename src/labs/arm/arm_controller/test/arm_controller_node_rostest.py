@@ -16,7 +16,7 @@ NODE = ["rosrun", "arm_controller", "arm_controller_node"]
 
 class ArmControllerNode(unittest.TestCase):
     def refused(self, *words):
-        run = subprocess.run([*NODE, *words], capture_output=True, text=True, timeout=20)
+        run = subprocess.run([*NODE, *words], capture_output=True, text=True, timeout=60)
         self.assertNotEqual(run.returncode, 0)
         lines = (run.stdout + run.stderr).strip().splitlines()
         self.assertEqual(len(lines), 1, lines)
@@ -56,7 +56,7 @@ class ArmControllerNode(unittest.TestCase):
                 self.assertIsNone(node.poll(), "the node ended by itself")
         finally:
             node.terminate()
-            text = node.communicate(timeout=20)[0]
+            text = node.communicate(timeout=60)[0]
         self.assertEqual([set(got[index]) for index in range(4)], [{1.0}, {-0.5}, {0.25}, {2.0}])
         plain = re.sub(r"\x1b\[[\d;]*m", "", text)  # without the console's colours
         self.assertRegex(plain, r"Command for joint 1: -0\.50 rad")

@@ -57,7 +57,7 @@ class ArmGazebo(unittest.TestCase):
             "arm", rospy.get_param("/robot_description"), "/", Pose(orientation=Quaternion(w=1.0)), "")
         self.assertFalse(again.success, "a second model of that name is refused")
         load = rospy.ServiceProxy("/arm/controller_manager/load_controller", LoadController)
-        load.wait_for_service(20)
+        load.wait_for_service(60)
         self.assertTrue(all(load(name).ok for name in names))
         switch = rospy.ServiceProxy("/arm/controller_manager/switch_controller", SwitchController)
         self.assertTrue(switch(names, [], SwitchControllerRequest.STRICT, False, 0.0).ok)

@@ -1,5 +1,6 @@
 """For tests that run a lab in the simulator."""
 import threading
+import time
 
 import rospy
 from gazebo_msgs.srv import GetPhysicsProperties, SetPhysicsProperties
@@ -31,11 +32,15 @@ class Topic:
             self._changed.notify_all()
 
     def wait_for(self, condition, what):
-        """The first message, among those that came and those to come, for which `condition` holds."""
-        def found():
-            return next((message for message in self.messages if condition(message)), None)
+        """The first message, among those that came and those to come, for which `condition` holds; each is asked once."""
+        deadline = time.monotonic() + PATIENCE
+        asked = 0
         with self._changed:
-            if not self._changed.wait_for(lambda: found() is not None, timeout=PATIENCE):
-                last = self.messages[-1] if self.messages else "nothing"
-                raise AssertionError("%s: %s did not come; last was %s" % (self._name, what, last))
-            return found()
+            while True:
+                for message in self.messages[asked:]:
+                    if condition(message):
+                        return message
+                asked = len(self.messages)
+                if not self._changed.wait(timeout=deadline - time.monotonic()):
+                    last = self.messages[-1] if self.messages else "nothing"
+                    raise AssertionError("%s: %s did not come; last was %s" % (self._name, what, last))

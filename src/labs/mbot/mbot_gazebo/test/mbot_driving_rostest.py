@@ -71,6 +71,7 @@ class MbotDriving(unittest.TestCase):
         self.assertAlmostEqual(end.position.x - start.position.x, 0.5 * (ended - began), delta=0.05)
         self.assertAlmostEqual(math.degrees(heading(end) - heading(start)), 0, delta=0.5)
         self.assertAlmostEqual(end.position.y - start.position.y, 0, delta=0.01)
+        self.until(lambda: self.names, "joint states of the wheels")
         self.assertEqual(self.names, ["right_wheel_joint", "left_wheel_joint"])
 
     def test_2_ten_turns(self):
