@@ -50,7 +50,7 @@ class CommandLineTest(unittest.TestCase):
     def end(self, process):
         if process.poll() is None:
             process.kill()
-        process.wait(20)
+        process.wait(60)
 
     def wait_for(self, **states):
         wait_until(lambda: self.cm.states() == states, f"{states}, there is {self.cm.states()}")
@@ -89,10 +89,10 @@ class CommandLineTest(unittest.TestCase):
         unspawner = self.spawn("unspawner", "my_controller1", "__name:=my_unspawner")
         self.wait_for(my_controller1="stopped", my_controller3="running")
         rosnode.kill_nodes(["/my_unspawner"])
-        self.assertEqual(unspawner.wait(20), 0)
+        self.assertEqual(unspawner.wait(60), 0)
         self.assertEqual(self.cm.states(), {"my_controller1": "running", "my_controller3": "running"})
         rosnode.kill_nodes(["/my_spawner"])
-        self.assertEqual(spawner.wait(20), 0)
+        self.assertEqual(spawner.wait(60), 0)
         self.assertEqual(self.cm.states(), {})
 
     def test_spawner_ended_by_signals(self):
@@ -101,7 +101,7 @@ class CommandLineTest(unittest.TestCase):
             self.wait_for(my_controller1="running")
             wait_until(lambda: "Started controllers" in spawner.text(), "the spawner's word")
             spawner.send_signal(number)
-            self.assertEqual(spawner.wait(20), 0)
+            self.assertEqual(spawner.wait(60), 0)
             self.assertEqual(self.cm.states(), {})
 
     def test_a_controller_stopped_by_hand_does_not_keep_the_others_running(self):
@@ -110,7 +110,7 @@ class CommandLineTest(unittest.TestCase):
         wait_until(lambda: "Started controllers" in spawner.text(), "the spawner's word")
         self.cm.stop("my_controller1")
         spawner.terminate()
-        self.assertEqual(spawner.wait(20), 0)
+        self.assertEqual(spawner.wait(60), 0)
         self.assertEqual(self.cm.states(), {})
 
     def test_spawner_stopped(self):

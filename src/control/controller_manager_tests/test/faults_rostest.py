@@ -6,7 +6,7 @@ import unittest
 
 import rospy
 import rostest
-from controller_manager_tests.client import ManagerClient, wait_until
+from controller_manager_tests.client import ManagerClient, sends, wait_until
 from rosgraph_msgs.msg import Log
 from sensor_msgs.msg import JointState
 
@@ -16,7 +16,8 @@ class FaultsTest(unittest.TestCase):
     def setUpClass(cls):
         cls.lines = []
         cls.subscriber = rospy.Subscriber("/rosout", Log, cls.hear)
-        wait_until(cls.subscriber.get_num_connections, "the robot's log")
+        ManagerClient().states()  # the robot is there
+        wait_until(lambda: sends("/dummy_robot", "/rosout"), "the robot's log")
 
     @classmethod
     def hear(cls, message):
@@ -32,7 +33,7 @@ class FaultsTest(unittest.TestCase):
 
     def tearDown(self):
         """Whatever happened, joint states go on and the manager answers."""
-        self.assertEqual(len(rospy.wait_for_message("/joint_states", JointState, 20.0).name), 8)
+        self.assertEqual(len(rospy.wait_for_message("/joint_states", JointState, 60.0).name), 8)
         self.assertEqual(self.cm.states()["states"], "running")
 
     def says(self, *parts):
@@ -112,13 +113,13 @@ class FaultsTest(unittest.TestCase):
         first = spawner()
         wait_until(running, "both controllers to run")
         first.send_signal(signal.SIGKILL)
-        self.assertEqual(first.wait(20), -signal.SIGKILL)
+        self.assertEqual(first.wait(60), -signal.SIGKILL)
         self.assertTrue(running(), "the robot keeps its controllers")
         self.cm.stop("my_controller3")  # the second spawner finds one running and one stopped
         second = spawner()
         wait_until(running, "the second spawner to start what stands still")
         second.terminate()
-        self.assertEqual(second.wait(20), 0)
+        self.assertEqual(second.wait(60), 0)
         text = second.stdout.read()
         self.assertIn("Failed to load my_controller1: it is already loaded (running)", text)
         self.assertIn("Failed to load my_controller3: it is already loaded (stopped)", text)

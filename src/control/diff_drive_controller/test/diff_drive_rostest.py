@@ -8,6 +8,7 @@ import rospy
 from control_msgs.msg import JointTrajectoryControllerState
 from control_test_robots import client
 from control_test_robots.base_client import Base, displacement, duration, turned
+from controller_manager_tests.client import sends
 from dynamic_reconfigure.client import Client as ReconfigureClient
 from geometry_msgs.msg import TwistStamped
 from rosgraph_msgs.msg import Log
@@ -153,7 +154,7 @@ class DiffDrive(unittest.TestCase):
         with client.running("plain"), Base("plain") as base:
             base.drive(1.0, 0.0, 0.5)
             log = client.Topic("/rosout", Log)
-            client.wait_until(lambda: client.sends("/test_robot", "/rosout"), "the robot's log")
+            client.wait_until(lambda: sends("/test_robot", "/rosout"), "the robot's log")
             client.switch(stop=["plain"])
             base.send(1.0, 0.0)
             client.wait_until(lambda: any("Controller is not running" in line.msg for line in log.messages), "the refusal")

@@ -2,7 +2,6 @@
 from __future__ import annotations
 
 import time as wall
-import xmlrpc.client
 from contextlib import contextmanager
 from typing import Any, Callable, Iterator, List, Sequence
 
@@ -169,13 +168,6 @@ def running(*names: str) -> Iterator[None]:
 def published(topic: str) -> bool:
     """Whether somebody publishes ``topic``."""
     return topic in (name for name, _ in rospy.get_published_topics())
-
-
-def sends(node: str, topic: str) -> bool:
-    """Whether ``node`` is connected to this process and sends it ``topic``."""
-    me = rospy.get_name()
-    connections = xmlrpc.client.ServerProxy(rosgraph.Master(me).lookupNode(node)).getBusInfo(me)[2]
-    return any(connection[1:5] == [me, "o", "TCPROS", topic] for connection in connections)
 
 
 def publisher_count(topic: str) -> int:

@@ -1,6 +1,8 @@
 """What tests do with a controller manager: its services as functions, and waiting for something to become true."""
 import time
+import xmlrpc.client
 
+import rosgraph
 import rospy
 from controller_manager_msgs.srv import (ListControllers, ListControllerTypes, LoadController,
                                          ReloadControllerLibraries, SwitchController, SwitchControllerRequest,
@@ -10,7 +12,7 @@ STRICT = SwitchControllerRequest.STRICT
 BEST_EFFORT = SwitchControllerRequest.BEST_EFFORT
 
 
-def wait_until(condition, what, timeout=20.0):
+def wait_until(condition, what, timeout=60.0):
     """Poll ``condition`` until it is true, else fail saying ``what`` was waited for. :return: its value."""
     end = time.monotonic() + timeout
     while time.monotonic() < end:
@@ -21,6 +23,13 @@ def wait_until(condition, what, timeout=20.0):
     raise AssertionError(f"waited {timeout} s in vain for {what}")
 
 
+def sends(node, topic):
+    """Whether ``node`` is connected to this process and sends it ``topic``."""
+    me = rospy.get_name()
+    connections = xmlrpc.client.ServerProxy(rosgraph.Master(me).lookupNode(node)).getBusInfo(me)[2]
+    return any(connection[1:5] == [me, "o", "TCPROS", topic] for connection in connections)
+
+
 class ManagerClient:
     """The services of the controller manager in ``namespace``."""
 
@@ -28,7 +37,7 @@ class ManagerClient:
         self._prefix = f"{namespace}/controller_manager/"
 
     def _call(self, name, service_type, *arguments):
-        rospy.wait_for_service(self._prefix + name, timeout=20.0)
+        rospy.wait_for_service(self._prefix + name, timeout=60.0)
         return rospy.ServiceProxy(self._prefix + name, service_type)(*arguments)
 
     def load(self, name):
