@@ -2,7 +2,7 @@
 import math
 
 import pytest
-from joint_limits_interface import (DescriptionError, JointLimits, SoftJointLimits, distance_within_limits,
+from joint_limits_interface import (DescriptionError, JointDescription, JointLimits, SoftJointLimits, distance_within_limits,
                                     limits_from_urdf, normalize_angle, read_joints, shortest_angular_distance,
                                     soft_limits_from_urdf)
 from joint_limits_interface.limits import apply_limits, soft_limits_of
@@ -72,6 +72,11 @@ def test_soft_parameters():
     assert soft_limits_of({**values, "has_soft_limits": False}) is None
     del values["k_velocity"]
     assert soft_limits_of(values) is None
+
+
+def test_an_infinite_angle_is_no_number():
+    assert math.isnan(normalize_angle(math.inf))
+    assert math.isnan(JointDescription("j", "continuous").error(0.0, math.inf))
 
 
 def test_angles():

@@ -1,11 +1,7 @@
-"""Makes the package importable without a built workspace, and messages that need no ROS."""
-import os
-import sys
+"""Messages that need no ROS."""
 from types import SimpleNamespace
 
 import pytest
-
-sys.path.insert(0, os.path.join(os.path.dirname(__file__), "..", "src"))
 
 
 def make_message(names, *points):

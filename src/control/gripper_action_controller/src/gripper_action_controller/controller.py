@@ -2,19 +2,19 @@
 from __future__ import annotations
 
 import math
-import threading
 from typing import Optional
 
 import rospy
 from control_msgs.msg import GripperCommandAction, GripperCommandResult
 from control_toolbox import load_pid
-from controller_interface import Controller, NodeHandle, ParameterError
+from controller_interface import NodeHandle, ParameterError
+from controller_interface.action_controller import ActionController
 from hardware_interface import EffortJointInterface, PositionJointInterface
-from realtime_tools.action_server import RealtimeActionServer, RealtimeGoal
+from realtime_tools.action_server import RealtimeGoal
 from urdf_geometry_parser import robot_geometry
 
 
-class GripperActionController(Controller):
+class GripperActionController(ActionController):
     """Moves joint ``joint`` to the position of a GripperCommand goal.
 
     A goal succeeds inside ``goal_tolerance``. A joint that has not moved for ``stall_timeout`` seconds ends it as
@@ -48,32 +48,17 @@ class GripperActionController(Controller):
         self._handle = hw.get_handle(joint)
         self.init_output(controller_nh)
 
-        self._lock = threading.Lock()
-        self._running = False
-        self._time = 0.0
-        self._effort = 0.0
-        self._last_movement = 0.0
-        self._goal: Optional[RealtimeGoal] = None
-        self._command = (0.0, 0.0)
-        controller_nh.own(RealtimeActionServer(controller_nh.resolve("gripper_cmd"), GripperCommandAction,
-                                               self._on_goal, self._on_cancel))
+        self._time = self._last_movement = 0.0
+        self._effort = 0.0  # as reported by the last update
+        self._command = (0.0, 0.0)  # position, max_effort
+        self.serve(controller_nh, "gripper_cmd", GripperCommandAction)
 
     def starting(self, time: float) -> None:
         with self._lock:
             self._time = self._last_movement = time
-            self._command = (self._handle.position, self._default_effort)
+            self._hold(None)
             self._running = True
         self.start_output()
-
-    def stopping(self, time: float) -> None:
-        with self._lock:
-            self._running = False
-            goal, self._goal = self._goal, None
-        if goal is not None:
-            goal.cancel(text="The controller was stopped")
-
-    def aborting(self, time: float) -> None:
-        self.stopping(time)
 
     def update(self, time: float, period: float) -> None:
         with self._lock:
@@ -92,10 +77,8 @@ class GripperActionController(Controller):
                 self._last_movement = time
             if time - self._last_movement <= self._stall_timeout:
                 return
-        with self._lock:
-            if self._goal is not goal:
-                return  # replaced or cancelled meanwhile
-            self._goal = None
+        if not self._release(goal):
+            return
         result = GripperCommandResult(position=position, effort=self._effort, stalled=not reached, reached_goal=reached)
         if reached:
             goal.succeed(result)
@@ -124,14 +107,8 @@ class GripperActionController(Controller):
         rospy.logerr("%s: %s", self._name, text)
         goal.reject(text=text)
 
-    def _on_cancel(self, goal_id: str) -> None:
-        with self._lock:
-            goal = self._goal
-            if goal is None or goal.id != goal_id:
-                return
-            self._goal = None
-            self._command = (self._handle.position, self._default_effort)
-        goal.cancel(text="Cancelled by a client")
+    def _hold(self, goal: Optional[RealtimeGoal]) -> None:
+        self._command = (self._handle.position, self._default_effort)
 
 
 class PositionGripperController(GripperActionController):

@@ -14,10 +14,17 @@ class ResourceError(Exception):
 
 
 class HardwareInterface:
-    """Handles by name. ``claiming`` interfaces note which resources a controller has taken."""
+    """Handles by name. ``claiming`` interfaces note which resources a controller has taken.
+
+    :cvar type_name: C++ name, ``package::Class`` of the deriving class unless that says otherwise.
+    """
 
     type_name = "hardware_interface::HardwareInterface"
     claiming = False
+
+    def __init_subclass__(cls) -> None:
+        if "type_name" not in vars(cls):
+            cls.type_name = f"{cls.__module__.partition('.')[0]}::{cls.__name__}"
 
     def __init__(self, *handles: Any):
         self._handles: Dict[str, Any] = {}
@@ -78,66 +85,68 @@ class HardwareInterface:
 
 
 class JointStateInterface(HardwareInterface):
-    type_name = "hardware_interface::JointStateInterface"
+    """JointStateHandles."""
 
 
 class JointCommandInterface(HardwareInterface):
-    """Base of the interfaces with one command per joint."""
+    """JointHandles: base of the interfaces with one command per joint."""
 
-    type_name = "hardware_interface::JointCommandInterface"
     claiming = True
 
 
 class PositionJointInterface(JointCommandInterface):
-    type_name = "hardware_interface::PositionJointInterface"
+    """JointHandles whose command is a position, rad or m."""
 
 
 class VelocityJointInterface(JointCommandInterface):
-    type_name = "hardware_interface::VelocityJointInterface"
+    """JointHandles whose command is a velocity, rad/s or m/s."""
 
 
 class EffortJointInterface(JointCommandInterface):
-    type_name = "hardware_interface::EffortJointInterface"
+    """JointHandles whose command is an effort, Nm or N."""
 
 
 class PosVelJointInterface(HardwareInterface):
-    type_name = "hardware_interface::PosVelJointInterface"
+    """PosVelJointHandles."""
+
     claiming = True
 
 
 class PosVelAccJointInterface(HardwareInterface):
-    type_name = "hardware_interface::PosVelAccJointInterface"
+    """PosVelAccJointHandles."""
+
     claiming = True
 
 
 class PositionVelocityTorqueGainsJointInterface(HardwareInterface):
-    type_name = "hardware_interface::PositionVelocityTorqueGainsJointInterface"
+    """PositionVelocityTorqueGainsJointHandles."""
+
     claiming = True
 
 
 class ActuatorStateInterface(HardwareInterface):
-    type_name = "hardware_interface::ActuatorStateInterface"
+    """ActuatorStateHandles."""
 
 
 class PositionActuatorInterface(HardwareInterface):
-    type_name = "hardware_interface::PositionActuatorInterface"
+    """ActuatorHandles whose command is a position, rad or m."""
 
 
 class VelocityActuatorInterface(HardwareInterface):
-    type_name = "hardware_interface::VelocityActuatorInterface"
+    """ActuatorHandles whose command is a velocity, rad/s or m/s."""
 
 
 class EffortActuatorInterface(HardwareInterface):
-    type_name = "hardware_interface::EffortActuatorInterface"
+    """ActuatorHandles whose command is an effort, Nm or N."""
 
 
 class ImuSensorInterface(HardwareInterface):
-    type_name = "hardware_interface::ImuSensorInterface"
+    """ImuSensorHandles."""
 
 
 class ForceTorqueSensorInterface(HardwareInterface):
-    type_name = "hardware_interface::ForceTorqueSensorInterface"
+    """ForceTorqueSensorHandles."""
 
 
 class JointModeInterface(HardwareInterface):
-    type_name = "hardware_interface::JointModeInterface"
+    """JointModeHandles."""

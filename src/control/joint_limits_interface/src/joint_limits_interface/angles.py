@@ -1,9 +1,11 @@
 """Angles in rad."""
-from math import pi, remainder
+from math import isfinite, nan, pi, remainder
 
 
 def normalize_angle(angle: float) -> float:
-    """``angle`` in (-pi, pi]."""
+    """``angle`` in (-pi, pi]; NaN for one that is not finite."""
+    if not isfinite(angle):
+        return nan
     result = remainder(angle, 2.0 * pi)
     return pi if result == -pi else result
 

@@ -2,26 +2,27 @@
 from __future__ import annotations
 
 import math
-import threading
 from typing import Any, List, Optional, Tuple
 
 import rospy
 from control_msgs.msg import (FollowJointTrajectoryAction, FollowJointTrajectoryFeedback, FollowJointTrajectoryResult,
                               JointTrajectoryControllerState)
 from control_msgs.srv import QueryTrajectoryState, QueryTrajectoryStateResponse
-from controller_interface import Controller, NodeHandle, ParameterError, RateGate, RealtimePublisher
-from realtime_tools.action_server import RealtimeActionServer, RealtimeGoal
+from controller_interface import NodeHandle, ParameterError, RateGate, RealtimePublisher, to_stamp
+from controller_interface.action_controller import ActionController
+from joint_limits_interface import shortest_angular_distance
+from realtime_tools.action_server import RealtimeGoal
 from trajectory_msgs.msg import JointTrajectory
 from urdf_geometry_parser import robot_geometry
 
 from . import tolerances
-from .segment import Segment, active_index, shortest_angular_distance, stop_segment
+from .segment import Segment, active_index, stop_segment
 from .splice import Command, InvalidTrajectory, map_joints, splice
 
 Result = FollowJointTrajectoryResult
 
 
-class JointTrajectoryController(Controller):
+class JointTrajectoryController(ActionController):
     """Follows trajectories on the joints of parameter ``joints``.
 
     Threads: ``update`` runs in the control loop; commands, goals and queries come in threads of rospy. They parse on
@@ -77,19 +78,15 @@ class JointTrajectoryController(Controller):
         self._states = [handle.state for handle in handles]
         self.init_output(handles, controller_nh)
 
-        self._lock = threading.Lock()
-        self._running = False
         self._time = self._uptime = self._period = 0.0
-        self._goal: Optional[RealtimeGoal] = None
         self._done = [False] * len(self._joints)
         self._follow([[stop_segment(0.0, 0.0, 0.0, 0.0, None, t)] for t in self._tolerances])
 
+        self.serve(controller_nh, "follow_joint_trajectory", FollowJointTrajectoryAction)
         self._gate = RateGate(state_rate)
         self._state_publisher = RealtimePublisher(controller_nh, "state", JointTrajectoryControllerState, queue_size=1)
         controller_nh.subscriber("command", JointTrajectory, self._on_command, queue_size=1)
         controller_nh.service("query_state", QueryTrajectoryState, self._on_query)
-        controller_nh.own(RealtimeActionServer(controller_nh.resolve("follow_joint_trajectory"),
-                                               FollowJointTrajectoryAction, self._on_goal, self._on_cancel))
 
     def starting(self, time: float) -> None:
         with self._lock:
@@ -102,16 +99,6 @@ class JointTrajectoryController(Controller):
             self._gate.restart(0.0)
             self._running = True
         self.start_output()
-
-    def stopping(self, time: float) -> None:
-        with self._lock:
-            self._running = False
-            goal, self._goal = self._goal, None
-        if goal is not None:
-            goal.cancel(text="The controller was stopped")
-
-    def aborting(self, time: float) -> None:
-        self.stopping(time)
 
     # -- the loop ------------------------------------------------------------------------------------------------------
 
@@ -143,7 +130,7 @@ class JointTrajectoryController(Controller):
             state = self._states[joint]
             error = point[0] - state.position
             if self._angular[joint] and not -math.pi < error <= math.pi:
-                error = shortest_angular_distance(state.position, point[0]) if math.isfinite(error) else error
+                error = shortest_angular_distance(state.position, point[0])
             velocity_error = point[1] - state.velocity
             errors.append((error, velocity_error))
             if goal is not None and segment.goal is goal:
@@ -167,14 +154,14 @@ class JointTrajectoryController(Controller):
         elif report and goal is not None:
             self._next_monitor = max(self._next_monitor + self._monitor_period, uptime)
             goal.feedback(self._fill(FollowJointTrajectoryFeedback(), time, uptime, first, desired, errors))
-        if publish and (not self._state_publisher.has_subscribers or self._state_publisher.publish(
-                self._fill(JointTrajectoryControllerState(), time, uptime, first, desired, errors))):
-            self._gate.passed()
+        if publish and self._state_publisher.has_subscribers:
+            self._state_publisher.publish(
+                self._fill(JointTrajectoryControllerState(), time, uptime, first, desired, errors))
 
     def _fill(self, message, time: float, uptime: float, segment: Segment, desired, errors):
         """State and feedback messages carry the same fields."""
         elapsed = uptime - segment.start
-        message.header.stamp = rospy.Time.from_sec(time)
+        message.header.stamp = to_stamp(time)
         message.joint_names = self._joints
         message.desired.positions, message.desired.velocities, message.desired.accelerations = map(list, zip(*desired))
         message.desired.time_from_start = rospy.Duration.from_sec(segment.point_time)
@@ -190,14 +177,6 @@ class JointTrajectoryController(Controller):
         if self._release(goal):
             text = f"{self._joints[joint]} {phase} error {error:.6f}: {broken}"
             goal.abort(Result(error_code=code, error_string=text), text)
-
-    def _release(self, goal: RealtimeGoal) -> bool:
-        """Let go of the active goal; False if a thread of rospy was quicker."""
-        with self._lock:
-            if self._goal is not goal:
-                return False
-            self._goal = None
-            return True
 
     # -- motions (called with _lock held) ------------------------------------------------------------------------------
 
@@ -216,7 +195,6 @@ class JointTrajectoryController(Controller):
         return True
 
     def _hold(self, goal: Optional[RealtimeGoal]) -> None:
-        """Stop, on behalf of ``goal``."""
         if self._stop_duration == 0.0 and self._hold_measured(goal):
             return
         states = [segments[max(active_index(segments, self._uptime), 0)].sample(self._uptime)
@@ -282,15 +260,6 @@ class JointTrajectoryController(Controller):
             rospy.logwarn("%s: Dropping first %d trajectory point(s) out of %d, as they occur before the current time.",
                           self._name, command.first, len(command.times))
         return replaced
-
-    def _on_cancel(self, goal_id: str) -> None:
-        with self._lock:
-            goal = self._goal
-            if goal is None or goal.id != goal_id:
-                return
-            self._goal = None
-            self._hold(None)
-        goal.cancel(text="Cancelled by a client")
 
     def _on_query(self, request) -> QueryTrajectoryStateResponse:
         with self._lock:

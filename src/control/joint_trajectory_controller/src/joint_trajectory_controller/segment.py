@@ -4,6 +4,8 @@ from __future__ import annotations
 import math
 from typing import List, NamedTuple, Optional, Sequence, Tuple
 
+from joint_limits_interface import shortest_angular_distance
+
 from .tolerances import JointTolerances
 
 TWO_PI = 2.0 * math.pi
@@ -102,15 +104,6 @@ def active_index(segments: Sequence[Segment], time: float) -> int:
         else:
             high = middle
     return low - 1
-
-
-def shortest_angular_distance(start: float, end: float) -> float:
-    """``end - start`` brought into (-pi, pi], rad."""
-    distance = end - start
-    if -math.pi < distance <= math.pi:
-        return distance
-    distance = math.fmod(distance + math.pi, TWO_PI)
-    return distance + math.pi if distance <= 0.0 else distance - math.pi
 
 
 def wraparound_offset(previous: float, following: float) -> float:

@@ -13,8 +13,7 @@ from hardware_interface import (ActuatorStateInterface, EffortActuatorInterface,
 from plugin_loader import PluginClass, PluginError, find_plugins
 
 from .parser import TransmissionInfo, parse_transmissions
-from .pipelines import (TransmissionPipeline, actuator_to_joint_command, actuator_to_joint_state,
-                        joint_to_actuator_command, joint_to_actuator_state)
+from .pipelines import TransmissionPipeline
 from .transmissions import Transmission, TransmissionError
 
 _KINDS: Dict[str, Tuple[Type[HardwareInterface], Type[HardwareInterface]]] = {
@@ -39,18 +38,18 @@ class RobotTransmissions:
     """The pipelines of a robot; the driver propagates those that it needs."""
 
     def __init__(self) -> None:
-        self.actuator_to_joint_state = TransmissionPipeline(actuator_to_joint_state)
-        self.joint_to_actuator_state = TransmissionPipeline(joint_to_actuator_state)
-        self.joint_to_actuator_position = TransmissionPipeline(joint_to_actuator_command("position"))
-        self.joint_to_actuator_velocity = TransmissionPipeline(joint_to_actuator_command("velocity"))
-        self.joint_to_actuator_effort = TransmissionPipeline(joint_to_actuator_command("effort"))
-        self.actuator_to_joint_position = TransmissionPipeline(actuator_to_joint_command("position"))
-        self.actuator_to_joint_velocity = TransmissionPipeline(actuator_to_joint_command("velocity"))
-        self.actuator_to_joint_effort = TransmissionPipeline(actuator_to_joint_command("effort"))
+        self.actuator_to_joint_state = TransmissionPipeline.of_states("joint")
+        self.joint_to_actuator_state = TransmissionPipeline.of_states("actuator")
+        self.joint_to_actuator_position = TransmissionPipeline.of_commands("actuator", "position")
+        self.joint_to_actuator_velocity = TransmissionPipeline.of_commands("actuator", "velocity")
+        self.joint_to_actuator_effort = TransmissionPipeline.of_commands("actuator", "effort")
+        self.actuator_to_joint_position = TransmissionPipeline.of_commands("joint", "position")
+        self.actuator_to_joint_velocity = TransmissionPipeline.of_commands("joint", "velocity")
+        self.actuator_to_joint_effort = TransmissionPipeline.of_commands("joint", "effort")
 
 
 def _split(interface: str) -> Tuple[str, bool]:
-    """(position, velocity, effort or '', bidirectional) of an interface as written in a URDF; '' if unknown."""
+    """(kind of command, bidirectional) of an interface as written in a URDF; the kind is "" if it has none."""
     for kind, (joint_interface, _) in _KINDS.items():
         name = joint_interface.type_name.partition("::")[2]
         if interface == f"hardware_interface/{name}":

@@ -1,74 +1,65 @@
 """Moving states and commands through transmissions, once per cycle."""
 from __future__ import annotations
 
-from typing import Any, Dict, List, Sequence
+from typing import Any, Callable, Dict, List, Sequence, Tuple
 
 from .transmissions import Transmission
 
+Convert = Callable[[Sequence[float]], Sequence[float]]
+
+#: attribute of a state handle -> the kind of quantity that it is to a transmission
+_STATE = {"position": "position", "velocity": "velocity", "effort": "effort", "absolute_position": "position",
+          "torque_sensor": "effort"}
+
 
 class TransmissionPipeline:
-    """Values of one kind in one direction, through all registered transmissions."""
+    """Values of one kind in one direction, through all registered transmissions.
 
-    def __init__(self, propagate: Any):
-        self._propagate = propagate
-        self._entries: Dict[str, tuple] = {}
+    :param target: "joint" or "actuator", where the values go.
+    :param fields: attributes of the handles that are moved -> position, velocity or effort.
+    """
+
+    def __init__(self, target: str, fields: Dict[str, str]):
+        self._target = target
+        self._fields = fields
+        self._entries: Dict[str, List[Tuple[str, Convert, List[Any], List[Any]]]] = {}
+
+    @classmethod
+    def of_states(cls, target: str) -> "TransmissionPipeline":
+        """Everything that is measured; absolute encoders and torque sensors where all have them."""
+        return cls(target, _STATE)
+
+    @classmethod
+    def of_commands(cls, target: str, kind: str) -> "TransmissionPipeline":
+        """:param kind: position, velocity or effort."""
+        return cls(target, {"command": kind})
 
     def register(self, name: str, transmission: Transmission, actuators: Sequence[Any], joints: Sequence[Any]) -> None:
         """:param name: of the transmission.
         :param actuators, joints: handles in the transmission's order (state handles for states, else command handles).
         """
-        self._entries[name] = (transmission, list(actuators), list(joints))
+        sources, targets = (actuators, joints) if self._target == "joint" else (joints, actuators)
+        self._entries[name] = [(field, self._convert(transmission, field, kind), list(sources), list(targets))
+                               for field, kind in self._fields.items()]
+
+    def _convert(self, transmission: Transmission, field: str, kind: str) -> Convert:
+        if field == "absolute_position" and transmission.direct_absolute_encoders:
+            return _crosswise
+        return getattr(transmission, f"{kind}_to_{self._target}")
 
     def names(self) -> List[str]:
+        """Of the transmissions, in the order of their registration."""
         return list(self._entries)
 
     def propagate(self) -> None:
+        """Bring the present values from one side to the other. Realtime safe."""
         for entry in self._entries.values():
-            self._propagate(*entry)
+            for field, convert, sources, targets in entry:
+                values = [getattr(handle, field) for handle in sources]
+                if None not in values:
+                    for handle, value in zip(targets, convert(values)):
+                        setattr(handle, field, value)
 
 
-def _all_have(handles: Sequence[Any], field: str) -> bool:
-    return all(getattr(handle, field) is not None for handle in handles)
-
-
-def _copy(values: Sequence[float], handles: Sequence[Any], field: str) -> None:
-    for handle, value in zip(handles, values):
-        setattr(handle, field, value)
-
-
-def actuator_to_joint_state(transmission: Transmission, actuators: Sequence[Any], joints: Sequence[Any]) -> None:
-    _copy(transmission.position_to_joint([a.position for a in actuators]), joints, "position")
-    _copy(transmission.velocity_to_joint([a.velocity for a in actuators]), joints, "velocity")
-    _copy(transmission.effort_to_joint([a.effort for a in actuators]), joints, "effort")
-    if _all_have(actuators, "absolute_position"):
-        absolute = [a.absolute_position for a in actuators]
-        _copy(absolute[::-1] if transmission.direct_absolute_encoders else transmission.position_to_joint(absolute),
-              joints, "absolute_position")
-    if _all_have(actuators, "torque_sensor"):
-        _copy(transmission.effort_to_joint([a.torque_sensor for a in actuators]), joints, "torque_sensor")
-
-
-def joint_to_actuator_state(transmission: Transmission, actuators: Sequence[Any], joints: Sequence[Any]) -> None:
-    _copy(transmission.position_to_actuator([j.position for j in joints]), actuators, "position")
-    _copy(transmission.velocity_to_actuator([j.velocity for j in joints]), actuators, "velocity")
-    _copy(transmission.effort_to_actuator([j.effort for j in joints]), actuators, "effort")
-    if _all_have(joints, "absolute_position"):
-        absolute = [j.absolute_position for j in joints]
-        _copy(absolute[::-1] if transmission.direct_absolute_encoders else transmission.position_to_actuator(absolute),
-              actuators, "absolute_position")
-    if _all_have(joints, "torque_sensor"):
-        _copy(transmission.effort_to_actuator([j.torque_sensor for j in joints]), actuators, "torque_sensor")
-
-
-def joint_to_actuator_command(kind: str) -> Any:
-    """:param kind: position, velocity or effort."""
-    def propagate(transmission: Transmission, actuators: Sequence[Any], joints: Sequence[Any]) -> None:
-        _copy(getattr(transmission, f"{kind}_to_actuator")([j.command for j in joints]), actuators, "command")
-    return propagate
-
-
-def actuator_to_joint_command(kind: str) -> Any:
-    """:param kind: position, velocity or effort."""
-    def propagate(transmission: Transmission, actuators: Sequence[Any], joints: Sequence[Any]) -> None:
-        _copy(getattr(transmission, f"{kind}_to_joint")([a.command for a in actuators]), joints, "command")
-    return propagate
+def _crosswise(values: Sequence[float]) -> Sequence[float]:
+    return values[::-1]

@@ -1,0 +1,60 @@
+"""Base of the controllers that serve an action."""
+from __future__ import annotations
+
+import threading
+from typing import Optional
+
+from realtime_tools.action_server import RealtimeActionServer, RealtimeGoal
+
+from .controller import Controller
+from .node_handle import NodeHandle
+
+
+class ActionController(Controller):
+    """Has one active goal at most; a new one takes its place.
+
+    ``_lock`` guards what the control loop shares with the threads of rospy: ``_goal``, ``_running`` and what a deriving
+    class adds. A deriving class calls ``serve`` at the end of ``init`` and sets ``_running`` in ``starting``.
+    """
+
+    def serve(self, controller_nh: NodeHandle, name: str, action: type) -> None:
+        """Offer the action ``name``, say of type ``control_msgs.msg.FollowJointTrajectoryAction``."""
+        self._lock = threading.Lock()
+        self._running = False
+        self._goal: Optional[RealtimeGoal] = None
+        controller_nh.own(RealtimeActionServer(controller_nh.resolve(name), action, self._on_goal, self._on_cancel))
+
+    def _on_goal(self, goal: RealtimeGoal) -> None:
+        """Take ``goal`` or reject it. Called in a thread of rospy."""
+        raise NotImplementedError
+
+    def _hold(self, goal: Optional[RealtimeGoal]) -> None:
+        """Stop, on behalf of ``goal`` or of nobody. Called with ``_lock`` held."""
+        raise NotImplementedError
+
+    def stopping(self, time: float) -> None:
+        with self._lock:
+            self._running = False
+            goal, self._goal = self._goal, None
+        if goal is not None:
+            goal.cancel(text="The controller was stopped")
+
+    def aborting(self, time: float) -> None:
+        self.stopping(time)
+
+    def _release(self, goal: RealtimeGoal) -> bool:
+        """Let go of the active goal, to finish it; False if a thread of rospy was quicker."""
+        with self._lock:
+            if self._goal is not goal:
+                return False
+            self._goal = None
+            return True
+
+    def _on_cancel(self, goal_id: str) -> None:
+        with self._lock:
+            goal = self._goal
+            if goal is None or goal.id != goal_id:
+                return
+            self._goal = None
+            self._hold(None)
+        goal.cancel(text="Cancelled by a client")
