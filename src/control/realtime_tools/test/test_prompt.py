@@ -27,7 +27,7 @@ class Transport:
 @pytest.fixture
 def ends():
     near, far = socket.socketpair()
-    far.settimeout(10.0)
+    far.settimeout(60.0)
     yield Transport(near), far
     near.close()
     far.close()

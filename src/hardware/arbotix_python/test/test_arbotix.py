@@ -58,7 +58,7 @@ def simulator():
 
 @pytest.fixture
 def arbotix(simulator):
-    device = ArbotiX(simulator.port, timeout=0.5)
+    device = ArbotiX(simulator.port, timeout=10.0)
     yield device
     device.closePort()
 
@@ -115,9 +115,9 @@ def test_unplugged(simulator):
 
 
 def test_terminal(arbotix):
-    arbotix._ser.timeout = 0.05
+    arbotix._ser.timeout = 1.0  # who answers must have the time to
     terminal = Terminal(arbotix)
-    assert terminal.run(["ls", "10"]) == "1 2 9"
+    assert terminal.run(["ls", "3"]) == "1 2"
     assert terminal.run(["set", "pos", "2", "600"]) == "OK"
     assert terminal.run(["get", "pos", "2"]) == "600"
     assert terminal.run(["get", "temp", "5"]) == "no answer"

@@ -6,16 +6,19 @@ import subprocess
 import time
 
 import psutil
+import pytest
 
 
-def free_port():
-    with socket.socket() as s:
-        s.bind(("localhost", 0))
-        return s.getsockname()[1]
+@pytest.fixture
+def port():
+    """One that nobody else takes: kept for the roscore, which may bind it too."""
+    with socket.socket() as place:
+        place.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        place.bind(("", 0))
+        yield place.getsockname()[1]
 
 
-def test_ctrl_c_leaves_no_process(tmp_path):
-    port = free_port()
+def test_ctrl_c_leaves_no_process(tmp_path, port):
     environment = dict(os.environ, ROS_MASTER_URI="http://localhost:%d" % port, ROS_HOME=str(tmp_path))
     log = tmp_path / "launch.log"
     with open(log, "w") as out:
@@ -31,7 +34,7 @@ def test_ctrl_c_leaves_no_process(tmp_path):
         assert {"gzserver", "spawner", "rosmaster"} <= {p.name() for p in started}
         os.killpg(launch.pid, signal.SIGINT)  # what a terminal does
         assert launch.wait(60) == 0
-        gone, alive = psutil.wait_procs(started, timeout=10)
+        gone, alive = psutil.wait_procs(started, timeout=60)
         assert not alive, [p.cmdline() for p in alive]
         text = log.read_text()
         assert "Traceback" not in text and "escalating" not in text, text
