@@ -126,6 +126,20 @@ class Cameras(unittest.TestCase):
         info = self.take("/rig_ns/grey/camera_info", CameraInfo)[0]
         np.testing.assert_allclose(info.K, [100, 0, 70, 0, 100, 50, 0, 0, 1])
 
+    def test_a_lens_bends_the_picture_as_camera_info_says(self):
+        with Ear("/lens/camera_info", CameraInfo) as infos:
+            bent = picture(self.take("/lens/image_raw")[0])
+            info = infos.wait(1)[0]
+        np.testing.assert_allclose(info.D, [-0.25, 0.05, 0.002, -0.003, 0.01])  # the sensor's, not the plugin's
+        straight = cv2.undistort(bent, np.reshape(info.K, (3, 3)), np.array(info.D))
+        self.assertBoxes(straight)
+
+        def middle(rgb):  # of the green box
+            return np.mean(np.argwhere((rgb == GREEN).all(axis=2)), axis=0)
+        self.assertGreater(80 + OFF - middle(bent)[1], 2)  # a barrel draws towards the middle
+        # from the inner edge of its back to the outer edge of its face
+        np.testing.assert_allclose(middle(straight), (59.5, 79.5 + (0.4 / 2.2 + 0.8 / 2) / 2 * F), atol=0.5)
+
     def test_the_plugins_update_rate_throttles(self):
         stamps = [stamp_ns(m) for m in self.take("/robot/camera/info", CameraInfo, steps=1000, count=8)]
         self.assertTrue(all(b - a >= 100 * MS for a, b in zip(stamps, stamps[1:])), stamps)
@@ -258,6 +272,17 @@ class Cameras(unittest.TestCase):
             self.assertTrue(marker)
             self.assertEqual(len(ear.messages), 3)
             self.assertBoxes(picture(ear.messages[0]))
+
+    def test_a_pair_is_triggered_by_the_topic_it_names(self):
+        trigger = rospy.Publisher("/pair/shoot", Empty, queue_size=10)
+        until(lambda: trigger.get_num_connections() == 1, "subscriber of /pair/shoot")
+        with Ear("/pair/left/image_raw", Image) as left, Ear("/pair/right/image_raw", Image) as right:
+            self.step(50)
+            trigger.publish(Empty())
+            until(lambda: (self.step(20), left.messages and right.messages)[1], "pair of pictures")
+            self.assertEqual(stamp_ns(left.messages[0]), stamp_ns(right.messages[0]))
+            self.take("/eye/camera_info", CameraInfo)  # what was sent before it has arrived
+            self.assertEqual((len(left.messages), len(right.messages)), (1, 1))
 
     def test_polled(self):
         poll = rospy.ServiceProxy("/prosilica/request_image", GetPolledImage)

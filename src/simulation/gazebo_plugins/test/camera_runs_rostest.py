@@ -3,6 +3,7 @@
 import contextlib
 import hashlib
 import os
+import pathlib
 import signal
 import subprocess
 import unittest
@@ -13,7 +14,7 @@ from gazebo_msgs.srv import SpawnModel
 from gazebo_ros.srv import StepWorld
 from geometry_msgs.msg import Point, Pose, Quaternion
 from listening import Ear
-from sensor_msgs.msg import CompressedImage, Image, PointCloud2
+from sensor_msgs.msg import CameraInfo, CompressedImage, Image, PointCloud2
 from std_msgs.msg import Bool
 
 WORLD = os.path.join(os.path.dirname(os.path.abspath(__file__)), "worlds", "cameras.world")
@@ -42,9 +43,22 @@ class Server:
         os.killpg(self.process.pid, signal.SIGINT)
         self.process.wait(timeout=20)
 
+    def ready(self):
+        """Its step function."""
+        rospy.wait_for_message(f"/{self.name}/gazebo/ready", Bool, 60)
+        return rospy.ServiceProxy(f"/{self.name}/gazebo/step", StepWorld)
+
+    def hear(self, topic, kind):
+        return Ear(f"/{self.name}/{topic}", kind, f"/{self.name}/gazebo")
+
+    def draws(self):
+        """Whether it has a process that draws: the only child that a server has."""
+        children = pathlib.Path("/proc", str(self.process.pid), "task").glob("*/children")
+        return any(of_thread.read_text() for of_thread in children)
+
     def pictures(self):
         """topic -> every picture of STEPS, as (stamp in ns, digest of the bytes)."""
-        rospy.wait_for_message(f"/{self.name}/gazebo/ready", Bool, 60)
+        step = self.ready()
         spawn = rospy.ServiceProxy(f"/{self.name}/gazebo/spawn_sdf_model", SpawnModel)
         for i in range(3):  # they fall onto each other before the cameras
             where = Pose(Point(1.6, 0.05 * i, 0.2 + 0.6 * i), Quaternion(0.2, 0.1 * i, 0.3, 0.9))
@@ -52,9 +66,8 @@ class Server:
             if not answer.success:
                 raise AssertionError(answer.status_message)
         with contextlib.ExitStack() as ears:
-            heard = {topic: ears.enter_context(Ear(f"/{self.name}/{topic}", kind, f"/{self.name}/gazebo"))
-                     for topic, (kind, _) in STREAMS.items()}
-            rospy.ServiceProxy(f"/{self.name}/gazebo/step", StepWorld)(STEPS)
+            heard = {topic: ears.enter_context(self.hear(topic, kind)) for topic, (kind, _) in STREAMS.items()}
+            step(STEPS)
             return {topic: [(m.header.stamp.to_nsec(), hashlib.sha1(m.data).hexdigest())
                             for m in ear.wait(STREAMS[topic][1])] for topic, ear in heard.items()}
 
@@ -69,6 +82,20 @@ class Runs(unittest.TestCase):
                 self.assertEqual(len(first[topic]), count)
                 digests = {digest for _, digest in first[topic]}
                 self.assertGreater(len(digests), count // 2, "nothing moves in the pictures")
+
+    def test_nothing_is_drawn_until_somebody_looks(self):
+        with Server("blind", 0) as server:
+            step = server.ready()
+            step(500)
+            with server.hear("eye/camera_info", CameraInfo) as infos:
+                step(100)
+                infos.wait(3)
+            self.assertFalse(server.draws())
+            with server.hear("eye/image_raw", Image) as images:
+                self.assertFalse(server.draws())  # paused
+                step(40)
+                images.wait(1)
+            self.assertTrue(server.draws())
 
 
 if __name__ == "__main__":
