@@ -262,6 +262,16 @@ class SwitchingTest(unittest.TestCase):
         self.assertFalse(self.switch("xy").result())
         self.assertEqual((self.state("x"), self.state("y")), ("aborted", "running"))
 
+    def test_a_start_that_raised_is_not_tried_again_while_others_wait(self):
+        self.hw.results["y"] = SwitchState.ONGOING
+        self.controller("x").fail_in = "starting"
+        request = self.switch("xy", cycles=3, start_asap=True)
+        self.assertEqual(CALLS.count(("x", "starting")), 1)
+        self.hw.results.clear()
+        self.cycle()
+        self.assertFalse(request.result())
+        self.assertEqual((self.state("x"), self.state("y")), ("aborted", "running"))
+
     def test_an_exception_in_stopping(self):
         self.switch("x")
         self.controller("x").fail_in = "stopping"

@@ -1,8 +1,8 @@
 """Handles, interfaces, claims, combination of robots, conflicts between controllers."""
 import pytest
-from hardware_interface import (ControllerInfo, EffortJointInterface, InterfaceResources, JointHandle, JointStateHandle,
-                                JointStateInterface, PositionJointInterface, PosVelJointHandle, PosVelJointInterface,
-                                ResourceError, RobotHW, SwitchState, VelocityJointInterface)
+from hardware_interface import (ControllerInfo, EffortJointInterface, HardwareInterface, InterfaceResources, JointHandle,
+                                JointStateHandle, JointStateInterface, PositionJointInterface, PosVelJointHandle,
+                                PosVelJointInterface, ResourceError, RobotHW, SwitchState, VelocityJointInterface)
 
 
 def joint(name, **state):
@@ -34,6 +34,13 @@ def test_two_commands():
 def test_misspelled_attributes_are_refused():
     with pytest.raises(AttributeError):
         joint("j").comand = 1.0
+
+
+def test_interfaces_are_named_after_package_and_class():
+    assert PositionJointInterface.type_name == "hardware_interface::PositionJointInterface"
+    mine = type("GripInterface", (HardwareInterface,), {"__module__": "my_package.hands"})
+    renamed = type("Any", (HardwareInterface,), {"__module__": "my_package", "type_name": "theirs::Interface"})
+    assert (mine.type_name, renamed.type_name) == ("my_package::GripInterface", "theirs::Interface")
 
 
 def test_names_are_sorted():

@@ -2,9 +2,9 @@
 import math
 
 import pytest
-from joint_limits_interface import (DescriptionError, JointDescription, JointLimits, SoftJointLimits, distance_within_limits,
-                                    limits_from_urdf, normalize_angle, read_joints, shortest_angular_distance,
-                                    soft_limits_from_urdf)
+from joint_limits_interface import (DescriptionError, JointDescription, JointLimits, SoftJointLimits,
+                                    distance_within_limits, limits_from_urdf, normalize_angle, read_joints,
+                                    shortest_angular_distance, soft_limits_from_urdf)
 from joint_limits_interface.limits import apply_limits, soft_limits_of
 
 URDF = """<robot name="r">

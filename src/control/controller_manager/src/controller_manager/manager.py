@@ -31,7 +31,6 @@ STRICT = SwitchControllerRequest.STRICT
 BEST_EFFORT = SwitchControllerRequest.BEST_EFFORT
 
 
-
 def _reason(error: BaseException) -> str:
     """One line for the log: the text of an error that a package defines for its users, else the type and the place."""
     if type(error).__module__ != "builtins":
@@ -58,7 +57,7 @@ class LoadedController:
 
     @property
     def running(self) -> bool:
-        return self.controller.state is ControllerState.RUNNING
+        return self.controller.is_running
 
 
 class ControllerManager:
@@ -129,7 +128,7 @@ class ControllerManager:
                     self._guard(loaded, "stopping", loaded.controller.stop_request, time)
         if switch.start_asap:
             for loaded in switch.start:
-                if not loaded.running:
+                if not loaded.running and loaded not in switch.failed:
                     self._start_if_ready(switch, [loaded], loaded.info, time)
             done = all(loaded.controller.state in (ControllerState.RUNNING, ControllerState.ABORTED)
                        for loaded in switch.start)
@@ -146,11 +145,14 @@ class ControllerManager:
         if result is SwitchState.DONE:
             for loaded in starting:
                 if not self._guard(loaded, "starting", loaded.controller.start_request, time):
-                    switch.failed = True
+                    switch.failed.append(loaded)
         elif result is SwitchState.ERROR or switch.timed_out(time):
-            rospy.logerr("Starting %s aborted: the hardware %s", ", ".join(f"'{loaded.name}'" for loaded in starting),
-                         "reported an error while switching" if result is SwitchState.ERROR else
-                         f"was not ready within the timeout of {switch.timeout:g} s")
+            names = ", ".join(f"'{loaded.name}'" for loaded in starting)
+            if names not in switch.reported:  # those that wait for others come here in every cycle
+                switch.reported.append(names)
+                rospy.logerr("%s aborted: the hardware %s", f"Starting {names}" if names else "Switching controllers",
+                             "reported an error while switching" if result is SwitchState.ERROR else
+                             f"was not ready within the timeout of {switch.timeout:g} s")
             for loaded in starting:
                 self._guard(loaded, "aborting", loaded.controller.abort_request, time)
         else:

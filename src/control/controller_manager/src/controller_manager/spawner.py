@@ -95,7 +95,7 @@ class Spawner:
         try:
             self._bring_up()
         except rospy.ServiceException as error:
-            if not rospy.core.is_shutdown_requested():
+            if not self._shut_down_soon():
                 rospy.logerr("Controller Spawner: the controller manager did not answer: %s", error)
         rospy.spin()
         return 0
@@ -156,8 +156,16 @@ class Spawner:
     def _start(self, names: List[str]) -> None:
         if self._switch(start=names):
             rospy.loginfo("Started controllers: %s", ", ".join(names))
-        else:
+        elif not self._shut_down_soon():
             rospy.logerr("Failed to start controllers: %s", ", ".join(names))
+
+    @staticmethod
+    def _shut_down_soon() -> bool:
+        """Ctrl-C ends the manager too, which then answers waiting calls before this node hears of its own end."""
+        deadline = time.monotonic() + 1.0
+        while not rospy.core.is_shutdown_requested() and time.monotonic() < deadline:
+            time.sleep(0.01)
+        return rospy.core.is_shutdown_requested()
 
     def _switch(self, start: Sequence[str] = (), stop: Sequence[str] = (), strict: bool = True) -> bool:
         request = SwitchControllerRequest(
@@ -175,7 +183,8 @@ class Spawner:
             for name in reversed(self._loaded):
                 unload(name)
         except (rospy.ServiceException, rospy.ROSException) as error:
-            rospy.logwarn("Controller Spawner couldn't reach controller_manager to take down controllers: %s", error)
+            rospy.loginfo("Controller Spawner couldn't reach controller_manager to take down controllers: %s (it has ended "
+                          "as well, so there is nothing left to do)", error)
 
 
 def _read_yaml(path: str) -> Optional[dict]:

@@ -56,7 +56,8 @@ class Switch:
         self.timeout = timeout
         self.begun = False
         self.hardware_failed = False
-        self.failed = False  # a controller's starting() raised
+        self.failed: List["LoadedController"] = []  # their starting() raised
+        self.reported: List[str] = []  # names of those whose start the log says to be aborted
         self.finished = threading.Event()
         self._since = 0.0
 

@@ -60,8 +60,6 @@ class SelfConflictController(_TwoInterfaces):
 class NoSuchInterface(HardwareInterface):
     """Offered by no robot here."""
 
-    type_name = "controller_manager_tests::NoSuchInterface"
-
 
 class MyDummyController(Controller):
     interface = NoSuchInterface

@@ -80,13 +80,29 @@ class PositionMode(Mode):
         return self.handle.command
 
     def write(self, dt: float) -> None:
-        if self.e_stop:
-            self.handle.command = self._frozen
-        self.limits.enforce_limits(dt)
-        self.joint.servo(self.handle.command)
+        self.joint.servo(self.target(dt))
 
 
-class PositionPidMode(PositionMode):
+class _ByPid:
+    """Mixed into a mode: its ``_pid`` gives the joint's effort, within ``_effort_limit``."""
+
+    __slots__ = ()
+
+    def enter(self) -> None:
+        super().enter()
+        self._pid.reset()
+
+    def leave(self) -> None:
+        self.state.effort = 0.0
+
+    def push(self, error: float, dt: float) -> None:
+        """Apply what the PID says to this error."""
+        limit = self._effort_limit
+        self.joint.add_force(min(max(self._pid.compute_command(error, dt), -limit), limit))
+        self.state.effort = self.joint.effort()
+
+
+class PositionPidMode(_ByPid, PositionMode):
     """A PID on the position gives the joint's effort."""
 
     __slots__ = ("_pid", "_description", "_effort_limit")
@@ -98,18 +114,8 @@ class PositionPidMode(PositionMode):
         self._description = description
         self._effort_limit = effort_limit
 
-    def enter(self) -> None:
-        super().enter()
-        self._pid.reset()
-
-    def leave(self) -> None:
-        self.state.effort = 0.0
-
     def write(self, dt: float) -> None:
-        error = self._description.error(self.joint.position(), self.target(dt))
-        limit = self._effort_limit
-        self.joint.add_force(min(max(self._pid.compute_command(error, dt), -limit), limit))
-        self.state.effort = self.joint.effort()
+        self.push(self._description.error(self.joint.position(), self.target(dt)), dt)
 
 
 class VelocityMode(Mode):
@@ -133,7 +139,7 @@ class VelocityMode(Mode):
         self.joint.set_motor(self.target(dt), self._effort_limit)
 
 
-class VelocityPidMode(VelocityMode):
+class VelocityPidMode(_ByPid, VelocityMode):
     """A PID on the velocity gives the joint's effort."""
 
     __slots__ = ("_pid",)
@@ -142,18 +148,8 @@ class VelocityPidMode(VelocityMode):
         super().__init__(joint, handle, limits, effort_limit)
         self._pid = pid
 
-    def enter(self) -> None:
-        super().enter()
-        self._pid.reset()
-
-    def leave(self) -> None:
-        self.state.effort = 0.0
-
     def write(self, dt: float) -> None:
-        effort = self._pid.compute_command(self.target(dt) - self.joint.velocity(), dt)
-        limit = self._effort_limit
-        self.joint.add_force(min(max(effort, -limit), limit))
-        self.state.effort = self.joint.effort()
+        self.push(self.target(dt) - self.joint.velocity(), dt)
 
 
 class JointSim:
