@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """The command line tools: texts byte for byte, exit codes, what a node leaves behind when it ends."""
 import contextlib
+import functools
 import io
 import os
 import signal
@@ -8,6 +9,7 @@ import subprocess
 import tempfile
 import unittest
 
+import roslib.packages
 import rosnode
 import rospy
 import rostest
@@ -18,9 +20,15 @@ from std_msgs.msg import Bool
 INTERFACE = "hardware_interface::EffortJointInterface"
 
 
+@functools.lru_cache(maxsize=None)
+def program(tool):
+    """What rosrun starts; it takes as long to find as to run."""
+    return roslib.packages.find_node("controller_manager", tool)[0]
+
+
 def run(tool, *arguments):
     """(exit code, standard output, standard error)"""
-    done = subprocess.run(["rosrun", "controller_manager", tool, *arguments], capture_output=True, text=True, timeout=60)
+    done = subprocess.run([program(tool), *arguments], capture_output=True, text=True, timeout=60)
     return done.returncode, done.stdout, done.stderr
 
 
@@ -42,7 +50,7 @@ class CommandLineTest(unittest.TestCase):
         """A spawner or unspawner; its output goes to a file that outlives it."""
         log = tempfile.NamedTemporaryFile("w+", suffix=".log")
         self.addCleanup(log.close)
-        process = subprocess.Popen(["rosrun", "controller_manager", tool, *arguments], stdout=log, stderr=log)
+        process = subprocess.Popen([program(tool), *arguments], stdout=log, stderr=log)
         self.addCleanup(self.end, process)
         process.text = lambda: open(log.name).read()
         return process
