@@ -41,7 +41,7 @@ class Server:
 
     def __exit__(self, *_):
         os.killpg(self.process.pid, signal.SIGINT)
-        self.process.wait(timeout=20)
+        self.process.wait(timeout=60)
 
     def ready(self):
         """Its step function."""

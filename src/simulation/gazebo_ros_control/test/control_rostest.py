@@ -4,6 +4,7 @@ import math
 import os
 import sys
 import tempfile
+import threading
 import time
 import unittest
 
@@ -36,7 +37,7 @@ def gains(**values):
     return {**FORWARD, "gazebo_ros_control": {"pid_gains": {"j": values}}}
 
 
-def wait_until(condition, what, timeout=20.0):
+def wait_until(condition, what, timeout=60.0):
     end = time.monotonic() + timeout
     while not condition():
         if time.monotonic() > end:
@@ -343,7 +344,7 @@ class PluginTest(unittest.TestCase):
         with robot:
             robot.step()
         rospy.set_param("/robot_description", one_joint(POSITION))
-        time.sleep(0.3)
+        wait_until(lambda: "gazebo_ros_control" not in [thread.name for thread in threading.enumerate()], "its thread to end")
         self.assertFalse(self.service_there("/robot"))
 
     def test_a_description_that_is_no_xml(self):
