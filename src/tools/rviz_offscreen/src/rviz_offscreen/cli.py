@@ -39,6 +39,8 @@ def parser() -> argparse.ArgumentParser:
     p.add_argument("--timeout", type=float, default=15.0, help="seconds to wait until every display is drawn (default 15)")
     p.add_argument("--grace", type=float, default=3.0,
                    help="seconds after which a display is not waited for if nobody publishes its topic (default 3)")
+    p.add_argument("--watch", type=float, default=0.0, metavar="SECONDS",
+                   help="go on for so long after all is drawn before the picture is taken: trails grow")
     p.add_argument("--anti-aliasing", action="store_true", help="smooth edges (xvfb only; about eight times the work)")
     return p
 
@@ -87,7 +89,8 @@ def backend(name: str, size: str) -> Iterator[Dict[str, str]]:
 
 
 def take(config: str, views: List[View], output: str, *, size: str = "1280x800", window: bool = False, fixed_frame: str = "",
-         timeout: float = 15.0, grace: float = 3.0, backend_name: str = "xvfb", anti_aliasing: bool = False) -> dict:
+         timeout: float = 15.0, grace: float = 3.0, watch: float = 0.0,
+         backend_name: str = "xvfb", anti_aliasing: bool = False) -> dict:
     """Take the pictures.
 
     :param views: [] for the configuration's own view.
@@ -113,13 +116,13 @@ def take(config: str, views: List[View], output: str, *, size: str = "1280x800",
         # RViz itself would open a dialog that ignores Ctrl-C.
         raise ScreenshotError(f"no ROS master at {os.environ.get('ROS_MASTER_URI')}: start roscore or a launch file first")
     job = {"config": config, "window": window, "size": [width, height], "fixed_frame": fixed_frame, "timeout": timeout,
-           "grace": grace, "anti_aliasing": anti_aliasing,
+           "grace": grace, "watch": watch, "anti_aliasing": anti_aliasing,
            "pictures": [{"path": p, "view": v.values} for p, v in zip(paths, views)]}
     with tempfile.TemporaryDirectory(prefix="rviz_offscreen_") as home, backend(backend_name, f"{width}x{height}") as variables:
         # RViz writes ~/.rviz on exit; a picture must neither read nor change the user's.
         environment = {**os.environ, **variables, "HOME": home, "ROS_LOG_DIR": home, "XDG_RUNTIME_DIR": home,
                        "QT_LOGGING_RULES": "*=false"}
-        result = run_grabber(job, environment, timeout + 45)
+        result = run_grabber(job, environment, timeout + watch + 45)
     return {"pictures": paths, **result}
 
 
@@ -165,7 +168,7 @@ def main(argv: Optional[List[str]] = None) -> int:
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
     try:
         result = take(options.config, [parse_view(text) for text in options.view], options.output, size=options.size,
-                      window=options.window, fixed_frame=options.fixed_frame, timeout=options.timeout, grace=options.grace,
+                      window=options.window, fixed_frame=options.fixed_frame, timeout=options.timeout, grace=options.grace, watch=options.watch,
                       backend_name=options.backend, anti_aliasing=options.anti_aliasing)
     except (ScreenshotError, DisplayError, ViewError) as error:
         print(f"screenshot: {error}", file=sys.stderr)

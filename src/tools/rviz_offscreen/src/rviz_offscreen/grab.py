@@ -97,6 +97,12 @@ class Grabber:
                         "unpublished": {state.name: ", ".join(filter(None, state.topics)) for state in unpublished}}
             self._run(0.03)
 
+    def watch(self, seconds: float) -> None:
+        """Go on drawing for so long."""
+        end = time.monotonic() + seconds
+        while time.monotonic() < end:
+            self._draw(1)
+
     # ------------------------------------------------------------------------------------------ pictures
 
     def set_view(self, values: List[list]) -> None:
@@ -203,6 +209,7 @@ def main() -> None:
     grabber = Grabber(job)
     result = grabber.wait_until_drawn()
     drawn = time.monotonic() - start
+    grabber.watch(job["watch"])
     for picture in job["pictures"]:
         grabber.set_view(picture["view"])
         grabber.save(picture["path"])

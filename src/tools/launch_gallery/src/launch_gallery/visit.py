@@ -1,0 +1,155 @@
+"""Takes the pictures of one running launch file: a process of its own, because a process has one ROS master for life.
+
+Started by :mod:`.cli` with a JSON job on standard input; answers with one JSON line on standard output.
+"""
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import re
+import sys
+import tempfile
+import threading
+import time
+from typing import List, Tuple
+
+import rosgraph
+import rospy
+import yaml
+from geometry_msgs.msg import Twist
+from rviz_offscreen.cli import ScreenshotError, missing_lines, take
+from rviz_offscreen.display import DisplayError
+from sensor_msgs.msg import Image
+
+from . import automatic, images, scene
+
+_QUIET = 2.0  # s without a node or topic coming or going: the launch file has finished its work
+_ANSWER = 20.0  # s of wall time for one message
+
+
+class Visit:
+    """One running system and the pictures of it. ``job`` as :func:`.cli.visit` writes it."""
+
+    def __init__(self, job: dict):
+        self.job = job
+        self.pictures: List[Tuple[str, str]] = []  # file name, caption
+        self.notes: List[str] = []
+        self.master = rosgraph.Master(rospy.get_name())
+
+    def wait_until_settled(self) -> None:
+        """Until all nodes of the launch file have been there, those that pass are gone, and nothing comes or goes for a while."""
+        start = changed = time.monotonic()
+        before, missing = None, set()
+        seen = set()
+        while time.monotonic() - start < self.job["timeout"]:
+            now = self.master.getSystemState()
+            here = {node for registered in now for _, nodes in registered for node in nodes}
+            ended = self.ended_nodes()
+            seen |= here
+            missing = set(self.job["nodes"]) - seen - ended | set(self.job["passing"]) - ended
+            if now != before or missing:
+                before, changed = now, time.monotonic()
+            elif time.monotonic() - changed > _QUIET:
+                return
+            time.sleep(0.1)
+        what = f"not all there: {', '.join(sorted(missing))}" if missing else "nodes or topics still come and go"
+        self.notes.append(f"after {self.job['timeout']:g} s {what}")
+
+    def ended_nodes(self) -> set:
+        """Nodes of which roslaunch has said that they finished or died."""
+        with open(self.job["log"], errors="replace") as file:
+            return {"/" + name for name in re.findall(r"\[([\w/]+)-\d+\] process has", file.read())}
+
+    def published(self) -> List[Tuple[str, str]]:
+        own = rospy.get_name()
+        publishers = {topic: names for topic, names in self.master.getSystemState()[0]}
+        return [(topic, kind) for topic, kind in self.master.getTopicTypes() if set(publishers.get(topic, ())) - {own}]
+
+    def take_scene(self) -> None:
+        if not any(name == "/gazebo/spawn_sdf_model" for name, _ in self.master.getSystemState()[2]):
+            return
+        try:
+            self.pictures += scene.pictures(images.save, self.job["folder"], self.job["stem"], _ANSWER)
+        except (rospy.ROSException, rospy.ServiceException) as error:
+            self.notes.append(f"no picture of the scene: {error}; is the simulation paused?")
+
+    def take_rviz(self) -> None:
+        name = f"{self.job['stem']}-rviz.png"
+        drive = self.job["drive"]
+        with tempfile.TemporaryDirectory() as folder, Driving(drive[:2]) if drive else contextlib.nullcontext():
+            config, whose = self.job["config"], "the launch file's set-up"
+            if not config:
+                config, whose = os.path.join(folder, "automatic.rviz"), "all that is published"
+                parents = automatic.frames(1.5)
+                with open(config, "w") as file:
+                    yaml.safe_dump(automatic.config(self.published(), rospy.has_param("robot_description"),
+                                                    automatic.root_of(parents), 1.0), file)
+            try:
+                result = take(config, [], os.path.join(self.job["folder"], name), size=self.job["size"], window=True,
+                              timeout=self.job["timeout"], watch=drive[2] if drive else 0.0)
+            except (ScreenshotError, DisplayError) as error:
+                self.notes.append(f"no RViz picture: {error}")
+                return
+        self.pictures.append((name, f"RViz, {whose}"))
+        self.notes += [f"RViz: {line}" for line in missing_lines(result, self.job["timeout"])]
+
+    def take_cameras(self) -> None:
+        for topic in sorted(topic for topic, kind in self.published() if kind == "sensor_msgs/Image"):
+            name = f"{self.job['stem']}{topic.replace('/', '-')}.png"
+            try:
+                images.save(rospy.wait_for_message(topic, Image, _ANSWER), os.path.join(self.job["folder"], name))
+                self.pictures.append((name, f"Camera, {topic}"))
+            except (rospy.ROSException, ValueError) as error:
+                self.notes.append(f"no image of {topic}: {error}")
+
+
+class Driving:
+    """While in the context: a speed on every topic of Twist messages that somebody listens to; zero at its end."""
+
+    def __init__(self, speed: List[float]):
+        self.twist = Twist()
+        self.twist.linear.x, self.twist.angular.z = speed
+        self.ended = threading.Event()
+
+    def __enter__(self) -> None:
+        master = rosgraph.Master(rospy.get_name())
+        listened = {topic for topic, _ in master.getSystemState()[1]}
+        self.publishers = [rospy.Publisher(topic, Twist, queue_size=1) for topic, kind in master.getTopicTypes()
+                           if kind == "geometry_msgs/Twist" and topic in listened]
+        self.thread = threading.Thread(target=self._send)
+        self.thread.start()
+
+    def _send(self) -> None:
+        while not self.ended.wait(0.1):
+            for publisher in self.publishers:
+                publisher.publish(self.twist)
+        for publisher in self.publishers:
+            publisher.publish(Twist())
+
+    def __exit__(self, *_) -> None:
+        self.ended.set()
+        self.thread.join()
+
+
+def main() -> None:
+    job = json.load(sys.stdin)
+    answers, sys.stdout = sys.stdout, sys.stderr
+    end = time.monotonic() + job["timeout"]
+    while not rosgraph.is_master_online():
+        if time.monotonic() > end:
+            sys.exit("no ROS master came up")
+        time.sleep(0.1)
+    rospy.init_node("launch_gallery", anonymous=True, disable_signals=True, disable_rostime=True, log_level=rospy.FATAL)
+    visit = Visit(job)
+    visit.wait_until_settled()
+    visit.take_scene()
+    visit.take_cameras()
+    visit.take_rviz()  # last: it may drive
+    json.dump({"pictures": visit.pictures, "notes": visit.notes}, answers)
+    answers.flush()
+    rospy.signal_shutdown("done")
+
+
+if __name__ == "__main__":
+    main()
