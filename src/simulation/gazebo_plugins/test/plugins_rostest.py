@@ -9,7 +9,8 @@ import rostest
 import tf2_ros
 from dynamic_reconfigure.client import Client
 from gazebo_msgs.msg import ContactsState, ModelState, ODEJointProperties
-from gazebo_msgs.srv import GetJointProperties, GetLinkState, GetModelState, SetJointProperties, SetModelState, SpawnModel
+from gazebo_msgs.srv import (DeleteModel, GetJointProperties, GetLinkState, GetModelState, SetJointProperties, SetModelState,
+                              SpawnModel)
 from gazebo_ros.srv import StepWorld
 from gazebo_ros_link_attacher.srv import Attach
 from geometry_msgs.msg import (Point, Pose, Quaternion, TransformStamped, Twist, Vector3, Vector3Stamped, Wrench,
@@ -51,7 +52,7 @@ class Plugins(unittest.TestCase):
         rospy.wait_for_message("/gazebo/ready", Bool, 60)
         for name, kind in {"step": StepWorld, "spawn_sdf_model": SpawnModel, "get_model_state": GetModelState,
                            "get_link_state": GetLinkState, "get_joint_properties": GetJointProperties,
-                           "set_model_state": SetModelState}.items():
+                           "set_model_state": SetModelState, "delete_model": DeleteModel}.items():
             setattr(cls, "_" + name, staticmethod(rospy.ServiceProxy("/gazebo/" + name, kind, persistent=True)))
 
     def spawn(self, name, text, x, y, z=0.0):
@@ -139,6 +140,28 @@ class Plugins(unittest.TestCase):
         self.assertEqual((near.radiation_type, round(near.field_of_view, 6), near.max_range), (Range.INFRARED, 0.3, 5.0))
         self.assertEqual(self.measure("/blind", Range).range, 1.0)
         self.assertAlmostEqual(self.measure("/sonar", Range).range, 2.5, places=4)
+
+    def test_rays_too_close_and_too_far(self):
+        """REP 117: -inf nearer than the near limit, +inf farther than the far limit; the robot's own housing is neither."""
+        near, far, face = 0.2, 2.0, 0.15  # m: limits, and where a thick wall begins, ahead
+        housing = ('<collision name="housing"><geometry><cylinder><radius>0.1</radius><length>0.2</length></cylinder></geometry>'
+                   '</collision>')
+        self.spawn("wall", sdf(link("l", extra='<collision name="c"><geometry><box><size>1 6 1</size></box></geometry></collision>'),
+                               static=True), 20 + face + 0.5, 0, 1)
+        for topic, noise in (("close", 0.0), ("close_noisy", 0.02)):
+            scanner = ray(topic, plugin("gazebo_ros_laser", topicName=topic, frameName="s"), samples=181, low=-1.5, high=1.5,
+                          near=near, far=far, noise=noise, at="0 0 0 0 0 0")
+            self.spawn(topic, sdf(link("l", extra=housing + scanner), static=True), 20, 0, 1)
+            angles = np.linspace(-1.5, 1.5, 181)
+            distance = face / np.cos(angles)
+            ranges = np.array(self.measure("/" + topic, LaserScan).ranges)
+            self.assertTrue(np.all(np.isneginf(ranges[distance < near])), topic)
+            self.assertTrue(np.all(np.isposinf(ranges[distance > far])), topic)
+            between = (distance > near + 6 * noise) & (distance < far - 6 * noise)
+            np.testing.assert_allclose(ranges[between], distance[between], atol=1e-4 + 6 * noise)
+            self.assertTrue(np.count_nonzero(distance < near) > 40 and np.count_nonzero(between) > 20)
+            self._delete_model(topic)
+        self._delete_model("wall")
 
     # ---------------------------------------------------------------------------------------------------- motion
 

@@ -68,14 +68,21 @@ class RayFan:
         self.directions_S = np.stack([np.cos(pitch) * np.cos(yaw), np.cos(pitch) * np.sin(yaw), np.sin(pitch)], axis=1)
 
     def cast(self):
-        """(ranges (V*H,) m with +inf beyond max and -inf up to min, REP-117; intensities (V*H,)), row by row from below."""
+        """(ranges (V*H,) m with +inf beyond max and -inf up to min, REP-117; intensities (V*H,)), row by row from below.
+
+        Within min the sensor sees other models only, not the robot it is built into.
+        """
         pose = math3.compose(self.sensor.link.pose, self.sensor.description.pose)
         rotation = np.array(math3.quat_to_matrix(pose.q))
         directions = self.directions_S @ rotation.T
         # Rays start at the near limit, so that what stands inside it (the robot's own housing) does not hide the world.
-        origins = np.asarray(pose.p) + self.min * directions
-        distances, hits = self.world.cast_rays(origins, directions, self.max - self.min)
+        centres = np.broadcast_to(pose.p, directions.shape)
+        distances, hits = self.world.cast_rays(centres + self.min * directions, directions, self.max - self.min)
         ranges = distances + self.min
+        if self.min > 0.0:
+            housing = [collision for link in self.sensor.model.links.values() for collision in link.collisions.values()]
+            too_close, _ = self.world.cast_rays(centres, directions, self.min, housing)
+            ranges[np.isfinite(too_close)] = -np.inf
         retro = self._retro(hits)
         ranges = self._resample(ranges)
         intensities = self._resample(retro, nearest=True)
