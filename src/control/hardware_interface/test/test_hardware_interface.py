@@ -1,7 +1,7 @@
 """Handles, interfaces, claims, combination of robots, conflicts between controllers."""
 import pytest
-from hardware_interface import (ControllerInfo, EffortJointInterface, HardwareInterface, InterfaceResources, JointHandle,
-                                JointStateHandle, JointStateInterface, PositionJointInterface, PosVelJointHandle,
+from hardware_interface import (ControllerInfo, EffortJointInterface, HardwareInterface, InterfaceResources,
+                                JointHandle, JointStateHandle, JointStateInterface, PositionJointInterface, PosVelJointHandle,
                                 PosVelJointInterface, ResourceError, RobotHW, SwitchState, VelocityJointInterface)
 
 

@@ -70,6 +70,8 @@ class ControllerBase:
     def is_running(self) -> bool:
         return self.state is ControllerState.RUNNING
 
+    # The following four are refused, with False, before the controller is initialised. Exceptions pass through.
+
     def start_request(self, time: float) -> bool:
         return self._enter(ControllerState.RUNNING, self.starting, time)
 
@@ -83,6 +85,7 @@ class ControllerBase:
         return self._enter(ControllerState.ABORTED, self.aborting, time)
 
     def update_request(self, time: float, period: float) -> None:
+        """Update it if it is running."""
         if self.state is ControllerState.RUNNING:
             self.update(time, period)
 
@@ -115,7 +118,8 @@ class ControllerBase:
 def _missing(names: Sequence[str], robot_hw: RobotHW) -> InitError:
     return InitError(f"it needs the hardware interface {', '.join(names)}, which this robot does not have; it has: "
                      f"{', '.join(robot_hw.interface_names()) or 'none'}. Make sure this is registered in the "
-                     f"hardware_interface::RobotHW class (in simulation: a <transmission> with that <hardwareInterface>)")
+                     f"hardware_interface::RobotHW class (in simulation: a <transmission> with that "
+                     f"<hardwareInterface>)")
 
 
 class Controller(ControllerBase):

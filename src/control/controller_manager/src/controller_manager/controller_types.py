@@ -48,8 +48,8 @@ class ControllerTypes:
         controller = plugin.load()()
         self._imported.add(plugin.type.rpartition(".")[0])
         if not isinstance(controller, ControllerBase):
-            raise PluginError(f"'{plugin.name}' of package {plugin.package} is no controller: {plugin.type} must derive "
-                              f"from controller_interface.Controller or MultiInterfaceController")
+            raise PluginError(f"'{plugin.name}' of package {plugin.package} is no controller: {plugin.type} must "
+                              f"derive from controller_interface.Controller or MultiInterfaceController")
         return controller
 
     def reload(self) -> None:

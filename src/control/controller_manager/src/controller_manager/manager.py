@@ -49,7 +49,7 @@ class LoadedController:
         self.controller = controller
         self.info = info
         self.nh = nh
-        self.update = controller.update
+        self.update = controller.update_request
 
     @property
     def name(self) -> str:
@@ -107,11 +107,10 @@ class ControllerManager:
                         if loaded.controller.state is ControllerState.STOPPED:
                             self._guard(loaded, "starting", loaded.controller.start_request, time)
             for loaded in controllers:
-                if loaded.controller.state is ControllerState.RUNNING:
-                    try:
-                        loaded.update(time, period)
-                    except Exception as error:  # a controller is third-party code: the others go on
-                        self._failed(loaded, "update", error, time)
+                try:
+                    loaded.update(time, period)
+                except Exception as error:  # a controller is third-party code: the others go on
+                    self._failed(loaded, "update", error, time)
             if self._switch is not None:
                 self._go_on(self._switch, time)
 
@@ -311,7 +310,9 @@ class ControllerManager:
         """Until the loop has done the switch; False on time-out or shutdown."""
         deadline = wall.monotonic() + switch.timeout + 1.0 if switch.timeout > 0.0 else None
         while not switch.finished.wait(0.05):
-            if self._closing or rospy.core.is_shutdown_requested() or (deadline is not None and wall.monotonic() > deadline):
+            if self._closing or rospy.core.is_shutdown_requested():
+                return False
+            if deadline is not None and wall.monotonic() > deadline:
                 return False
         return True
 
@@ -347,7 +348,7 @@ class ControllerManager:
         plugins = self._types.all()
         return ListControllerTypesResponse([plugin.name for plugin in plugins], [plugin.base for plugin in plugins])
 
-    # -- bookkeeping ----------------------------------------------------------------------------------------------------
+    # -- bookkeeping ---------------------------------------------------------------------------------------------------
 
     def shutdown(self) -> None:
         """Withdraw the services, stop and free all controllers. The loop must not call update any more."""

@@ -24,8 +24,9 @@ class RollingMean:
 
 
 class PlanarOdometry:
-    """Pose in the odom frame, and smoothed velocity in the base frame.
+    """Pose in the odom frame, and velocity in the base frame.
 
+    :param window: number of values over which the velocity of ``travelled`` is averaged
     :ivar x, y: m
     :ivar heading: rad, not wrapped
     :ivar linear: forward velocity, m/s
@@ -38,13 +39,12 @@ class PlanarOdometry:
         self.linear = self.linear_y = self.angular = 0.0
         self._time = 0.0
         self._mean_linear = RollingMean(window)
-        self._mean_linear_y = RollingMean(window)
         self._mean_angular = RollingMean(window)
 
     def restart(self, time: float) -> None:
         """Forget velocities; the pose stays."""
-        for mean in (self._mean_linear, self._mean_linear_y, self._mean_angular):
-            mean.clear()
+        self._mean_linear.clear()
+        self._mean_angular.clear()
         self.linear = self.linear_y = self.angular = 0.0
         self._time = time
 
@@ -71,6 +71,7 @@ class PlanarOdometry:
 
     def moved(self, linear: float, linear_y: float, angular: float, time: float) -> None:
         """Velocities of a base that also moves sideways, as measured at ``time``."""
+        self.linear, self.linear_y, self.angular = linear, linear_y, angular
         dt = time - self._time
         if dt < MIN_INTERVAL:
             return
@@ -80,9 +81,6 @@ class PlanarOdometry:
         self.heading += angular * dt
         self.x += (linear * cosine - linear_y * sine) * dt
         self.y += (linear * sine + linear_y * cosine) * dt
-        self.linear = self._mean_linear(linear)
-        self.linear_y = self._mean_linear_y(linear_y)
-        self.angular = self._mean_angular(angular)
 
     def _advance(self, distance: float, angle: float) -> None:
         if abs(angle) < 1e-6:

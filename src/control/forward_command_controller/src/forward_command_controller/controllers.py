@@ -42,8 +42,8 @@ class ForwardJointGroupCommandController(Controller):
 
     def _receive(self, message: Float64MultiArray) -> None:
         if len(message.data) != len(self.joints):
-            rospy.logerr("Dimension of command (with size %d) does not match number of joints (%d)! Not executing! (%s)",
-                         len(message.data), len(self.joints), self._topic)
+            rospy.logerr("Dimension of command (with size %d) does not match number of joints (%d)! "
+                         "Not executing! (%s)", len(message.data), len(self.joints), self._topic)
             return
         self._commands = list(message.data)
 

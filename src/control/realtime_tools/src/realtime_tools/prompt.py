@@ -46,7 +46,7 @@ class PromptConnection:
         if sent < len(data):
             self._queued = QueuedConnection(connection, self._queue_size)
             self._queued.write_data(data[sent:])
-            while self._queued._queue:  # the other half of a message must never be dropped as the oldest of a full queue
+            while self._queued._queue:  # the other half of a message must not be dropped as the oldest of a full queue
                 time.sleep(1e-4)
         return True
 

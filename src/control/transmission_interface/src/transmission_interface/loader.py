@@ -6,10 +6,10 @@ from math import nan
 from typing import Dict, List, Sequence, Tuple, Type
 
 import rospy
-from hardware_interface import (ActuatorStateInterface, EffortActuatorInterface, EffortJointInterface, HardwareInterface,
-                                JointHandle, JointStateHandle, JointStateInterface, PositionActuatorInterface,
-                                PositionJointInterface, ResourceError, RobotHW, VelocityActuatorInterface,
-                                VelocityJointInterface)
+from hardware_interface import (ActuatorStateInterface, EffortActuatorInterface, EffortJointInterface,
+                                HardwareInterface, JointHandle, JointStateHandle, JointStateInterface,
+                                PositionActuatorInterface, PositionJointInterface, ResourceError, RobotHW,
+                                VelocityActuatorInterface, VelocityJointInterface)
 from plugin_loader import PluginClass, PluginError, find_plugins
 
 from .parser import TransmissionInfo, parse_transmissions
@@ -158,8 +158,8 @@ class TransmissionInterfaceLoader:
     def _actuators(self, interface: Type[HardwareInterface], names: Sequence[str], info: TransmissionInfo) -> List:
         found = self._hw.get(interface)
         if found is None:
-            raise TransmissionError(f"transmission '{info.name}' needs actuators with {interface.type_name}, which this "
-                                    f"robot does not have")
+            raise TransmissionError(f"transmission '{info.name}' needs actuators with {interface.type_name}, which "
+                                    f"this robot does not have")
         try:
             return [found.get_handle(name) for name in names]
         except ResourceError as error:

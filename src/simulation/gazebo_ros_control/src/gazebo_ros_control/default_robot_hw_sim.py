@@ -71,7 +71,7 @@ class DefaultRobotHWSim(RobotHWSim):
     def _add(self, transmission: TransmissionInfo, nh: NodeHandle, model,
              descriptions: Dict[str, JointDescription]) -> None:
         if len(transmission.joints) != 1:
-            rospy.logwarn("Transmission '%s' has %d joints; the simulation takes one per transmission, so it is left out",
+            rospy.logwarn("Transmission '%s' has %d joints; the simulation takes one per transmission; it is left out",
                           transmission.name, len(transmission.joints))
             return
         info = transmission.joints[0]
@@ -133,7 +133,7 @@ class DefaultRobotHWSim(RobotHWSim):
             return VelocityMode(joint, handle, limits, effort_limit)
         return VelocityPidMode(joint, handle, limits, effort_limit, pid)
 
-    # -- every step -----------------------------------------------------------------------------------------------------
+    # -- every step ----------------------------------------------------------------------------------------------------
 
     def read_sim(self, time: float, period: float) -> None:
         for state, position, velocity in self._readers:
@@ -187,11 +187,11 @@ def _warn_of_zero_limits(description: JointDescription, hard: Optional[JointLimi
     if hard is None:
         return
     if hard.has_velocity_limits and hard.max_velocity == 0.0:
-        rospy.logwarn("joint '%s' has a velocity limit of 0: it cannot move; write <limit velocity=\"...\"> in rad/s or "
-                      "m/s", description.name)
+        rospy.logwarn("joint '%s' has a velocity limit of 0: it cannot move; write <limit velocity=\"...\"> in rad/s "
+                      "or m/s", description.name)
     if hard.has_effort_limits and hard.max_effort == 0.0 and interface is not PositionJointInterface:
-        rospy.logwarn("joint '%s' has an effort limit of 0: no force can move it; write <limit effort=\"...\"> in Nm or "
-                      "N", description.name)
+        rospy.logwarn("joint '%s' has an effort limit of 0: no force can move it; write <limit effort=\"...\"> in Nm "
+                      "or N", description.name)
 
 
 def _load_gains(nh: NodeHandle, joint: str) -> Optional[RosPid]:

@@ -69,7 +69,7 @@ class GazeboRosControl(ModelPlugin):
                           "less often than the world", self._model.name, wanted, step)
         return round(wanted * 1e9)
 
-    # -- the robot description ------------------------------------------------------------------------------------------
+    # -- the robot description -----------------------------------------------------------------------------------------
 
     def _find_description(self) -> Optional[str]:
         """The closest parameter of that name above the namespace, else that name as it stands; None if not there."""
@@ -111,7 +111,7 @@ class GazeboRosControl(ModelPlugin):
         self._server.before_step(self._step)
         rospy.loginfo("Loaded gazebo_ros_control in %s: %s", self._namespace, ", ".join(hw.interface_names()))
 
-    # -- every step -----------------------------------------------------------------------------------------------------
+    # -- every step ----------------------------------------------------------------------------------------------------
 
     def _forget_times(self) -> None:
         self._last_update_ns: Optional[int] = None

@@ -7,7 +7,8 @@ A package that depends on ``base`` (the package that defines the plugin base cla
 and plugins.xml lists classes in pluginlib's format, with a Python class where pluginlib has a C++ one::
 
     <library path="src">
-      <class name="my_pkg/MyPlugin" type="my_pkg.module.MyPlugin" base_class_type="..."><description>...</description></class>
+      <class name="my_pkg/MyPlugin" type="my_pkg.module.MyPlugin" base_class_type="...">
+        <description>...</description></class>
     </library>
 
 ``path`` is relative to plugins.xml and is put on ``sys.path`` before the import.
@@ -18,6 +19,7 @@ from __future__ import annotations
 import importlib
 import os
 import sys
+import threading
 import xml.etree.ElementTree as ET
 from dataclasses import dataclass
 from typing import Dict, Iterator, List, Optional, Tuple
@@ -25,6 +27,8 @@ from typing import Dict, Iterator, List, Optional, Tuple
 import rospkg
 
 _DEPEND_TAGS = {"depend", "run_depend", "exec_depend"}
+#: Two robots of one simulator load plugins at the same time; Python lets one of them see a package half imported.
+_importing = threading.RLock()
 
 
 class PluginError(Exception):
@@ -57,10 +61,11 @@ class PluginClass:
                 f"'{self.name}' of package {self.package} is a compiled C++ plugin ({self.type}); only Python plugins "
                 f"can be loaded here")
         module_name, _, class_name = self.type.rpartition(".")
-        if self.path not in sys.path:
-            sys.path.append(self.path)
         try:
-            return getattr(importlib.import_module(module_name), class_name)
+            with _importing:
+                if self.path not in sys.path:
+                    sys.path.append(self.path)
+                return getattr(importlib.import_module(module_name), class_name)
         except Exception as error:  # a third party's module may raise anything; it must not take the host down
             raise PluginError(
                 f"'{self.name}' of package {self.package} cannot be imported: {type(error).__name__}: {error} "

@@ -65,7 +65,7 @@ def _keep_place_in_clones() -> None:
 
 
 def _accept_macros_without_prefix() -> None:
-    """``<wheel .../>`` for ``<xacro:wheel .../>``, as packages from before Noetic have it: expanded, with one warning a name.
+    """``<wheel .../>`` for ``<xacro:wheel .../>``, as in packages from before Noetic: expanded, with one warning a name.
 
     Without it the element stays in the URDF, is ignored there, and a robot without wheels or inertias is spawned. Names
     that URDF and SDF use themselves (``<camera>`` in a sensor) are never taken for a macro.
