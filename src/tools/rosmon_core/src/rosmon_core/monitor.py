@@ -111,23 +111,20 @@ class Monitor:
         now = asyncio.get_running_loop().time()
         elapsed = now - self._sampled if self._sampled is not None else 0.0
         self._sampled = now
-        owners = {node.pid: node for node in self.nodes if node.pid}
         self.usage = {node: Usage() for node in self.nodes}
         times: Dict[int, tuple] = {}
-        for process in _descendants(owners):
-            try:
-                node = owners[process.owner]
-                cpu, memory = process.process.cpu_times(), process.process.memory_info().rss
-            except psutil.Error:
-                continue                                  # it ended in this moment
-            pid = process.process.pid
-            times[pid] = (cpu.user, cpu.system)
-            usage = self.usage[node]
-            usage.memory += memory
-            if elapsed > 0.0:
-                before = self._times.get(pid, (cpu.user, cpu.system))
-                usage.user_load += (cpu.user - before[0]) / elapsed
-                usage.system_load += (cpu.system - before[1]) / elapsed
+        for node, usage in self.usage.items():
+            for process in _family(node.pid):
+                try:
+                    cpu, memory = process.cpu_times(), process.memory_info().rss
+                except psutil.Error:
+                    continue                              # it ended in this moment
+                times[process.pid] = (cpu.user, cpu.system)
+                usage.memory += memory
+                if elapsed > 0.0:
+                    before = self._times.get(process.pid, (cpu.user, cpu.system))
+                    usage.user_load += (cpu.user - before[0]) / elapsed
+                    usage.system_load += (cpu.system - before[1]) / elapsed
         self._times = times
 
     def _on_line(self, node: NodeProcess, text: str, is_stderr: bool) -> None:
@@ -161,19 +158,10 @@ class Monitor:
             callback()
 
 
-@dataclass
-class _Member:
-    process: psutil.Process
-    owner: int
-
-
-def _descendants(owners: Dict[int, NodeProcess]):
-    """All processes that a node's process started, and itself."""
-    for pid in owners:
-        try:
-            root = psutil.Process(pid)
-            family = [root, *root.children(recursive=True)]
-        except psutil.Error:
-            continue
-        for process in family:
-            yield _Member(process, pid)
+def _family(pid: Optional[int]) -> List[psutil.Process]:
+    """A process and all that it started; nothing for None."""
+    try:
+        root = psutil.Process(pid) if pid else None
+        return [root, *root.children(recursive=True)] if root else []
+    except psutil.Error:
+        return []

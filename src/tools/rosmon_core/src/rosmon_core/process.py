@@ -120,9 +120,9 @@ class NodeProcess:
         """End the process group now, and what earlier groups left behind."""
         self._wanted = self._restarting = False
         self._cancel_timer()
-        for group in [*self._left_behind, *([self.pid] if self.pid else [])]:
-            _signal_group(group, signal.SIGKILL)
-        self._left_behind = []
+        if self.pid:
+            _signal_group(self.pid, signal.SIGKILL)
+        self._kill_left_behind()
 
     def command(self) -> List[str]:
         """Arguments of the process. :raises NodeParamsException: no such executable."""
