@@ -136,11 +136,15 @@ def test_iterations_end_the_run(host):
     assert server.world.time_ns == 50_000_000
 
 
-def test_unknown_plugin_is_one_line_that_lists_what_there_is(host, errors):
-    make(host, model="<plugin name='p' filename='libno.so'>...</plugin>" + recorder("a"), iterations=1).run()
-    assert len(errors) == 1
-    for word in ("plugin p (libno.so) of model block", "librecorder.so"):
-        assert word in errors[0]
+@pytest.mark.parametrize("filename, said", [
+    ("librecordr.so", "plugin p (librecordr.so) of model block is not known here and is left out. "
+                      "Did you mean librecorder.so?"),
+    ("libunheard_of.so", "It is none of the "),
+    ("", "plugin p (no filename) of model block is left out: it names no library")])
+def test_unknown_plugin_is_one_short_line_that_helps(host, errors, filename, said):
+    make(host, model=f"<plugin name='p' filename='{filename}'>...</plugin>" + recorder("a"), iterations=1).run()
+    assert len(errors) == 1 and said in errors[0]
+    assert len(errors[0]) < 250
     assert "load a of block" in LOG
 
 

@@ -244,6 +244,21 @@ def test_a_robot_without_any_mass_is_refused():
         convert(link("base", None, box()))
 
 
+def test_a_robot_whose_only_mass_is_negative_hears_of_it():
+    with pytest.raises(DescriptionError, match="a positive mass, not -2 kg"):
+        convert(link("base", -2))
+
+
+def test_a_mass_beyond_all_reason_is_refused():
+    with pytest.raises(DescriptionError, match="1e\\+?300"):
+        convert(link("base", 1e300))
+
+
+def test_xacro_that_was_not_run_is_recognised():
+    with pytest.raises(DescriptionError, match="rosrun xacro xacro"):
+        convert(link("base", "${mass}"))
+
+
 @pytest.mark.parametrize("mass", ["nan", "inf", "heavy", ""])
 def test_a_mass_that_is_no_number_is_refused(mass):
     with pytest.raises(DescriptionError, match="mass"):

@@ -300,7 +300,16 @@ def test_impossible_masses_and_tensors_are_made_usable(inertial):
     assert all("odd" in str(p) for p in world.problems)
 
 
-@pytest.mark.parametrize("shape", [Box((0.1, -1, 0.1)), d.Sphere(0.0), d.Cylinder(0.1, math.nan), Mesh("", "model://none/x.stl")])
+def test_a_missing_mesh_is_one_warning_in_all():
+    mesh = '<{0}><geometry><mesh filename="package://gone/m.stl"/></geometry></{0}>'
+    world = ode_sim.World()
+    world.spawn_urdf('<robot name="r"><link name="l"><inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" '
+                     'iyz="0" izz="1"/></inertial>' + mesh.format("visual") + mesh.format("collision") + "</link></robot>")
+    assert [p.severity for p in world.problems] == ["warning"]
+    assert "package://gone/m.stl" in str(world.problems[0])
+
+
+@pytest.mark.parametrize("shape", [Box((0.1, -1, 0.1)), d.Sphere(0.0), d.Cylinder(0.1, math.nan), Mesh("/none/x.stl", "model://none/x.stl")])
 def test_impossible_shapes_are_left_out_by_name(shape):
     link = Link("link", inertial=Inertial(), collisions=(Collision("bad", Pose(), shape),))
     world = ode_sim.World()

@@ -1,6 +1,7 @@
 """Plugins by library name: finding the class, starting it, and saying in one line what went wrong."""
 from __future__ import annotations
 
+import difflib
 import os
 import traceback
 from dataclasses import dataclass
@@ -68,8 +69,21 @@ class PluginHost:
         for line in problems:
             rospy.logwarn("%s", line)
         self._classes: Dict[str, PluginClass] = {library_key(name): plugin for name, plugin in found.items()}
-        self._names = sorted(found)
+        self._libraries = {library_key(name): name for name in sorted(found)}
         self._builtin = {library_key(name) for name in builtin}
+
+    def _unknown(self, filename: str) -> str:
+        """Why a library is left out, and the names it may have been meant to be."""
+        if not filename:
+            return "left out: it names no library; write filename=\"libgazebo_ros_....so\""
+        if not self._libraries:
+            return "left out: no plugins are known; is a workspace with gazebo_plugins sourced?"
+        close = [self._libraries[key] for key in difflib.get_close_matches(library_key(filename), self._libraries, n=3,
+                                                                           cutoff=0.75)]
+        return "not known here and is left out. " + (
+            f"Did you mean {' or '.join(close)}?" if close else
+            f"It is none of the {len(self._libraries)} that packages export here "
+            "(list them: rospack plugins --attrib=plugin gazebo_ros)")
 
     def resolve(self, plugin: d.Plugin, where: str) -> Optional[ResolvedPlugin]:
         """Import the class of a ``<plugin>``. Unknown or broken ones are one WARN or ERROR line, and None.
@@ -83,8 +97,7 @@ class PluginHost:
         if key in self._builtin:
             return None
         if key not in self._classes:
-            rospy.logwarn("%s is not known here and is left out. Known libraries: %s", label,
-                          ", ".join(self._names) or "none (is a workspace with gazebo_plugins sourced?)")
+            rospy.logwarn("%s is %s", label, self._unknown(plugin.filename))
             return None
         try:
             return ResolvedPlugin(plugin, self._classes[key].load(), label)

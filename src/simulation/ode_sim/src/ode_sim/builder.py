@@ -66,7 +66,7 @@ class Builder:
         try:
             core = self._geometry(model.core, link.core, collision)
         except d.DescriptionError as error:
-            self._problem("error", f"{where} is left out: {error}", collision.source)
+            self._problem("warning", f"{where} is left out: {error}", collision.source)
             return None
         if core is None:
             return None
@@ -99,6 +99,8 @@ class Builder:
                 raise d.DescriptionError("the normal of a plane must not be zero")
             return model.add_plane(link, pose, normal)
         if isinstance(shape, d.Mesh):
+            if not shape.path:
+                return None  # the reader of the description has said so
             from ode_sim.mesh import load
             surface = load(shape)
             return self._mesh(model, link, pose, surface.vertices, surface.triangles)
@@ -121,7 +123,7 @@ class Builder:
     @staticmethod
     def _sizes(values: Tuple[float, ...], what: str) -> None:
         if not all(0.0 < v < 1e9 for v in values):
-            raise d.DescriptionError(f"{what} must be positive, not {' '.join(f'{v:g}' for v in values)}")
+            raise d.DescriptionError(f"{what} must be positive and below 1e9 m, not {' '.join(f'{v:g}' for v in values)}")
 
     # ------------------------------------------------------------------------------------------ joints
 

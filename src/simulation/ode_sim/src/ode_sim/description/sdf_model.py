@@ -18,6 +18,8 @@ from ode_sim.description.xmlsource import is_true, source_of, text_of
 _JOINT_AXES = {"revolute": 1, "prismatic": 1, "fixed": 0, "ball": 0, "universal": 2, "revolute2": 2, "screw": 1,
                 "gearbox": 2, "piston": 1}
 _OLD_JOINT_TYPES = {"hinge": "revolute", "slider": "prismatic", "hinge2": "revolute2"}
+#: kg or kg m^2. Homework has inertias of 1e8; far beyond, the solver's products overflow and what touches it is lost too
+_HEAVIEST = 1e30
 
 
 @dataclass
@@ -51,14 +53,17 @@ class SdfModels(SdfShapes):
     def _with_checked_inertial(self, link: Link, static: bool) -> Link:
         """What never moves may have any mass, as saved worlds do; what moves needs one that ODE can use."""
         i = link.inertial
-        finite = all(math.isfinite(v) for v in (i.mass, i.ixx, i.ixy, i.ixz, i.iyy, i.iyz, i.izz))
-        if finite and i.mass > 0.0:
+        values = (i.mass, i.ixx, i.ixy, i.ixz, i.iyy, i.iyz, i.izz)
+        finite = all(math.isfinite(v) for v in values)
+        largest = max(abs(v) for v in values)
+        if finite and i.mass > 0.0 and largest <= _HEAVIEST:
             return link
         if static:
             return replace(link, inertial=Inertial())
         raise DescriptionError(f"{link.source}: " + (
             "mass and inertia must be finite numbers" if not finite else
-            f"mass {i.mass:g} kg; a link of a model that moves needs a positive mass"))
+            f"a mass or inertia of {largest:g}; what is heavier than {_HEAVIEST:g} would spoil the motion of all it touches"
+            if largest > _HEAVIEST else f"mass {i.mass:g} kg; a link of a model that moves needs a positive mass"))
 
     def _parts(self, element: ET.Element) -> _Parts:
         name = element.get("name") or "__default__"

@@ -49,7 +49,7 @@ class SdfShapes(SdfValues):
     def _positive(shape: ET.Element, sizes: Tuple[float, ...]) -> Tuple[float, ...]:
         if any(size < 0.0 or not math.isfinite(size) for size in sizes):
             raise DescriptionError(f"{source_of(shape)}: size {' '.join(f'{s:g}' for s in sizes)}; "
-                                   "sizes must be positive")
+                                   "sizes must be positive and finite")
         return sizes
 
     def _mesh(self, shape: ET.Element) -> Mesh:

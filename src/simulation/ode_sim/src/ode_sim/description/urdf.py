@@ -89,7 +89,9 @@ def _floats(element: ET.Element, key: str, default: Optional[Tuple[float, ...]])
         values = ()
     if len(values) != count or any(math.isnan(value) for value in values):
         raise DescriptionError(f"{source_of(element)}: {key}='{text}' is not "
-                               + ("a number" if count == 1 else f"{count} numbers"))
+                               + ("a number" if count == 1 else f"{count} numbers")
+                               + ("; this is xacro text, run it through 'rosrun xacro xacro FILE' first"
+                                  if "${" in text or "$(" in text else ""))
     return values
 
 
@@ -133,9 +135,11 @@ class _Conversion:
         if self.robot.find("origin") is not None:
             _write_pose(sdf, _origin(self.robot))
         if sdf.find("link") is None:
+            mass = root.element.find("inertial/mass")
             raise DescriptionError(
                 f"{source_of(root.element)}: robot '{name}' has no link with a mass that could be simulated; give the "
-                "root link an <inertial>, or join one that has it by a fixed joint")
+                "root link " + ("an <inertial>" if mass is None else f"a positive mass, not {mass.get('value')} kg")
+                + ", or join one that has it by a fixed joint")
         model = self.reader.model(sdf)
         return replace(model, joints=tuple(self._with_urdf_facts(joint) for joint in model.joints))
 
