@@ -25,6 +25,18 @@ void collect(const char* text, va_list args) {
   if (current_messages) current_messages->push_back(line);
 }
 
+// While it lives, what ODE says goes to `said`, and where it would abort it throws.
+class Listening {
+ public:
+  explicit Listening(std::vector<std::string>& said) {
+    current_messages = &said;
+    dSetMessageHandler([](int, const char* t, va_list a) { collect(t, a); });
+    dSetErrorHandler([](int, const char* t, va_list a) { collect(t, a); throw OdeFailure(); });
+    dSetDebugHandler([](int, const char* t, va_list a) { collect(t, a); throw OdeFailure(); });
+  }
+  ~Listening() { current_messages = nullptr; }
+};
+
 void initialise_ode() {
   static std::once_flag once;
   std::call_once(once, [] { dInitODE2(0); });
@@ -103,6 +115,7 @@ class Posed {
 
 constexpr double kStopSkin = 1e-12;  // a joint put exactly on its stop is to be found there despite rounding
 constexpr double kFastest = 1e6;  // m/s, rad/s: a force that would give more in one step is a mistake
+constexpr double kJump = 30;  // m/s, rad/s: a servo joint commanded to move faster than this is teleported
 constexpr double kPi = 3.14159265358979323846;
 
 }  // namespace
@@ -148,6 +161,7 @@ std::shared_ptr<Model> World::add_model(const std::string& name, bool is_static,
 }
 
 void World::remove_model(Model& model) {
+  hold_true_velocities();
   for (auto& j : model.joints)
     if (j->joint) dJointDestroy(j->joint), j->joint = nullptr;
   for (auto& link : model.links) {
@@ -308,8 +322,17 @@ Pose World::X_BL(const Link& link) const {
 }
 
 void World::refresh() {
+  bool any = replan_;
+  for (auto& m : models_) any |= m->dirty;
+  if (!any) return;
+  hold_true_velocities();
   for (auto& m : models_)
-    if (m->dirty) recluster(*m);
+    if (m->dirty) {
+      m->loop = false;
+      recluster(*m);
+    }
+  plan_carried();
+  rebase_carried();
 }
 
 void World::recluster(Model& model) {
@@ -380,17 +403,21 @@ void World::recluster(Model& model) {
   for (auto& l : model.links)
     if (l->cluster < 0) start(l.get());
 
-  // An ODE joint on a link that servo joints move hangs on that link's own body, moved kinematically.
+  // An ODE joint on a link that servo joints move: where the world takes the reaction it hangs on that link's own body.
+  auto carry = [&](Link& l) {
+    Cluster& c = model.clusters[l.cluster];
+    if (l.moving && (!c.root || model.loop)) l.carrier = c.carriers = true;
+  };
   for (auto& j : model.joints)
     if (!j->merged())
       for (Link* l : {j->parent, j->child})
         if (l) {
           model.clusters[l->cluster].has_joints = true;
-          if (l->moving) l->carrier = true;
+          carry(*l);
         }
   for (auto& t : ties_)
     for (Link* l : {t.parent, t.child})
-      if (l && l->model == &model && l->moving) l->carrier = true;
+      if (l && l->model == &model) carry(*l);
 
   for (auto& l : model.links)
     if (l->body) {
@@ -483,14 +510,14 @@ void World::spread_poses(Cluster& c) {
     if (l != c.root) l->X_WL = c.root ? normalized(c.root->X_WL * l->X_RL) : l->X_RL;
 }
 
-// Velocities of the members from that of the root and the commanded rates of the servo joints.
-void World::spread_twists(Cluster& c) {
+// Velocities of the members from that of the root and the commanded rates of the servo joints (or as if these stood still).
+void World::spread_twists(Cluster& c, bool servos) {
   for (Link* l : c.members) {
     if (l == c.root) continue;
     Vec3 v, w, from;
     if (l->up_link) v = l->up_link->v, w = l->up_link->w, from = l->up_link->X_WL.p;
     v += cross(w, l->X_WL.p - from);
-    if (l->up && l->up->servo == ServoMode::Locked && l->up->rate != 0) {
+    if (servos && l->up && l->up->servo == ServoMode::Locked && l->up->rate != 0) {
       const Joint& j = *l->up;
       const Pose X_WJ = j.frame_W();
       const Vec3 rate = rotate(X_WJ.q, j.axes[0].xyz) * (l == j.child ? j.rate : -j.rate);
@@ -587,6 +614,353 @@ double World::axis_inverse_inertia(const Joint& j, int axis) const {
   return sum;
 }
 
+// ------------------------------------------------------------------------------------------------ carried clusters
+
+void World::plan_carried() {
+  replan_ = false;
+  while (Model* model = try_plan_carried()) {
+    model->loop = true;
+    recluster(*model);
+  }
+}
+
+// Finds what is carried by which link, outwards from what the world holds and from the base links. Returns a model in which two
+// servo joints move the same cluster.
+Model* World::try_plan_carried() {
+  carried_.clear();
+  struct Edge {
+    Link *a, *b;
+  };
+  std::vector<Edge> edges;
+  bool any = false;
+  for (auto& m : models_) {
+    for (auto& c : m->clusters) {
+      c.by = c.at = nullptr;
+      c.carry_v = c.carry_w = {};
+      any |= c.root && c.moving && !c.carriers;
+    }
+    for (auto& j : m->joints)
+      if (j->joint && j->parent) edges.push_back({j->parent, j->child});
+  }
+  if (!any) return nullptr;
+  for (auto& t : ties_)
+    if (t.parent) edges.push_back({t.parent, t.child});
+
+  // The link whose motion, given by servo joints, carries what hangs on `l`; null if none does.
+  std::map<const Cluster*, Link*> mover;
+  auto mover_of = [&](Link* l) -> Link* {
+    const Cluster& c = cluster_of(*l);
+    if (!c.root || c.carriers) return nullptr;
+    if (!l->moving) return mover[&c];
+    while (l->up->servo != ServoMode::Locked) l = l->up_link;
+    return l;
+  };
+  std::vector<Cluster*> queue;
+  std::set<const Cluster*> seen;
+  auto visit = [&](Cluster& c) {
+    if (seen.insert(&c).second) queue.push_back(&c);
+  };
+  size_t next = 0;
+  Model* looped = nullptr;
+  auto grow = [&] {
+    for (; next < queue.size(); ++next)
+      for (auto& e : edges)
+        for (auto [by, at] : {std::make_pair(e.a, e.b), std::make_pair(e.b, e.a)}) {
+          Cluster &c = cluster_of(*at), &from = cluster_of(*by);
+          if (&from != queue[next] || &c == &from) continue;
+          Link* m = mover_of(by);
+          if (seen.count(&c)) {
+            if (!c.root || m == mover_of(at)) continue;
+            for (Model* model : {by->model, at->model})
+              if (!model->loop && model->has_servo) looped = model;
+            continue;
+          }
+          visit(c);
+          if (!c.root || c.carriers) continue;
+          mover[&c] = at->moving ? at : m;
+          if (!mover[&c]) continue;
+          c.by = by;
+          c.at = at;
+          carried_.push_back(&c);
+        }
+  };
+  auto start = [&](auto wanted) {
+    for (auto& m : models_)
+      for (auto& c : m->clusters)
+        if (wanted(c)) visit(c);
+    grow();
+  };
+  start([](const Cluster& c) { return !c.root; });
+  start([](const Cluster& c) { return c.root && c.root->parent_joint && !c.root->parent_joint->parent; });
+  for (auto& m : models_)
+    for (auto& c : m->clusters)
+      if (c.root && !c.root->parent_joint) visit(c), grow();
+  for (auto& m : models_)
+    for (auto& c : m->clusters) visit(c), grow();
+  return looped;
+}
+
+// True velocity of a carried cluster less that of its body, from the true velocities of what carries it.
+void World::update_carry(Cluster& c) {
+  const Link &root = *c.root, &by = *c.by, &at = *c.at;
+  const dBodyID body = body_of(&by);
+  const Vec3 p = root.X_WL * c.com, w = vec(dBodyGetAngularVel(body));
+  c.carry_w = by.w - w;
+  c.carry_v = by.velocity_at(p) - vec(dBodyGetLinearVel(body)) - cross(w, p - vec(dBodyGetPosition(body)));
+  if (!at.moving) return;
+  c.carry_w = c.carry_w - (at.w - root.w);
+  c.carry_v = c.carry_v - (at.velocity_at(p) - root.velocity_at(p));
+}
+
+// For a change of plan: bodies of carried clusters get their true velocities ...
+void World::hold_true_velocities() {
+  for (Cluster* c : carried_) {
+    const dBodyID b = c->root->body;
+    set_body_twist(b, vec(dBodyGetLinearVel(b)) + c->carry_v, vec(dBodyGetAngularVel(b)) + c->carry_w);
+  }
+  replan_ |= !carried_.empty();
+  carried_.clear();
+}
+
+// ... and give up again what the new plan has them carried with.
+void World::rebase_carried() {
+  for (Cluster* c : carried_) {
+    update_carry(*c);
+    const dBodyID b = c->root->body;
+    set_body_twist(b, vec(dBodyGetLinearVel(b)) - c->carry_v, vec(dBodyGetAngularVel(b)) - c->carry_w);
+  }
+}
+
+// True velocities of the links of carried clusters.
+void World::spread_carried() {
+  for (Cluster* c : carried_) {
+    Link& root = *c->root;
+    if (c->at->moving) spread_twists(*c);
+    update_carry(*c);
+    root.w = vec(dBodyGetAngularVel(root.body)) + c->carry_w;
+    root.v = vec(dBodyGetLinearVel(root.body)) + c->carry_v - cross(root.w, rotate(root.X_WL.q, c->com));
+    spread_twists(*c);
+  }
+}
+
+void World::keep_relations() {
+  for (Cluster* c : carried_) {
+    const Link &by = *c->by, &at = *c->at;
+    const Quat q = conjugate(by.X_WL.q);
+    c->X_by_at = inverse(by.X_WL) * at.X_WL;
+    c->w_by_at = rotate(q, at.w - by.w);
+    c->v_by_at = rotate(q, at.v - by.velocity_at(at.X_WL.p));
+  }
+}
+
+// The servo joints have moved: what they carry moves along.
+void World::carry_along() {
+  for (Cluster* c : carried_) {
+    Link& root = *c->root;
+    const Link &by = *c->by, &at = *c->at;
+    const Pose X_WA = by.X_WL * c->X_by_at;
+    root.X_WL = normalized(X_WA * inverse(at.X_RL));
+    root.w = by.w + rotate(by.X_WL.q, c->w_by_at);
+    root.v = by.velocity_at(X_WA.p) + rotate(by.X_WL.q, c->v_by_at) + cross(root.w, root.X_WL.p - X_WA.p);
+    place_cluster(*c);
+    spread_twists(*c, false);
+  }
+}
+
+// ------------------------------------------------------------------------------------------------ inertial forces
+
+// Accelerations of the members from that of the root, the servo joints moving at their rates - and, with `servos`, changing them.
+void World::member_accelerations(Cluster& c, bool servos) {
+  for (Link* l : c.members) {
+    const Vec3& p = l->X_WL.p;
+    if (l == c.root) {
+      const Vec3 r = p - l->X_WL * c.com;
+      const Vec3 &alpha = servos ? c.alpha_all : c.alpha, &a = servos ? c.a_all : c.a;
+      l->alpha = alpha;
+      l->a = a + cross(alpha, r) + cross(l->w, cross(l->w, r));
+      continue;
+    }
+    Vec3 w, alpha, a, from;
+    if (l->up_link) w = l->up_link->w, alpha = l->up_link->alpha, a = l->up_link->a, from = l->up_link->X_WL.p;
+    const Joint& j = *l->up;
+    const Pose X_WJ = j.frame_W();
+    Vec3 r = X_WJ.p - from;
+    a += cross(alpha, r) + cross(w, cross(w, r));
+    if (j.servo == ServoMode::Locked) {
+      const Vec3 axis = rotate(X_WJ.q, j.axes[0].xyz) * (l == j.child ? 1.0 : -1.0);
+      const Vec3 rate = axis * j.rate, change = axis * (servos ? (j.rate - j.previous_rate) / dt : 0.0);
+      if (j.type == JointType::Revolute) alpha += cross(w, rate) + change;
+      else a += cross(w, rate) * 2 + change;
+    }
+    r = p - X_WJ.p;
+    l->alpha = alpha;
+    l->a = a + cross(alpha, r) + cross(l->w, cross(l->w, r));
+  }
+}
+
+// Accelerations of the clusters of a tree of ODE joints that come from its motion alone, with all joint accelerations zero.
+// `servos`: with the servo joints of floating clusters moving, as they are, not standing still.
+void World::accelerations(Model& model, bool servos) {
+  for (auto& c : model.clusters) {
+    (servos ? c.alpha_all : c.alpha) = (servos ? c.a_all : c.a) = {};
+    if (c.moving && (servos || !c.root || c.carriers)) member_accelerations(c, servos);
+  }
+  for (auto& t : model.tree) {
+    const Joint& j = *t.joint;
+    Cluster& c = model.clusters[t.cluster];
+    const Link* near = t.outward ? j.parent : j.child;
+    const Pose X_WP = j.frame_W(), X_WC = j.child->X_WL * j.X_CJ;
+    const Vec3 p = X_WC.p;
+    Vec3 w, alpha, a;  // of the near link, at the joint
+    if (near) {
+      const Cluster& n = model.clusters[near->cluster];
+      if (near->moving && (servos || near->carrier)) {
+        const Vec3 r = p - near->X_WL.p;
+        w = near->w;
+        alpha = near->alpha;
+        a = near->a + cross(alpha, r) + cross(w, cross(w, r));
+      } else if (n.root) {
+        const Vec3 r = p - n.root->X_WL * n.com;
+        w = servos ? n.root->w : vec(dBodyGetAngularVel(n.root->body));
+        alpha = servos ? n.alpha_all : n.alpha;
+        a = (servos ? n.a_all : n.a) + cross(alpha, r) + cross(w, cross(w, r));
+      }
+    }
+    const Vec3 first = rotate(X_WP.q, j.axes[0].xyz) * j.axes[0].qd;
+    const double sign = t.outward ? 1 : -1;
+    Vec3 turn;
+    if (j.type == JointType::Revolute) {
+      turn = first * sign;
+      alpha += cross(w, turn);
+    } else if (j.type == JointType::Prismatic) {
+      a += cross(w, first) * (2 * sign);
+    } else if (j.type == JointType::Universal) {
+      const Vec3 second = rotate(X_WC.q, j.axes[1].xyz) * j.axes[1].qd;
+      turn = (first + second) * sign;
+      const Vec3 w_parent = t.outward ? w : w + turn;
+      alpha += (cross(w_parent, first + second) + cross(first, second)) * sign;
+    } else if (j.type == JointType::Ball) {
+      turn = (t.outward ? j.child->w - w : j.parent->w - w);
+      alpha = {};
+    }
+    w += turn;
+    const Vec3 r = c.root->X_WL * c.com - p;
+    (servos ? c.alpha_all : c.alpha) = alpha;
+    (servos ? c.a_all : c.a) = a + cross(alpha, r) + cross(w, cross(w, r));
+    if (c.moving && (servos || c.carriers)) member_accelerations(c, servos);
+  }
+}
+
+void World::inertial_force(Cluster& c, const Vec3& a, const Vec3& alpha) {
+  const Vec3 f = a * -c.mass;
+  const Quat& q = c.root->X_WL.q;
+  const Vec3 t = -rotate(q, c.inertia * rotate(conjugate(q), alpha));
+  dBodyAddForce(c.root->body, f.x, f.y, f.z);
+  dBodyAddTorque(c.root->body, t.x, t.y, t.z);
+}
+
+// Centrifugal and Coriolis forces. project_joints carries the joint speeds over to where the links are after the step, which
+// turns the velocities of the links with them for nothing; this is what it takes.
+void World::apply_inertial_forces(Model& model) {
+  if (model.tree.empty()) return;
+  accelerations(model, false);
+  for (auto& t : model.tree) {
+    Cluster& c = model.clusters[t.cluster];
+    if (!c.asleep && !c.root->kinematic) inertial_force(c, c.a, c.alpha);
+  }
+}
+
+// What servo joints of floating clusters carry feels that they move, as what hangs on a moving hand does; the cluster itself does
+// not feel it (no recoil). A pass of the direct solver of its own, with the clusters moving as they do, whatever pulls.
+void World::follow_servos() {
+  bool any = false;
+  for (auto& m : models_) {
+    if (!m->has_servo || m->jump) continue;
+    bool moving = false;
+    for (auto& j : m->joints) moving |= j->servo == ServoMode::Locked && (j->rate != 0 || j->previous_rate != 0);
+    if (moving) accelerations(*m, true);
+    for (Cluster* c : carried_)
+      if (c->root->model == m.get()) {
+        if (!moving) c->a_all = c->a, c->alpha_all = c->alpha;
+        any |= moving;
+      }
+  }
+  if (!any) return;
+
+  // Every body that the pass may touch stays as it is, but for the velocities of the carried ones.
+  std::set<const Model*> touched;
+  for (Cluster* c : carried_) touched.insert({c->root->model, c->by->model});
+  for (auto& t : ties_)
+    for (Link* l : {t.parent, t.child})
+      if (l) touched.insert(l->model);
+  std::vector<Cluster*> all;
+  for (auto& m : models_)
+    if (touched.count(m.get()))
+      for (auto& c : m->clusters)
+        if (c.root) all.push_back(&c);
+  std::vector<BodyState> start;
+  remember_bodies(start, all);
+  std::vector<std::pair<dBodyID, dMass>> held;
+  for (Cluster* c : all) {
+    const dBodyID b = c->root->body;
+    dBodySetForce(b, 0, 0, 0);
+    dBodySetTorque(b, 0, 0, 0);
+    if (c->by || c->root->kinematic) continue;
+    dMass mass;
+    dBodyGetMass(b, &mass);
+    held.push_back({b, mass});
+    dBodySetKinematic(b);
+  }
+  dWorldSetGravity(world_, 0, 0, 0);
+  dWorldSetCFM(world_, 1e-18);  // what the joints give way to huge inertias here would be a recoil in the main pass
+  for (Cluster* c : carried_) {
+    const dBodyID b = c->root->body;
+    dBodySetGyroscopicMode(b, 0);
+    dBodyEnable(b);
+    const Model& m = *c->root->model;
+    if (!m.has_servo || m.jump) continue;
+    inertial_force(*c, c->a_all - c->a, c->alpha_all - c->alpha);
+    const Quat& q = c->root->X_WL.q;
+    auto spin = [&](const Vec3& w) { return cross(w, rotate(q, c->inertia * rotate(conjugate(q), w))); };
+    const Vec3 t = spin(vec(dBodyGetAngularVel(b))) - spin(c->root->w);
+    dBodyAddTorque(b, t.x, t.y, t.z);
+  }
+  auto drive = [&](bool hold) {  // motors and brakes keep the speeds that there are
+    for (auto& m : models_)
+      if (touched.count(m.get()))
+        for (auto& j : m->joints)
+          if (j->joint)
+            for (int i = 0; i < j->axis_count; ++i) set_limot(*j, i, dParamVel, hold ? j->axes[i].qd * j->sign : j->axes[i].drive);
+  };
+  drive(true);
+  std::vector<std::string> said;
+  const Listening listening(said);
+  run(true, 0);
+  drive(false);
+
+  std::vector<std::pair<Vec3, Vec3>> result;
+  for (Cluster* c : carried_) {
+    const dBodyID b = c->root->body;
+    result.push_back({vec(dBodyGetLinearVel(b)), vec(dBodyGetAngularVel(b))});
+    dBodySetGyroscopicMode(b, 1);
+  }
+  for (auto& j : models_)
+    for (auto& joint : j->joints)
+      if (joint->watched && joint->joint && touched.count(j.get()) && (cluster_of(*joint->child).by || (joint->parent && cluster_of(*joint->parent).by))) {
+        joint->carried_force = vec(joint->ode_feedback.f1);
+        joint->carried_torque = vec(joint->ode_feedback.t1);
+      }
+  for (auto& [body, mass] : held) dBodySetMass(body, &mass);
+  recall_bodies(start);
+  for (Cluster* c : all) dBodyDisable(c->root->body);
+  dWorldSetGravity(world_, gravity.x, gravity.y, gravity.z);
+  dWorldSetCFM(world_, std::max(cfm, 1e-10));
+  if (!said.empty()) return;
+  for (size_t i = 0; i < carried_.size(); ++i)
+    if (finite(result[i].first) && finite(result[i].second)) set_body_twist(carried_[i]->root->body, result[i].first, result[i].second);
+  spread_carried();
+}
+
 // ------------------------------------------------------------------------------------------------ commands
 
 void World::wake(Model& model) {
@@ -605,7 +979,8 @@ void World::set_model_pose(Model& model, const Pose& old, const Pose& wanted) {
   }
   for (auto& j : model.joints)
     if (!j->parent) j->X_PJ = normalized(X * j->X_PJ);
-  recluster(model);
+  model.dirty = true;
+  refresh();
   read_back();
 }
 
@@ -619,7 +994,8 @@ void World::set_link_pose(Link& link, const Pose& X_WL) {
     c.root->X_WL = normalized(X * c.root->X_WL);
   else
     link.X_WL = normalized(X_WL);
-  recluster(model);
+  model.dirty = true;
+  refresh();
   read_back();
 }
 
@@ -631,14 +1007,20 @@ void World::set_link_twist(Link& link, const Vec3& v, const Vec3& w) {
   c.root->v = v + cross(w, c.root->X_WL.p - link.X_WL.p);
   c.root->w = w;
   place_cluster(c);
+  if (c.by) {
+    const dBodyID b = c.root->body;
+    set_body_twist(b, vec(dBodyGetLinearVel(b)) - c.carry_v, vec(dBodyGetAngularVel(b)) - c.carry_w);
+  }
   spread_twists(c);
 }
 
 void World::zero_velocities(Model& model) {
   refresh();
   for (auto& l : model.links) l->v = l->w = l->force = l->torque = {};
-  for (auto& j : model.joints)
+  for (auto& j : model.joints) {
+    j->rate = j->previous_rate = 0;
     for (auto& a : j->axes) a.qd = a.force = 0;
+  }
   wake(model);
   for (auto& c : model.clusters) place_cluster(c);
   read_back();
@@ -671,7 +1053,8 @@ bool World::set_joint_position(Joint& j, int axis, double q) {
   j.target = j.previous_target = q;
   j.rate = 0;
   wake(*j.model);
-  recluster(*j.model);
+  j.model->dirty = true;
+  refresh();
   read_back();
   return true;
 }
@@ -758,6 +1141,7 @@ void World::make_tie_joints() {
     const dBodyID child = body_of(t.child), parent = body_of(t.parent);
     if (child == parent || (!child && !parent)) continue;
     t.joint = dJointCreateFixed(world_, contact_group_);
+    dJointSetFeedback(t.joint, &t.feedback);
     dJointAttach(t.joint, child ? child : parent, child ? parent : nullptr);
     const Pose X_CB = X_BL(*t.child), X_PB = (t.parent ? X_BL(*t.parent) : Pose{}) * t.X_PC;
     const Posed posed(child ? child : parent, child ? parent : nullptr, child ? X_CB : X_PB, child ? X_PB : X_CB);
@@ -886,6 +1270,9 @@ void World::set_rates(Model& model) {
       feed_forward(*j);
     }
   }
+  model.jump = false;
+  for (auto& j : model.joints)
+    if (j->servo == ServoMode::Locked) model.jump |= std::max(std::abs(j->rate), std::abs(j->previous_rate)) > kJump;
   for (auto& c : model.clusters)
     if (c.moving) {
       spread_twists(c);
@@ -1050,7 +1437,8 @@ void World::update_axis(Joint& j, int i) {
     force += pull - damping * a.qd;
   }
   set_limot(j, i, dParamFMax, most);
-  set_limot(j, i, dParamVel, velocity * j.sign);
+  a.drive = velocity * j.sign;
+  set_limot(j, i, dParamVel, a.drive);
   set_limot(j, i, dParamCFM, softness);
   // ODE knows angles within a turn: its stops move along with the turns.
   double lower = a.lower, upper = a.upper;
@@ -1072,6 +1460,8 @@ void World::update_axis(Joint& j, int i) {
 
 void World::apply_forces() {
   dWorldSetGravity(world_, gravity.x, gravity.y, gravity.z);
+  dWorldSetERP(world_, erp);
+  dWorldSetCFM(world_, std::max(cfm, 1e-10));
   for (auto& m : models_) {
     for (auto& l : m->links) {
       l->applied_force = l->force;
@@ -1094,6 +1484,7 @@ void World::apply_forces() {
     for (auto& j : m->joints)
       if (j->joint)
         for (int i = 0; i < j->axis_count; ++i) update_axis(*j, i);
+    apply_inertial_forces(*m);
   }
 }
 
@@ -1102,7 +1493,8 @@ void World::apply_forces() {
 void World::make_contact_joints() {
   feedback_.clear();
   size_t watched = 0;
-  for (auto& c : contacts_) watched += c.a->watched || c.b->watched;
+  auto wanted = [](const Contact& c) { return c.a->watched || c.b->watched || c.a->link->weighed || c.b->link->weighed; };
+  for (auto& c : contacts_) watched += wanted(c);
   feedback_.resize(watched);
   size_t next = 0;
   // Resting contacts must persist, or friction is lost every other step: this much overlap (m) is left alone.
@@ -1184,13 +1576,15 @@ void World::make_contact_joints() {
     d.fdir1[0] = t1.x; d.fdir1[1] = t1.y; d.fdir1[2] = t1.z;
 
     // Surface speed that the bodies do not have: links moved by servo joints.
-    if (l1->moving || l2->moving) {
+    auto driven = [&](const Link* l) { return l->moving || (cluster_of(*l).by && !cluster_of(*cluster_of(*l).by).root->model->jump); };
+    const bool driven1 = driven(l1), driven2 = driven(l2);
+    if (driven1 || driven2) {
       auto slide = [&](Link* l, dBodyID body) {
         Vec3 u = l->velocity_at(c.pos);
         if (body) u = u - (vec(dBodyGetLinearVel(body)) + cross(vec(dBodyGetAngularVel(body)), c.pos - vec(dBodyGetPosition(body))));
         return u;
       };
-      const Vec3 u = (l1->moving ? slide(l1, ba) : Vec3{}) - (l2->moving ? slide(l2, bb) : Vec3{});
+      const Vec3 u = (driven1 ? slide(l1, ba) : Vec3{}) - (driven2 ? slide(l2, bb) : Vec3{});
       d.surface.mode |= dContactMotion1 | dContactMotion2 | dContactMotionN;
       d.surface.motion1 = -dot(t1, u);
       d.surface.motion2 = -dot(cross(n, t1), u);
@@ -1198,7 +1592,7 @@ void World::make_contact_joints() {
     }
     c.joint = dJointCreateContact(world_, contact_group_, &d);
     dJointAttach(c.joint, ba, bb);
-    if (c.a->watched || c.b->watched) {
+    if (wanted(c)) {
       c.feedback = static_cast<int>(next);
       dJointSetFeedback(c.joint, &feedback_[next++]);
     }
@@ -1421,12 +1815,7 @@ void World::solve() {
   };
 
   std::vector<std::string> said;
-  current_messages = &said;
-  dSetMessageHandler([](int, const char* t, va_list a) { collect(t, a); });
-  dSetErrorHandler([](int, const char* t, va_list a) { collect(t, a); throw OdeFailure(); });
-  dSetDebugHandler([](int, const char* t, va_list a) { collect(t, a); throw OdeFailure(); });
-  dWorldSetERP(world_, erp);
-  dWorldSetCFM(world_, std::max(cfm, 1e-10));
+  const Listening listening(said);
   remember_bodies(before_, nodes_);
   for (Cluster* c : nodes_) {
     dBodyID b = c->root->body;
@@ -1483,7 +1872,6 @@ void World::solve() {
     set_body_pose(kinematic[i], kinematic_poses[i]);
     dBodyDisable(kinematic[i]);
   }
-  current_messages = nullptr;
 }
 
 // A body whose numbers are lost goes back to where it was, at rest.
@@ -1545,9 +1933,77 @@ void World::read_feedback(Joint& j) {
   const bool child_first = j.sign > 0;
   const Vec3 at = j.frame_W().p;
   const dBodyID first = dJointGetBody(j.joint, 0);
-  const Vec3 force = vec(f.f1), torque = vec(f.t1) - cross(at - vec(dBodyGetPosition(first)), force);
+  const Vec3 force = vec(f.f1) + j.carried_force;
+  const Vec3 torque = vec(f.t1) + j.carried_torque - cross(at - vec(dBodyGetPosition(first)), force);
+  j.carried_force = j.carried_torque = {};
   j.feedback.child_force = child_first ? force : -force;
   j.feedback.child_torque = child_first ? torque : -torque;
+  j.feedback.parent_force = -j.feedback.child_force;
+  j.feedback.parent_torque = -j.feedback.child_torque;
+}
+
+void World::momentum(const Load& load, Vec3& linear, Vec3& spin) const {
+  linear = spin = {};
+  for (const Link* l : load.links) {
+    const Vec3 p = l->velocity_at(l->com_W()) * l->mass;
+    linear += p;
+    spin += rotate(l->X_WL.q, l->inertia * rotate(conjugate(l->X_WL.q), l->w)) + cross(l->com_W() - load.anchor, p);
+  }
+}
+
+// A servo joint held exactly is no joint for ODE. What it bears follows from what is beyond: the change of its momentum less what
+// else acts on it. Before the step ...
+void World::weigh(Model& model) {
+  for (auto& l : model.links) l->weighed = false;
+  for (auto& j : model.joints) {
+    Load& load = j->load_beyond;
+    load.links.clear();
+    if (!j->watched || j->servo != ServoMode::Locked) continue;
+    bool loop = false;
+    load.links = subtree(*j, &loop);
+    if (loop) load.links.clear();
+    load.anchor = j->frame_W().p;
+    load.force = load.torque = {};
+    momentum(load, load.momentum, load.spin);
+    for (Link* l : load.links) {
+      l->weighed = true;
+      const Vec3 f = (l->gravity ? gravity * l->mass : Vec3{}) + l->force;
+      load.force += f;
+      load.torque += cross(l->com_W() - load.anchor, f) + l->torque;
+    }
+  }
+}
+
+// ... and after it.
+void World::read_load(Joint& j) {
+  const Load& load = j.load_beyond;
+  if (!j.watched || j.servo != ServoMode::Locked) return;
+  j.feedback = {};
+  if (load.links.empty()) return;
+  Vec3 linear, spin, force = load.force, torque = load.torque;
+  momentum(load, linear, spin);
+  auto beyond = [&](const Link* l) { return std::find(load.links.begin(), load.links.end(), l) != load.links.end(); };
+  for (auto& c : contacts_) {
+    const bool a = beyond(c.a->link), b = beyond(c.b->link);
+    if (c.feedback < 0 || a == b) continue;
+    const Vec3 f = vec(feedback_[c.feedback].f1) * ((c.swapped ? -1.0 : 1.0) * (a ? 1.0 : -1.0));
+    force += f;
+    torque += cross(c.pos - load.anchor, f);
+  }
+  for (auto& t : ties_) {
+    const bool child = beyond(t.child), parent = t.parent && beyond(t.parent);
+    if (!t.joint || child == parent) continue;
+    const bool first = child == (body_of(t.child) != nullptr);  // whether ODE's first body is of the load
+    const Vec3 f = vec(first ? t.feedback.f1 : t.feedback.f2), at = vec(dBodyGetPosition(dJointGetBody(t.joint, first ? 0 : 1)));
+    force += f;
+    torque += vec(first ? t.feedback.t1 : t.feedback.t2) + cross(at - load.anchor, f);
+  }
+  j.feedback.child_force = -force;
+  j.feedback.child_torque = -torque;
+  if (!j.model->jump) {
+    j.feedback.child_force += (linear - load.momentum) * (1 / dt);
+    j.feedback.child_torque += (spin - load.spin) * (1 / dt);
+  }
   j.feedback.parent_force = -j.feedback.child_force;
   j.feedback.parent_torque = -j.feedback.child_torque;
 }
@@ -1599,8 +2055,8 @@ void World::project_joints(Model& model) {
     // The cluster moves as the moved link does, less what servo joints inside do.
     c.root->w += w - moved.w;
     c.root->v += v + cross(w, moved.X_WL.p - X_WC.p) - moved.v + cross(w - moved.w, c.root->X_WL.p - moved.X_WL.p);
-    spread_twists(c);
-    c.moved = true;
+    spread_twists(c, c.carriers);
+    c.moved = j.projected = true;
   }
   for (int head : model.tree_heads) {
     double mass = 0;
@@ -1609,7 +2065,7 @@ void World::project_joints(Model& model) {
       mass += c.mass;
       const Vec3 com = c.root->X_WL * c.com;
       shift += (vec(dBodyGetPosition(c.root->body)) - com) * c.mass;
-      kick += (vec(dBodyGetLinearVel(c.root->body)) - c.root->velocity_at(com)) * c.mass;
+      kick += (vec(dBodyGetLinearVel(c.root->body)) + c.a * dt - c.root->velocity_at(com)) * c.mass;
     };
     auto move = [&](Cluster& c) {
       c.root->X_WL.p += shift;
@@ -1687,8 +2143,9 @@ void World::integrate_servos() {
     }
 }
 
-// Link poses and velocities from the bodies.
-void World::pull() {
+// Link poses and velocities from the bodies; without `servos`, velocities as the bodies have them: those of floating clusters as
+// if servo joints stood still.
+void World::pull(bool servos) {
   for (auto& m : models_)
     for (auto& c : m->clusters) {
       if (c.root) {
@@ -1700,9 +2157,10 @@ void World::pull() {
       }
       if (c.members.size() > 1 || !c.root) {
         spread_poses(c);
-        spread_twists(c);
+        spread_twists(c, servos || !c.root || c.carriers);
       }
     }
+  if (servos) spread_carried();
 }
 
 // Shapes, joint readings and shared arrays from the links.
@@ -1718,7 +2176,8 @@ void World::publish() {
       row[3] = X.q.x; row[4] = X.q.y; row[5] = X.q.z; row[6] = X.q.w;
     }
     for (auto& j : m->joints) {
-      if (!j->merged()) read_joint(*j);
+      if (!j->merged() && !j->projected) read_joint(*j);
+      j->projected = false;
       for (int i = 0; i < j->axis_count; ++i) {
         joint_positions[j->row + i] = j->axes[i].q;
         joint_velocities[j->row + i] = j->axes[i].qd;
@@ -1742,20 +2201,29 @@ void World::step(int n) {
 void World::step_once() {
   refresh();
   for (auto& m : models_)
-    if (m->has_servo) set_rates(*m);
+    if (m->has_servo) {
+      weigh(*m);
+      for (auto& j : m->joints) j->previous_rate = j->rate;
+      set_rates(*m);
+    }
+  spread_carried();
   collide();
   if (promote()) {
     refresh();
     for (auto& m : models_)
       if (m->has_servo) set_rates(*m);
+    spread_carried();
   }
   apply_forces();
-  make_contact_joints();
   make_tie_joints();
+  follow_servos();
+  make_contact_joints();
   solve();
   guard_nan();
-  pull();
+  pull(false);
+  keep_relations();
   integrate_servos();
+  bool moved = false;
   for (auto& m : models_) {
     for (auto& j : m->joints) read_feedback(*j);
     for (auto& c : m->clusters) {
@@ -1764,6 +2232,7 @@ void World::step_once() {
       bool still = true;
       for (Link* l : c.members) still &= !l->up || l->up->servo != ServoMode::Locked || l->up->rate == 0;
       if (still) continue;
+      moved |= c.root != nullptr;
       compose(c);
       place_cluster(c);
       if (c.has_joints)
@@ -1771,6 +2240,7 @@ void World::step_once() {
           if (j->joint && ((j->parent && &m->clusters[j->parent->cluster] == &c) || &m->clusters[j->child->cluster] == &c)) install(*j);
     }
   }
+  if (moved) carry_along();
   for (auto& m : models_) project_joints(*m);
   for (auto& m : models_) {
     for (auto& l : m->links) l->force = l->torque = {};
@@ -1778,6 +2248,9 @@ void World::step_once() {
       for (auto& a : j->axes) a.applied = a.force, a.force = 0;
   }
   read_back();
+  for (auto& m : models_)
+    if (m->has_servo)
+      for (auto& j : m->joints) read_load(*j);
   dJointGroupEmpty(contact_group_);
   for (auto& c : contacts_) c.joint = nullptr;
   demote();
@@ -1852,6 +2325,7 @@ std::string World::save() {
 
 void World::restore(const std::string& data) {
   refresh();
+  hold_true_velocities();
   Reader f{data};
   f(dt); f(gravity); f(erp); f(cfm); f(sor); f(contact_max_vel); f(surface_layer); f(iters); f(max_contacts);
   f(seed); f(iterations); f(time_ns);
@@ -1865,6 +2339,11 @@ void World::restore(const std::string& data) {
     t.child = find_link(child);
     if (!t.child) throw std::invalid_argument("the snapshot is of a world with other models");
   }
+  struct Raw {
+    Link* link;
+    dReal p[3], q[4], R[12], v[6];
+  };
+  std::vector<Raw> bodies;
   for (auto& m : models_) {
     int id;
     f(id);
@@ -1886,34 +2365,33 @@ void World::restore(const std::string& data) {
       for (auto& o : m->joints)
         if (o->id == leader) j->leader = o.get();
     }
-    struct Raw {
-      dReal p[3], q[4], R[12], v[6];
-    };
-    std::vector<Raw> raw(m->links.size());
-    std::vector<Pose> poses(m->links.size());
-    for (size_t k = 0; k < m->links.size(); ++k) {
-      Link& l = *m->links[k];
-      visit(f, l);
-      if (!l.body) continue;
-      for (auto& x : raw[k].p) f(x);
-      for (auto& x : raw[k].q) f(x);
-      for (auto& x : raw[k].R) f(x);
-      for (auto& x : raw[k].v) f(x);
+    for (auto& l : m->links) {
+      visit(f, *l);
+      if (!l->body) continue;
+      Raw r;
+      r.link = l.get();
+      for (auto& x : r.p) f(x);
+      for (auto& x : r.q) f(x);
+      for (auto& x : r.R) f(x);
+      for (auto& x : r.v) f(x);
+      bodies.push_back(r);
     }
+    m->loop = false;
     recluster(*m);
-    for (size_t k = 0; k < m->links.size(); ++k) {
-      Link& l = *m->links[k];
-      if (!l.body) continue;
-      const Raw& r = raw[k];
-      std::memcpy(const_cast<dReal*>(dBodyGetPosition(l.body)), r.p, sizeof r.p);
-      std::memcpy(const_cast<dReal*>(dBodyGetQuaternion(l.body)), r.q, sizeof r.q);
-      std::memcpy(const_cast<dReal*>(dBodyGetRotation(l.body)), r.R, sizeof r.R);
-      dBodySetLinearVel(l.body, r.v[0], r.v[2], r.v[4]);
-      dBodySetAngularVel(l.body, r.v[1], r.v[3], r.v[5]);
-    }
     for (auto& c : m->clusters) f(c.asleep), f(c.idle_steps), f(c.idle_time);
   }
   contacts_.clear();
+  plan_carried();
+  for (const Raw& r : bodies) {
+    const dBodyID body = r.link->body;
+    std::memcpy(const_cast<dReal*>(dBodyGetPosition(body)), r.p, sizeof r.p);
+    std::memcpy(const_cast<dReal*>(dBodyGetQuaternion(body)), r.q, sizeof r.q);
+    std::memcpy(const_cast<dReal*>(dBodyGetRotation(body)), r.R, sizeof r.R);
+    dBodySetLinearVel(body, r.v[0], r.v[2], r.v[4]);
+    dBodySetAngularVel(body, r.v[1], r.v[3], r.v[5]);
+  }
+  for (auto& m : models_)
+    for (auto& j : m->joints) j->projected = true;  // not to be read from the poses, which would cost the last bit
   read_back();
   for (auto& m : models_)
     for (auto& l : m->links) place_shapes(*l);

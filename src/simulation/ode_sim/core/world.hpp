@@ -6,6 +6,11 @@
 // Links that are rigidly joined at the moment - by fixed joints, or by position-commanded ("servo") joints - form a
 // Cluster: one ODE body with composite mass, or no body when it hangs from the world. Every link owns one dBody, created
 // with it; a cluster uses that of its root link, so that the order of bodies, and with it every sum, never depends on the past.
+//
+// What hangs by ODE joints (or ties) on a link that servo joints move is "carried". Where the world holds the cluster, that
+// link has a kinematic body. Where it floats, the joints hang on the cluster's body itself: their forces act on all of it. The
+// body of a carried cluster then holds its velocity without what the servo joints give it (Cluster::carry), in which frame
+// the joints close; after the step it is moved along with the link.
 #pragma once
 #include <ode/ode.h>
 
@@ -79,7 +84,9 @@ struct Link {
   Joint* up = nullptr;   // merged joint towards the root
   Link* up_link = nullptr;
   bool moving = false;   // a servo joint lies between it and the root
+  bool weighed = false;  // part of some load: forces of its contacts are wanted
   bool carrier = false;  // its own body moves kinematically, because an ODE joint hangs on it
+  Vec3 alpha, a;         // of the link origin, with all joint accelerations zero (see World::accelerations)
   Pose X_RL;             // in the root link's frame (in the world for anchored clusters)
   Joint* parent_joint = nullptr;  // the first joint whose child it is
   double size = 0.05;  // m, reach of its shapes from its origin
@@ -98,10 +105,19 @@ struct Axis {
   // State.
   double q = 0, qd = 0, force = 0, applied = 0;
   double motor_velocity = 0, motor_force = 0;
+  double drive = 0;  // speed that ODE's motor row aims at in the step under way
 };
 
 struct Feedback {
   Vec3 child_force, child_torque, parent_force, parent_torque;  // world axes, torques about the joint anchor
+};
+
+// What hangs beyond a joint, as it was before the step.
+struct Load {
+  std::vector<Link*> links;  // empty: not wanted, or the links lead back
+  Vec3 anchor;               // of the joint
+  Vec3 momentum, spin;       // spin: angular momentum about the anchor
+  Vec3 force, torque;        // gravity and wrenches, about the anchor
 };
 
 struct Joint {
@@ -120,6 +136,7 @@ struct Joint {
 
   ServoMode servo = ServoMode::Off;
   double target = 0, previous_target = 0, rate = 0;  // rate: commanded for the step under way
+  double previous_rate = 0;                           // of the step before
   int released = 0;  // steps without contact beyond, in Motor mode
   double load = 0;   // N m or N held against gravity, in Motor mode
   Joint* leader = nullptr;
@@ -128,8 +145,11 @@ struct Joint {
   dJointID joint = nullptr;
   dJointFeedback ode_feedback{};
   Feedback feedback;
+  Load load_beyond;  // of a servo joint that is watched
+  Vec3 carried_force, carried_torque;  // of the step under way: what moving along takes, on ODE's first body
   double sign = 1;  // -1 when the parent is ODE's first body
   bool sane = true;
+  bool projected = false;  // the links were just put where q and qd say
   double inverse_inertia[2] = {0, 0};  // about the axis, of the two bodies taken alone
   bool catching_up = false;  // back from Motor mode but off its command: the way back is rate-limited
 
@@ -155,6 +175,14 @@ struct Cluster {
   double idle_time = 0;
   int node = -1;  // of the island search
   bool moved = false;
+  bool carriers = false;  // some member has a kinematic body
+  // Carried: `at`, a member, hangs on `by`; pose and velocity of it in the frame of `by`, as ODE's joints have left them.
+  Link *by = nullptr, *at = nullptr;
+  Pose X_by_at;
+  Vec3 v_by_at, w_by_at;
+  Vec3 carry_v, carry_w;   // true velocity (of the CoM) less that of the body
+  Vec3 alpha, a;           // of the CoM with all joint accelerations zero, the servo joints standing still
+  Vec3 alpha_all, a_all;   // the same with the servo joints moving
 };
 
 // One joint of the tree in which joint positions are projected, and the cluster that follows from it.
@@ -173,6 +201,8 @@ struct Model {
   double mass = 0;  // kg, of all links
   bool dirty = true;
   bool has_servo = false;
+  bool jump = false;  // a servo joint jumps in this step or did in the last: too fast for any inertia to be felt
+  bool loop = false;  // a closed loop runs over carried bodies
   std::vector<std::shared_ptr<Link>> links;
   std::vector<std::shared_ptr<Joint>> joints;
   std::vector<Cluster> clusters;
@@ -190,6 +220,7 @@ struct Tie {
   Link* child = nullptr;
   Pose X_PC;
   dJointID joint = nullptr;  // of the step under way
+  dJointFeedback feedback{};
 };
 
 struct Contact {
@@ -282,6 +313,8 @@ class World {
   std::map<std::string, int> message_counts_;
   std::vector<std::string> messages_;
   bool collected_ = false;
+  std::vector<Cluster*> carried_;  // from the carrying to the carried
+  bool replan_ = false;
 
   static void near_callback(void* data, dGeomID a, dGeomID b);
   static void on_message(int number, const char* text, va_list args);
@@ -295,7 +328,21 @@ class World {
   void install(Joint& joint);
   void place_shapes(Link& link);
   void spread_poses(Cluster& cluster);
-  void spread_twists(Cluster& cluster);
+  void spread_twists(Cluster& cluster, bool servos = true);
+  void plan_carried();
+  Model* try_plan_carried();
+  Cluster& cluster_of(const Link& link) const { return link.model->clusters[link.cluster]; }
+  void update_carry(Cluster& cluster);
+  void hold_true_velocities();
+  void rebase_carried();
+  void spread_carried();
+  void keep_relations();
+  void carry_along();
+  void inertial_force(Cluster& cluster, const Vec3& a, const Vec3& alpha);
+  void follow_servos();
+  void accelerations(Model& model, bool servos);
+  void member_accelerations(Cluster& cluster, bool servos);
+  void apply_inertial_forces(Model& model);
   void set_rates(Model& model);
   void collide();
   void merge_tread(const Shape& wheel, size_t first);
@@ -316,13 +363,16 @@ class World {
   void solve();
   void run(bool direct, int iterations_wanted);
   void integrate_servos();
-  void pull();
+  void pull(bool servos = true);
   void publish();
   void read_back();
   void plan_tree(Model& model);
   void project_joints(Model& model);
   void read_joint(Joint& joint);
   void read_feedback(Joint& joint);
+  void momentum(const Load& load, Vec3& linear, Vec3& spin) const;
+  void weigh(Model& model);
+  void read_load(Joint& joint);
   void guard_nan();
   void report(const std::string& text, const std::string& who);
   double axis_inverse_inertia(const Joint& joint, int axis) const;

@@ -86,3 +86,28 @@ def diff_drive(wheel_radius=0.05, track=0.3, mass=5.0, at=(0, 0, 0), name="robot
                           (Collision("tyre", turned, Cylinder(wheel_radius, 0.03), rubber),)))
         joints.append(Joint(side, "revolute", "base", side, axes=(Axis((0, 1, 0)),)))
     return Model(name, Pose(at), tuple(links), tuple(joints))
+
+
+def car_urdf(rear_steering=False, wheelbase=0.5, track=0.3, radius=0.06, chassis=6.0, extra=""):
+    """URDF of a car: chassis ``base``, a knuckle (``<corner>_steer``, about z) and a wheel (``<corner>_wheel``, about y) at the
+    steered corners, wheels alone at the others; corners are front_left ... rear_right. ``extra``: more links and joints."""
+    def body(name, mass, tensor, collision=""):
+        ixx, iyy, izz = tensor
+        return (f'<link name="{name}"><inertial><mass value="{mass}"/><inertia ixx="{ixx}" iyy="{iyy}" izz="{izz}" ixy="0" '
+                f'ixz="0" iyz="0"/></inertial>{collision}</link>')
+
+    shape = (f'<collision><origin xyz="0 0 0.04"/><geometry><box size="{wheelbase} {track - 0.08} 0.06"/></geometry></collision>')
+    out = [body("base", chassis, (0.07, 0.16, 0.2), shape)]
+    tyre = f'<collision><origin rpy="1.5707963 0 0"/><geometry><cylinder radius="{radius}" length="0.03"/></geometry></collision>'
+    for end, x in (("front", wheelbase / 2), ("rear", -wheelbase / 2)):
+        for side, y in (("left", track / 2), ("right", -track / 2)):
+            name, parent, xyz = f"{end}_{side}", "base", f"{x} {y} 0"
+            if end == "front" or rear_steering:
+                out.append(body(f"{name}_knuckle", 0.2, (2e-4, 2e-4, 2e-4)))
+                out.append(f'<joint name="{name}_steer" type="revolute"><parent link="base"/><child link="{name}_knuckle"/>'
+                           f'<origin xyz="{xyz}"/><axis xyz="0 0 1"/><limit lower="-0.8" upper="0.8" effort="20" velocity="5"/></joint>')
+                parent, xyz = f"{name}_knuckle", "0 0 0"
+            out.append(body(f"{name}_tyre", 0.4, (4e-4, 7e-4, 4e-4), tyre))
+            out.append(f'<joint name="{name}_wheel" type="continuous"><parent link="{parent}"/><child link="{name}_tyre"/>'
+                       f'<origin xyz="{xyz}"/><axis xyz="0 1 0"/><limit effort="10" velocity="100"/></joint>')
+    return f'<robot name="car">{"".join(out)}{extra}</robot>'

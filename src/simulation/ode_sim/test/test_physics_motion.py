@@ -334,3 +334,84 @@ def test_four_bar_closed_loop_turns_without_falling_apart():
     assert model.joints["d"].position() == pytest.approx(a, abs=0.01)
     assert not model.joints["a"].set_position(0.0)  # a closed loop cannot be teleported
     assert not world.messages
+
+
+# ------------------------------------------------------------------------------------------ centrifugal and Coriolis forces
+
+def two_bars(second_axis, first=()):
+    """Two bars of 1 kg, centres of mass 0.5 m below their joints, the second hinged at the first one's."""
+    def bar(name, at):
+        return Link(name, Pose((0, 0, at)), Inertial(1.0, Pose((0, 0, -0.5)), 0.01, 0, 0, 0.01, 0, 0.01))
+
+    joint = Joint("second", "revolute", "a", "b", axes=(Axis(second_axis),))
+    return Model("bars", Pose((0, 0, 2)), (bar("a", 0), bar("b", -0.5)), (*first, joint))
+
+
+def energy_and_momentum(model, g=G):
+    energy, momentum = 0.0, np.zeros(3)
+    for link in model.links.values():
+        v, w, p = (np.array(x) for x in (link.com_velocity(), link.angular_velocity(), link.com()))
+        energy += 0.5 * link.mass * v @ v + 0.005 * w @ w + link.mass * g * p[2]
+        momentum += link.mass * np.cross(p, v) + 0.01 * w
+    return energy, momentum
+
+
+def test_pendulum_on_a_turntable_against_the_accurate_solution():
+    length, inertia, turns = 0.5, 1e-4, 6.0
+    table = Link("table", Pose(), Inertial(5.0, Pose(), 1, 0, 0, 1, 0, 1))
+    bob = Link("bob", Pose(), Inertial(1.0, Pose((0, 0, -length)), inertia, 0, 0, inertia, 0, inertia))
+    joints = (Joint("turn", "revolute", "world", "table", axes=(Axis((0, 0, 1)),)),
+              Joint("swing", "revolute", "table", "bob", axes=(Axis((0, 1, 0)),)))
+    world = ode_sim.World()
+    model = world.spawn(Model("m", Pose((0, 0, 2)), (table, bob), joints))
+    model.joints["swing"].set_position(0.5)
+    model.joints["turn"].set_motor(turns, 1e6)
+    q = []
+    for _ in range(2000):
+        world.step()
+        q.append(model.joints["swing"].position())
+    square, whole = length ** 2, length ** 2 + inertia
+    truth = solve_ivp(lambda _, y: (y[1], (square * turns ** 2 * math.cos(y[0]) - G * length) * math.sin(y[0]) / whole),
+                      (0, 2), (0.5, 0), rtol=1e-10, t_eval=np.arange(1, 2001) * 1e-3).y[0]
+    assert np.abs(q - truth).max() < 0.02
+
+
+@pytest.mark.parametrize("second_axis", [(0, 1, 0), (1, 0, 0)])
+def test_double_pendulum_keeps_its_energy(second_axis):
+    world = ode_sim.World()
+    model = world.spawn(two_bars(second_axis, (Joint("first", "revolute", "world", "a", axes=(Axis((0, 1, 0)),)),)))
+    model.joints["first"].set_position(1.5)
+    model.joints["second"].set_position(0.7)
+    start = energy_and_momentum(model)[0]
+    for _ in range(5):
+        world.step(1000)
+        assert energy_and_momentum(model)[0] == pytest.approx(start, abs=0.5)  # of 20 J that swing
+
+
+def test_free_double_body_keeps_energy_and_angular_momentum():
+    world = ode_sim.World()
+    world.gravity = (0, 0, 0)
+    model = world.spawn(two_bars((1, 0, 0)))
+    model.joints["second"].set_position(1.0)
+    model.links["a"].set_twist((0, 0, 0), (1, 2, 3))
+    world.step()
+    energy, momentum = energy_and_momentum(model, 0)
+    world.step(3000)
+    later, turned = energy_and_momentum(model, 0)
+    assert later == pytest.approx(energy, rel=0.01)
+    assert np.linalg.norm(turned - momentum) < 0.01 * np.linalg.norm(momentum)
+
+
+def test_feedback_holds_the_centripetal_force():
+    world = ode_sim.World()
+    world.gravity = (0, 0, 0)
+    arm_link = Link("arm", Pose(), Inertial(1.0))
+    tip = Link("tip", Pose((0.5, 0, 0)), Inertial(2.0))
+    joints = (Joint("turn", "revolute", "world", "arm", axes=(Axis((0, 0, 1)),)),
+              Joint("hold", "revolute", "arm", "tip", axes=(Axis((0, 1, 0), 0.0, 0.0),), provide_feedback=True))
+    model = world.spawn(Model("m", Pose(), (arm_link, tip), joints))
+    model.joints["turn"].set_motor(4.0, 1e5)
+    world.step(500)
+    force = model.joints["hold"].feedback().child_force
+    assert math.hypot(*force) == pytest.approx(2.0 * 16.0 * 0.5, rel=0.01)
+    assert np.dot(force, model.links["tip"].pose.p) < -7.9
