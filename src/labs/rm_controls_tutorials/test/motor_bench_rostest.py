@@ -11,7 +11,7 @@ import rostest
 from rm_msgs.msg import ActuatorState
 from sensor_msgs.msg import JointState
 
-PATIENCE = 30.0
+PATIENCE = 60.0
 SETUP = os.path.join(os.environ["CMAKE_PREFIX_PATH"].split(":")[0], "setup.bash")
 POSITION, VELOCITY = (f"controllers/joint1_{kind}_controller" for kind in ("position", "velocity"))
 
@@ -26,7 +26,7 @@ def wait_until(condition, what):
 
 def shell(command):
     return subprocess.run(["bash", "-c", f"source {SETUP}; {command}"], capture_output=True, text=True,
-                          timeout=60).stdout
+                          timeout=120).stdout
 
 
 def switch(start, stop):
@@ -57,12 +57,14 @@ class TutorialTest(unittest.TestCase):
     def test_commands_of_the_tutorial(self):
         states, joints = [], []
         rospy.Subscriber("/actuator_states", ActuatorState, states.append)
-        rospy.Subscriber("/joint_states", JointState, lambda m: joints.append((m.position[0], m.velocity[0])))
+        rospy.Subscriber("/joint_states", JointState,
+                         lambda m: joints.append((m.position[0], m.velocity[0], m.header.stamp.to_sec())))
         said = self.mon("load_rm_hw.launch interface:=slcan")
         wait_until(lambda: "Successfully connected to can0" in said(), "rm_hw is connected")
         said = self.mon("load_controllers.launch")
         wait_until(lambda: said().count("Loaded 'controllers/") == 3, "three lines, one per loaded controller")
 
+        wait_until(lambda: states, "actuator states")
         self.assertEqual((states[-1].name, list(states[-1].id)), (["joint1_motor"], [0x201]))
         wait_until(lambda: states[-1].position[0] > 19.2 and abs(states[-1].velocity[0]) < 0.01, "the arm hangs")
         before, count = states[-1].position[0], len(states)
@@ -80,9 +82,10 @@ class TutorialTest(unittest.TestCase):
         start = joints[-1][0]
         shell(f"rostopic pub -1 /{VELOCITY}/command std_msgs/Float64 'data: 3.1415'")
         wait_until(lambda: joints[-1][0] > start + 13.0, "two turns and more")
-        turning = [velocity for position, velocity in joints if start + 6.5 < position < start + 12.8]
-        self.assertGreater(min(turning), 1.0)
-        self.assertLess(max(turning), 5.5)
+        # the weight makes it faster and slower; the mean of a turn is the same however late a busy machine's loop may be
+        turn = [(position, stamp) for position, _, stamp in joints if start + 6.5 < position < start + 12.8]
+        (first, began), (last, ended) = turn[0], turn[-1]
+        self.assertAlmostEqual((last - first) / (ended - began), 2.85, delta=0.5)
 
 
 if __name__ == "__main__":

@@ -11,6 +11,7 @@ import unittest
 import xmlrpc.client
 
 import psutil
+import roslib.packages
 import rospy
 import rosservice
 import rostest
@@ -21,7 +22,7 @@ from rosmon_msgs.srv import StartStop, StartStopRequest
 sys.path.insert(0, os.path.dirname(__file__))
 from screen import F6, F7, F8, F9, F10, Screen  # noqa: E402
 
-ROSMON = ["rosrun", "rosmon_core", "rosmon"]
+ROSMON = roslib.packages.find_node("rosmon_core", "rosmon")[:1]  # what rosrun starts
 PATIENCE = 60.0
 
 
