@@ -38,6 +38,11 @@ def test_get_is_typed_by_the_default(text, default, value):
     assert warnings == []
 
 
+@pytest.mark.parametrize("text, value", [("<a> b </a>", "b"), ("<a/>", "x"), ("<a> </a>", "x"), ("", "x")])
+def test_a_text_that_must_not_be_empty(text, value):
+    assert element(text)[0].text_or("a", "x") == value
+
+
 @pytest.mark.parametrize("text, default", [
     ("<a>fast</a>", 2.0), ("<a>...</a>", 2.0), ("<a>1 2</a>", (0.0, 0.0, 0.0)), ("<a>inf</a>", 3), ("<a>nan</a>", 3)])
 def test_unreadable_value_gives_the_default_and_a_warning(text, default):

@@ -35,10 +35,10 @@ class Bumper(SensorPlugin):
         for collision in collisions:
             server.world.watch_contacts(collision)
         self.topics = Topics(sdf, sensor.model.name, "C")
-        self.frame = self.topics.frame(sdf.get("frameName", "world") or "world")
+        self.frame = self.topics.frame(sdf.text_or("frameName", "world"))
         self.states: List[ContactState] = []
         self.steps = 0
-        self.publisher = self.topics.publisher(sdf.get("bumperTopicName", "bumper_states") or "bumper_states", ContactsState)
+        self.publisher = self.topics.publisher(sdf.text_or("bumperTopicName", "bumper_states"), ContactsState)
         self.wanted = subscribed(self.publisher)
         server.after_step(self.collect)
         sensor.connect(self.measure, self.wanted)
@@ -90,8 +90,8 @@ class Bumper(SensorPlugin):
             state.depths.append(float(contact["depth"]))
         state.total_wrench = Wrench(Vector3(*total[0]), Vector3(*total[1]))
         now = self.server.now()
-        state.info = f"Debug:  i:(0/{len(contacts)})     my geom:{a.scoped_name}   other geom:{b.scoped_name}         " \
-                     f"time:{now.to_sec():.9g}\n"
+        state.info = (f"Debug:  i:(0/{len(contacts)})     my geom:{a.scoped_name}   other geom:{b.scoped_name}"
+                      f"         time:{now.to_sec():.9g}\n")
         return state
 
     def measure(self, sensor) -> None:

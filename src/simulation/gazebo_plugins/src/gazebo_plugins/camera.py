@@ -18,11 +18,11 @@ class Camera(SensorPlugin):
         return self.camera.wanted()
 
     def measure(self, sensor) -> None:
-        if self.camera.due(sensor.measurement_ns):
+        if self.camera.gate.passes(sensor.measurement_ns):
             self.camera.take()
 
     def reset(self) -> None:
-        self.camera.reset()
+        self.camera.gate.reset()
 
     def shutdown(self) -> None:
         self.camera.shutdown()

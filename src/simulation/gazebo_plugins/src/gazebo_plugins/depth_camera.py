@@ -30,13 +30,13 @@ class DepthCamera(SensorPlugin):
                                          node_namespace(sensor, sdf), depth_range=self.depth_range(sdf))
         millimetres = sdf.get("useDepth16UC1Format", False)
         self.depth = ImageTopics(
-            join(camera.namespace, sdf.get("depthImageTopicName", "") or "depth/image_raw"),
+            join(camera.namespace, sdf.text_or("depthImageTopicName", "depth/image_raw")),
             "16UC1" if millimetres else "32FC1", (camera.camera.height, camera.camera.width), camera.queue_size,
             source="depth16" if millimetres else "depth", compressible=False)
         self.depth_info = rospy.Publisher(
-            join(camera.namespace, sdf.get("depthImageCameraInfoTopicName", "") or "depth/camera_info"), CameraInfo,
+            join(camera.namespace, sdf.text_or("depthImageCameraInfoTopicName", "depth/camera_info")), CameraInfo,
             queue_size=camera.queue_size)
-        self.points = rospy.Publisher(join(camera.namespace, sdf.get("pointCloudTopicName", "") or "points"),
+        self.points = rospy.Publisher(join(camera.namespace, sdf.text_or("pointCloudTopicName", "points")),
                                       PointCloud2, queue_size=camera.queue_size)
         sensor.connect(self.measure, wanted=self.wanted)
 
@@ -52,7 +52,7 @@ class DepthCamera(SensorPlugin):
 
     def measure(self, sensor) -> None:
         """Images and cloud come at the sensor's rate; ``<updateRate>`` holds back camera_info only, as upstream."""
-        with_info = self.camera.due(sensor.measurement_ns)
+        with_info = self.camera.gate.passes(sensor.measurement_ns)
         header, outputs = self.camera.header(), self.outputs()
 
         def arrived(header: Header, frame: Frame) -> None:
@@ -79,7 +79,7 @@ class DepthCamera(SensorPlugin):
         return PointCloud2(header, height, width, _FIELDS, False, _POINT_STEP, _POINT_STEP * width, data, False)
 
     def reset(self) -> None:
-        self.camera.reset()
+        self.camera.gate.reset()
 
     def shutdown(self) -> None:
         self.camera.shutdown()

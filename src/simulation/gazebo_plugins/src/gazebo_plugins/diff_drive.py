@@ -9,7 +9,7 @@ from ode_sim import math3
 from sensor_msgs.msg import JointState
 
 from gazebo_plugins.ros_side import RateGate, TfBroadcaster, Topics, find_joint
-from gazebo_plugins.wheels import UNKNOWN, Command, EncoderOdometry, OdometryPublisher, from_encoders, ground_truth
+from gazebo_plugins.wheels import Command, EncoderOdometry, OdometryPublisher, from_encoders, ground_truth
 
 _AT_TARGET = 0.01  # m/s: a wheel this close to its target is no longer ramped
 
@@ -26,14 +26,13 @@ class DiffDrive(ModelPlugin):
         self.radius = sdf.get("wheelDiameter", 0.15) / 2
         self.torque = sdf.get("wheelTorque", 5.0)
         self.acceleration = sdf.get("wheelAcceleration", 0.0)
-        self.encoders = EncoderOdometry(self.left, self.right, self.radius, self.separation) if from_encoders(sdf) else None
-        self.publish_odometry = sdf.get("publishTf", True)
+        self.encoders = EncoderOdometry(self.left, self.right, self.radius, self.separation) \
+            if from_encoders(sdf) else None
         self.publish_odometry_tf = sdf.get("publishOdomTF", True)
         self.publish_wheel_tf = sdf.get("publishWheelTF", False)
         self.gate = RateGate(sdf.get("updateRate", 100.0))
-        self.command = Command(self.topics, sdf.get("commandTopic", "cmd_vel") or "cmd_vel")
-        self.odometry = OdometryPublisher(self.topics, sdf, "base_footprint", (1e-5, 1e-5, UNKNOWN, UNKNOWN, UNKNOWN, 1e-3)) \
-            if self.publish_odometry else None
+        self.command = Command(self.topics, sdf.text_or("commandTopic", "cmd_vel"))
+        self.odometry = OdometryPublisher(self.topics, sdf, "base_footprint") if sdf.get("publishTf", True) else None
         self.joint_states = self.topics.publisher("joint_states", JointState, 1000) \
             if sdf.get("publishWheelJointState", False) else None
         self.rim_speeds = [0.0, 0.0]  # commanded last, m/s: left, right

@@ -23,7 +23,7 @@ class Elevator(ModelPlugin):
         self.height, self.wait = sdf.get("floor_height", 3.0), sdf.get("door_wait_time", 5.0)
         self.speed = sdf.get("lift_speed", _SPEED)
         self.topics = Topics(sdf, model.name, "C")
-        self.topic = sdf.get("topic", "elevator") or "elevator"
+        self.topic = sdf.text_or("topic", "elevator")
         self.topics.subscriber(self.topic, String, self._receive, 10)
         self.reset()
         server.before_step(self.step)

@@ -82,7 +82,8 @@ class GraspFix(ModelPlugin):
         fingers = [child.text for child in arm.children("gripper_link")]
         unknown = [name for name in fingers if name not in model.links]
         if unknown or not fingers:
-            raise PluginError(f"<gripper_link> {', '.join(unknown) or 'is missing'}: no such link in model {model.name}")
+            raise PluginError(f"<gripper_link> {', '.join(unknown) or 'is missing'}: no such link in model "
+                              f"{model.name}")
         self.collisions: Dict[int, str] = {}
         for name in fingers:
             for collision in model.links[name].collisions.values():

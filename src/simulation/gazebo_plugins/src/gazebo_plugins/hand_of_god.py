@@ -13,14 +13,15 @@ from gazebo_plugins.ros_side import TfBroadcaster, Topics, find_link
 
 
 class HandOfGod(ModelPlugin):
-    """Follows ``world`` -> ``<frameId>_desired``, tells where it is as ``<frameId>_actual``; the link feels no gravity."""
+    """Follows ``world`` -> ``<frameId>_desired``, tells where it is as ``<frameId>_actual``; the link feels no
+    gravity."""
 
     def load(self, server, model, sdf) -> None:
         self.server = server
         self.topics = Topics(sdf, model.name, "C")
         self.link = find_link(model, server.world, sdf, "linkName")
         self.link.gravity = False
-        self.frame = sdf.get("frameId", "hog") or "hog"
+        self.frame = sdf.text_or("frameId", "hog")
         self.stiffness = sdf.get("kl", 200.0), sdf.get("ka", 200.0)  # N/m, N m/rad
         mass, inertia = self.link.mass, max(self.link.inertia[:3])
         self.damping = 2 * math.sqrt(mass * self.stiffness[0]), 2 * math.sqrt(inertia * self.stiffness[1])
@@ -48,7 +49,8 @@ class HandOfGod(ModelPlugin):
         spring, damper = self.stiffness, self.damping
         self.link.add_force(math3.sub(math3.scale(math3.sub(desired.p, pose.p), spring[0]),
                                       math3.scale(self.link.linear_velocity(), damper[0])))
-        self.link.add_torque(math3.sub(math3.scale(turn, spring[1]), math3.scale(self.link.angular_velocity(), damper[1])))
+        self.link.add_torque(math3.sub(math3.scale(turn, spring[1]),
+                                       math3.scale(self.link.angular_velocity(), damper[1])))
         TfBroadcaster.send(self.server.now(), "world", self.frame + "_actual", pose)
 
     def shutdown(self) -> None:

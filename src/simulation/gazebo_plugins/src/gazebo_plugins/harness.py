@@ -16,8 +16,8 @@ from gazebo_plugins.ros_side import Topics, required
 class Harness(ModelPlugin):
     """``<joint>`` elements with a ``<child>`` link, ``<winch><joint>``, ``<detach>`` as upstream.
 
-    Topics ``harness/velocity`` (m/s along the joint's axis) and ``harness/detach`` in the model's namespace. The winch moves
-    exactly as commanded, within the joint's limits, whatever the load: its ``<pid>`` is not needed.
+    Topics ``harness/velocity`` (m/s along the joint's axis) and ``harness/detach`` in the model's namespace. The winch
+    moves exactly as commanded, within the joint's limits, whatever the load: its ``<pid>`` is not needed.
     """
 
     def load(self, server, model, sdf) -> None:
@@ -26,15 +26,18 @@ class Harness(ModelPlugin):
         winch = sdf.child("winch")
         name = required(winch, "joint") if winch else required(sdf, "detach")
         if name not in joints:
-            raise PluginError(f"<winch> names the joint '{name}', which is not among the plugin's: {', '.join(joints) or 'none'}")
+            raise PluginError(f"<winch> names the joint '{name}', which is not among the plugin's: "
+                              f"{', '.join(joints) or 'none'}")
         joint = joints[name]
         child = required(joint, "child")
         if child not in model.links:
-            raise PluginError(f"joint {name}: model {model.name} has no link '{child}'; it has {', '.join(model.links)}")
+            raise PluginError(f"joint {name}: model {model.name} has no link '{child}'; it has "
+                              f"{', '.join(model.links)}")
         self.link = model.links[child]
         axis = joint.child("axis")
         limit = axis.child("limit") if axis else None
-        self.axis = math3.unit(axis.get("xyz", (0.0, 0.0, 1.0)) if axis else (0.0, 0.0, 1.0))  # world, as the joint is at the start
+        # in the world, as the joint is at the start
+        self.axis = math3.unit(axis.get("xyz", (0.0, 0.0, 1.0)) if axis else (0.0, 0.0, 1.0))
         self.lower = limit.get("lower", -math.inf) if limit else -math.inf
         self.upper = limit.get("upper", math.inf) if limit else math.inf
         self.velocity = self.way = 0.0
@@ -54,7 +57,8 @@ class Harness(ModelPlugin):
         if math.isfinite(message.data):
             self.velocity = message.data
         else:
-            rospy.logwarn("%s: a winch velocity that is not a finite number is ignored", self.topics.resolve("harness/velocity"))
+            rospy.logwarn("%s: a winch velocity that is not a finite number is ignored",
+                          self.topics.resolve("harness/velocity"))
 
     def _release(self, message: Bool) -> None:
         if message.data:

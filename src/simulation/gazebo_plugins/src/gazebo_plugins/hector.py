@@ -44,7 +44,8 @@ class DriftingError:
     def __call__(self, dt: float) -> np.ndarray:
         """(size,) error after ``dt`` seconds more."""
         decay = np.exp(-dt * self.frequency)
-        self.current = decay * self.current + np.sqrt(1 - decay * decay) * self.drift * self._rng.standard_normal(len(self.drift))
+        step = np.sqrt(1 - decay * decay) * self.drift
+        self.current = decay * self.current + step * self._rng.standard_normal(len(step))
         return self.offset + self.current + self.sigma * self._rng.standard_normal(len(self.sigma))
 
 
@@ -76,9 +77,9 @@ class HectorImu(_BodyPlugin):
         if sdf.get("gaussianNoise", 0.0):
             self.accel.sigma = np.full(3, sdf.get("gaussianNoise", 0.0))
         self.offset = math3.quat_from_rpy(*sdf.get("rpyOffset", sdf.get("rpyOffsets", (0.0, 0.0, 0.0))))
-        topic = sdf.get("topicName", "imu") or "imu"
+        topic = sdf.text_or("topicName", "imu")
         self.publisher = self.topics.publisher(topic, Imu, 10)
-        self.topics.service(sdf.get("serviceName", topic + "/calibrate") or topic + "/calibrate", Empty, self._calibrate)
+        self.topics.service(sdf.text_or("serviceName", topic + "/calibrate"), Empty, self._calibrate)
         message = self.message = Imu()
         message.header.frame_id = sdf.get("frameId", self.link.name) or self.link.name
         message.angular_velocity_covariance = diagonal(self.rate.sigma ** 2)
@@ -127,10 +128,11 @@ class HectorGps(_BodyPlugin):
         self.radius_north = prime_vertical * (1.0 - _ECCENTRICITY_SQUARED) / sine
         self.radius_east = prime_vertical * math.cos(math.radians(self.latitude))
         rng = server.world.rng(f"{model.name}/hector_gps/{self.link.name}")
-        self.position_error, self.velocity_error = DriftingError(sdf, "", 3, rng), DriftingError(sdf, "velocity", 3, rng)
-        self.frame = sdf.get("frameId", "/world") or "/world"
-        self.fix = self.topics.publisher(sdf.get("topicName", "fix") or "fix", NavSatFix, 10)
-        self.velocity = self.topics.publisher(sdf.get("velocityTopicName", "fix_velocity") or "fix_velocity", Vector3Stamped, 10)
+        self.position_error = DriftingError(sdf, "", 3, rng)
+        self.velocity_error = DriftingError(sdf, "velocity", 3, rng)
+        self.frame = sdf.text_or("frameId", "/world")
+        self.fix = self.topics.publisher(sdf.text_or("topicName", "fix"), NavSatFix, 10)
+        self.velocity = self.topics.publisher(sdf.text_or("velocityTopicName", "fix_velocity"), Vector3Stamped, 10)
         self.status = sdf.get("status", NavSatStatus.STATUS_FIX)
         self.service_code = sdf.get("service", NavSatStatus.SERVICE_GPS)
 
@@ -177,7 +179,7 @@ class HectorMagnetic(_BodyPlugin):
         self.error = DriftingError(sdf, "", 3, server.world.rng(f"{model.name}/hector_magnetic/{self.link.name}"))
         self.frame = sdf.get("frameId", self.link.name) or self.link.name
         self.kind = MagneticField if sdf.get("useMagneticFieldMsgs", False) else Vector3Stamped
-        self.publisher = self.topics.publisher(sdf.get("topicName", "magnetic") or "magnetic", self.kind)
+        self.publisher = self.topics.publisher(sdf.text_or("topicName", "magnetic"), self.kind)
 
     def step(self) -> None:
         now = self.server.now()
@@ -199,12 +201,13 @@ class HectorSonar(SensorPlugin):
         self.topics = Topics(sdf, sensor.model.name, "C")
         self.error = DriftingError(sdf, "", 1, server.world.rng(sensor.scoped_name + "/sonar"))
         message = self.message = RangeMsg()
-        message.header.frame_id = sdf.get("frameId", "/sonar_link") or "/sonar_link"
+        message.header.frame_id = sdf.text_or("frameId", "/sonar_link")
         message.radiation_type = RangeMsg.ULTRASOUND
-        message.field_of_view = min(abs(scan.max_angle - scan.min_angle) for scan in (self.fan.horizontal, self.fan.vertical))
+        message.field_of_view = min(abs(scan.max_angle - scan.min_angle)
+                                    for scan in (self.fan.horizontal, self.fan.vertical))
         message.min_range, message.max_range = self.fan.min, self.fan.max
         self.last_ns = 0
-        self.publisher = self.topics.publisher(sdf.get("topicName", "sonar") or "sonar", RangeMsg)
+        self.publisher = self.topics.publisher(sdf.text_or("topicName", "sonar"), RangeMsg)
         sensor.connect(self.measure, subscribed(self.publisher))
 
     def measure(self, sensor) -> None:

@@ -52,7 +52,7 @@ class ImuPlugin(ModelPlugin):
         message.header.frame_id = sdf.get("frameName", "") or self.link.name
         for name in ("orientation_covariance", "angular_velocity_covariance", "linear_acceleration_covariance"):
             setattr(message, name, diagonal((sigma * sigma,) * 3))
-        self.publisher = self.topics.publisher(sdf.get("topicName", "/default_imu") or "/default_imu", Imu)
+        self.publisher = self.topics.publisher(sdf.text_or("topicName", "/default_imu"), Imu)
         service = sdf.get("serviceName", "/default_imu")
         if service:
             self.topics.service(service, Empty, lambda _: EmptyResponse())
@@ -123,11 +123,12 @@ class ImuSensor(SensorPlugin):
         message.header.frame_id = required(sdf, "frameName")
         for name in ("orientation_covariance", "angular_velocity_covariance", "linear_acceleration_covariance"):
             setattr(message, name, diagonal((sigma * sigma,) * 3))
-        self.reference = math3.quat_inverse(self._orientation()) if sdf.get("initialOrientationAsReference", False) else None
+        self.reference = math3.quat_inverse(self._orientation()) \
+            if sdf.get("initialOrientationAsReference", False) else None
         self.acceleration = Differentiator(sensor.link, sensor.description.pose.p)
         self.last_ns = 0
         self.gate = SensorGate(sdf.get("updateRateHZ", 1.0))
-        self.publisher = self.topics.publisher(sdf.get("topicName", "imu_data") or "imu_data", Imu)
+        self.publisher = self.topics.publisher(sdf.text_or("topicName", "imu_data"), Imu)
         sensor.connect(self.measure, subscribed(self.publisher))
 
     def _orientation(self):

@@ -26,18 +26,27 @@ class _Scan:
         self.max_angle = sdf.get("max_angle", 0.0) if sdf else 0.0
         self.count = max(1, int(self.samples * self.resolution))  # values reported
         if self.resolution <= 0.0 or self.count * self.samples > _MOST_RAYS ** 2:
-            raise PluginError(f"<samples>{self.samples}</samples> with <resolution>{self.resolution}</resolution> is not possible")
+            raise PluginError(f"<samples>{self.samples}</samples> with <resolution>{self.resolution}</resolution> is "
+                              "not possible")
 
-    def angles(self) -> np.ndarray:
-        """(samples,) rad, of the rays."""
-        if self.samples == 1:
-            return np.array([self.min_angle])
+    def rays(self) -> np.ndarray:
+        """(samples,) rad."""
         return np.linspace(self.min_angle, self.max_angle, self.samples)
+
+    def reported(self) -> np.ndarray:
+        """(count,) rad."""
+        return np.linspace(self.min_angle, self.max_angle, self.count)
 
     @property
     def increment(self) -> float:
         """rad between reported values."""
         return (self.max_angle - self.min_angle) / (self.count - 1) if self.count > 1 else 0.0
+
+
+def _directions(yaw: np.ndarray, pitch: np.ndarray) -> np.ndarray:
+    """(V*H, 3) unit vectors in the sensor frame, row by row: of each of V pitch angles all H yaw angles."""
+    yaw, pitch = (grid.ravel() for grid in np.meshgrid(yaw, pitch))
+    return np.stack([np.cos(pitch) * np.cos(yaw), np.cos(pitch) * np.sin(yaw), np.sin(pitch)], axis=1)
 
 
 class RayFan:
@@ -63,12 +72,10 @@ class RayFan:
         self.mean = noise.get("mean", 0.0) if noise else 0.0
         self.sigma = noise.get("stddev", 0.0) if noise else 0.0
         self._rng = server.world.rng(sensor.scoped_name)
-        yaw, pitch = np.meshgrid(self.horizontal.angles(), self.vertical.angles())
-        yaw, pitch = yaw.ravel(), pitch.ravel()
-        self.directions_S = np.stack([np.cos(pitch) * np.cos(yaw), np.cos(pitch) * np.sin(yaw), np.sin(pitch)], axis=1)
+        self.directions_S = _directions(self.horizontal.rays(), self.vertical.rays())
 
     def cast(self):
-        """(ranges (V*H,) m with +inf beyond max and -inf up to min, REP-117; intensities (V*H,)), row by row from below.
+        """(ranges (V*H,) m, +inf beyond max and -inf up to min, REP-117; intensities (V*H,)), row by row from below.
 
         Within min the sensor sees other models only, not the robot it is built into.
         """
@@ -86,14 +93,10 @@ class RayFan:
         retro = self._retro(hits)
         ranges = self._resample(ranges)
         intensities = self._resample(retro, nearest=True)
-        if self.sigma or self.mean:
-            inside = (ranges > self.min) & (ranges < self.max)
+        ranges = np.where(ranges >= self.max, np.inf, np.where(ranges <= self.min, -np.inf, ranges))
+        if self.sigma or self.mean:  # of what is in range, and it stays there
             noise = self.mean + self.sigma * self._rng.standard_normal(len(ranges))
-            ranges = np.where(inside, np.clip(ranges + noise, self.min, self.max), ranges)
-            ranges = np.where(~inside & (ranges >= self.max), np.inf, ranges)
-            ranges[~inside & (ranges <= self.min)] = -np.inf
-        else:
-            ranges = np.where(ranges >= self.max, np.inf, np.where(ranges <= self.min, -np.inf, ranges))
+            ranges = np.where(np.isfinite(ranges), np.clip(ranges + noise, self.min, self.max), ranges)
         return ranges, intensities
 
     def _retro(self, hits: np.ndarray) -> np.ndarray:
@@ -129,11 +132,11 @@ class Laser(SensorPlugin):
         self.fan = RayFan(server, sensor)
         self.topics = Topics(sdf, sensor.model.name, "B")
         message = self.message = LaserScan()
-        message.header.frame_id = self.topics.frame(sdf.get("frameName", "/world") or "/world")
+        message.header.frame_id = self.topics.frame(sdf.text_or("frameName", "/world"))
         scan = self.fan.horizontal
         message.angle_min, message.angle_max, message.angle_increment = scan.min_angle, scan.max_angle, scan.increment
         message.range_min, message.range_max = self.fan.min, self.fan.max
-        self.publisher = self.topics.publisher(sdf.get("topicName", "/world") or "/world", LaserScan)
+        self.publisher = self.topics.publisher(sdf.text_or("topicName", "/world"), LaserScan)
         sensor.connect(self.measure, subscribed(self.publisher))
 
     def measure(self, sensor) -> None:
@@ -147,25 +150,23 @@ class Laser(SensorPlugin):
 
 
 class BlockLaser(SensorPlugin):
-    """sensor_msgs/PointCloud of the hits in the sensor frame; what is out of range lies at infinity. ``<hokuyoMinIntensity>``
-    has no effect, upstream neither."""
+    """sensor_msgs/PointCloud of the hits in the sensor frame; what is out of range lies at infinity.
+    ``<hokuyoMinIntensity>`` has no effect, upstream neither."""
 
     def load(self, server, sensor, sdf) -> None:
         self.fan = RayFan(server, sensor)
         self.topics = Topics(sdf, sensor.model.name, "C")
-        self.frame = self.topics.frame(sdf.get("frameName", "/world") or "/world")
+        self.frame = self.topics.frame(sdf.text_or("frameName", "/world"))
+        self.directions_S = _directions(self.fan.horizontal.reported(), self.fan.vertical.reported())
         self.sigma = sdf.get("gaussianNoise", 0.0)
         self.rng = server.world.rng(sensor.scoped_name + "/block_laser")
-        self.publisher = self.topics.publisher(sdf.get("topicName", "/world") or "/world", PointCloud)
+        self.publisher = self.topics.publisher(sdf.text_or("topicName", "/world"), PointCloud)
         sensor.connect(self.measure, subscribed(self.publisher))
 
     def measure(self, sensor) -> None:
         ranges, intensities = self.fan.cast()
-        h, v = self.fan.horizontal, self.fan.vertical
-        yaw, pitch = np.meshgrid(np.linspace(h.min_angle, h.max_angle, h.count), np.linspace(v.min_angle, v.max_angle, v.count))
-        yaw, pitch = yaw.ravel(), pitch.ravel()
         with np.errstate(invalid="ignore"):
-            points = np.stack([np.cos(pitch) * np.cos(yaw), np.cos(pitch) * np.sin(yaw), np.sin(pitch)], axis=1) * ranges[:, None]
+            points = self.directions_S * ranges[:, None]
         points = np.nan_to_num(points, nan=0.0, posinf=np.inf, neginf=-np.inf)
         if self.sigma:
             points = points + self.sigma * self.rng.standard_normal(points.shape)
@@ -187,15 +188,15 @@ class Range(SensorPlugin):
         self.fan = RayFan(server, sensor)
         self.topics = Topics(sdf, sensor.model.name, "C")
         message = self.message = RangeMsg()
-        message.header.frame_id = self.topics.frame(sdf.get("frameName", "/world") or "/world")
-        ultrasound = (sdf.get("radiation", "ultrasound") or "ultrasound") == "ultrasound"
+        message.header.frame_id = self.topics.frame(sdf.text_or("frameName", "/world"))
+        ultrasound = (sdf.text_or("radiation", "ultrasound")) == "ultrasound"
         message.radiation_type = RangeMsg.ULTRASOUND if ultrasound else RangeMsg.INFRARED
         message.field_of_view = sdf.get("fov", 0.05)
         message.min_range, message.max_range = self.fan.min, self.fan.max
         self.sigma = sdf.get("gaussianNoise", 0.0)
         self.rng = server.world.rng(sensor.scoped_name + "/range")
         self.gate = SensorGate(sdf.get("updateRate", 0.0))
-        self.publisher = self.topics.publisher(sdf.get("topicName", "/range") or "/range", RangeMsg)
+        self.publisher = self.topics.publisher(sdf.text_or("topicName", "/range"), RangeMsg)
         sensor.connect(self.measure, subscribed(self.publisher))
 
     def measure(self, sensor) -> None:

@@ -40,9 +40,11 @@ class LinkAttacher(WorldPlugin):
                                       (request.model_name_2, request.link_name_2)):
             model = self.server.world.models.get(model_name)
             if model is None:
-                raise PluginError(f"there is no model '{model_name}'; there are {', '.join(self.server.world.models) or 'none'}")
+                raise PluginError(f"there is no model '{model_name}'; there are "
+                                  f"{', '.join(self.server.world.models) or 'none'}")
             if link_name not in model.links:
-                raise PluginError(f"model {model_name} has no link '{link_name}'; it has {', '.join(model.links) or 'none'}")
+                raise PluginError(f"model {model_name} has no link '{link_name}'; it has "
+                                  f"{', '.join(model.links) or 'none'}")
             links.append(model.links[link_name])
         return links
 

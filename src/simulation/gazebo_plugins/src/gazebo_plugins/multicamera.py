@@ -37,13 +37,13 @@ class Multicamera(SensorPlugin):
         return any(camera.wanted() for camera in self.cameras)
 
     def measure(self, sensor) -> None:
-        if self.cameras[0].due(sensor.measurement_ns):
+        if self.cameras[0].gate.passes(sensor.measurement_ns):
             for camera in self.cameras:
                 camera.take()
 
     def reset(self) -> None:
         for camera in self.cameras:
-            camera.reset()
+            camera.gate.reset()
 
     def shutdown(self) -> None:
         for camera in self.cameras:

@@ -19,13 +19,13 @@ class P3D(ModelPlugin):
         self.server = server
         self.topics = Topics(sdf, model.name, "C")
         self.link = find_link(model, server.world, sdf)
-        frame = sdf.get("frameName", "world") or "world"
+        frame = sdf.text_or("frameName", "world")
         self.reference = None
         if frame not in _WORLD:
             self.reference = model.links.get(frame)
             if self.reference is None:
-                raise PluginError(f"<frameName> must be world, map or a link of model {model.name}; '{frame}' is none of them "
-                                  f"({', '.join(model.links)})")
+                raise PluginError(f"<frameName> must be world, map or a link of model {model.name}; '{frame}' is none "
+                                  f"of them ({', '.join(model.links)})")
         self.xyz = sdf.get("xyzOffset", sdf.get("xyzOffsets", (0.0, 0.0, 0.0)))
         self.rpy = math3.quat_from_rpy(*sdf.get("rpyOffset", sdf.get("rpyOffsets", (0.0, 0.0, 0.0))))
         sigma = sdf.get("gaussianNoise", 0.0)

@@ -7,7 +7,7 @@ from gazebo_ros.plugin import ModelPlugin
 from ode_sim import math3
 
 from gazebo_plugins.ros_side import RateGate, Topics
-from gazebo_plugins.wheels import UNKNOWN, Command, OdometryPublisher, yaw_of
+from gazebo_plugins.wheels import Command, OdometryPublisher, yaw_of
 
 
 class PlanarMove(ModelPlugin):
@@ -18,8 +18,8 @@ class PlanarMove(ModelPlugin):
         self.topics = Topics(sdf, model.name, "C")
         self.gate = RateGate(sdf.get("odometryRate", 20.0))
         self.timeout = sdf.get("cmdTimeout", -1.0)
-        self.command = Command(self.topics, sdf.get("commandTopic", "cmd_vel") or "cmd_vel")
-        self.odometry = OdometryPublisher(self.topics, sdf, "base_footprint", (1e-5, 1e-5, UNKNOWN, UNKNOWN, UNKNOWN, 1e-3))
+        self.command = Command(self.topics, sdf.text_or("commandTopic", "cmd_vel"))
+        self.odometry = OdometryPublisher(self.topics, sdf, "base_footprint")
         self.last_pose, self.last_time = model.pose, server.now()
         server.before_step(self.step)
 
@@ -41,8 +41,8 @@ class PlanarMove(ModelPlugin):
             self.odometry.send_tf(now, pose)
 
     def _glide(self, linear, angular, origin) -> None:
-        """All links move as one rigid body about the model's origin. What no longer sinks is freed of its weight: friction
-        with the floor would take from the commanded speed."""
+        """All links move as one rigid body about the model's origin. What no longer sinks is freed of its weight:
+        friction with the floor would take from the commanded speed."""
         world = self.server.world
         for link in self.model.links.values():
             if abs(link.com_velocity()[2]) < 0.5 * abs(world.gravity[2]) * world.dt and link.gravity:

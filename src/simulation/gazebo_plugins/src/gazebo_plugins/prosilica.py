@@ -31,7 +31,7 @@ class Prosilica(Camera):
             raise PluginError(f"parameter trigger_mode is '{mode}'; use streaming or polled")
         self._streams = mode == "streaming"
         if not self._streams:
-            name = join(namespace, sdf.get("pollServiceName", "") or "request_image")
+            name = join(namespace, sdf.text_or("pollServiceName", "request_image"))
             self._service = rospy.Service(name, GetPolledImage, self._poll)
 
     @staticmethod

@@ -16,9 +16,9 @@ from std_msgs.msg import Header
 
 from gazebo_plugins.camera_info import CameraInfoService, camera_info, read_calibration
 from gazebo_plugins.image_topics import ImageTopics
+from gazebo_plugins.ros_side import SensorGate
 from gazebo_plugins.studio import Shooting
 
-_NS = 1_000_000_000
 _RATE = (Parameter("imager_rate", float, 2.0, 1.0, 50.0, "Frame rate of the sensor, Hz of sim time"),)
 
 
@@ -64,17 +64,17 @@ class RosCamera:
         self._check_focal_length(calibration.focal_length)
         prefix = tf_prefix(robot_namespace(sdf, sensor.model.name, "B"))
         self.frame_id = resolve_frame(prefix, sdf.get("frameName", ""))
-        self._period_ns = round(_NS / rate) if (rate := sdf.get("updateRate", 0.0)) > 0 else 0
-        self._last_ns: Optional[int] = None
+        #: the plugin's own ``<updateRate>``
+        self.gate = SensorGate(sdf.get("updateRate", 0.0))
         self._closed = False
         self._shooting = Shooting(server, self.camera, f"camera '{sensor.name}' of model '{sensor.model.name}'",
                                   depth_range)
-        name = sdf.get("cameraName", "") or sensor.name
+        name = sdf.text_or("cameraName", sensor.name)
         info = camera_info(self.camera, calibration, calibration.baseline if baseline is None else baseline)
         self._info_service = CameraInfoService(namespace, name.strip("/").replace("/", "_"), info)
-        self._info = rospy.Publisher(join(namespace, sdf.get("cameraInfoTopicName", "") or "camera_info"), CameraInfo,
+        self._info = rospy.Publisher(join(namespace, sdf.text_or("cameraInfoTopicName", "camera_info")), CameraInfo,
                                      queue_size=self.queue_size)
-        self.image = ImageTopics(join(namespace, sdf.get("imageTopicName", "") or "image_raw"), self.camera.encoding,
+        self.image = ImageTopics(join(namespace, sdf.text_or("imageTopicName", "image_raw")), self.camera.encoding,
                                  (self.camera.height, self.camera.width), self.queue_size)
         self._rate = (ParameterServer(namespace, _RATE, self._set_rate) if sdf.get("cameraName", "") else None)
 
@@ -95,17 +95,6 @@ class RosCamera:
     def wanted(self) -> bool:
         """Somebody listens to an image or to camera_info."""
         return bool(self._info.get_num_connections() or self.image.outputs())
-
-    def due(self, time_ns: int) -> bool:
-        """Whether the plugin's own ``<updateRate>`` lets a picture of ``time_ns`` through; takes it if so."""
-        if self._last_ns is not None and 0 <= time_ns - self._last_ns < self._period_ns:
-            return False
-        self._last_ns = time_ns
-        return True
-
-    def reset(self) -> None:
-        """Time starts anew."""
-        self._last_ns = None
 
     def header(self) -> Header:
         """Of a picture taken at the sensor's newest update."""

@@ -37,7 +37,8 @@ class Topics:
     def publisher(self, name: str, kind: type, queue_size: int = 1, latch: bool = False) -> rospy.Publisher:
         return self._keep(rospy.Publisher(self.resolve(name), kind, queue_size=queue_size, latch=latch))
 
-    def subscriber(self, name: str, kind: type, callback: Callable[[Any], None], queue_size: int = 1) -> rospy.Subscriber:
+    def subscriber(self, name: str, kind: type, callback: Callable[[Any], None],
+                   queue_size: int = 1) -> rospy.Subscriber:
         return self._keep(rospy.Subscriber(self.resolve(name), kind, callback, queue_size=queue_size, tcp_nodelay=True))
 
     def service(self, name: str, kind: type, handler: Callable[[Any], Any]) -> rospy.Service:
@@ -62,8 +63,8 @@ def subscribed(publisher: rospy.Publisher) -> Callable[[], bool]:
 
 
 class RateGate:
-    """``updateRate`` of a plugin: open when strictly more than a period has passed, and the period is then added, not the
-    present time (Gazebo's drive plugins). 0 or less = open in every step.
+    """``updateRate`` of a plugin: open when strictly more than a period has passed, and the period is then added, not
+    the present time (Gazebo's drive plugins). 0 or less = open in every step.
 
     :param rate: Hz of sim time
     """
@@ -81,8 +82,8 @@ class RateGate:
         elapsed = now_ns - self._last_ns
         if elapsed <= self._period_ns and (self._period_ns or not elapsed):
             return 0.0
-        # A long pause of the gate must not be followed by a burst.
-        self._last_ns = now_ns if not self._period_ns or elapsed > 2 * self._period_ns else self._last_ns + self._period_ns
+        late = elapsed > 2 * self._period_ns  # a long pause of the gate must not be followed by a burst
+        self._last_ns = now_ns if late or not self._period_ns else self._last_ns + self._period_ns
         return elapsed / _NS
 
 
@@ -101,6 +102,10 @@ class SensorGate:
             return False
         self._last_ns = now_ns
         return True
+
+    def reset(self) -> None:
+        """Time starts anew: the next measurement passes."""
+        self._last_ns = None
 
 
 class Noise:
@@ -144,7 +149,7 @@ def find_joint(model, sdf, tag: str, default: str) -> Any:
 
     :raises PluginError: the model has no such joint; says which it has
     """
-    return joint_named(model, sdf.get(tag, default) or default, tag)
+    return joint_named(model, sdf.text_or(tag, default), tag)
 
 
 def joint_named(model, name: str, tag: str) -> Any:
@@ -169,8 +174,9 @@ def find_link(model, world, sdf, tag: str = "bodyName") -> Any:
         raise PluginError(f"<{tag}> is missing: it must name a link of model {model.name}")
     link = model.links.get(name) or world.find_link(name)
     if link is None:
-        raise PluginError(f"<{tag}> names the link '{name}', which does not exist; model {model.name} has {_listed(model.links)}. "
-                          f"A link behind a fixed joint is merged into its parent (<preserveFixedJoint> keeps it)")
+        raise PluginError(f"<{tag}> names the link '{name}', which does not exist; model {model.name} has "
+                          f"{_listed(model.links)}. A link behind a fixed joint is merged into its parent "
+                          "(<preserveFixedJoint> keeps it)")
     return link
 
 

@@ -22,7 +22,7 @@ class SkidSteerDrive(ModelPlugin):
         self.gate = RateGate(sdf.get("updateRate", 100.0))
         covariance = (sdf.get("covariance_x", 1e-4), sdf.get("covariance_y", 1e-4), UNKNOWN, UNKNOWN, UNKNOWN,
                       sdf.get("covariance_yaw", 1e-2))
-        self.command = Command(self.topics, sdf.get("commandTopic", "cmd_vel") or "cmd_vel")
+        self.command = Command(self.topics, sdf.text_or("commandTopic", "cmd_vel"))
         self.odometry = OdometryPublisher(self.topics, sdf, "base_footprint", covariance, covariance)
         self._drive()
         server.before_step(self.step)

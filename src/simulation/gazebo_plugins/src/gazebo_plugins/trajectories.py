@@ -17,14 +17,14 @@ _WORLD = ("", "world", "map", "/map")
 class JointPoseTrajectory(ModelPlugin):
     """``time_from_start`` of a point is how long it **lasts**, as upstream has it; its joints are held meanwhile.
 
-    ``header.frame_id`` names the link that stays where it is, whose model is then the one that moves; or the world: then it
-    is the first link of the plugin's own model.
+    ``header.frame_id`` names the link that stays where it is, whose model is then the one that moves; or the world:
+    then it is the first link of the plugin's own model.
     """
 
     def load(self, server, model, sdf) -> None:
         self.server, self.model = server, model
         self.topics = Topics(sdf, model.name, "C")
-        topic = sdf.get("topicName", "set_joint_trajectory") or "set_joint_trajectory"
+        topic = sdf.text_or("topicName", "set_joint_trajectory")
         self.topic = self.topics.resolve(topic)
         self.topics.subscriber(topic, JointTrajectory, self._receive, 100)
         self.playing = False

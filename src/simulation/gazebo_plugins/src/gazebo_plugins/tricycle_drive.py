@@ -9,7 +9,7 @@ from ode_sim import math3
 from sensor_msgs.msg import JointState
 
 from gazebo_plugins.ros_side import RateGate, TfBroadcaster, Topics, find_joint
-from gazebo_plugins.wheels import UNKNOWN, Command, EncoderOdometry, OdometryPublisher, from_encoders, ground_truth
+from gazebo_plugins.wheels import Command, EncoderOdometry, OdometryPublisher, from_encoders, ground_truth
 
 _FASTEST, _HOLDING = 20.0, 10.0  # steering without <steeringSpeed>: rad/s, and its torque in units of <wheelTorque>
 
@@ -37,8 +37,8 @@ class TricycleDrive(ModelPlugin):
             if from_encoders(sdf) else None
         self.publish_wheel_tf = sdf.get("publishWheelTF", False)
         self.gate = RateGate(sdf.get("updateRate", 100.0))
-        self.command = Command(self.topics, sdf.get("commandTopic", "cmd_vel") or "cmd_vel")
-        self.odometry = OdometryPublisher(self.topics, sdf, "base_link", (1e-5, 1e-5, UNKNOWN, UNKNOWN, UNKNOWN, 1e-3))
+        self.command = Command(self.topics, sdf.text_or("commandTopic", "cmd_vel"))
+        self.odometry = OdometryPublisher(self.topics, sdf, "base_link")
         self.joint_states = self.topics.publisher("joint_states", JointState, 1000) \
             if sdf.get("publishWheelJointState", False) else None
         self.reset()
@@ -69,7 +69,8 @@ class TricycleDrive(ModelPlugin):
         angle = max(-math.pi / 2, min(math.pi / 2, self.command.yaw_rate))
         error = angle - self.steering.position()
         if self.steering_speed <= 0.0:
-            self.steering.set_motor(max(-_FASTEST, min(_FASTEST, error / (5 * self.server.world.dt))), _HOLDING * self.torque)
+            rate = max(-_FASTEST, min(_FASTEST, error / (5 * self.server.world.dt)))
+            self.steering.set_motor(rate, _HOLDING * self.torque)
         else:
             rate = 0.0 if abs(error) < self.angle_tolerance else math.copysign(self.steering_speed, error)
             self.steering.set_motor(rate, self.torque)

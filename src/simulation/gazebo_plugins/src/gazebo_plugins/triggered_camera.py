@@ -18,7 +18,7 @@ class _Trigger:
     def __init__(self, namespace: str, sdf):
         self._count = 0
         self._lock = threading.Lock()
-        self._subscriber = rospy.Subscriber(join(namespace, sdf.get("triggerTopicName", "") or "image_trigger"), Empty,
+        self._subscriber = rospy.Subscriber(join(namespace, sdf.text_or("triggerTopicName", "image_trigger")), Empty,
                                             self._pull, queue_size=100)
 
     def _pull(self, _message) -> None:

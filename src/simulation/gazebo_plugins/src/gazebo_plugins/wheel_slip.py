@@ -31,7 +31,8 @@ class _Wheel:
             raise PluginError(f"<wheel link_name='{name}'>: the link does not turn on a joint")
         self.radius, self.force = sdf.get("wheel_radius", 0.0), sdf.get("wheel_normal_force", 0.0)
         if self.radius <= 0.0 or self.force <= 0.0:
-            raise PluginError(f"<wheel link_name='{name}'>: <wheel_radius> (m) and <wheel_normal_force> (N) must be positive")
+            raise PluginError(f"<wheel link_name='{name}'>: <wheel_radius> (m) and <wheel_normal_force> (N) must be "
+                              "positive")
         self.own = {way: sdf.get(tag, 0.0) for way, tag in _TAGS.items()}
         self.compliance = dict(self.own)
         self.surfaces = [collision.surface for collision in link.collisions.values()]
@@ -47,7 +48,8 @@ class _Wheel:
 
 
 class WheelSlip(ModelPlugin):
-    """Parameters ``<model>/wheel_slip/slip_compliance_unitless_lateral`` and ``_longitudinal`` of all wheels at once."""
+    """Parameters ``<model>/wheel_slip/slip_compliance_unitless_lateral`` and ``_longitudinal`` of all wheels at
+    once."""
 
     def load(self, server, model, sdf) -> None:
         self.server = server

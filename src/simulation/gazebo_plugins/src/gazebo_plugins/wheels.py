@@ -13,6 +13,7 @@ from ode_sim.description.model import Pose
 from gazebo_plugins.ros_side import TfBroadcaster, Topics, diagonal, pose_msg
 
 UNKNOWN = 1e12  # variance of what a wheeled robot on the floor does not measure
+POSE_COVARIANCE = (1e-5, 1e-5, UNKNOWN, UNKNOWN, UNKNOWN, 1e-3)  # x y z roll pitch yaw, of most drives
 
 
 class Command:
@@ -38,7 +39,7 @@ class Command:
 
 def from_encoders(sdf) -> bool:
     """``<odometrySource>``: ``encoder`` (old files: 0), or ``world`` (1), which is the default."""
-    return (sdf.get("odometrySource", "world") or "world").lower() in ("encoder", "0")
+    return (sdf.text_or("odometrySource", "world")).lower() in ("encoder", "0")
 
 
 def yaw_of(pose: Pose) -> float:
@@ -57,15 +58,15 @@ def ground_truth(model) -> Tuple[Pose, Tuple[float, float, float]]:
 class OdometryPublisher:
     """nav_msgs/Odometry and the transform that goes with it.
 
-    :param pose_covariance: six variances x, y, z, roll, pitch, yaw
+    :param pose_covariance: six variances, see :data:`POSE_COVARIANCE`
     :param twist_covariance: the same of the twist
     """
 
-    def __init__(self, topics: Topics, sdf, base_frame: str, pose_covariance: Sequence[float],
+    def __init__(self, topics: Topics, sdf, base_frame: str, pose_covariance: Sequence[float] = POSE_COVARIANCE,
                  twist_covariance: Sequence[float] = (0.0,) * 6):
-        self.frame = topics.frame(sdf.get("odometryFrame", "odom") or "odom")
-        self.base = topics.frame(sdf.get("robotBaseFrame", base_frame) or base_frame)
-        self.publisher = topics.publisher(sdf.get("odometryTopic", "odom") or "odom", Odometry)
+        self.frame = topics.frame(sdf.text_or("odometryFrame", "odom"))
+        self.base = topics.frame(sdf.text_or("robotBaseFrame", base_frame))
+        self.publisher = topics.publisher(sdf.text_or("odometryTopic", "odom"), Odometry)
         self._message = Odometry()
         self._message.header.frame_id, self._message.child_frame_id = self.frame, self.base
         self._message.pose.covariance = diagonal(pose_covariance)

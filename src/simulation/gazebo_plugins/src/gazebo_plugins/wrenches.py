@@ -51,7 +51,7 @@ class F3D(ModelPlugin):
         self.topics = Topics(sdf, model.name, "C")
         self.link = find_link(model, server.world, sdf)
         self.message = WrenchStamped()
-        self.message.header.frame_id = self.topics.frame(sdf.get("frameName", "world") or "world")
+        self.message.header.frame_id = self.topics.frame(sdf.text_or("frameName", "world"))
         self.publisher = self.topics.publisher(required(sdf, "topicName"), WrenchStamped)
         server.after_step(self.step)
 

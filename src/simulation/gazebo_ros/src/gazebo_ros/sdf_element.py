@@ -45,6 +45,10 @@ class SdfElement:
         """All children (of that name), in file order."""
         return [SdfElement(e, self._warn) for e in self.element if isinstance(e.tag, str) and tag in (None, e.tag)]
 
+    def text_or(self, tag: str, default: str) -> str:
+        """Text of the first child ``tag``; ``default`` when it is missing or empty."""
+        return self.get(tag, default) or default
+
     def get(self, tag: str, default=""):
         """Value of the first child ``tag``, converted to the type of ``default``.
 
