@@ -24,7 +24,7 @@ class NodeSignals(unittest.TestCase):
             self.assertEqual(node.stdout.readline(), "up\n")
             node.send_signal(number)
             try:
-                output, _ = node.communicate(timeout=30)
+                output, _ = node.communicate(timeout=60)
             finally:
                 node.kill()
             self.assertEqual(output, "hook\n")
