@@ -110,6 +110,13 @@ def test_link_defaults_and_surface(finder):
     assert (b.collisions[0].max_contacts, b.collisions[0].laser_retro) == (3, 5.0)
 
 
+def test_a_plugin_of_a_visual_is_one_warning(finder):
+    m, problems = model(f'<link name="l"><visual name="v">{BOX}<plugin name="p" filename="libgazebo_ros_video.so"/></visual>'
+                        '</link>', finder)
+    assert m.links[0].visuals[0].geometry == Box((1.0, 2.0, 3.0))
+    assert len(problems) == 1 and "libgazebo_ros_video.so: plugins of a visual" in str(problems[0])
+
+
 @pytest.mark.parametrize("shape, expected", [
     ("<box><size>1 2 3</size></box>", Box((1.0, 2.0, 3.0))),
     ("<sphere><radius>2</radius></sphere>", Sphere(2.0)),

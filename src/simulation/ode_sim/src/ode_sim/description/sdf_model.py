@@ -168,6 +168,8 @@ class SdfModels(SdfShapes):
                          laser_retro=self.number(element, "laser_retro", 0.0), source=source_of(element))
 
     def _visual(self, element: ET.Element, pose: Pose) -> Visual:
+        for plugin in self.plugins(element):
+            self.warn(plugin.element, f"{plugin.filename}: plugins of a visual have no effect; it is drawn without")
         return Visual(name=element.get("name") or "", pose=pose, geometry=self.geometry(element),
                       material=self.material(element.find("material")),
                       transparency=self.number(element, "transparency", 0.0),
