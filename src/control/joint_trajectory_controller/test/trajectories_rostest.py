@@ -6,6 +6,7 @@ import rospy
 from actionlib_msgs.msg import GoalStatus
 from control_msgs.msg import FollowJointTrajectoryResult as Result
 from control_test_robots import client
+from rosgraph_msgs.msg import Log
 from trajectory_client import EPS, Goal, TrajectoryCase
 from trajectory_msgs.msg import JointTrajectory
 
@@ -177,10 +178,18 @@ class Behaviour:
         client.switch([self.controller])
         self.assertStoppedOnTheWay()
 
-    def test_old_topic_trajectory_is_ignored(self):
+    def test_old_topic_trajectory_is_ignored_with_a_warning(self):
+        log = client.Topic("/rosout", Log)
+        log.clear()  # latched: the last line of an earlier test comes first
         self.publish((1.0, TARGET, REST))
         self.wait_moved()
-        self.publish((0.1, [1.0, 1.0], REST), (0.2, [2.0, 2.0], REST), stamp=rospy.get_time() - 0.5)
+
+        def warned():  # as often as it takes until the log is connected
+            self.publish((0.1, [1.0, 1.0], REST), (0.2, [2.0, 2.0], REST), stamp=rospy.get_time() - 0.5)
+            return [line for line in log.messages if "Dropping all 2" in line.msg]
+        lines = client.wait_until(warned, "a line in the log")
+        log.close()
+        self.assertEqual(lines[0].level, Log.WARN)
         self.wait_still_at(TARGET)
 
     def test_old_action_goals_are_rejected_with_their_age(self):

@@ -17,7 +17,7 @@ from urdf_geometry_parser import robot_geometry
 
 from . import tolerances
 from .segment import Segment, active_index, stop_segment
-from .splice import Command, InvalidTrajectory, map_joints, splice
+from .splice import Command, InvalidTrajectory, Late, map_joints, splice
 
 Result = FollowJointTrajectoryResult
 
@@ -208,17 +208,21 @@ class JointTrajectoryController(ActionController):
         try:
             replaced = self._take(message, None, self._tolerances, named=False)
         except InvalidTrajectory as error:
-            rospy.logerr("%s: %s", self._name, error)
+            self._complain(error)
             return
         if replaced is not None:
             replaced.cancel(text="Replaced by a trajectory from the command topic")
+
+    def _complain(self, error: Exception) -> None:
+        log = rospy.logwarn if isinstance(error, Late) else rospy.logerr
+        log("%s: %s", self._name, error)
 
     def _on_goal(self, goal: RealtimeGoal) -> None:
         try:
             wanted = tolerances.overridden(self._tolerances, self._joints, goal.goal)
             replaced = self._take(goal.goal.trajectory, goal, wanted, named=True)
         except (InvalidTrajectory, ValueError) as error:
-            rospy.logerr("%s: %s", self._name, error)
+            self._complain(error)
             code = getattr(error, "code", Result.INVALID_GOAL)
             goal.reject(Result(error_code=code, error_string=str(error)), str(error))
             return

@@ -23,6 +23,10 @@ class InvalidTrajectory(Exception):
         self.code = code
 
 
+class Late(InvalidTrajectory):
+    """All of the message lies in the past: whoever streams commands sends one now and then, which is no fault."""
+
+
 def map_joints(names: Sequence[str], joints: Sequence[str], partial: bool) -> List[int]:
     """Index into ``joints`` of every name of a message.
 
@@ -72,7 +76,7 @@ class Command:
         for index, time in enumerate(self.times):
             if time > elapsed:
                 return index
-        raise InvalidTrajectory(
+        raise Late(
             INVALID_GOAL, f"Dropping all {len(self.times)} trajectory points, as they occur before the current time. "
             f"Last point is {elapsed - self.times[-1]:.6f}s in the past; give points a time_from_start after the start "
             "of motion, and a header.stamp of 0 to start at once.")
