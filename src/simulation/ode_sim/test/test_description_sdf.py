@@ -110,6 +110,11 @@ def test_link_defaults_and_surface(finder):
     assert (b.collisions[0].max_contacts, b.collisions[0].laser_retro) == (3, 5.0)
 
 
+def test_a_plugin_of_a_link_is_one_warning(finder):
+    _, problems = model('<link name="l"><plugin name="p" filename="libgazebo_ros_p3d.so"/></link>', finder)
+    assert len(problems) == 1 and "libgazebo_ros_p3d.so: a plugin inside a link is never started" in str(problems[0])
+
+
 def test_a_plugin_of_a_visual_is_one_warning(finder):
     m, problems = model(f'<link name="l"><visual name="v">{BOX}<plugin name="p" filename="libgazebo_ros_video.so"/></visual>'
                         '</link>', finder)

@@ -128,6 +128,9 @@ class SdfModels(SdfShapes):
                 return x
             return math3.compose(math3.relative(x_ml, frames[frame]), x)
 
+        for plugin in self.plugins(element):
+            self.warn(plugin.element, f"{plugin.filename}: a plugin inside a link is never started; write it into the "
+                                      "model, or into a sensor (in a URDF: <gazebo> without reference)")
         collide = element.find("self_collide")
         return Link(
             name=name, pose=x_ml, inertial=self._inertial(element.find("inertial"), in_link),
