@@ -420,6 +420,15 @@ def test_a_name_may_be_given_from_outside():
     assert read_model('<robot name="r">' + link("base") + "</robot>", name="left", finder=FINDER)[0].name == "left"
 
 
+@pytest.mark.parametrize("tag", ["visual", "collision"])
+@pytest.mark.parametrize("geometry", ["", "<geometry/>"])
+def test_shape_without_geometry_is_one_warning_and_the_link_stays(tag, geometry):
+    model, problems = convert(link("a", body=f"<{tag}>{geometry}</{tag}>" + box(tag)))
+    assert len(getattr(one(model.links, "a"), tag + "s")) == 1
+    assert len(problems) == 1
+    assert f"link 'a' has a <{tag}> without a shape in its <geometry>; it is left out" in messages(problems)
+
+
 def test_missing_mesh_is_one_warning_and_the_link_stays():
     mesh = '<{0}><geometry><mesh filename="package://gone/m.stl" scale="0.001 0.001 0.001"/></geometry></{0}>'
     model, problems = convert(link("base", body=mesh.format("visual") + mesh.format("collision")))
@@ -442,7 +451,6 @@ def test_missing_mesh_is_one_warning_and_the_link_stays():
     ([link("a"), link("b"), joint("j", "a", "b", "hinge")], "unknown type 'hinge'"),
     ([link("a"), link("b"), joint("j", "a", "b", "prismatic", body='<limit lower="0" upper="1"/>')], "'effort' is missing"),
     ([link("a", body='<visual><geometry><box size="1 2"/></geometry></visual>')], "size='1 2' is not 3 numbers"),
-    ([link("a", body="<visual/>")], "geometry"),
     ([], "has no <link>"),
 ])
 def test_what_urdfdom_refuses_is_refused_in_one_line(parts, message):

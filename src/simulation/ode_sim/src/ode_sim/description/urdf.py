@@ -194,16 +194,20 @@ class _Conversion:
                 link.raw_inertial = (pose, inertial)
             elif kilograms < 0.0:
                 self.reader.warn(mass, f"link '{name}' has the negative mass {kilograms:g} kg; it counts as massless")
-        link.visuals = [self._shape(visual, name) for visual in element.findall("visual")]
-        link.collisions = [self._shape(collision, name) for collision in element.findall("collision")]
+        link.visuals = self._shapes(element.findall("visual"), name)
+        link.collisions = self._shapes(element.findall("collision"), name)
         return link
 
-    @staticmethod
-    def _shape(element: ET.Element, link: str) -> _Shape:
-        geometry = element.find("geometry")
-        if geometry is None or len(geometry) == 0:
-            raise DescriptionError(f"{source_of(element)} of link '{link}': <geometry> with a shape is missing")
-        return _Shape(element, (element.get("name") or "").strip(), _origin(element))
+    def _shapes(self, elements: List[ET.Element], link: str) -> List[_Shape]:
+        shapes = []
+        for element in elements:
+            geometry = element.find("geometry")
+            if geometry is None or len(geometry) == 0:
+                self.reader.warn(element, f"link '{link}' has a <{element.tag}> without a shape in its <geometry>; "
+                                          "it is left out")
+            else:
+                shapes.append(_Shape(element, (element.get("name") or "").strip(), _origin(element)))
+        return shapes
 
     def _joint(self, element: ET.Element) -> _UrdfJoint:
         name, kind = _attribute(element, "name"), _attribute(element, "type")
