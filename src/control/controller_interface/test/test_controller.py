@@ -27,9 +27,6 @@ class Recorder(Controller):
     def starting(self, time):
         self.calls.append(("starting", time, self.state))
 
-    def update(self, time, period):
-        self.calls.append(("update", time, period))
-
     def stopping(self, time):
         self.calls.append(("stopping", time, self.state))
 
@@ -56,17 +53,14 @@ def test_claims_are_sorted_and_do_not_stay_in_the_interface(robot):
 
 def test_states(robot):
     controller = initialized(robot)
-    controller.update_request(0.5, 0.1)
     assert controller.start_request(1.0) and controller.is_running
-    controller.update_request(2.0, 0.1)
     assert controller.stop_request(3.0) and controller.state is ControllerState.STOPPED
-    controller.update_request(3.5, 0.1)
     assert controller.wait_request(4.0) and controller.state is ControllerState.WAITING
     assert controller.abort_request(5.0) and controller.state is ControllerState.ABORTED
     assert controller.start_request(6.0) and controller.is_running
     assert controller.calls == [
         ("starting", 1.0, ControllerState.INITIALIZED),  # the method comes first, then the state changes
-        ("update", 2.0, 0.1), ("stopping", 3.0, ControllerState.RUNNING), ("waiting", 4.0, ControllerState.STOPPED),
+        ("stopping", 3.0, ControllerState.RUNNING), ("waiting", 4.0, ControllerState.STOPPED),
         ("aborting", 5.0, ControllerState.WAITING), ("starting", 6.0, ControllerState.ABORTED)]
 
 

@@ -84,11 +84,6 @@ class ControllerBase:
     def abort_request(self, time: float) -> bool:
         return self._enter(ControllerState.ABORTED, self.aborting, time)
 
-    def update_request(self, time: float, period: float) -> None:
-        """Update it if it is running."""
-        if self.state is ControllerState.RUNNING:
-            self.update(time, period)
-
     def _enter(self, state: ControllerState, call: Any, time: float) -> bool:
         if self.state is ControllerState.CONSTRUCTED:
             rospy.logfatal("Failed to change a controller to %s: it is not initialized.", state.value)

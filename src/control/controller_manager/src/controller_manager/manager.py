@@ -49,7 +49,7 @@ class LoadedController:
         self.controller = controller
         self.info = info
         self.nh = nh
-        self.update = controller.update_request
+        self.update = controller.update
 
     @property
     def name(self) -> str:
@@ -107,10 +107,11 @@ class ControllerManager:
                         if loaded.controller.state is ControllerState.STOPPED:
                             self._guard(loaded, "starting", loaded.controller.start_request, time)
             for loaded in controllers:
-                try:
-                    loaded.update(time, period)
-                except Exception as error:  # a controller is third-party code: the others go on
-                    self._failed(loaded, "update", error, time)
+                if loaded.controller.state is ControllerState.RUNNING:
+                    try:
+                        loaded.update(time, period)
+                    except Exception as error:  # a controller is third-party code: the others go on
+                        self._failed(loaded, "update", error, time)
             if self._switch is not None:
                 self._go_on(self._switch, time)
 

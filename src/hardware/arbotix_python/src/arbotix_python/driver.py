@@ -143,7 +143,8 @@ def main():
     driver = Driver()
     try:
         driver.run()
-    except rospy.ROSInterruptException:
-        pass
+    except rospy.ROSException:
+        if not rospy.core.is_shutdown_requested():  # at shutdown topics close and sleeps end under the loop
+            raise
     finally:
         driver.shutdown()

@@ -80,7 +80,10 @@ class PositionMode(Mode):
         return self.handle.command
 
     def write(self, dt: float) -> None:
-        self.joint.servo(self.target(dt))
+        if self.e_stop:  # as in target(), without the call
+            self.handle.command = self._frozen
+        self.limits.enforce_limits(dt)
+        self.joint.servo(self.handle.command)
 
 
 class _ByPid:
