@@ -5,10 +5,11 @@ import signal
 import subprocess
 import unittest
 
+import rosgraph
 import rospy
 import rostest
 
-from simulator import Simulator, box, urdf
+from simulator import Simulator, box, pose, urdf
 
 
 def spawn(*arguments, stdin=None):
@@ -16,6 +17,12 @@ def spawn(*arguments, stdin=None):
     done = subprocess.run(["rosrun", "gazebo_ros", "spawn_model", *arguments], input=stdin, text=True,
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=60)
     return done.returncode, done.stdout
+
+
+def runs(name):
+    """Whether a node of that anonymous name runs."""
+    publishers = rosgraph.Master("/spawn_model_rostest").getSystemState()[0]
+    return any(node.startswith(f"/{name}_") for _, nodes in publishers for node in nodes)
 
 
 class SpawnModel(unittest.TestCase):
@@ -53,6 +60,17 @@ class SpawnModel(unittest.TestCase):
         os.killpg(node.pid, signal.SIGINT)
         node.wait(60)
         self.wait(lambda: "bound" not in self.sim.world().model_names)
+
+    def test_waits_for_another_model_though_time_stands_still(self):
+        node = self.bond("second", "-wait", "first", "-x", "50")
+        self.wait(lambda: runs("spawn_model"))
+        self.assertTrue(self.sim.spawn("first", box(), pose(60, 0, 1)).success)
+        self.wait(lambda: "second" in self.sim.world().model_names)
+        self.assertEqual(self.sim.world().model_names[-2:], ["first", "second"])
+        os.killpg(node.pid, signal.SIGINT)
+        node.wait(60)
+        self.wait(lambda: "second" not in self.sim.world().model_names)
+        self.assertTrue(self.sim.delete("first").success)
 
     def test_killing_the_spawner_harms_nobody(self):
         node = self.bond("orphan", "-x", "40")

@@ -10,8 +10,7 @@ from typing import List
 import rosgraph
 import node_signals
 import rospy
-from gazebo_msgs.msg import ModelStates
-from gazebo_msgs.srv import DeleteModel
+from gazebo_msgs.srv import DeleteModel, GetWorldProperties
 from geometry_msgs.msg import Point, Pose, Quaternion
 from std_srvs.srv import Empty
 
@@ -103,17 +102,19 @@ def model_text(options: argparse.Namespace) -> str:
 
 
 def wait_for_model(name: str, gazebo_namespace: str) -> None:
+    """Asks ten times a wall second: a paused simulation publishes nothing, and its time stands still.
+
+    :raises Failure: the simulator is gone
+    """
     rospy.loginfo("Waiting for model %s before spawning", name)
-    there = [False]
-
-    def look(message: ModelStates) -> None:
-        there[0] = there[0] or name in message.name
-
-    subscriber = rospy.Subscriber(gazebo_namespace + "/model_states", ModelStates, look)
-    rate = rospy.Rate(10)
-    while not there[0] and not rospy.is_shutdown():
-        rate.sleep()
-    subscriber.unregister()
+    service = gazebo_namespace + "/get_world_properties"
+    rospy.wait_for_service(service)
+    world = rospy.ServiceProxy(service, GetWorldProperties, persistent=True)
+    try:
+        while not rospy.is_shutdown() and name not in world().model_names:
+            rospy.rostime.wallsleep(0.1)
+    except rospy.ServiceException as error:
+        raise Failure(f"the simulator ended while model {name} was waited for: {error}") from error
 
 
 def spawn(options: argparse.Namespace) -> None:
