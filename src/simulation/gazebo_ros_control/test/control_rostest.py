@@ -262,7 +262,7 @@ class TransmissionsTest(unittest.TestCase):
             self.assertEqual(robot.hw.get(PositionJointInterface).names(), ["j"])
             self.assertEqual(len(log.having("'unknown'", "ForceJointInterface", "possible are", level="ERROR")), 1)
             self.assertEqual(len(log.having("'absent'", "'nowhere'", "it has: j, k, m", level="ERROR")), 1)
-            self.assertEqual(len(log.having("'two' has 2 joints", level="WARNING")), 1)
+            self.assertEqual(len(log.having("'two'", "has 2 joints", "SimpleTransmission of its own", level="WARNING")), 1)
             self.assertEqual(len(log.having("'old'", "belongs into <joint>", level="ERROR")), 1)
             robot.start("pos")
             robot.command("pos", 0.1)

@@ -71,8 +71,9 @@ class DefaultRobotHWSim(RobotHWSim):
     def _add(self, transmission: TransmissionInfo, nh: NodeHandle, model,
              descriptions: Dict[str, JointDescription]) -> None:
         if len(transmission.joints) != 1:
-            rospy.logwarn("Transmission '%s' has %d joints; the simulation takes one per transmission; it is left out",
-                          transmission.name, len(transmission.joints))
+            rospy.logwarn("Transmission '%s' (%s) has %d joints; it is left out: the simulation, as Gazebo's, drives joints "
+                          "directly; for it, give each of %s a SimpleTransmission of its own", transmission.name,
+                          transmission.type, len(transmission.joints), ", ".join(j.name for j in transmission.joints))
             return
         info = transmission.joints[0]
         where = f"transmission '{transmission.name}', joint '{info.name}'"
