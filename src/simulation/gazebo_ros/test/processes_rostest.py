@@ -8,6 +8,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import xmlrpc.client
 
 import rosgraph
 import rospy
@@ -38,6 +39,10 @@ class Server:
 
     def simulator(self):
         return Simulator(f"/{self.name}/gazebo")
+
+    def node_pid(self):
+        uri = rosgraph.Master("/test").lookupNode(f"/{self.name}/gazebo")
+        return xmlrpc.client.ServerProxy(uri).getPid("/test")[2]
 
     def end(self, number=signal.SIGINT):
         """(exit code, all it printed)."""
@@ -173,6 +178,23 @@ class Masters(unittest.TestCase):
         finally:
             master.terminate()
             master.wait(timeout=60)
+
+
+class Twice(unittest.TestCase):
+    def test_a_second_one_of_the_same_name_ends_and_the_first_goes_on(self):
+        """A launch file that spawns a robot often brings a simulator along, though a world runs already."""
+        with Server("twice", "-u", BENCH) as first:
+            sim = first.simulator()
+            self.assertTrue(sim.step(3).success)
+            with Server("twice") as second:
+                text, _ = second.process.communicate(timeout=60)
+            self.assertEqual(second.process.returncode, 255, text)
+            self.assertEqual(len(text.strip().splitlines()), 1, text)
+            for word in ("/twice/gazebo", str(first.node_pid()), "rosnode kill"):
+                self.assertIn(word, text)
+            self.assertAlmostEqual(sim.world().sim_time, 0.003)
+            self.assertTrue(sim.step(2).success)
+            self.assertIsNone(first.process.poll())
 
 
 class Ends(unittest.TestCase):

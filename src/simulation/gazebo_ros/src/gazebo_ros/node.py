@@ -5,10 +5,12 @@ import gc
 import logging
 import os
 import signal
+import socket
 import sys
 import threading
 import time
 import traceback
+import xmlrpc.client
 from typing import List, Optional, Tuple
 
 import ode_sim
@@ -17,6 +19,7 @@ import rospkg
 import rospy
 from ode_sim.description import DescriptionError, Problem, ResourceFinder, load_world
 from plugin_loader import exported_values
+from rospy.names import load_mappings
 from std_msgs.msg import Bool
 
 from gazebo_ros import command_line
@@ -36,6 +39,7 @@ from gazebo_ros.server import Server
 BUILTIN = ["libgazebo_ros_api_plugin.so", "libgazebo_ros_paths_plugin.so"]
 _EMPTY_WORLD = "worlds/empty.world"
 _SWITCH_INTERVAL = 2e-4  # s that another thread may keep the physics thread from its next step
+_TAKEN = 255  # exit code of Gazebo beside another one
 _LAST_RESORT = 1.5  # s from a signal to the end of the process, whatever a plugin does
 
 
@@ -52,6 +56,8 @@ def _run() -> int:
     ending = _Ending()
     options = command_line.parse(rospy.myargv()[1:])
     _wait_for_master(ending)
+    if _runs_already():
+        return _TAKEN
     if not rosgraph.Master("/gazebo").hasParam("/use_sim_time"):
         rosgraph.Master("/gazebo").setParam("/use_sim_time", True)
     # rospy's clock would come back from the /clock that this node publishes: the server sets it without that detour
@@ -115,6 +121,29 @@ def _wait_for_master(ending: _Ending) -> None:
                   file=sys.stderr, flush=True)
             warned = True
         time.sleep(0.5)
+
+
+def _runs_already() -> bool:
+    """A node of this name answers: many launch files start a simulator although they only spawn into the one that runs.
+
+    To register would end that one. A registration without a process behind it, left by a kill, does not count.
+    """
+    names = load_mappings(sys.argv)
+    name = rosgraph.names.ns_join(rosgraph.names.get_ros_namespace(argv=sys.argv), names.get("__name", "gazebo"))
+    timeout = socket.getdefaulttimeout()
+    socket.setdefaulttimeout(2.0)
+    try:
+        node = xmlrpc.client.ServerProxy(rosgraph.Master(name).lookupNode(name))
+        if node.getName(name)[2] != name:
+            return False
+        pid = node.getPid(name)[2]
+    except (rosgraph.MasterException, OSError, xmlrpc.client.Error):
+        return False
+    finally:
+        socket.setdefaulttimeout(timeout)
+    print(f"gzserver: {name} runs already (process {pid}) and goes on, this one ends; models are spawned into that world. "
+          f"For another world end it first: rosnode kill {name}", file=sys.stderr, flush=True)
+    return True
 
 
 def make_finder(rospack: rospkg.RosPack) -> ResourceFinder:
