@@ -98,7 +98,8 @@ class Screenshot(unittest.TestCase):
             self.assertLess(rows["/red"], rows["/yellow"], "each under its own title")
 
     def test_what_nobody_publishes_is_named_and_not_waited_for(self):
-        config = self.config("Class: rviz/Image, Name: Eye, Image Topic: /nothing", "Class: rviz/LaserScan, Name: Laser, Topic: /none")
+        config = self.config("Class: rviz/Image, Name: Eye, Image Topic: /nothing",
+                             "Class: rviz/LaserScan, Name: Laser, Topic: /none")
         path = os.path.join(self.folder, "nothing.png")
         # whoever waited would not be back within the limit of this test
         result = screenshot("-d", config, "-o", path, "--window", "--timeout", "1000", "--grace", "0.5")

@@ -1,4 +1,4 @@
-"""An RViz set-up for a running system whose launch file brings none: all that is published, as seen from the root frame."""
+"""An RViz set-up for a system whose launch file brings none: all that is published, as seen from the root frame."""
 from __future__ import annotations
 
 import math
@@ -11,10 +11,12 @@ import tf2_ros
 DISPLAYS = {
     "sensor_msgs/LaserScan": ("LaserScan", "Topic"), "sensor_msgs/PointCloud2": ("PointCloud2", "Topic"),
     "sensor_msgs/PointCloud": ("PointCloud", "Topic"), "sensor_msgs/Range": ("Range", "Topic"),
-    "nav_msgs/Odometry": ("Odometry", "Topic"), "nav_msgs/Path": ("Path", "Topic"), "nav_msgs/OccupancyGrid": ("Map", "Topic"),
+    "nav_msgs/Odometry": ("Odometry", "Topic"), "nav_msgs/Path": ("Path", "Topic"),
+    "nav_msgs/OccupancyGrid": ("Map", "Topic"),
     "geometry_msgs/PoseArray": ("PoseArray", "Topic"), "geometry_msgs/PolygonStamped": ("Polygon", "Topic"),
     "geometry_msgs/WrenchStamped": ("WrenchStamped", "Topic"), "sensor_msgs/Image": ("Image", "Image Topic"),
-    "visualization_msgs/Marker": ("Marker", "Marker Topic"), "visualization_msgs/MarkerArray": ("MarkerArray", "Marker Topic"),
+    "visualization_msgs/Marker": ("Marker", "Marker Topic"),
+    "visualization_msgs/MarkerArray": ("MarkerArray", "Marker Topic"),
 }
 _IMAGES = 2  # panels that fit in the dock
 
@@ -69,5 +71,5 @@ def config(topics: List[Tuple[str, str]], description: bool, root: str, reach: f
             "Visualization Manager": {
                 "Displays": [{**display, "Enabled": True} for display in shown],
                 "Global Options": {"Fixed Frame": root, "Background Color": "48; 48; 48"}, "Tools": [],
-                "Views": {"Current": {"Class": "rviz/Orbit", "Distance": 4 * max(reach, 0.3), "Pitch": 0.5, "Yaw": math.pi / 4,
-                                      "Focal Point": {"X": 0, "Y": 0, "Z": reach / 3}}}}}
+                "Views": {"Current": {"Class": "rviz/Orbit", "Distance": 4 * max(reach, 0.3), "Pitch": 0.5,
+                                      "Yaw": math.pi / 4, "Focal Point": {"X": 0, "Y": 0, "Z": reach / 3}}}}}

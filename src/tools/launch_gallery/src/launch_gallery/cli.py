@@ -1,7 +1,7 @@
 """``rosrun launch_gallery gallery PACKAGE...``: a page with pictures of what each launch file brings up.
 
-Each launch file runs alone, with a ROS master and a display of its own; when its nodes have come up, pictures are taken of the
-simulated scene, of RViz (with the launch file's own set-up, or one made of all that is published) and of every camera.
+Each launch file runs alone, with a ROS master and a display of its own. When its nodes have come up, pictures are taken of
+the simulated scene, of RViz (with the launch file's own set-up, or one made of all that is published) and of every camera.
 """
 from __future__ import annotations
 
@@ -23,6 +23,9 @@ from rviz_offscreen.display import DisplayError, private_display
 from .launches import Launch, LaunchError, arguments, content, find
 from .page import Entry, render
 
+# what roslaunch prints while it ends, whatever the reason
+_FAREWELL = re.compile(r"shutting down|^done$|^log file:|killing on exit|^Initiating|^process has died|^The traceback")
+
 
 def parser() -> argparse.ArgumentParser:
     p = argparse.ArgumentParser(prog="gallery", description=__doc__, epilog=main.__doc__,
@@ -30,11 +33,13 @@ def parser() -> argparse.ArgumentParser:
     p.add_argument("targets", nargs="+", metavar="PACKAGE | PACKAGE/FILE.launch | PATH | ARG:=VALUE",
                    help="what to launch; ARG:=VALUE goes to every launch file that declares ARG "
                         "(windows are off by themselves: gui:=false rviz:=false)")
-    p.add_argument("--output", "-o", default="out/gallery", help="folder for index.html and the pictures (default out/gallery)")
+    p.add_argument("--output", "-o", default="out/gallery",
+                   help="folder for index.html and the pictures (default out/gallery)")
     p.add_argument("--drive", nargs=3, type=float, metavar=("SPEED", "TURN", "SECONDS"),
                    help="drive robots that listen to velocity commands, m/s and rad/s, while RViz watches")
     p.add_argument("--size", default="1280x800", help="WIDTHxHEIGHT of the RViz window (default 1280x800)")
-    p.add_argument("--timeout", type=float, default=60.0, help="seconds to wait for nodes and for displays (default 60)")
+    p.add_argument("--timeout", type=float, default=60.0,
+                   help="seconds to wait for nodes and for displays (default 60)")
     return p
 
 
@@ -46,10 +51,10 @@ def free_port() -> int:
 
 @contextlib.contextmanager
 def running(words: List[str], environment: Dict[str, str], log: str) -> Iterator[subprocess.Popen]:
-    """roslaunch in a process group of its own, which gets Ctrl-C's signal at the end, and SIGKILL if that does not help."""
+    """roslaunch in a process group of its own, which gets Ctrl-C's signal at the end, and SIGKILL if that is in vain."""
     with open(log, "w") as file:
-        process = subprocess.Popen(words, env=environment, stdout=file, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL,
-                                   start_new_session=True)
+        process = subprocess.Popen(words, env=environment, stdout=file, stderr=subprocess.STDOUT,
+                                   stdin=subprocess.DEVNULL, start_new_session=True)
         try:
             yield process
         finally:
@@ -62,10 +67,10 @@ def running(words: List[str], environment: Dict[str, str], log: str) -> Iterator
 
 
 def last_words(log: str) -> str:
-    """The last line of roslaunch's output that says something."""
+    """The last line of roslaunch's output that says why, as far as a line can."""
     with open(log, errors="replace") as file:
-        lines = [re.sub(r"\x1b\[[0-9;]*m|\x1b\].*?\x07", "", line).strip() for line in file]
-    said = [line for line in lines if line and not line.startswith(("shutting down", "... shutting down", "done", "log file:"))]
+        lines = [re.sub(r"\x1b\[[0-9;]*m|\x1b\].*?\x07", "", line).strip().strip("=") for line in file]
+    said = [line for line in lines if line and not _FAREWELL.search(line)]
     return said[-1] if said else "nothing was printed"
 
 
@@ -81,13 +86,13 @@ def visit(launch: Launch, given: Dict[str, str], folder: str, options: argparse.
     entry.command = shlex.join(["roslaunch", *launch.words, *(f"{name}:={value}" for name, value in values.items())])
     stem = re.sub(r"\W+", "-", launch.name.replace(".launch", ""))
     log = os.path.join(folder, f"{stem}.log")
-    job = {"folder": folder, "stem": stem, "log": log, "config": shown.rviz, "nodes": shown.nodes, "passing": shown.passing,
-           "timeout": options.timeout, "size": options.size, "drive": options.drive}
+    job = {"folder": folder, "stem": stem, "log": log, "config": shown.rviz, "nodes": shown.nodes,
+           "passing": shown.passing, "timeout": options.timeout, "size": options.size, "drive": options.drive}
     port = free_port()
     with private_display() as display, tempfile.TemporaryDirectory() as home:
         # the simulator leaves shadows out where no graphics card draws; a picture in a minute can afford them
-        environment = {"ODE_SIM_SHADOWS": "on", **os.environ, **display, "ROS_MASTER_URI": f"http://localhost:{port}", "ROS_HOME": home,
-                       "PYTHONUNBUFFERED": "1"}
+        environment = {"ODE_SIM_SHADOWS": "on", **os.environ, **display, "ROS_HOME": home,
+                       "ROS_MASTER_URI": f"http://localhost:{port}", "PYTHONUNBUFFERED": "1"}
         words = ["roslaunch", "-p", str(port), launch.path, *(f"{name}:={value}" for name, value in values.items())]
         with running(words, environment, log) as process:
             visitor = subprocess.Popen([sys.executable, "-m", "launch_gallery.visit"], env=environment, text=True,
@@ -101,6 +106,9 @@ def visit(launch: Launch, given: Dict[str, str], folder: str, options: argparse.
                     break
                 if process.poll() is not None:
                     visitor.kill()
+            if not answer:  # the master went away: roslaunch is ending
+                with contextlib.suppress(subprocess.TimeoutExpired):
+                    process.wait(10)
             if process.poll() is not None:
                 entry.notes.append(f"roslaunch ended by itself with code {process.returncode}: {last_words(log)}")
             if answer:
@@ -108,7 +116,7 @@ def visit(launch: Launch, given: Dict[str, str], folder: str, options: argparse.
                 entry.pictures += [tuple(picture) for picture in found["pictures"]]
                 entry.notes += found["notes"]
             elif process.poll() is None:
-                entry.notes.append(f"no pictures: {complaints.strip().splitlines()[-1] if complaints.strip() else 'no reason given'}")
+                entry.notes.append(f"no pictures: {(complaints.strip() or 'no reason given').splitlines()[-1]}")
     return entry
 
 

@@ -1,4 +1,4 @@
-"""Which launch files there are, the arguments they declare and the RViz set-up they show. Reads files only, starts nothing."""
+"""Which launch files there are, what arguments they declare and what they bring up. Reads files only, starts nothing."""
 from __future__ import annotations
 
 import os
@@ -69,7 +69,7 @@ def arguments(launch: Launch, given: Dict[str, str]) -> Dict[str, str]:
 
 @dataclass(frozen=True)
 class Content:
-    """What a launch file brings up. ``nodes``: names of nodes that stay; ``passing``: of those that end by themselves, on success.
+    """What a launch file brings up: names of the nodes that stay, and of the ``passing`` ones, which end when their work is done.
 
     ``rviz``: path of the RViz set-up of its RViz, also of one that is switched off; '' without one.
     """

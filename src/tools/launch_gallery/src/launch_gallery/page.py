@@ -5,8 +5,10 @@ import html
 from dataclasses import dataclass, field
 from typing import List, Tuple
 
-_STYLE = """body {font: 15px sans-serif; max-width: 1200px; margin: 2em auto; padding: 0 1em} img {max-width: 100%; border: 1px solid #ccc}
-figure {display: inline-block; width: 48%; margin: 0.5%; vertical-align: top} figcaption, .note {color: #555; font-size: 90%}"""
+_STYLE = """body {font: 15px sans-serif; max-width: 1200px; margin: 2em auto; padding: 0 1em}
+img {max-width: 100%; border: 1px solid #ccc}
+figure {display: inline-block; width: 48%; margin: 0.5%; vertical-align: top}
+figcaption, .note {color: #555; font-size: 90%}"""
 
 
 @dataclass
@@ -23,9 +25,10 @@ def render(title: str, entries: List[Entry]) -> str:
     """HTML that stands beside the pictures."""
     sections = []
     for entry in entries:
-        figures = "\n".join(f'<figure><a href="{html.escape(name)}"><img src="{html.escape(name)}" alt="{html.escape(caption)}"></a>'
-                            f"<figcaption>{html.escape(caption)}</figcaption></figure>" for name, caption in entry.pictures)
+        figures = "\n".join(f'<figure><a href="{name}"><img src="{name}" alt="{caption}"></a><figcaption>{caption}</figcaption></figure>'
+                            for name, caption in (map(html.escape, picture) for picture in entry.pictures))
         notes = "\n".join(f'<p class="note">{html.escape(note)}</p>' for note in entry.notes)
         sections.append(f"<h2>{html.escape(entry.name)}</h2>\n<pre>{html.escape(entry.command)}</pre>\n{notes}\n{figures}")
-    return (f'<!doctype html>\n<html lang="en"><meta charset="utf-8"><title>{html.escape(title)}</title>\n<style>{_STYLE}</style>\n'
-            f"<h1>{html.escape(title)}</h1>\n" + "\n".join(sections) + "\n</html>\n")
+    title = html.escape(title)
+    return (f'<!doctype html>\n<html lang="en"><meta charset="utf-8"><title>{title}</title>\n<style>{_STYLE}</style>\n'
+            f"<h1>{title}</h1>\n" + "\n".join(sections) + "\n</html>\n")

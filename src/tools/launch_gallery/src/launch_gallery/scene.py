@@ -1,4 +1,4 @@
-"""Pictures of the simulated scene, from a camera that is spawned for them and deleted afterwards: any Gazebo has the services."""
+"""Pictures of the simulated scene, by a camera that is spawned for them and deleted afterwards, as any Gazebo can."""
 from __future__ import annotations
 
 import math
@@ -12,15 +12,17 @@ from geometry_msgs.msg import Point, Pose, Quaternion
 from sensor_msgs.msg import Image
 
 _NAME = "gallery_camera"
-_CAMERA = """<sdf version="1.6"><model name="gallery_camera"><static>true</static><link name="link"><sensor name="camera" type="camera">
+_CAMERA = """<sdf version="1.6"><model name="gallery_camera"><static>true</static><link name="link">
+    <sensor name="camera" type="camera">
     <update_rate>10</update_rate><always_on>true</always_on>
-    <camera><horizontal_fov>1.05</horizontal_fov><image><width>1280</width><height>800</height><format>R8G8B8</format></image>
+    <camera><horizontal_fov>1.05</horizontal_fov>
+        <image><width>1280</width><height>800</height><format>R8G8B8</format></image>
         <clip><near>0.02</near><far>200</far></clip></camera>
     <plugin name="gallery_camera" filename="libgazebo_ros_camera.so"><cameraName>gallery_camera</cameraName>
         <imageTopicName>image_raw</imageTopicName><cameraInfoTopicName>camera_info</cameraInfoTopicName>
         <frameName>gallery_camera</frameName></plugin></sensor></link></model></sdf>"""
 _AZIMUTH, _ELEVATION = math.radians(35), math.radians(28)  # of the camera, seen from what it looks at
-_WIDE = 12.0  # m from which the surroundings are seen
+_WIDE = 14.0  # m from which the surroundings are seen
 
 
 def look_at(eye: np.ndarray, target: np.ndarray) -> Pose:
@@ -58,14 +60,16 @@ def pictures(save: Callable[[Image, str], None], folder: str, stem: str, seconds
     :raises rospy.ROSException, rospy.ServiceException: the simulator did not answer, or is paused.
     """
     name, middle, radius = subject(seconds)
-    direction = np.array([math.cos(_ELEVATION) * math.cos(_AZIMUTH), math.cos(_ELEVATION) * math.sin(_AZIMUTH), math.sin(_ELEVATION)])
+    level = math.cos(_ELEVATION)
+    direction = np.array([level * math.cos(_AZIMUTH), level * math.sin(_AZIMUTH), math.sin(_ELEVATION)])
     taken = []
     for kind, distance, caption in (("robot", 3.2 * radius, f"The simulator: {name or 'origin'}"),
-                                    ("world", max(_WIDE, 6 * radius), "The simulator: surroundings")):
+                                    ("world", max(_WIDE, 6 * radius), "The simulator from above")):
         eye = middle + direction * distance
         if kind == "world":
-            eye = middle + distance * np.array([0.5, 0.4, 0.75])  # steeper: over walls
-        answer = rospy.ServiceProxy("/gazebo/spawn_sdf_model", SpawnModel)(_NAME, _CAMERA, "", look_at(eye, middle), "world")
+            eye = middle + distance * np.array([0.14, 0.1, 0.985])  # nearly from above: into rooms
+        spawn = rospy.ServiceProxy("/gazebo/spawn_sdf_model", SpawnModel)
+        answer = spawn(_NAME, _CAMERA, "", look_at(eye, middle), "world")
         if not answer.success:
             raise rospy.ServiceException(f"no camera for pictures of the scene: {answer.status_message}")
         try:

@@ -38,7 +38,7 @@ class Visit:
         self.master = rosgraph.Master(rospy.get_name())
 
     def wait_until_settled(self) -> None:
-        """Until all nodes of the launch file have been there, those that pass are gone, and nothing comes or goes for a while."""
+        """Until all nodes of the launch file have come, those that pass have gone, and nothing comes or goes for a while."""
         start = changed = time.monotonic()
         before, missing = None, set()
         seen = set()

@@ -161,15 +161,15 @@ def run_grabber(job: dict, environment: Dict[str, str], limit: float) -> dict:
 
 
 def main(argv: Optional[List[str]] = None) -> int:
-    """Exit code 0: every display drew something; 3: pictures written, but some display had nothing to draw (a line says which
-    and why); 1: no picture; 2: wrong options.
+    """Exit code 0: every display drew something; 3: pictures written, but some display had nothing to draw (a line says
+    which and why); 1: no picture; 2: wrong options.
     """
     options = parser().parse_args(rospy.myargv(sys.argv if argv is None else argv)[1:])
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
     try:
         result = take(options.config, [parse_view(text) for text in options.view], options.output, size=options.size,
-                      window=options.window, fixed_frame=options.fixed_frame, timeout=options.timeout, grace=options.grace, watch=options.watch,
-                      backend_name=options.backend, anti_aliasing=options.anti_aliasing)
+                      window=options.window, fixed_frame=options.fixed_frame, timeout=options.timeout, grace=options.grace,
+                      watch=options.watch, backend_name=options.backend, anti_aliasing=options.anti_aliasing)
     except (ScreenshotError, DisplayError, ViewError) as error:
         print(f"screenshot: {error}", file=sys.stderr)
         return 1

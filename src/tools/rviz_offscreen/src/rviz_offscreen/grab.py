@@ -172,7 +172,8 @@ def window_of(panel: QWidget) -> int:
 
 def write_frame_buffer(window: int, path: str) -> None:
     """Ogre::RenderTarget::writeContentsToFile."""
-    write = _library("libOgreMain.so")._ZN4Ogre12RenderTarget19writeContentsToFileERKNSt7__cxx1112basic_stringIcSt11char_traitsIcESaIcEEE
+    ogre = _library("libOgreMain.so")
+    write = ogre._ZN4Ogre12RenderTarget19writeContentsToFileERKNSt7__cxx1112basic_stringIcSt11char_traitsIcESaIcEEE
     write.restype = None
     write.argtypes = [ctypes.c_void_p, ctypes.c_void_p]
     with _StdString(path.encode()) as file:
