@@ -344,7 +344,7 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
 
     parser = argparse.ArgumentParser(
         prog="build_world", description="Builds a world (or a model) from a plan of walls, doors, windows and stairs.",
-        epilog="A plan is YAML (see pydoc3 gazebo_ros.building) or an image, walls dark on light.")
+        epilog="A plan is YAML (see python3 -m pydoc gazebo_ros.building) or an image, walls dark on light.")
     parser.add_argument("plan", help="plan.yaml, a map of map_server, or an image with --resolution")
     parser.add_argument("-o", "--output", required=True,
                         help="FILE.world: with sun and floor; FILE.sdf: the model alone; DIR/: a model directory")
