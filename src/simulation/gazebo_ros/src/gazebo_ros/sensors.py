@@ -115,11 +115,6 @@ class Sensor:
     def measurement_time(self) -> rospy.Time:
         return rospy.Time(*divmod(self.measurement_ns, _NS))
 
-    @property
-    def active(self) -> bool:
-        """Somebody wants its measurements."""
-        return any(consumer.wanted() for consumer in self._consumers)
-
     def connect(self, measure: Callable[[Sensor], None], wanted: Callable[[], bool] = _always) -> None:
         """Call ``measure(sensor)`` in the physics thread at every update while ``wanted()`` is true.
 

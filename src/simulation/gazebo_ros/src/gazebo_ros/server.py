@@ -134,7 +134,7 @@ class Server:
         self.throttle = Throttle(world.physics.real_time_update_rate)
         self.paused = paused
         self.started = CallbackList()  # called once, when all plugins are loaded, before the first step
-        self.stepped = CallbackList()  # called when a run of steps ends or begins: pause, unpause, end of a step request
+        self.stepped = CallbackList()  # called when a run of steps begins or ends: pause, unpause, end of a request
         self._host = host
         self._ros_time = ros_time
         self._iterations_left = iterations or None

@@ -77,7 +77,8 @@ def model_text(options: argparse.Namespace) -> str:
         except OSError as error:
             raise Failure(f"cannot read {options.file}: {error.strerror}") from error
         except UnicodeDecodeError as error:
-            raise Failure(f"cannot read {options.file}: it is no text in UTF-8 (byte {error.start}); save it as such") from error
+            raise Failure(f"cannot read {options.file}: it is no text in UTF-8 (byte {error.start}); "
+                          "save it as such") from error
     elif options.param:
         where = f"parameter {rospy.resolve_name(options.param)}"
         try:

@@ -57,10 +57,11 @@ class LightServices:
         r = request
         finite("the request", r.diffuse.r, r.diffuse.g, r.diffuse.b, r.diffuse.a, r.specular.r, r.specular.g,
                r.specular.b, r.specular.a, r.attenuation_constant, r.attenuation_linear, r.attenuation_quadratic)
-        pose = pose_of(r.pose)
+        x_wn = pose_of(r.pose)
         lights[name] = replace(
             lights[name], cast_shadows=r.cast_shadows, diffuse=(r.diffuse.r, r.diffuse.g, r.diffuse.b, r.diffuse.a),
             specular=(r.specular.r, r.specular.g, r.specular.b, r.specular.a), constant=r.attenuation_constant,
             linear=r.attenuation_linear, quadratic=r.attenuation_quadratic,
-            direction=vector_of(r.direction, "direction"), pose=pose if link is None else math3.relative(link.pose, pose))
+            direction=vector_of(r.direction, "direction"),
+            pose=x_wn if link is None else math3.relative(link.pose, x_wn))
         return ""
