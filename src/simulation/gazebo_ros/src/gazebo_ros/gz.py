@@ -119,8 +119,8 @@ def sdf(options: argparse.Namespace) -> None:
 
 
 def parser() -> argparse.ArgumentParser:
-    top = argparse.ArgumentParser(prog="gz", formatter_class=argparse.RawDescriptionHelpFormatter,
-                                  description=__doc__.split(":", 1)[1].strip())
+    top = argparse.ArgumentParser(prog="gz", description="Ask or change a running simulator (the node /gazebo).",
+                                  formatter_class=argparse.RawDescriptionHelpFormatter)
     top.add_argument("-v", "--version", action="version", version=VERSION)
     commands = top.add_subparsers(dest="command", required=True, metavar="COMMAND")
 
