@@ -9,6 +9,8 @@ from realtime_tools.action_server import RealtimeActionServer, RealtimeGoal
 from .controller import Controller
 from .node_handle import NodeHandle
 
+_STOPPED = "The controller was stopped"
+
 
 class ActionController(Controller):
     """Has one active goal at most; a new one takes its place.
@@ -35,12 +37,25 @@ class ActionController(Controller):
     def stopping(self, time: float) -> None:
         with self._lock:
             self._running = False
-            goal, self._goal = self._goal, None
-        if goal is not None:
-            goal.cancel(text="The controller was stopped")
+            self._replace(None, _STOPPED)
 
     def aborting(self, time: float) -> None:
         self.stopping(time)
+
+    def _replace(self, goal: Optional[RealtimeGoal], text: str) -> None:
+        """``goal`` (or none) becomes the active one. Call it with ``_lock`` held, so that the loop cannot finish a goal
+        that is not accepted yet.
+
+        :param text: why the goal before it is cancelled
+        """
+        if self._goal is not None:
+            self._goal.cancel(text=text)
+        if goal is not None:
+            goal.accept()
+            if not self._running:  # no longer, since the goal was looked at
+                goal.cancel(text=_STOPPED)
+                goal = None
+        self._goal = goal
 
     def _release(self, goal: RealtimeGoal) -> bool:
         """Let go of the active goal, to finish it; False if a thread of rospy was quicker."""
@@ -52,9 +67,6 @@ class ActionController(Controller):
 
     def _on_cancel(self, goal_id: str) -> None:
         with self._lock:
-            goal = self._goal
-            if goal is None or goal.id != goal_id:
-                return
-            self._goal = None
-            self._hold(None)
-        goal.cancel(text="Cancelled by a client")
+            if self._goal is not None and self._goal.id == goal_id:
+                self._hold(None)
+                self._replace(None, "Cancelled by a client")

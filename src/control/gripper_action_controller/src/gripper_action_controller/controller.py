@@ -96,12 +96,9 @@ class GripperActionController(ActionController):
             return self._reject(goal, f"The goal is not finite: position {wanted.position}, max_effort "
                                       f"{wanted.max_effort}")
         with self._lock:
-            replaced, self._goal = self._goal, goal
+            self._replace(goal, "Replaced by another goal")
             self._command = (wanted.position, wanted.max_effort)
             self._last_movement = self._time
-        if replaced is not None:
-            replaced.cancel(text="Replaced by another goal")
-        goal.accept()
 
     def _reject(self, goal: RealtimeGoal, text: str) -> None:
         rospy.logerr("%s: %s", self._name, text)

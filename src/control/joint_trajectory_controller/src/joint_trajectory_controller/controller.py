@@ -206,12 +206,9 @@ class JointTrajectoryController(ActionController):
 
     def _on_command(self, message: JointTrajectory) -> None:
         try:
-            replaced = self._take(message, None, self._tolerances, named=False)
+            self._take(message, None, self._tolerances, named=False)
         except InvalidTrajectory as error:
             self._complain(error)
-            return
-        if replaced is not None:
-            replaced.cancel(text="Replaced by a trajectory from the command topic")
 
     def _complain(self, error: Exception) -> None:
         log = rospy.logwarn if isinstance(error, Late) else rospy.logerr
@@ -220,19 +217,15 @@ class JointTrajectoryController(ActionController):
     def _on_goal(self, goal: RealtimeGoal) -> None:
         try:
             wanted = tolerances.overridden(self._tolerances, self._joints, goal.goal)
-            replaced = self._take(goal.goal.trajectory, goal, wanted, named=True)
+            self._take(goal.goal.trajectory, goal, wanted, named=True)
         except (InvalidTrajectory, ValueError) as error:
             self._complain(error)
             code = getattr(error, "code", Result.INVALID_GOAL)
             goal.reject(Result(error_code=code, error_string=str(error)), str(error))
-            return
-        if replaced is not None:
-            replaced.cancel(text="Replaced by another goal")
-        goal.accept()
 
     def _take(self, message: JointTrajectory, goal: Optional[RealtimeGoal],
-              wanted: List[tolerances.JointTolerances], named: bool) -> Optional[RealtimeGoal]:
-        """Join a message to the running motion. :return: the goal it replaces.
+              wanted: List[tolerances.JointTolerances], named: bool) -> None:
+        """Join a message to the running motion; its goal, or none, takes the place of the active one.
 
         :param named: whether an empty trajectory must name the joints, as that of an action goal
         :raises InvalidTrajectory: the motion goes on as it was
@@ -256,14 +249,13 @@ class JointTrajectoryController(ActionController):
                 start = next_uptime + (stamp - self._time - self._period if stamp else 0.0)
                 self._follow(splice(self._trajectory, command, start, self._uptime, next_uptime, self._continuous,
                                     wanted, goal))
-            replaced, self._goal = self._goal, goal
+            self._replace(goal, "Replaced by " + ("another goal" if goal else "a trajectory from the command topic"))
             self._done = [False] * len(self._joints)
             self._next_monitor = self._uptime
         # a first point at 0 s that starts at once says where the motion begins: nobody misses it
         if command is not None and command.first > (0 if stamp or command.times[0] != 0.0 else 1):
             rospy.logwarn("%s: Dropping first %d trajectory point(s) out of %d, as they occur before the current time.",
                           self._name, command.first, len(command.times))
-        return replaced
 
     def _on_query(self, request) -> QueryTrajectoryStateResponse:
         with self._lock:
