@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Behaviour of the differential drive controller over its topics, tf and dynamic_reconfigure."""
 import math
+import socket
 import subprocess
 import unittest
 
@@ -92,6 +93,12 @@ class DiffDrive(unittest.TestCase):
         with client.running("plain"), Base("plain") as base:  # while closed loop sees that the wheels turn half as fast
             messages = base.drive(0.1, 0.0, 2.0)
             self.assertAlmostEqual(displacement(messages)[0], 0.05 * duration(messages), delta=0.002)
+
+    def test_commands_are_not_held_back(self):
+        """TCP would keep one until the last is acknowledged, longer than a command lasts in a fast simulation."""
+        with client.running("plain"), Base("plain") as base:
+            for connection in base.command.impl.connections:
+                self.assertTrue(connection.socket.getsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY))
 
     def test_frames_by_parameter(self):
         with client.running("frames"), Base("frames") as base:
@@ -217,7 +224,7 @@ class DiffDrive(unittest.TestCase):
     def test_two_publishers_where_one_is_allowed_stop_the_robot(self):
         with client.running("one_publisher"), Base("one_publisher") as base:
             self.assertAlmostEqual(base.drive(0.5, 0.0, 1.0)[-1].twist.twist.linear.x, 0.5, delta=1e-6)
-            client.sim_sleep(2.5)  # the command runs out
+            base.wait_at_rest()  # the command has run out
             second = subprocess.Popen(
                 ["rostopic", "pub", "--latch", "/one_publisher/cmd_vel", "geometry_msgs/Twist", "{}"],
                 stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)

@@ -68,13 +68,12 @@ class FourWheels(unittest.TestCase):
             messages = base.drive(0.3, 0.0, 1.0)
             self.assertAlmostEqual(messages[-1].twist.twist.linear.y, 0.0, delta=1e-6)
             self.assertAlmostEqual(messages[-1].twist.twist.linear.x, 0.3, delta=1e-6)
-            client.sim_sleep(2.0)
-            self.assertEqual(base.odometry.next().twist.twist.linear.x, 0.0)
+            base.wait_at_rest()
 
     def test_limits(self):
         with client.running("limits"), Base("limits") as base:
             self.assertAlmostEqual(base.drive(5.0, 0.0, 2.0)[-1].twist.twist.linear.x, 0.5, delta=1e-6)
-            client.sim_sleep(3.0)
+            base.wait_at_rest()
             messages = self.steer(base, 2.0, speed=5.0)
             self.assertAlmostEqual(messages[-1].twist.twist.linear.x, 0.5, delta=1e-6)
 

@@ -64,6 +64,10 @@ class Base:
         self.odometry.next()  # what came before it has arrived
         return list(self.odometry.messages)
 
+    def wait_at_rest(self) -> None:
+        """Until the base stands: the last command has run out."""
+        client.wait_until(lambda: not _differ(self.odometry.next().twist.twist, Twist()), "the base to stop")
+
     @staticmethod
     def _go_on(send: Callable[[], None], seconds: float) -> None:
         end = client.advance() + seconds
