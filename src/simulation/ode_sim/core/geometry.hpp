@@ -4,7 +4,7 @@
 
 namespace ode_sim {
 
-dGeomID make_mesh(Shape& shape, std::vector<double> vertices, std::vector<dTriIndex> indices);
+dGeomID make_mesh(Shape& shape, std::shared_ptr<MeshData> data);
 dGeomID make_cylinder(Shape& shape, double radius, double length);
 // `heights` (m): rows x columns, first row at +y; `size_x`, `size_y` in metres, centred on the origin.
 dGeomID make_heightmap(Shape& shape, std::vector<double> heights, int columns, int rows, double size_x, double size_y);

@@ -56,6 +56,14 @@ PYBIND11_MODULE(_core, m) {
       .def_readwrite("collide_without_contact", &Surface::collide_without_contact)
       .def_property("fdir1", [](Surface& s) { return out(s.fdir1); }, [](Surface& s, T3 v) { s.fdir1 = in(v); });
 
+  py::class_<MeshData, std::shared_ptr<MeshData>>(m, "MeshData")
+      .def(py::init([](Doubles vertices, py::array_t<uint32_t, py::array::c_style | py::array::forcecast> triangles) {
+        std::vector<double> v(vertices.data(), vertices.data() + vertices.size());
+        std::vector<dTriIndex> t(triangles.data(), triangles.data() + triangles.size());
+        py::gil_scoped_release release;
+        return std::make_shared<MeshData>(std::move(v), std::move(t));
+      }), py::arg("vertices"), py::arg("triangles"));
+
   py::class_<Shape, std::shared_ptr<Shape>>(m, "Shape")
       .def_readonly("id", &Shape::id)
       .def_readwrite("max_contacts", &Shape::max_contacts)
@@ -200,11 +208,9 @@ PYBIND11_MODULE(_core, m) {
         shape->plane_normal = in(normal);
         return world_of(&model).add_shape(l, in(X), dCreatePlane(nullptr, 0, 0, 1, 0), shape);
       })
-      .def("add_mesh", [](Model& model, Link& l, T7 X, Doubles vertices, py::array_t<uint32_t, py::array::c_style | py::array::forcecast> triangles) {
+      .def("add_mesh", [](Model& model, Link& l, T7 X, std::shared_ptr<MeshData> data) {
         auto shape = std::make_shared<Shape>();
-        std::vector<double> v(vertices.data(), vertices.data() + vertices.size());
-        std::vector<dTriIndex> t(triangles.data(), triangles.data() + triangles.size());
-        return world_of(&model).add_shape(l, in(X), make_mesh(*shape, v, t), shape);
+        return world_of(&model).add_shape(l, in(X), make_mesh(*shape, std::move(data)), shape);
       })
       .def("add_heightmap", [](Model& model, Link& l, T7 X, Doubles heights, double size_x, double size_y) {
         auto shape = std::make_shared<Shape>();

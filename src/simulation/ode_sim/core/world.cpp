@@ -37,16 +37,6 @@ class Listening {
   ~Listening() { current_messages = nullptr; }
 };
 
-void initialise_ode() {
-  static std::once_flag once;
-  std::call_once(once, [] { dInitODE2(0); });
-  thread_local bool ready = false;
-  if (!ready) {
-    dAllocateODEDataForThread(dAllocateMaskAll);
-    ready = true;
-  }
-}
-
 Vec3 vec(const dReal* a) { return {a[0], a[1], a[2]}; }
 Quat quat(const dReal* a) { return {a[1], a[2], a[3], a[0]}; }
 
@@ -120,6 +110,16 @@ constexpr double kPi = 3.14159265358979323846;
 
 }  // namespace
 
+void initialise_ode() {
+  static std::once_flag once;
+  std::call_once(once, [] { dInitODE2(0); });
+  thread_local bool ready = false;
+  if (!ready) {
+    dAllocateODEDataForThread(dAllocateMaskAll);
+    ready = true;
+  }
+}
+
 Pose Joint::motion(double q) const {
   switch (type) {
     case JointType::Revolute: return {{}, axis_angle(axes[0].xyz, q)};
@@ -170,8 +170,7 @@ void World::remove_model(Model& model) {
       s->alive = false;
       dGeomDestroy(s->geom);
       if (s->faceted) dGeomDestroy(s->faceted);
-      if (s->mesh) dGeomTriMeshDataDestroy(s->mesh);
-      if (s->faceted_mesh) dGeomTriMeshDataDestroy(s->faceted_mesh);
+      s->mesh = s->faceted_mesh = nullptr;
       if (s->field) dGeomHeightfieldDataDestroy(s->field);
       s->geom = s->faceted = nullptr;
     }

@@ -32,6 +32,8 @@ struct Model;
 struct Link;
 struct Joint;
 
+void initialise_ode();  // for the calling thread
+
 constexpr double kInf = std::numeric_limits<double>::infinity();
 constexpr double kUnlimited = 1e8;  // limits of this size and more (1e9, 1e16) mean none
 
@@ -43,15 +45,25 @@ struct Surface {
   bool collide_without_contact = false;
 };
 
+// Triangles with the tree that ODE searches; shared by the shapes that have them.
+struct MeshData {
+  MeshData(std::vector<double> vertices, std::vector<dTriIndex> indices);
+  ~MeshData();
+  MeshData(const MeshData&) = delete;
+  MeshData& operator=(const MeshData&) = delete;
+  std::vector<double> vertices;
+  std::vector<dTriIndex> indices;
+  dTriMeshDataID data;
+};
+
 struct Shape {
   int id = 0;  // unique in the world, ascending in order of creation
   Link* link = nullptr;
   dGeomID geom = nullptr;
   dGeomID faceted = nullptr;  // a cylinder's stand-in against shapes that ODE cannot collide with it
-  dTriMeshDataID mesh = nullptr, faceted_mesh = nullptr;
+  std::shared_ptr<MeshData> mesh, faceted_mesh;
   dHeightfieldDataID field = nullptr;
-  std::vector<double> vertices, faceted_vertices;
-  std::vector<dTriIndex> indices, faceted_indices;
+  std::vector<double> heights;
   bool infinite = false;  // a plane
   bool wheel = false;     // a cylinder that turns on a hinge about its own axis
   Pose X_LC;

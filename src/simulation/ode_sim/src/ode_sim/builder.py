@@ -4,8 +4,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import List, Optional, Tuple
 
-import numpy as np
-
+from ode_sim import collision_meshes
 from ode_sim.description import model as d
 from ode_sim.handles import CollisionHandle, JointHandle, LinkHandle, ModelHandle, flat, unlimited
 from ode_sim.inertia import usable_inertia, usable_mass
@@ -101,9 +100,7 @@ class Builder:
         if isinstance(shape, d.Mesh):
             if not shape.path:
                 return None  # the reader of the description has said so
-            from ode_sim.mesh import load
-            surface = load(shape)
-            return self._mesh(model, link, pose, surface.vertices, surface.triangles)
+            return model.add_mesh(link, pose, collision_meshes.load(shape))
         if isinstance(shape, d.Heightmap):
             from ode_sim.heightmap import load_heights
             heights = load_heights(shape)
@@ -111,14 +108,8 @@ class Builder:
             return model.add_heightmap(link, pose, heights, shape.size[0], shape.size[1])
         if isinstance(shape, d.Polyline):
             from ode_sim.polyline import extrude
-            return self._mesh(model, link, pose, *extrude(shape))
+            return model.add_mesh(link, pose, collision_meshes.mesh_data(*extrude(shape)))
         raise d.DescriptionError(f"shape {type(shape).__name__} cannot collide")
-
-    @staticmethod
-    def _mesh(model, link, pose, vertices: np.ndarray, triangles: np.ndarray):
-        if len(triangles) == 0 or not np.isfinite(vertices).all():
-            raise d.DescriptionError("its mesh has no triangles" if len(triangles) == 0 else "its mesh holds NaN or infinity")
-        return model.add_mesh(link, pose, vertices, triangles)
 
     @staticmethod
     def _sizes(values: Tuple[float, ...], what: str) -> None:

@@ -62,7 +62,7 @@ def load(mesh: Mesh) -> Surface:
 
 def load_surface(path: str, scale: Vec3 = UNIT_SCALE, submesh: str = "", center: bool = False) -> Surface:
     """As :func:`load`. The arrays are shared between callers and read-only."""
-    return _surface(path, tuple(float(s) for s in scale), submesh, center, _stamp(path))
+    return _surface(path, tuple(float(s) for s in scale), submesh, center, file_stamp(path))
 
 
 def load_visual(path: str, scale: Vec3 = UNIT_SCALE, submesh: str = "", center: bool = False) -> List[VisualPart]:
@@ -72,7 +72,7 @@ def load_visual(path: str, scale: Vec3 = UNIT_SCALE, submesh: str = "", center: 
 
     :raises DescriptionError: one line that names the file.
     """
-    return list(_visual(path, tuple(float(s) for s in scale), submesh, center, _stamp(path)))
+    return list(_visual(path, tuple(float(s) for s in scale), submesh, center, file_stamp(path)))
 
 
 def mass_properties(surface: Surface) -> MassProperties:
@@ -96,7 +96,7 @@ def mass_properties(surface: Surface) -> MassProperties:
 
 # ---------------------------------------------------------------------------------------------- caches
 
-def _stamp(path: str) -> Tuple[int, int]:
+def file_stamp(path: str) -> Tuple[int, int]:
     """Size and time of the file: an edited mesh is read again."""
     try:
         status = os.stat(path)

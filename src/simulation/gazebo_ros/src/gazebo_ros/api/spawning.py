@@ -6,9 +6,9 @@ from dataclasses import replace
 from typing import List
 
 from gazebo_msgs.srv import SpawnModel
-from ode_sim import math3, mesh
+from ode_sim import math3, prepare
 from ode_sim.description import DescriptionError, read_light, read_model, root_kind
-from ode_sim.description.model import Mesh, Model, Plugin, Pose
+from ode_sim.description.model import Model, Plugin, Pose
 
 from gazebo_ros.api.geometry import frame_entity, pose_of
 from gazebo_ros.api.handlers import Refused, advertise
@@ -16,8 +16,8 @@ from gazebo_ros.server import Server, log_problems
 
 
 class SpawnServices:
-    """XML is read, meshes are loaded and plugins imported in the service's thread; the physics thread only puts the
-    finished model into the world, so that robots that are already there run on."""
+    """XML is read, meshes are loaded and prepared and plugins imported in the service's thread; the physics thread only
+    puts the finished model into the world, so that robots that are already there run on."""
 
     def __init__(self, server: Server):
         self._server = server
@@ -50,7 +50,7 @@ class SpawnServices:
         model, problems = read_model(request.model_xml, name=request.model_name or None, finder=server.finder)
         log_problems(problems, f"model {model.name}")
         set_robot_namespace(model, request.robot_namespace)
-        _load_meshes(model)
+        prepare(model)
         resolved = server.resolve(model)
 
         def put() -> None:
@@ -94,14 +94,3 @@ def set_robot_namespace(model: Model, namespace: str) -> None:
     for plugin in plugins_of(model):
         if plugin.element.find("robotNamespace") is None:
             ET.SubElement(plugin.element, "robotNamespace").text = namespace
-
-
-def _load_meshes(model: Model) -> None:
-    """Into the cache of ode_sim; what is wrong with a mesh is said by the world that would use it."""
-    for link in model.links:
-        for collision in link.collisions:
-            if isinstance(collision.geometry, Mesh) and collision.geometry.path:
-                try:
-                    mesh.load(collision.geometry)
-                except DescriptionError:
-                    continue

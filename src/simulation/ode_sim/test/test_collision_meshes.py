@@ -1,0 +1,83 @@
+"""Search trees of collision meshes: built once, beforehand if wanted, shared."""
+import math
+import threading
+
+import numpy as np
+import pytest
+
+import ode_sim
+from ode_sim import collision_meshes
+from ode_sim.description.model import Box, Collision, Inertial, Link, Mesh, Model, Pose
+from physics_models import ground
+
+
+def dome(rings, radius=0.2):
+    """ASCII OBJ of a closed ball."""
+    lines, n = [f"v 0 0 {radius}"], 2 * rings
+    for i in range(1, rings):
+        for k in range(n):
+            a, b = math.pi * i / rings, 2 * math.pi * k / n
+            lines.append(f"v {radius * math.sin(a) * math.cos(b)} {radius * math.sin(a) * math.sin(b)} {radius * math.cos(a)}")
+    lines.append(f"v 0 0 {-radius}")
+    last = 2 + n * (rings - 1)
+    for k in range(n):
+        right = (k + 1) % n
+        lines.append(f"f 1 {2 + k} {2 + right}")
+        for i in range(rings - 2):
+            a, b = 2 + n * i, 2 + n * (i + 1)
+            lines += [f"f {a + k} {b + k} {b + right}", f"f {a + k} {b + right} {a + right}"]
+        lines.append(f"f {last} {last - n + right} {last - n + k}")
+    return "\n".join(lines) + "\n"
+
+
+@pytest.fixture
+def ball(tmp_path):
+    """A description of a ball of mesh at (x, 0, z)."""
+    path = tmp_path / "ball.obj"
+
+    def make(name, at, rings=12):
+        if not path.exists():
+            path.write_text(dome(rings))
+        shape = Collision("mesh", Pose(), Mesh(uri="ball.obj", path=str(path)))
+        return Model(name, Pose(at), (Link("link", Pose(), Inertial(1.0, Pose(), 0.02, 0, 0, 0.02, 0, 0.02), (shape,)),))
+
+    return make
+
+
+def test_models_share_one_tree_and_outlive_each_other(ball):
+    world = ode_sim.World()
+    world.spawn(ground())
+    before = collision_meshes._load.cache_info()
+    first, second = world.spawn(ball("first", (0, 0, 0.21))), world.spawn(ball("second", (1, 0, 0.21)))
+    after = collision_meshes._load.cache_info()
+    assert (after.misses - before.misses, after.hits - before.hits) == (1, 1)
+    world.step(200)
+    world.remove("first")
+    collision_meshes._load.cache_clear()
+    world.step(500)
+    assert second.pose.p[2] == pytest.approx(0.2, abs=0.003)
+    assert len(world.contacts()) > 0
+
+
+def test_prepared_in_another_thread_while_the_world_steps(ball):
+    world = ode_sim.World()
+    model = ball("big", (0, 0, 1.0), rings=60)
+    thread = threading.Thread(target=ode_sim.prepare, args=(model,))
+    thread.start()
+    while thread.is_alive():
+        world.step()
+    before = collision_meshes._load.cache_info().misses
+    world.spawn(model)
+    assert collision_meshes._load.cache_info().misses == before
+    ranges, _ = world.cast_rays(np.array([[0, 0, 3.0]]), np.array([[0, 0, -1.0]]), 10.0)
+    assert ranges[0] == pytest.approx(1.8, abs=1e-4)
+
+
+def test_what_cannot_be_loaded_is_left_to_spawning():
+    missing = Collision("missing", Pose(), Mesh(uri="nowhere.stl", path="/nowhere.stl"))
+    box = Collision("box", Pose(), Box((0.1, 0.1, 0.1)))
+    model = Model("m", Pose(), (Link("link", collisions=(missing, box)),))
+    ode_sim.prepare(model)
+    world = ode_sim.World()
+    assert list(world.spawn(model).links["link"].collisions) == ["box"]
+    assert "nowhere.stl" in world.problems[0].message
