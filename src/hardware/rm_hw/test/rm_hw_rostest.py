@@ -17,11 +17,12 @@ from rm_hw.srv import BenchCommand
 from rm_msgs.msg import ActuatorState
 from rm_msgs.srv import EnableImuTrigger
 from sensor_msgs.msg import JointState
-from std_msgs.msg import Float64
+from std_msgs.msg import Bool, Float64
 
 PATIENCE = 60.0
 GEAR = 19.2032
-CONTROLLERS = ("joint_states_controller", "arm_position", "arm_velocity", "arm_effort", "wheel_effort", "yaw_effort")
+CONTROLLERS = ("joint_states_controller", "arm_position", "arm_velocity", "arm_effort", "wheel_effort", "yaw_effort",
+               "arm_broken")
 
 
 def wait_until(condition, what):
@@ -86,7 +87,7 @@ class RmHwTest(unittest.TestCase):
     def setUpClass(cls):
         cls.watch = Watch()
         cls.commands = {name: rospy.Publisher(f"/{name}/command", Float64, queue_size=1, latch=True)
-                        for name in CONTROLLERS[1:]}
+                        for name in CONTROLLERS[1:-1]}
         rospy.wait_for_service("/motor_bench/command", PATIENCE)
         cls.start()
 
@@ -179,6 +180,27 @@ class RmHwTest(unittest.TestCase):
         self.run_only()
         wait_until(lambda: self.watch.real("arm_motor", "effort") == 0.0, "no controller, no current")
         bench("release arm_motor")
+
+    def test_a_controller_that_raises_gets_no_current_and_others_keep_theirs(self):
+        for motor in ("arm_motor", "wheel_motor"):
+            bench(f"hold {motor}")
+        fail = rospy.Publisher("/arm_broken/fail", Bool, queue_size=1, latch=True)
+        self.run_only("arm_broken", "wheel_effort")
+        wait_until(lambda: self.commands["wheel_effort"].get_num_connections() > 0, "wheel_effort listens")
+        self.commands["wheel_effort"].publish(0.1)
+        wait_until(lambda: self.watch.real("arm_motor", "effort") > 1.0, "current from the controller that will raise")
+        wait_until(lambda: abs(self.watch.real("wheel_motor", "effort") - 0.1) < 0.02, "0.1 Nm at the other motor")
+        fail.publish(True)
+        self.watch.hears(r"'arm_broken'.*update\(\) raised ZeroDivisionError: on purpose")
+        wait_until(lambda: self.watch.real("arm_motor", "effort") == 0.0, "no current after the exception")
+        self.watch.fresh(5)
+        self.assertEqual(self.watch.real("arm_motor", "effort"), 0.0)
+        self.assertAlmostEqual(self.watch.real("wheel_motor", "effort"), 0.1, delta=0.02)
+        self.assertIsNone(self.process.poll())
+        type(self).running = ["wheel_effort"]
+        fail.publish(False)
+        for motor in ("arm_motor", "wheel_motor"):
+            bench(f"release {motor}")
 
     def test_no_number_never_reaches_the_motor(self):
         bench("hold arm_motor")

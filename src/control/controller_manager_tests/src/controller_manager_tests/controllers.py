@@ -2,6 +2,7 @@
 from controller_interface import Controller, MultiInterfaceController
 from hardware_interface import (EffortJointInterface, HardwareInterface, JointCommandInterface, PositionJointInterface,
                                 VelocityJointInterface)
+from std_msgs.msg import Bool
 
 
 class EffortTestController(Controller):
@@ -89,17 +90,19 @@ class DerivedController(ExtensibleController):
 
 
 class BrokenController(Controller):
-    """Raises in the method that its parameter ``fail_in`` names."""
+    """Raises in the method that its parameter ``fail_in`` names; with ``on_demand`` once its topic ``fail`` says true."""
 
     interface = EffortJointInterface
 
     def init(self, hw, root_nh, controller_nh):
-        self.joint = hw.get_handle("hiDOF_joint3")
+        self.joint = hw.get_handle(controller_nh.param("joint", "hiDOF_joint3"))
         self.fail_in = controller_nh.param("fail_in", "update")
+        self.failing = not controller_nh.param("on_demand", False)
+        controller_nh.subscriber("fail", Bool, lambda message: setattr(self, "failing", message.data), queue_size=1)
         self.maybe_fail("init")
 
     def maybe_fail(self, method):
-        if method == self.fail_in:
+        if self.failing and method == self.fail_in:
             raise ZeroDivisionError(f"on purpose in {method}")
 
     def starting(self, time):
