@@ -88,6 +88,17 @@ class PositionTest(unittest.TestCase):
             robot.run(0.5)
             self.assertAlmostEqual(robot.joint().position(), before, delta=2e-3)
 
+    def test_a_held_joint_tells_the_weight_beyond(self):
+        with SimulatedRobot(one_joint(POSITION), parameters=FORWARD) as robot:
+            robot.joint().feedback()
+            robot.start("pos")
+            robot.command("pos", 0.0)
+            robot.run(0.2)
+            felt = robot.joint().feedback()
+            weight = 0.5 * 9.8
+            for got, wanted in zip((*felt.child_force, *felt.child_torque), (0, 0, weight, 0, -0.5 * weight, 0)):
+                self.assertAlmostEqual(got, wanted, delta=1e-3)
+
     def test_no_p_gain_is_harmless_and_says_so(self):
         with Log.recorded() as log, SimulatedRobot(one_joint(POSITION)):
             line, = log.having("No p gain specified for pid.  Namespace: /robot/gazebo_ros_control/pid_gains/j")
