@@ -6,9 +6,9 @@ from typing import Callable, List, Tuple
 
 import numpy as np
 import rospy
-from gazebo_msgs.msg import LinkStates, ModelStates
-from gazebo_msgs.srv import DeleteModel, GetModelProperties, SpawnModel
 from geometry_msgs.msg import Point, Pose, Quaternion
+from rosservice import get_service_class_by_name
+from rostopic import get_topic_class
 from sensor_msgs.msg import Image
 
 _NAME = "gallery_camera"
@@ -25,6 +25,18 @@ _AZIMUTH, _ELEVATION = math.radians(35), math.radians(28)  # of the camera, seen
 _WIDE = 14.0  # m from which the surroundings are seen
 
 
+def _service(name: str) -> rospy.ServiceProxy:
+    """A service of the simulator, whoever that is: the kind is asked of the running one."""
+    return rospy.ServiceProxy(name, get_service_class_by_name(name))
+
+
+def _message(topic: str, seconds: float):
+    kind = get_topic_class(topic)[0]
+    if kind is None:
+        raise rospy.ROSException(f"nobody publishes {topic}")
+    return rospy.wait_for_message(topic, kind, seconds)
+
+
 def look_at(eye: np.ndarray, target: np.ndarray) -> Pose:
     """X_WC of a camera at ``eye`` whose x axis points to ``target``, z up; (3,) each, world frame, m."""
     way = target - eye
@@ -39,14 +51,14 @@ def subject(seconds: float) -> Tuple[str, np.ndarray, float]:
     :returns: its name, the middle of its links (3,) in the world, m, and how far its outermost link is from there, m.
     :raises rospy.ROSException: the simulator did not answer within ``seconds``.
     """
-    properties = rospy.ServiceProxy("/gazebo/get_model_properties", GetModelProperties)
-    names = [name for name in rospy.wait_for_message("/gazebo/model_states", ModelStates, seconds).name if name != _NAME]
+    properties = _service("/gazebo/get_model_properties")
+    names = [name for name in _message("/gazebo/model_states", seconds).name if name != _NAME]
     known = {name: properties(name) for name in names}
     movable = [name for name in names if not known[name].is_static]
     if not movable:
         return "", np.zeros(3), 1.0
     name = max(movable, key=lambda each: len(known[each].joint_names))
-    links = rospy.wait_for_message("/gazebo/link_states", LinkStates, seconds)
+    links = _message("/gazebo/link_states", seconds)
     points = np.array([[pose.position.x, pose.position.y, pose.position.z] for link, pose in zip(links.name, links.pose)
                        if link.startswith(name + "::")])
     middle = (points.min(axis=0) + points.max(axis=0)) / 2
@@ -68,8 +80,7 @@ def pictures(save: Callable[[Image, str], None], folder: str, stem: str, seconds
         eye = middle + direction * distance
         if kind == "world":
             eye = middle + distance * np.array([0.14, 0.1, 0.985])  # nearly from above: into rooms
-        spawn = rospy.ServiceProxy("/gazebo/spawn_sdf_model", SpawnModel)
-        answer = spawn(_NAME, _CAMERA, "", look_at(eye, middle), "world")
+        answer = _service("/gazebo/spawn_sdf_model")(_NAME, _CAMERA, "", look_at(eye, middle), "world")
         if not answer.success:
             raise rospy.ServiceException(f"no camera for pictures of the scene: {answer.status_message}")
         try:
@@ -77,5 +88,5 @@ def pictures(save: Callable[[Image, str], None], folder: str, stem: str, seconds
             save(rospy.wait_for_message(f"/{_NAME}/image_raw", Image, seconds), f"{folder}/{picture}")
             taken.append((picture, caption))
         finally:
-            rospy.ServiceProxy("/gazebo/delete_model", DeleteModel)(_NAME)
+            _service("/gazebo/delete_model")(_NAME)
     return taken

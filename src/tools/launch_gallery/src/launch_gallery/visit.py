@@ -18,6 +18,7 @@ import rosgraph
 import rospy
 import yaml
 from geometry_msgs.msg import Twist
+from rosservice import ROSServiceException
 from rviz_offscreen.cli import ScreenshotError, missing_lines, take
 from rviz_offscreen.display import DisplayError
 from sensor_msgs.msg import Image
@@ -25,7 +26,7 @@ from sensor_msgs.msg import Image
 from . import automatic, images, scene
 
 _QUIET = 2.0  # s without a node or topic coming or going: the launch file has finished its work
-_ANSWER = 20.0  # s of wall time for one message
+_ANSWER = 40.0  # s of wall time for one message
 
 
 class Visit:
@@ -71,7 +72,7 @@ class Visit:
             return
         try:
             self.pictures += scene.pictures(images.save, self.job["folder"], self.job["stem"], _ANSWER)
-        except (rospy.ROSException, rospy.ServiceException) as error:
+        except (rospy.ROSException, rospy.ServiceException, ROSServiceException) as error:
             self.notes.append(f"no picture of the scene: {error}; is the simulation paused?")
 
     def take_rviz(self) -> None:
