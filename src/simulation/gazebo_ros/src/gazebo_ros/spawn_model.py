@@ -4,8 +4,9 @@ from __future__ import annotations
 import argparse
 import math
 import sys
+import threading
 import xml.etree.ElementTree as ET
-from typing import List
+from typing import Callable, List
 
 import rosgraph
 import node_signals
@@ -17,6 +18,7 @@ from std_srvs.srv import Empty
 from gazebo_ros import gazebo_interface
 
 _DATABASE = ('<sdf version="1.4"><world name="default"><include><uri>model://{}</uri></include></world></sdf>')
+_ANSWER = 20.0  # s, in which the simulator answers between two steps
 
 
 class Failure(Exception):
@@ -118,16 +120,58 @@ def wait_for_model(name: str, gazebo_namespace: str) -> None:
         raise Failure(f"the simulator ended while model {name} was waited for: {error}") from error
 
 
+class Bond:
+    """``-b``: the model goes when this node ends, also when that happens while it is being spawned.
+
+    Shutdown hooks run in a thread of their own beside the main thread, see node_signals.
+    """
+
+    def __init__(self, options: argparse.Namespace):
+        self._options = options
+        self._lock = threading.Lock()
+        self._answered = threading.Event()
+        self._asked = self._ended = self._spawned = False
+        rospy.on_shutdown(self._end)
+
+    def spawn(self, ask: Callable[[], bool]) -> bool:
+        """:param ask: asks the simulator for the model. :return: its answer"""
+        with self._lock:
+            if self._ended:
+                raise rospy.ROSInterruptException("ended before the model was spawned")
+            self._asked = True
+        try:
+            self._spawned = ask()
+        finally:
+            self._answered.set()
+        return self._spawned
+
+    def _end(self) -> None:
+        with self._lock:
+            self._ended = True
+        if self._asked:
+            self._answered.wait(_ANSWER)
+        if self._spawned:
+            _delete(self._options)
+
+
 def spawn(options: argparse.Namespace) -> None:
     """
     :raises Failure: it did not work; the simulator's own reason has been logged
     """
+    bond = Bond(options) if options.bond else None
     text = model_text(options)
     if options.wait:
         wait_for_model(options.wait, options.gazebo_namespace)
     client = gazebo_interface.spawn_urdf_model_client if options.urdf else gazebo_interface.spawn_sdf_model_client
-    if not client(options.model, text, options.robot_namespace, pose_of(options), options.reference_frame,
-                  options.gazebo_namespace):
+
+    def ask() -> bool:
+        return client(options.model, text, options.robot_namespace, pose_of(options), options.reference_frame,
+                      options.gazebo_namespace)
+    if bond:  # from here on its end waits for the answer, so the simulator must be there
+        service = f"{options.gazebo_namespace}/spawn_{'urdf' if options.urdf else 'sdf'}_model"
+        rospy.loginfo("Waiting for the simulator's service %s", service)
+        rospy.wait_for_service(service)
+    if not (bond.spawn(ask) if bond else ask()):
         raise Failure(f"model {options.model} was not spawned")
     if options.joints:
         names, positions = zip(*options.joints)
@@ -170,7 +214,6 @@ def main() -> int:
     except rospy.ROSInterruptException:
         return 1
     if options.bond:
-        rospy.on_shutdown(lambda: _delete(options))
         rospy.loginfo("Model %s stays until this node ends", options.model)
         rospy.spin()
     return 0
