@@ -33,6 +33,7 @@ class Gallery(unittest.TestCase):
         result = gallery(os.path.join(LAUNCHES, "green_box.launch"), "-o", self.folder)
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
         self.assertIn("gui:=false: 4 pictures", result.stdout)
+        self.assertNotIn("RViz:", result.stdout, "nothing is missing in RViz, its fixed frame is the root of the transforms")
         self.assertGreater(green(self.picture("green_box-robot.png")), 0.02, "the box from near")
         self.assertGreater(green(self.picture("green_box-world.png")), 0.001, "and from afar")
         self.assertGreater(green(self.picture("green_box-eye-image_raw.png")), 0.1, "as its own camera sees it")

@@ -6,6 +6,7 @@ from typing import Dict, List, Tuple
 
 import rospy
 import tf2_ros
+import yaml
 
 #: Message type to RViz display and the name of its topic property.
 DISPLAYS = {
@@ -27,13 +28,9 @@ def frames(seconds: float) -> Dict[str, str]:
     listener = tf2_ros.TransformListener(buffer)
     # not rospy.sleep: the system may be paused
     rospy.rostime.wallsleep(seconds)
-    heard = {}
-    for line in buffer.all_frames_as_yaml().splitlines():
-        child, _, rest = line.partition(":")
-        if "parent:" in rest:
-            heard[child.strip()] = rest.split("parent:")[1].split(",")[0].strip().strip("'\" }")
+    heard = yaml.safe_load(buffer.all_frames_as_yaml()) or {}
     listener.unregister()
-    return heard
+    return {str(child): str(known["parent"]) for child, known in dict(heard).items()}
 
 
 def root_of(parents: Dict[str, str]) -> str:

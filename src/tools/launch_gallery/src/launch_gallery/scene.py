@@ -75,7 +75,7 @@ def pictures(save: Callable[[Image, str], None], folder: str, stem: str, seconds
     level = math.cos(_ELEVATION)
     direction = np.array([level * math.cos(_AZIMUTH), level * math.sin(_AZIMUTH), math.sin(_ELEVATION)])
     taken = []
-    for kind, distance, caption in (("robot", 3.2 * radius, f"The simulator: {name or 'origin'}"),
+    for kind, distance, caption in (("robot", 3.7 * radius, f"The simulator: {name or 'origin'}"),
                                     ("world", max(_WIDE, 6 * radius), "The simulator from above")):
         eye = middle + direction * distance
         if kind == "world":
