@@ -5,11 +5,13 @@ import argparse
 import contextlib
 import csv
 import html
+import math
 import os
 import signal
 import socket
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 from pathlib import Path
@@ -27,9 +29,16 @@ def parse() -> argparse.Namespace:
     parser.add_argument("target", nargs="*", type=float, default=[1.0] * 4, help="joint positions in rad (default 1 1 1 1)")
     parser.add_argument("--headless", action="store_true", help="open no window even if there is a display")
     parser.add_argument("--out", default="out/demo", help="folder for pictures, plot, table and report (default out/demo)")
+    parser.add_argument("--check", action="store_true", help=argparse.SUPPRESS)
     options = parser.parse_args()
-    if len(options.target) != 4:
-        parser.error(f"expected four joint positions, got {len(options.target)}")
+    if len(options.target) != 4 or not all(map(math.isfinite, options.target)):
+        parser.error(f"expected four joint positions in rad, got {' '.join(map(str, options.target))}")
+    try:
+        os.makedirs(options.out, exist_ok=True)
+        with tempfile.TemporaryFile(dir=options.out) as probe:
+            probe.write(b"\0" * 4096)
+    except OSError as error:
+        parser.error(f"cannot write into --out {options.out}: {error.strerror}; name another folder")
     return options
 
 
@@ -221,8 +230,9 @@ def run(options: argparse.Namespace, out: Path, environment: dict) -> int:
 
 def main() -> int:
     options = parse()
+    if options.check:
+        return 0
     out = Path(options.out).resolve()
-    out.mkdir(parents=True, exist_ok=True)
     environment = dict(os.environ, ROS_MASTER_URI=f"http://localhost:{free_port()}", ROS_HOME=str(out / "ros_home"))
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
     from rviz_offscreen.display import DisplayError, private_display

@@ -18,6 +18,18 @@ def tracked(pattern):
     return [ROOT / name for name in out.split("\0") if name and (ROOT / name).is_file()]
 
 
+@pytest.mark.parametrize("arguments, said", [
+    (["--oot"], "unrecognized arguments: --oot"),
+    (["--out", "/dev/null/demo"], "cannot write into --out /dev/null/demo: Not a directory"),
+    (["--out", "/proc/demo"], "cannot write into --out /proc/demo"),
+    (["1", "1", "1"], "expected four joint positions"),
+    (["1", "1", "1", "nan"], "expected four joint positions")])
+def test_demo_judges_its_options_before_it_sets_anything_up(tmp_path, arguments, said):
+    ended = subprocess.run([ROOT / "scripts/demo", *arguments], cwd=tmp_path, capture_output=True, text=True, timeout=60)
+    assert ended.returncode == 2 and said in ended.stderr.splitlines()[-1]
+    assert "[setup]" not in ended.stdout + ended.stderr
+
+
 def imports(path):
     """Top-level module names imported anywhere in a Python file."""
     names = set()
