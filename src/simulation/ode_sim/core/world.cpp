@@ -104,6 +104,7 @@ class Posed {
 };
 
 constexpr double kStopSkin = 1e-12;  // a joint put exactly on its stop is to be found there despite rounding
+constexpr double kNearStop = 1e-9;   // within the reach of the skin
 constexpr double kFastest = 1e6;  // m/s, rad/s: a force that would give more in one step is a mistake
 constexpr double kJump = 30;  // m/s, rad/s: a servo joint commanded to move faster than this is teleported
 constexpr double kPi = 3.14159265358979323846;
@@ -1423,8 +1424,10 @@ void World::update_axis(Joint& j, int i) {
     most = a.motor_force;
   } else if (a.friction > 0) {
     most = a.friction;
-  } else if (damping + stiffness > 0 && (j.implicit_spring_damper || stiff > 0.05)) {
-    // Implicit: a motor row whose softness is the damper, and whose speed is that at which the spring balances it.
+  } else if (damping + stiffness > 0 && (j.implicit_spring_damper || stiff > 0.05) &&
+             a.q - a.lower > kNearStop && a.upper - a.q > kNearStop) {
+    // Implicit: a motor row whose softness is the damper, and whose speed is that at which the spring balances it. Not at a
+    // stop, where ODE turns motors into torques of their greatest size.
     const double d = damping + dt * stiffness;
     velocity = pull / d;
     softness = 1 / d;
@@ -1441,8 +1444,8 @@ void World::update_axis(Joint& j, int i) {
   set_limot(j, i, dParamCFM, softness);
   // ODE knows angles within a turn: its stops move along with the turns.
   double lower = a.lower, upper = a.upper;
-  if (j.type == JointType::Revolute) {
-    const double turns = 2 * kPi * std::round(a.q / (2 * kPi));
+  if (j.type == JointType::Revolute && std::abs(a.q) > 3) {
+    const double turns = 2 * kPi * std::round((a.q - j.sign * dJointGetHingeAngle(j.joint)) / (2 * kPi));
     lower -= turns;
     upper -= turns;
   }
@@ -1489,11 +1492,24 @@ void World::apply_forces() {
 
 // ------------------------------------------------------------------------------------------------ contacts
 
+// N: the share of the lighter model's weight, taken as even; for what only needs its size.
+double World::borne_by_contact(const Link& a, const Link& b) const {
+  double least = dInfinity;
+  for (const Link* l : {&a, &b})
+    if (!l->model->is_static) least = std::min(least, l->model->mass / l->model->contact_count);
+  return std::isfinite(least) ? least * norm(gravity) : 0;
+}
+
 void World::make_contact_joints() {
   feedback_.clear();
   size_t watched = 0;
   auto wanted = [](const Contact& c) { return c.a->watched || c.b->watched || c.a->link->weighed || c.b->link->weighed; };
-  for (auto& c : contacts_) watched += wanted(c);
+  for (auto& m : models_) m->contact_count = 0;
+  for (auto& c : contacts_) {
+    watched += wanted(c);
+    ++c.a->link->model->contact_count;
+    ++c.b->link->model->contact_count;
+  }
   feedback_.resize(watched);
   size_t next = 0;
   // Resting contacts must persist, or friction is lost every other step: this much overlap (m) is left alone.
@@ -1550,20 +1566,23 @@ void World::make_contact_joints() {
     if (soft_erp > 0) depth = std::min(depth, fastest * dt / soft_erp + pressed_in);
     d.geom.depth = depth;
 
-    // First friction direction: what a collision asks for (of two that do, the one with less friction), as seen in the
-    // contact plane; else any tangent.
+    // First friction direction, where friction is not the same all around: what a collision asks for (of two that do, the one
+    // with less friction), as seen in the contact plane; else any tangent.
     Vec3 t1{};
     const bool second = norm(sb.fdir1) > 0 && (norm(sa.fdir1) == 0 || sb.mu < sa.mu);
     const Shape& directed = second ? *c.b : *c.a;
-    if (norm(directed.surface.fdir1) > 0) {
-      t1 = rotate(directed.link->X_WL.q * directed.X_LC.q, directed.surface.fdir1);
-      t1 = t1 - n * dot(n, t1);
-    }
-    if (norm(t1) < 1e-6 && d.surface.mu == d.surface.mu2) {
-      // Where it slides, friction is to point against the motion, not along two fixed axes at once.
+    const bool isotropic = d.surface.mu == d.surface.mu2 && sa.slip1 + sb.slip1 == sa.slip2 + sb.slip2;
+    if (isotropic) {
+      // Where it slides, friction is to point against the motion, not along two fixed axes at once: fully along the slip, and
+      // across it in proportion (Coulomb), or a wheel that spins would still be held sideways like one that stands.
       t1 = la->velocity_at(c.pos) - lb->velocity_at(c.pos);
       t1 = t1 - n * dot(n, t1);
-      if (norm(t1) < 1e-5) t1 = {};
+      const double speed = norm(t1), load = borne_by_contact(*la, *lb);
+      if (speed < 1e-5) t1 = {};
+      else if (load > 0 && d.surface.mu > 0) d.surface.slip2 += speed / (d.surface.mu * load);
+    } else if (norm(directed.surface.fdir1) > 0) {
+      t1 = rotate(directed.link->X_WL.q * directed.X_LC.q, directed.surface.fdir1);
+      t1 = t1 - n * dot(n, t1);
     }
     if (norm(t1) < 1e-6) {
       const dReal nn[3] = {n.x, n.y, n.z};

@@ -211,6 +211,7 @@ struct Model {
   World* world = nullptr;
   bool is_static = false, self_collide = false, may_sleep = false;
   double mass = 0;  // kg, of all links
+  int contact_count = 0;  // of this step
   bool dirty = true;
   bool has_servo = false;
   bool jump = false;  // a servo joint jumps in this step or did in the last: too fast for any inertia to be felt
@@ -388,6 +389,7 @@ class World {
   void guard_nan();
   void report(const std::string& text, const std::string& who);
   double axis_inverse_inertia(const Joint& joint, int axis) const;
+  double borne_by_contact(const Link& a, const Link& b) const;
   dBodyID body_of(const Link* link) const;
   Pose X_BL(const Link& link) const;
   std::vector<Link*> subtree(Joint& joint, bool* loop = nullptr) const;

@@ -84,6 +84,36 @@ def test_fdir1_of_either_collision(floor, thing):
     assert v[0] == pytest.approx(1.0, abs=0.02) and v[1] < 0.6
 
 
+SKID_STEER = """<robot name="skid"><link name="base"><inertial><mass value="20"/>
+  <inertia ixx="0.5" iyy="0.5" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>%s</robot>"""
+WHEEL = """<link name="w%(n)d"><inertial><mass value="1"/><inertia ixx="0.005" iyy="0.005" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial>
+  <collision><geometry><cylinder radius="0.15" length="0.1"/></geometry></collision></link>
+<joint name="w%(n)d" type="continuous"><parent link="base"/><child link="w%(n)d"/><axis xyz="0 0 1"/>
+  <origin xyz="%(x)s %(y)s 0" rpy="-1.5707963 0 0"/></joint>
+<gazebo reference="w%(n)d"><mu1>%(mu)s</mu1><mu2>%(mu)s</mu2>%(fdir1)s</gazebo>"""
+
+
+@pytest.mark.parametrize("mu, fdir1", [(1.0, ""), (0.5, ""), (1.0, "<fdir1>1 0 0</fdir1>")])
+def test_four_wheels_skid_round_as_coulomb_says(mu, fdir1):
+    """Wheels at (+-b, +-a), rims at +-v: rolling resists along, turning across; they balance at v a / (a^2 + b^2)."""
+    a, b, radius, speed = 0.28, 0.25, 0.15, 2.0
+    wheels = [WHEEL % {"n": n, "x": b * (1 - 2 * (n // 2)), "y": a * (1 - 2 * (n % 2)), "mu": mu, "fdir1": fdir1} for n in range(4)]
+    world = ode_sim.World()
+    world.spawn(ground())
+    model = world.spawn_urdf(SKID_STEER % "".join(wheels), name="skid", pose=Pose((0, 0, radius)))
+    world.step(500)
+    for n in range(4):
+        model.joints[f"w{n}"].set_motor(speed * (1 if n % 2 else -1), 1e3)
+    world.step(2000)
+    turned = model.twist().angular[2]
+    assert turned == pytest.approx(speed * radius * a / (a * a + b * b), rel=0.05)
+    for n in range(4):
+        model.joints[f"w{n}"].set_motor(speed, 1e3)
+    world.step(2000)
+    assert math.hypot(*model.twist().linear[:2]) == pytest.approx(speed * radius, rel=0.01)
+    assert model.twist().angular[2] == pytest.approx(0, abs=1e-3)
+
+
 def test_bounce_needs_both_sides():
     lively = Surface(restitution=0.8, bounce_threshold=0.1)
     for floor, rises in ((lively, True), (Surface(), False)):

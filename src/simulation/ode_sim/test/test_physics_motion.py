@@ -154,7 +154,7 @@ def test_angles_count_turns():
     assert joint.position() == pytest.approx(0.0, abs=0.05)
 
 
-@pytest.mark.parametrize("limit", [1.0, 3.5, 10.0])
+@pytest.mark.parametrize("limit", [1.0, math.pi, 3.5, 10.0])
 def test_limits_stop_the_joint_also_beyond_a_turn(limit):
     world = ode_sim.World()
     joint = world.spawn(pendulum(lower=-limit, upper=limit)).joints["hinge"]
@@ -164,6 +164,28 @@ def test_limits_stop_the_joint_also_beyond_a_turn(limit):
     joint.set_motor(-5.0, 20.0)
     world.step(8000)
     assert joint.position() == pytest.approx(-limit, abs=1e-8)
+
+
+@pytest.mark.parametrize("limit", [1.0, math.pi])
+def test_a_stop_that_is_hit_throws_nothing_back_faster(limit):
+    world = ode_sim.World()
+    joint = world.spawn(pendulum(lower=-limit, upper=limit)).joints["hinge"]
+    joint.set_position(limit / 2)
+    fastest = 0.0
+    for _ in range(3000):
+        joint.add_force(20.0)
+        world.step()
+        fastest = max(fastest, abs(joint.velocity()))
+    assert 1 < fastest < 50 and joint.position() == pytest.approx(limit, abs=1e-8)
+
+
+def test_a_strongly_damped_light_joint_rests_at_its_stop():
+    world = ode_sim.World()
+    joint = world.spawn(pendulum(0.02, 0.05, damping=0.1, inertia=1e-5, lower=-1.0, upper=1.0)).joints["hinge"]
+    for _ in range(4000):
+        joint.add_force(0.05)
+        world.step()
+    assert joint.position() == pytest.approx(1.0, abs=1e-8) and not world.messages
 
 
 def test_huge_limits_mean_none():
