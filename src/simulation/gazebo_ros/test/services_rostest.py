@@ -174,6 +174,7 @@ class Models(Case):
     def test_nonsense_is_refused_and_changes_nothing(self):
         before = self.sim.model("crate").pose
         self.refused(self.sim.set_model("crate", pose(NAN, 0, 0)), "SetModelState: ", "nan")
+        self.refused(self.sim.set_model("crate", pose(1e12, 0, 0)), "SetModelState: ", "1e+12 m from the origin")
         self.refused(self.sim.set_model("crate", pose(1, 0, 0), twist((math.inf, 0, 0))), "inf")
         self.refused(self.sim.set_model("ghost", pose()), "ghost", "crate")
         self.refused(self.sim.set_model("crate", pose(), frame="nowhere"), "nowhere")

@@ -103,6 +103,7 @@ class Posed {
   dMatrix3 R_[2];
 };
 
+constexpr double kFarthest = 1e8;     // m from the origin; beyond twice this the cells of ODE's collision space have no number
 constexpr double kStopSkin = 1e-12;  // a joint put exactly on its stop is to be found there despite rounding
 constexpr double kNearStop = 1e-9;   // within the reach of the skin
 constexpr double kFastest = 1e6;  // m/s, rad/s: a force that would give more in one step is a mistake
@@ -1896,7 +1897,7 @@ void World::solve() {
 void World::guard_nan() {
   for (auto& s : before_) {
     const bool good = finite(body_pose(s.body)) && finite(vec(dBodyGetLinearVel(s.body))) &&
-                      finite(vec(dBodyGetAngularVel(s.body))) && norm(vec(dBodyGetPosition(s.body))) < 1e12;
+                      finite(vec(dBodyGetAngularVel(s.body))) && norm(vec(dBodyGetPosition(s.body))) < kFarthest;
     if (good) continue;
     for (auto& n : nodes_)
       if (n->root->body == s.body)

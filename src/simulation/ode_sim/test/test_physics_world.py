@@ -355,6 +355,17 @@ def test_a_motion_that_blows_up_is_stopped_and_named_and_others_go_on():
     assert len(world.messages) == 1 and world.messages[0].startswith("wild: ")
 
 
+def test_what_flies_off_the_map_is_stopped_and_others_go_on():
+    world = ode_sim.World()
+    world.spawn(ground())
+    world.spawn(sphere("far", at=(0, 0, 5))).set_twist((3e9, 2e9, 4e9), (0, 0, 0))
+    calm = world.spawn(box("calm", at=(3, 0, 0.05)))
+    world.step(2000)
+    assert np.isfinite(world.link_poses).all() and np.abs(world.link_poses[:, :3]).max() <= 1e8
+    assert calm.pose.p[0] == pytest.approx(3, abs=1e-6)
+    assert len(world.messages) == 1 and world.messages[0].startswith("far: ")
+
+
 def test_deep_overlap_does_not_explode():
     world = ode_sim.World()
     world.spawn(ground())

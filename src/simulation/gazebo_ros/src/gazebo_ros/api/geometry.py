@@ -9,6 +9,7 @@ from ode_sim.description.model import Pose, Vec3
 
 from gazebo_ros.api.handlers import Refused, finite
 
+FARTHEST = 1e7  # m; collisions are not found much beyond
 WORLD_NAMES = ("", "world", "map", "/map")  # when no entity has that name
 
 
@@ -19,10 +20,12 @@ def pose_msg(pose: Pose) -> PoseMsg:
 def pose_of(message: PoseMsg, what: str = "pose") -> Pose:
     """With the quaternion normalised; all zeros mean no rotation.
 
-    :raises Refused: a number is not finite
+    :raises Refused: a number is not finite, or the place beyond what can be simulated
     """
     p, q = message.position, message.orientation
     finite(what, p.x, p.y, p.z, q.x, q.y, q.z, q.w)
+    if max(abs(p.x), abs(p.y), abs(p.z)) > FARTHEST:
+        raise Refused(f"{what} lies {max(abs(p.x), abs(p.y), abs(p.z)):g} m from the origin; stay within {FARTHEST:g} m")
     return Pose((p.x, p.y, p.z), math3.quat_normalize((q.x, q.y, q.z, q.w)))
 
 
