@@ -8,7 +8,6 @@ import html
 import math
 import os
 import signal
-import socket
 import subprocess
 import sys
 import tempfile
@@ -42,12 +41,6 @@ def parse() -> argparse.Namespace:
     return options
 
 
-def free_port() -> int:
-    with socket.socket() as s:
-        s.bind(("localhost", 0))
-        return s.getsockname()[1]
-
-
 def say(text: str) -> None:
     print(f"\033[1m[demo]\033[0m {text}" if sys.stdout.isatty() else f"[demo] {text}", flush=True)
 
@@ -77,23 +70,6 @@ class Recorder:
                 raise DemoError(f"roslaunch ended with code {launch.returncode}; see launch.log")
             if time.monotonic() > end:
                 raise DemoError(f"no joint states for {seconds:.0f} s; see launch.log")
-
-
-@contextlib.contextmanager
-def launched(command, log_path: Path, environment: dict):
-    """A process group that gets Ctrl-C's signal at the end, and SIGKILL if that does not help."""
-    with open(log_path, "w") as log:
-        process = subprocess.Popen(command, stdout=log, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, env=environment,
-                                   start_new_session=True)
-        try:
-            yield process
-        finally:
-            for number in (signal.SIGINT, signal.SIGTERM, signal.SIGKILL):
-                with contextlib.suppress(ProcessLookupError):
-                    os.killpg(process.pid, number)
-                with contextlib.suppress(subprocess.TimeoutExpired):
-                    process.wait(10)
-                    break
 
 
 def save_camera(path: Path) -> bool:
@@ -163,13 +139,14 @@ td {{padding: 0.2em 1.2em 0.2em 0; border-bottom: 1px solid #ddd}} figcaption {{
 def run(options: argparse.Namespace, out: Path, environment: dict) -> int:
     import rosgraph
     import rospy
+    from launch_gallery.cli import running
     from sensor_msgs.msg import JointState
     target = options.target
     begin = time.monotonic()
     say("roslaunch arm_gazebo arm_gazebo.launch")
     port = environment["ROS_MASTER_URI"].rsplit(":", 1)[1]
-    with launched(["roslaunch", "-p", port, "arm_gazebo", "arm_gazebo.launch", "gui:=false"], out / "launch.log",
-                  environment) as launch:
+    with running(["roslaunch", "-p", port, "arm_gazebo", "arm_gazebo.launch", "gui:=false"], environment,
+                 out / "launch.log") as launch:
         while not rosgraph.is_master_online():
             if launch.poll() is not None or time.monotonic() - begin > 60:
                 raise DemoError("the ROS master did not start; see launch.log")
@@ -186,7 +163,7 @@ def run(options: argparse.Namespace, out: Path, environment: dict) -> int:
         say("rosrun arm_controller arm_controller_node " + " ".join(words))
         recorder.rows.clear()
         recorder.wait(launch, 20)
-        with launched(["rosrun", "arm_controller", "arm_controller_node", *words], out / "arm_controller_node.log", environment):
+        with running(["rosrun", "arm_controller", "arm_controller_node", *words], environment, out / "arm_controller_node.log"):
             start = recorder.rows[0]
             reported = start[0]
             while True:
@@ -233,9 +210,10 @@ def main() -> int:
     if options.check:
         return 0
     out = Path(options.out).resolve()
-    environment = dict(os.environ, ROS_MASTER_URI=f"http://localhost:{free_port()}", ROS_HOME=str(out / "ros_home"))
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
+    from launch_gallery.cli import free_port
     from rviz_offscreen.display import DisplayError, private_display
+    environment = dict(os.environ, ROS_MASTER_URI=f"http://localhost:{free_port()}", ROS_HOME=str(out / "ros_home"))
     try:
         with contextlib.ExitStack() as stack:
             if options.headless or not environment.get("DISPLAY"):

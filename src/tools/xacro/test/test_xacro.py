@@ -85,3 +85,14 @@ def test_a_macro_without_prefix_is_expanded_with_one_warning(write):
     assert '<link name="left_wheel"/>' in result.stdout and '<link name="right_wheel"/>' in result.stdout
     assert '<camera name="head"/>' in result.stdout and "never" not in result.stdout
     assert result.stderr.count("is called without prefix") == 1 and f"{path}:4" in result.stderr
+
+
+def test_words_without_prefix_are_understood_with_one_warning(write):
+    path = write('<property name="r" value="0.3"/>\n<macro name="wheel" params="side"><link name="${side}_${r}"/></macro>\n'
+                 '<if value="${r > 1}"><link name="never"/></if>\n<xacro:wheel side="left"/>\n'
+                 '<gazebo><plugin name="p"><property name="kept" value="1"/></plugin></gazebo>')
+    result = run(path)
+    assert result.returncode == 0
+    assert '<link name="left_0.3"/>' in result.stdout and "never" not in result.stdout
+    assert '<property name="kept" value="1"/>' in result.stdout
+    assert result.stderr.count("is written without prefix") == 1 and f"{path}:2: <property>" in result.stderr

@@ -50,7 +50,7 @@ def free_port() -> int:
 
 
 @contextlib.contextmanager
-def running(words: List[str], environment: Dict[str, str], log: str) -> Iterator[subprocess.Popen]:
+def running(words: List[str], environment: Dict[str, str], log: "str | os.PathLike") -> Iterator[subprocess.Popen]:
     """roslaunch in a process group of its own, which gets Ctrl-C's signal at the end, and SIGKILL if that is in vain."""
     with open(log, "w") as file:
         process = subprocess.Popen(words, env=environment, stdout=file, stderr=subprocess.STDOUT,

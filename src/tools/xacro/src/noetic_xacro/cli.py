@@ -49,7 +49,32 @@ def _parse(inp, filename: Optional[str] = None) -> xml.dom.minidom.Document:
         path, data = filename or getattr(inp, "name", "text"), inp.read()
     else:
         return inp
-    return _PlacedBuilder(path).parseString(data)
+    document = _PlacedBuilder(path).parseString(data)
+    _prefix_words(document.documentElement, path)
+    return document
+
+
+# Words of xacro that robots from before Noetic write without prefix, and the attribute by which they are told from others.
+_WORDS = {"property": "name", "macro": "name", "arg": "default", "include": "filename", "insert_block": "name", "if": "value",
+          "unless": "value"}
+
+
+def _prefix_words(root: xml.dom.minidom.Element, path: str) -> None:
+    """``<property .../>`` becomes ``<xacro:property .../>``, with one warning a file; what stands in a plugin is not xacro's."""
+    found = []
+    todo = [root]
+    while todo:
+        for child in todo.pop().childNodes:
+            if child.nodeType != child.ELEMENT_NODE or child.tagName == "plugin":
+                continue
+            if child.hasAttribute(_WORDS.get(child.tagName, "")):
+                found.append((child.tagName, getattr(child, _PLACE)))
+                child.tagName = child.nodeName = f"xacro:{child.tagName}"
+            todo.append(child)
+    if found and xacro.verbosity > 0:
+        word, place = min(found, key=lambda entry: int(entry[1].rsplit(":", 1)[1]))
+        print(f"xacro: warning: {place}: <{word}> is written without prefix; write <xacro:{word}> (Noetic ignores the old form, "
+              f"here it is understood; {len(found)} such in {os.path.basename(path)})", file=sys.stderr)
 
 
 def _keep_place_in_clones() -> None:
