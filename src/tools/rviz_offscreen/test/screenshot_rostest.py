@@ -95,7 +95,7 @@ class Screenshot(unittest.TestCase):
                 self.assertGreater(len(pixels), 5000, f"{backend}: the image of {topic}")
                 self.assertLess(np.percentile(pixels[:, 1], 99), 400, "in a dock left of the 3D view")
                 rows[topic] = pixels[:, 0].mean()
-            self.assertLess(rows["/red"], rows["/yellow"], "each under its own title")
+            self.assertGreater(abs(rows["/red"] - rows["/yellow"]), 50, "each in a panel of its own; Qt picks the order")
 
     def test_what_nobody_publishes_is_named_and_not_waited_for(self):
         config = self.config("Class: rviz/Image, Name: Eye, Image Topic: /nothing",
