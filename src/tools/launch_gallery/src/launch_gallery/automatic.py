@@ -64,6 +64,8 @@ def config(topics: List[Tuple[str, str]], description: bool, root: str, reach: f
         images += kind == "sensor_msgs/Image"
         display, topic_property = DISPLAYS[kind]
         shown.append({"Class": f"rviz/{display}", "Name": name.strip("/"), topic_property: name})
+        if display == "Odometry":
+            shown[-1]["Covariance"] = {"Value": False}  # RViz draws it by default, larger than the world
     return {"Panels": [{"Class": "rviz/Displays", "Name": "Displays"}],
             "Visualization Manager": {
                 "Displays": [{**display, "Enabled": True} for display in shown],
