@@ -21,9 +21,9 @@ bool parseAngle(const char* word, double& angle) {
 }
 
 void printPositions(const sensor_msgs::JointState::ConstPtr& state) {
-  ROS_INFO("Joint positions [rad]:");
+  ROS_INFO("Received joint_state message:");
   for (std::size_t i = 0; i < state->name.size() && i < state->position.size(); ++i)
-    ROS_INFO("  %s: %f", state->name[i].c_str(), state->position[i]);
+    ROS_INFO("Position of Joint %s: %f", state->name[i].c_str(), state->position[i]);
 }
 
 }  // namespace
@@ -31,7 +31,8 @@ void printPositions(const sensor_msgs::JointState::ConstPtr& state) {
 int main(int argc, char** argv) {
   ros::init(argc, argv, "arm_controller");
   if (argc != 1 + static_cast<int>(kJoints)) {
-    ROS_ERROR("Usage: arm_controller_node J0 J1 J2 J3 - four joint angles in rad, got %d.", argc - 1);
+    ROS_INFO("Repeat the command with the right number of the desired joint positions... "
+             "(arm_controller_node J0 J1 J2 J3: four angles in rad, got %d)", argc - 1);
     return EXIT_FAILURE;
   }
   std::array<std_msgs::Float64, kJoints> commands;
@@ -51,7 +52,7 @@ int main(int argc, char** argv) {
   ros::Rate rate(10);  // in simulated time when /use_sim_time is set
   while (ros::ok()) {
     for (std::size_t i = 0; i < kJoints; ++i) {
-      ROS_INFO("Command for joint %zu: %.2f rad", i, commands[i].data);
+      ROS_INFO("Position command to joint%zu: %.2f", i, commands[i].data);
       publishers[i].publish(commands[i]);
     }
     ros::spinOnce();

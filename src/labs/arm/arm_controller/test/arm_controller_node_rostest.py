@@ -59,9 +59,9 @@ class ArmControllerNode(unittest.TestCase):
             text = node.communicate(timeout=60)[0]
         self.assertEqual([set(got[index]) for index in range(4)], [{1.0}, {-0.5}, {0.25}, {2.0}])
         plain = re.sub(r"\x1b\[[\d;]*m", "", text)  # without the console's colours
-        self.assertRegex(plain, r"Command for joint 1: -0\.50 rad")
-        rows = "".join(r"\n.* j%d: 0\.%d00000" % (index, index + 1) for index in range(4))
-        self.assertRegex(plain, "Joint positions.*" + rows)
+        self.assertRegex(plain, r"Position command to joint1: -0\.50\n")
+        rows = "".join(r"\n.*Position of Joint j%d: 0\.%d00000" % (index, index + 1) for index in range(4))
+        self.assertRegex(plain, "Received joint_state message:" + rows)
 
 
 if __name__ == "__main__":

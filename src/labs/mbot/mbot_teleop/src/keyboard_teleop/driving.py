@@ -8,13 +8,13 @@ Moving around:
    j    k    l
    m    ,    .
 
-q/z : both speeds up/down by 10%
-w/x : linear speed up/down by 10%
-e/c : angular speed up/down by 10%
-space, k : stop at once
-any other key : roll to a stop
+q/z : increase/decrease max speeds by 10%
+w/x : increase/decrease only linear speed by 10%
+e/c : increase/decrease only angular speed by 10%
+space key, k : force stop
+anything else : stop smoothly
 
-Ctrl-C ends
+CTRL-C to quit
 """
 
 DIRECTIONS = {  # key: (forwards, turn to the left)
