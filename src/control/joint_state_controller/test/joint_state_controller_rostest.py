@@ -60,6 +60,20 @@ class JointStateControllerTest(unittest.TestCase):
         gaps = {(b.header.stamp - a.header.stamp).to_nsec() for a, b in zip(self.messages[1:], self.messages[2:])}
         self.assertEqual(gaps, {20_000_000})
 
+    def test_rate_after_a_long_stop(self):
+        self.start()
+        self.cycle(10)
+        self.loop.switch(stop=["states"])
+        self.cycle(6000)  # a minute
+        self.loop.switch(["states"])
+        wait_until(lambda: self.messages, "the messages before")
+        start = self.loop.time
+        self.cycle(101)
+        wait_until(lambda: self.messages[-1].header.stamp.to_sec() > start + 0.98, "messages after the pause")
+        again = [stamp for stamp in (m.header.stamp.to_sec() for m in self.messages) if stamp > start]
+        self.assertAlmostEqual(again[0], start + 0.01, 6, "one at once")
+        self.assertEqual({round((b - a) * 1e3) for a, b in zip(again[1:], again[2:])}, {20}, "nothing is made up for")
+
     def test_zero_rate_is_silent(self):
         self.assertTrue(self.load(publish_rate=0))
         self.loop.switch(["states"])

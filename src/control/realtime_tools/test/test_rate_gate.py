@@ -38,3 +38,25 @@ def test_time_that_goes_back_does_not_silence_it():
     gate = RateGate(100.0)
     openings(gate, milliseconds(1, 60000))
     assert len(openings(gate, milliseconds(1, 1000))) >= 98
+
+
+def test_a_pause_is_not_made_up_for():
+    gate = RateGate(50.0)
+    openings(gate, milliseconds(1, 1000))
+    gate.resume(61.0)
+    found = openings(gate, milliseconds(61001, 62001))
+    gaps = {round((later - earlier) * 1e3) for earlier, later in zip(found[1:], found[2:])}
+    assert round(found[0], 6) == 61.001 and gaps == {20} and len(found) == 51
+
+
+def test_a_short_pause_keeps_the_rate():
+    gate = RateGate(50.0)
+    openings(gate, milliseconds(1, 1003))
+    gate.resume(1.004)
+    assert [round(time, 6) for time in openings(gate, milliseconds(1005, 1040))] == [1.021]
+
+
+def test_resuming_a_gate_that_never_opens():
+    gate = RateGate(0.0)
+    gate.resume(5.0)
+    assert openings(gate, milliseconds(5000, 9000)) == []

@@ -30,8 +30,6 @@ class JointStateController(Controller):
         self._add_extra_joints(controller_nh)
         self._publisher = RealtimePublisher(root_nh, "joint_states", JointState, queue_size=4)
         self._gate = RateGate(rate)
-        self._rate = rate
-        self._started = False
 
     def _add_extra_joints(self, nh: NodeHandle) -> None:
         extra = nh.param("extra_joints", None)
@@ -63,9 +61,7 @@ class JointStateController(Controller):
         return f"write numbers with a decimal point ({', '.join(wrong)})" if wrong else ""
 
     def starting(self, time: float) -> None:
-        if not self._started and self._rate > 0.0:
-            self._gate.restart(max(time - 1.001 / self._rate, 0.0))  # the first update publishes at once
-            self._started = True
+        self._gate.resume(time)  # the first update publishes at once
 
     def update(self, time: float, period: float) -> None:
         if self._gate.due(time):

@@ -62,6 +62,14 @@ class RateGate:
         self._count = 0
         self._schedule()
 
+    def resume(self, time: float) -> None:
+        """Go on at ``time`` (s) after a pause: the openings missed meanwhile are lost, the next one is in the first cycle.
+
+        A pause shorter than a period changes nothing, so that the rate holds through a stop and a start.
+        """
+        if time > self._next:
+            self.restart(max(time - 1.001 * self._period, 0.0))
+
     def _schedule(self) -> None:
         last = self._start + self._count * self._period if self._count else self._start
         self._next = last + self._period + self._TOLERANCE
