@@ -3,6 +3,7 @@ import math
 import os
 import subprocess
 import sys
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -120,6 +121,49 @@ def test_physics_changes_at_run_time():
         with pytest.raises(ValueError, match=name):
             setattr(world.physics, name, bad)
     assert world.dt == 0.002
+
+
+@pytest.mark.parametrize("name,bad", [
+    ("max_step_size", 1e300), ("max_step_size", 1e9), ("max_step_size", 1e-12), ("max_step_size", math.inf), ("real_time_update_rate", 1e-300),
+    ("real_time_update_rate", -1.0), ("max_contacts", 0), ("max_contacts", -3), ("max_contacts", 1e150), ("max_contacts", 2 ** 64),
+    ("iters", 0), ("iters", 2 ** 31), ("sor", 0.0), ("sor", "much"), ("cfm", -1.0), ("erp", math.nan), ("contact_surface_layer", None)])
+def test_physics_beyond_reason_is_refused_as_a_whole(name, bad):
+    world = ode_sim.World()
+    world.step()
+    before, gravity = world.physics.record(), world.gravity
+    with pytest.raises(ValueError, match=name) as error:
+        world.set_physics(replace(before, max_step_size=0.01, **{name: bad}) if name != "max_step_size" else replace(before, iters=7, **{name: bad}),
+                          gravity=(0, 0, 1))
+    assert "\n" not in str(error.value) and len(str(error.value)) < 200
+    with pytest.raises(ValueError, match=name):
+        setattr(world.physics, name, bad)
+    assert world.physics.record() == before and world.gravity == gravity and world.dt == 0.001
+    world.step()
+    loaded = ode_sim.World(d.World(physics=replace(d.Physics(), **{name: bad}), models=(sphere(),)))  # a file: limited, with one line
+    assert [name in p.message for p in loaded.problems] == [True]
+    loaded.step(3)
+    assert loaded.time > 0.0 and np.isfinite(loaded.link_poses).all()
+
+
+@pytest.mark.parametrize("gravity", [(0, 0, 1e300), (0, math.nan, 0), (0, 0), (0, 0, math.inf)])
+def test_gravity_beyond_reason_changes_nothing(gravity):
+    world = ode_sim.World()
+    before = world.physics.record()
+    for change in (lambda: setattr(world, "gravity", gravity), lambda: world.set_physics(replace(before, iters=7), gravity)):
+        with pytest.raises(ValueError, match="gravity"):
+            change()
+    assert world.gravity == (0, 0, -9.8) and world.physics.record() == before
+    assert ode_sim.World(d.World(gravity=gravity)).gravity == (0, 0, -9.8)
+
+
+def test_physics_set_as_a_whole():
+    world = ode_sim.World()
+    world.set_physics(replace(world.physics.record(), max_step_size=0.002, iters=30, real_time_update_rate=0.0), gravity=(0, 0, -1.6))
+    world.step()
+    assert (world.dt, world.time_ns, world.physics.iters, world.physics.real_time_update_rate) == (0.002, 2000000, 30, 0.0)
+    assert world.gravity == (0, 0, -1.6)
+    with pytest.raises(AttributeError, match="no parameter 'itres'"):
+        world.physics.itres = 5
 
 
 # ---------------------------------------------------------------------------------------------- poses, resets

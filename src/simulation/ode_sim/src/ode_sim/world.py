@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import hashlib
 import pickle
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from typing import Callable, Dict, Iterable, List, Optional, Tuple, Union
 
 import numpy as np
@@ -11,33 +11,11 @@ import numpy as np
 from ode_sim import _core
 from ode_sim.builder import Builder
 from ode_sim.description import model as d
-from ode_sim.handles import Attachment, CollisionHandle, JointHandle, LinkHandle, ModelHandle, finite, flat
+from ode_sim.handles import Attachment, CollisionHandle, JointHandle, LinkHandle, ModelHandle, flat
 from ode_sim.math3 import compose
+from ode_sim.physics import PhysicsSettings, check_gravity, check_physics, usable_physics
 
 Entity = Union[ModelHandle, LinkHandle, CollisionHandle]
-
-
-class PhysicsSettings:
-    """The fields of :class:`ode_sim.description.model.Physics`; setting one takes effect in the next step."""
-
-    _IN_CORE = {"max_step_size": "dt", "max_contacts": "max_contacts", "iters": "iters", "sor": "sor", "cfm": "cfm", "erp": "erp",
-                "contact_max_correcting_vel": "contact_max_vel", "contact_surface_layer": "surface_layer"}
-    _POSITIVE = ("max_step_size", "max_contacts", "iters", "sor")
-
-    def __init__(self, core, physics: d.Physics) -> None:
-        object.__setattr__(self, "_core", core)
-        for field in fields(physics):
-            setattr(self, field.name, getattr(physics, field.name))
-
-    def __setattr__(self, name: str, value) -> None:
-        if isinstance(value, (int, float)):
-            finite((value,), f"physics parameter {name}")
-            if value < 0 or (value == 0 and name in self._POSITIVE):
-                raise ValueError(f"physics parameter {name} must be positive, not {value}")
-        if name in self._IN_CORE:
-            kind = type(getattr(self._core, self._IN_CORE[name]))
-            setattr(self._core, self._IN_CORE[name], kind(value))
-        object.__setattr__(self, name, value)
 
 
 @dataclass(frozen=True)
@@ -65,13 +43,15 @@ class World:
         self.name = description.name
         self.finder = finder
         self.core = _core.World()
-        self.physics = PhysicsSettings(self.core, description.physics)
-        self.gravity = description.gravity
+        self.problems: List[d.Problem] = list(problems)
+        physics, limited = usable_physics(description.physics)
+        self.problems += [d.Problem("warning", line, description.source) for line in limited]
+        self.physics = PhysicsSettings(self.core, physics)
+        self.gravity = self._usable_gravity(description)
         self.magnetic_field = description.magnetic_field
         self.scene = description.scene
         self.lights: Dict[str, d.Light] = {}
         self.models: Dict[str, ModelHandle] = {}
-        self.problems: List[d.Problem] = list(problems)
         self.messages: List[str] = []
         self.before_step: List[Callable[["World"], None]] = []
         self.after_step: List[Callable[["World"], None]] = []
@@ -131,8 +111,24 @@ class World:
 
     @gravity.setter
     def gravity(self, g: d.Vec3) -> None:
-        finite(g, "gravity")
-        self.core.gravity = tuple(g)
+        self.core.gravity = check_gravity(g)
+
+    def set_physics(self, physics: d.Physics, gravity: Optional[d.Vec3] = None) -> None:
+        """Take over all settings, and gravity if given - or nothing at all. :attr:`physics` has them one by one.
+
+        :raises ValueError: one line that names the setting that no world can run with.
+        """
+        checked = check_physics(physics, gravity)
+        self.physics.update(checked)
+        if gravity is not None:
+            self.gravity = gravity
+
+    def _usable_gravity(self, description: d.World) -> d.Vec3:
+        try:
+            return check_gravity(description.gravity)
+        except ValueError as error:
+            self.problems.append(d.Problem("warning", f"{error}; 0 0 -9.8 is used", description.source))
+            return d.World().gravity
 
     @property
     def seed(self) -> int:
