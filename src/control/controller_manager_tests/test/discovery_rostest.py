@@ -37,6 +37,12 @@ class DiscoveryTest(unittest.TestCase):
         self.assertTrue(utils.is_controller_manager("/arm/controller_manager"))
         self.assertIn("/arm/controller_manager", utils.describe_controller_managers())
 
+    def test_services_in_the_root_namespace(self):
+        self.manager("")
+        self.assertEqual(utils.get_controller_managers(), ["/"])
+        self.assertEqual(utils.get_controller_managers(initial_guess=["/"]), ["/"])
+        self.assertTrue(utils.is_controller_manager("/"))
+
     def test_incomplete_or_wrong_ones_are_not(self):
         for index, name in enumerate(ControllerManagerDummy.SERVICES):
             self.manager(f"/incomplete{index}", without=[name])

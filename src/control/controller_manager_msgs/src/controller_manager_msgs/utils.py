@@ -47,7 +47,7 @@ def get_controller_managers(namespace: str = "/", initial_guess: Optional[Sequen
     if not rosgraph.is_master_online():
         return []
     services = set(rosservice.get_service_list(namespace=namespace))
-    candidates = {name[:-len("/load_controller")] for name in services if name.endswith("/load_controller")}
+    candidates = {name[:-len("/load_controller")] or "/" for name in services if name.endswith("/load_controller")}
     known = set(initial_guess or ())
     found = []
     for candidate in sorted(candidates):
