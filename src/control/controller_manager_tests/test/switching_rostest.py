@@ -5,7 +5,9 @@ The manager runs in this process and the test is its control loop, so every cycl
 """
 import math
 import threading
+import time
 import unittest
+from unittest import mock
 
 import rospy
 import rostest
@@ -225,6 +227,89 @@ class SwitchingTest(unittest.TestCase):
         self.cycle()
         self.assertEqual(self.state("x"), "initialized", "the request must not come true later")
         self.assertTrue(self.switch("x").result())
+
+    def test_a_waiting_switch_keeps_nobody_else_waiting(self):
+        request = Request(lambda: self.cm.switch_controller(["x"], []))
+        request.wait_until_pending_or_done(self.cm)
+        self.assertTrue(Request(lambda: self.cm.unload_controller("y")).result())
+        self.assertTrue(Request(lambda: self.cm.load_controller("y")).result())
+        self.assertFalse(Request(lambda: self.cm.unload_controller("x")).result(), "it is about to be started")
+        self.assertEqual([loaded.name for loaded in self.cm.controllers], ["x", "z", "y"])
+        second = Request(lambda: self.cm.switch_controller(["y"], ["x"]))
+        self.assertFalse(request.done or second.done)
+        while not (request.done and second.done):
+            self.cycle()
+            second.thread.join(0.002)
+        self.assertTrue(request.result() and second.result(), "one after the other")
+        self.assertEqual((self.state("x"), self.state("y")), ("stopped", "running"))
+
+    @mock.patch("controller_manager.switching.PATIENCE", 0.3)
+    def test_a_loop_that_died(self):
+        self.cycle()
+        with self.assertLogs("rosout", "ERROR") as log:
+            self.assertFalse(Request(lambda: self.cm.switch_controller(["x"], [])).result())
+        self.assertEqual(len(log.output), 1, log.output)
+        self.assertIn("the control loop has made no cycle for 0.3 s although the clock goes on", log.output[0])
+        self.cycle()
+        self.assertEqual(self.state("x"), "initialized", "the request must not come true later")
+        self.assertTrue(self.switch("x").result())
+
+    @mock.patch("controller_manager.switching.PATIENCE", 0.3)
+    def test_a_hardware_that_takes_its_time_is_no_dead_loop(self):
+        self.hw.results[None] = SwitchState.ONGOING
+        request = self.switch("x", cycles=1)
+        end = time.monotonic() + 1.0
+        while time.monotonic() < end:
+            self.cycle()
+            request.thread.join(0.1)
+        self.hw.results.clear()
+        self.cycle()
+        self.assertTrue(request.result())
+
+    @mock.patch("controller_manager.switching.PATIENCE", 0.3)
+    def test_a_paused_loop_is_waited_for(self):
+        self.cycle()
+        with mock.patch("rospy.get_time", return_value=5.0):
+            request = Request(lambda: self.cm.switch_controller(["x"], []))
+            request.thread.join(1.5)
+            self.assertFalse(request.done, "the clock stands still")
+            self.cycle()
+            self.assertTrue(request.result())
+
+    @mock.patch("controller_manager.manager._LONGEST_CYCLE", 0.3)
+    def test_a_cycle_that_does_not_end(self):
+        self.switch("x")
+        blocked, go_on = threading.Event(), threading.Event()
+        loaded = next(loaded for loaded in self.cm.controllers if loaded.name == "x")
+        loaded.update = lambda *_: (blocked.set(), go_on.wait(30.0))
+        loop = Request(self.cycle)
+        blocked.wait(10.0)
+        with self.assertLogs("rosout", "ERROR") as log:
+            self.assertFalse(Request(lambda: self.cm.unload_controller("y")).result())
+            self.assertFalse(Request(lambda: self.cm.switch_controller(["y"], [], timeout=0.01)).result())
+        self.assertTrue(all("a cycle of the control loop has not ended" in line for line in log.output), log.output)
+        self.assertEqual(len(log.output), 2)
+        go_on.set()
+        loop.result()
+        self.cycle()
+        self.assertEqual(self.state("y"), "initialized")
+        self.assertTrue(self.switch("y").result())
+
+    def test_shutdown_does_not_wait_for_an_init_that_blocks(self):
+        blocked, go_on = threading.Event(), threading.Event()
+        self.addCleanup(go_on.set)
+        self.assertTrue(self.cm.unload_controller("y"))
+        with mock.patch.object(Recorder, "init", lambda *_: (blocked.set(), go_on.wait(30.0)) and None):
+            loading = Request(lambda: self.cm.load_controller("y"))
+            blocked.wait(10.0)
+            Request(self.cm.shutdown).result()
+            go_on.set()
+            self.assertFalse(loading.result(), "the manager has gone")
+        self.assertEqual(self.cm.controllers, [])
+
+    def test_a_timeout_that_is_no_number(self):
+        self.assertFalse(self.cm.switch_controller(["x"], [], timeout=math.nan))
+        self.assertEqual(self.state("x"), "initialized")
 
     def test_loading_and_unloading_need_no_loop(self):
         self.assertTrue(self.cm.unload_controller("x"))

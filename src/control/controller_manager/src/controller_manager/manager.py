@@ -1,13 +1,14 @@
 """ControllerManager: the services, and the update of the controllers in the control loop.
 
-Two locks: ``_services`` lets one changing request in at a time, as upstream; ``_loop`` is held by the loop during an
-update and by a service only for the instant in which it exchanges the list of controllers, so that loading and
-unloading work even while the loop stands still (a paused simulation).
+Three locks, taken in this order. ``_switching`` lets one switch at a time in, until the loop has done it. ``_services``
+is held while a request looks at the list of controllers and changes it. ``_loop`` is held by the loop during an update and
+by a service only for the instant in which it exchanges the list. So loading, unloading and listing work even while the
+loop stands still (a paused simulation) and a switch waits for it.
 """
 from __future__ import annotations
 
+import math
 import threading
-import time as wall
 import traceback
 from typing import Callable, List, Optional, Sequence, Tuple
 
@@ -25,10 +26,17 @@ from hardware_interface import ControllerInfo, RobotHW, SwitchState
 from plugin_loader import PluginError
 
 from .controller_types import ControllerTypes
-from .switching import Refused, Switch, plan
+from .switching import Patience, Refused, Switch, plan
 
 STRICT = SwitchControllerRequest.STRICT
 BEST_EFFORT = SwitchControllerRequest.BEST_EFFORT
+
+#: s that a service waits for a cycle that does not end before it gives up
+_LONGEST_CYCLE = 10.0
+#: s that shutdown waits for each kind of request under way
+_SHUTDOWN_PATIENCE = 1.0
+_STUCK = (f"a cycle of the control loop has not ended for {_LONGEST_CYCLE:g} s; the update() of a controller, or the "
+          "hardware, blocks")
 
 
 def _reason(error: BaseException) -> str:
@@ -71,8 +79,10 @@ class ControllerManager:
         self._robot_hw = robot_hw
         self._root = NodeHandle(namespace)
         self._types = ControllerTypes()
+        self._switching = threading.Lock()
         self._services = threading.Lock()
         self._loop = threading.Lock()
+        self._begun = False
         self._controllers: Tuple[LoadedController, ...] = ()
         self._switch: Optional[Switch] = None
         self._closing = False
@@ -99,6 +109,7 @@ class ControllerManager:
         :param reset: stop and start every running controller first (after an emergency stop).
         """
         with self._loop:
+            self._begun = True
             controllers = self._controllers
             if reset:
                 for loaded in controllers:
@@ -112,10 +123,12 @@ class ControllerManager:
                         loaded.update(time, period)
                     except Exception as error:  # a controller is third-party code: the others go on
                         self._failed(loaded, "update", error, time)
-            if self._switch is not None:
-                self._go_on(self._switch, time)
+            switch = self._switch
+            if switch is not None:
+                self._go_on(switch, time)
 
     def _go_on(self, switch: Switch, time: float) -> None:
+        switch.cycles += 1
         if not switch.begun:
             switch.begin(time)
             try:
@@ -135,7 +148,8 @@ class ControllerManager:
         else:
             done = self._start_if_ready(switch, switch.start, None, time)
         if done:
-            self._switch = None
+            if self._switch is switch:
+                self._switch = None
             switch.finished.set()
 
     def _start_if_ready(self, switch: Switch, starting: Sequence[LoadedController], info: Optional[ControllerInfo],
@@ -208,7 +222,11 @@ class ControllerManager:
                 rospy.logerr("Could not load controller '%s'%s", name, error if isinstance(error, _TypeProblem)
                              else f". Initializing controller '{name}' failed: {_reason(error)}")
                 return False
-            self._exchange(self._controllers + (loaded,))
+            if self._closing or not self._exchange(self._controllers + (loaded,)):
+                loaded.nh.shutdown()
+                if not self._closing:
+                    rospy.logerr("Could not load controller '%s': %s", name, _STUCK)
+                return False
             rospy.logdebug("Successfully loaded controller '%s'", name)
             return True
 
@@ -255,7 +273,14 @@ class ControllerManager:
         if loaded.running:
             rospy.logerr("Could not unload controller with name '%s' because it is still running", name)
             return False
-        self._exchange(tuple(other for other in self._controllers if other is not loaded))
+        switch = self._switch
+        if switch is not None and loaded in switch.start:
+            rospy.logerr("Could not unload controller with name '%s' because it is about to be started; the control loop "
+                         "has not got round to it (is the simulation paused?)", name)
+            return False
+        if not self._exchange(tuple(other for other in self._controllers if other is not loaded)):
+            rospy.logerr("Could not unload controller with name '%s': %s", name, _STUCK)
+            return False
         loaded.nh.shutdown()
         return True
 
@@ -263,16 +288,31 @@ class ControllerManager:
                           start_asap: bool = False, timeout: float = 0.0) -> bool:
         """Stop some controllers and start others within one cycle; all or nothing.
 
+        Waits for the control loop: as long as it takes while the clock stands still (a paused simulation) or the loop has
+        never run, else up to ``switching.PATIENCE`` s without a cycle.
+
         :param strictness: BEST_EFFORT leaves out what cannot be done, STRICT then refuses.
         :param start_asap: start each controller as soon as its hardware is ready.
         :param timeout: s to wait for the hardware to switch; 0 for ever.
         :return: False if refused, or if the loop did not run in time.
         """
-        with self._services:
+        with self._switching:
+            if self._closing:
+                return False
             return self._switch_controllers(start, stop, strictness, start_asap, timeout)
 
     def _switch_controllers(self, start: Sequence[str], stop: Sequence[str], strictness: int, start_asap: bool,
                             timeout: float) -> bool:
+        if not math.isfinite(timeout):
+            rospy.logerr("Could not switch controllers: the timeout must be a number of s, it is %s", timeout)
+            return False
+        with self._services:
+            switch = self._ask_for(start, stop, strictness, start_asap, timeout)
+        return switch is not None and self._carried_out(switch)
+
+    def _ask_for(self, start: Sequence[str], stop: Sequence[str], strictness: int, start_asap: bool,
+                 timeout: float) -> Optional[Switch]:
+        """Check a switch and hand it to the loop; None if it is refused."""
         if strictness == 0:
             rospy.logwarn("Controller Manager: To switch controllers you need to specify a strictness level of "
                           "controller_manager_msgs::SwitchController::STRICT (%d) or ::BEST_EFFORT (%d). "
@@ -281,45 +321,60 @@ class ControllerManager:
             starting, stopping = plan(self._controllers, start, stop, strictness == STRICT)
         except Refused as refusal:
             rospy.logerr("%s", refusal)
-            return False
+            return None
         running = [loaded.info for loaded in self._controllers
                    if (loaded.running and loaded not in stopping) or loaded in starting]
         switch = Switch(starting, stopping, start_asap, timeout)
         try:
             if self._robot_hw.check_for_conflict(running):
                 rospy.logerr("Could not switch controllers, due to resource conflict")
-                return False
+                return None
             if not self._robot_hw.prepare_switch(switch.start_info, switch.stop_info):
                 rospy.logerr("Could not switch controllers. The hardware interface combination for the requested "
                              "controllers is unfeasible.")
-                return False
+                return None
         except Exception as error:  # the robot's own code: refuse this switch, keep running
             rospy.logerr("Could not switch controllers: the hardware raised %s", _reason(error))
-            return False
+            return None
         self._switch = switch
-        if not self._wait(switch):
-            with self._loop:
-                if self._switch is switch:
-                    self._switch = None
+        return switch
+
+    def _carried_out(self, switch: Switch) -> bool:
+        """Wait until the loop has done a switch. :return: success; without it, the request is withdrawn."""
+        problem = self._wait(switch)
+        if problem is not None:
+            if not self._withdraw(switch):
+                problem = _STUCK
             if not switch.finished.is_set():
                 if not (self._closing or rospy.core.is_shutdown_requested()):  # then it is no fault
-                    rospy.logerr("Could not switch controllers: the control loop did not finish the switch")
+                    rospy.logerr("Could not switch controllers: %s", problem)
                 return False
         return not switch.failed
 
-    def _wait(self, switch: Switch) -> bool:
-        """Until the loop has done the switch; False on time-out or shutdown."""
-        deadline = wall.monotonic() + switch.timeout + 1.0 if switch.timeout > 0.0 else None
-        while not switch.finished.wait(0.05):
+    def _wait(self, switch: Switch) -> Optional[str]:
+        """Until the loop has done the switch: None; else why not, in words."""
+        patience = Patience(switch)
+        while not switch.finished.wait(Patience.INTERVAL):
             if self._closing or rospy.core.is_shutdown_requested():
-                return False
-            if deadline is not None and wall.monotonic() > deadline:
-                return False
+                return "the controller manager ends"
+            problem = patience.exhausted(rospy.get_time(), self._begun)
+            if problem is not None:
+                return problem
+        return None
+
+    def _withdraw(self, switch: Switch) -> bool:
+        """The loop is not to do this switch any more. :return: False if a cycle does not end."""
+        if not self._loop.acquire(timeout=_LONGEST_CYCLE):
+            self._switch = None  # read once in a cycle, so this is safe without the lock
+            return False
+        if self._switch is switch:
+            self._switch = None
+        self._loop.release()
         return True
 
     def reload_libraries(self, force_kill: bool) -> bool:
         """Look for controller types again and import changed modules anew. :return: success."""
-        with self._services:
+        with self._switching:
             if self._controllers and not force_kill:
                 rospy.logerr("Controller manager: Cannot reload controller libraries because there are still %d "
                              "controllers running", len(self._controllers))
@@ -329,11 +384,12 @@ class ControllerManager:
                 rospy.logerr("Controller manager: Cannot reload controller libraries because failed to stop running "
                              "controllers")
                 return False
-            if not all([self._unload(name) for name in names]):
-                rospy.logerr("Controller manager: Cannot reload controller libraries because not all controllers could "
-                             "be unloaded")
-                return False
-            self._types.reload()
+            with self._services:
+                if not all([self._unload(name) for name in names]):
+                    rospy.logerr("Controller manager: Cannot reload controller libraries because not all controllers "
+                                 "could be unloaded")
+                    return False
+                self._types.reload()
             rospy.loginfo("Controller manager: reloaded controller libraries")
             return True
 
@@ -352,16 +408,24 @@ class ControllerManager:
     # -- bookkeeping ---------------------------------------------------------------------------------------------------
 
     def shutdown(self) -> None:
-        """Withdraw the services, stop and free all controllers. The loop must not call update any more."""
+        """Withdraw the services, stop and free all controllers. The loop must not call update any more.
+
+        A request that blocks (the init of a controller that waits for something) is not waited for longer than
+        ``_SHUTDOWN_PATIENCE`` s.
+        """
         self._closing = True
         self._root.shutdown()
-        with self._services, self._loop:
+        held = [lock for lock in (self._switching, self._services, self._loop) if lock.acquire(timeout=_SHUTDOWN_PATIENCE)]
+        try:
             now = rospy.get_time() if rospy.core.is_initialized() else 0.0
             for loaded in self._controllers:
                 if loaded.running:
                     self._guard(loaded, "stopping", loaded.controller.stop_request, now)
                 loaded.nh.shutdown()
             self._controllers = ()
+        finally:
+            for lock in held:
+                lock.release()
 
     @property
     def controllers(self) -> List[LoadedController]:
@@ -374,9 +438,13 @@ class ControllerManager:
     def _names(self) -> str:
         return ", ".join(loaded.name for loaded in self._controllers) or "none"
 
-    def _exchange(self, controllers: Tuple[LoadedController, ...]) -> None:
-        with self._loop:
-            self._controllers = controllers
+    def _exchange(self, controllers: Tuple[LoadedController, ...]) -> bool:
+        """Between two cycles. :return: False if a cycle does not end."""
+        if not self._loop.acquire(timeout=_LONGEST_CYCLE):
+            return False
+        self._controllers = controllers
+        self._loop.release()
+        return True
 
 
 class _TypeProblem(Exception):

@@ -2,7 +2,8 @@
 from __future__ import annotations
 
 import threading
-from typing import TYPE_CHECKING, List, Sequence, Tuple
+import time as wall
+from typing import TYPE_CHECKING, List, Optional, Sequence, Tuple
 
 if TYPE_CHECKING:
     from .manager import LoadedController
@@ -55,6 +56,7 @@ class Switch:
         self.start_asap = start_asap
         self.timeout = timeout
         self.begun = False
+        self.cycles = 0  # of the loop, since the switch was handed to it
         self.hardware_failed = False
         self.failed: List["LoadedController"] = []  # their starting() raised
         self.reported: List[str] = []  # names of those whose start the log says to be aborted
@@ -68,3 +70,46 @@ class Switch:
     def timed_out(self, time: float) -> bool:
         """On the loop's own clock, so that simulated and wall time are never mixed."""
         return self.timeout > 0.0 and time - self._since > self.timeout
+
+
+#: s without a cycle of the loop, while the clock goes on, after which a switch is given up
+PATIENCE = 10.0
+
+
+class Patience:
+    """How long a service waits for the control loop to do a switch.
+
+    A loop that has run and makes no cycle although the clock goes on has died. While the clock stands still the simulation
+    is paused; before its first cycle a robot may still be on its way up: both are waited for.
+    """
+
+    INTERVAL = 0.05  # s between two looks
+
+    def __init__(self, switch: Switch):
+        self._switch = switch
+        now = wall.monotonic()
+        self._deadline = now + switch.timeout + 1.0 if switch.timeout > 0.0 else None
+        self._looked = now
+        self._silent = 0.0  # s of wall time during which the clock went on without a cycle
+        self._clock = 0.0
+        self._cycles = 0
+
+    def exhausted(self, clock: float, begun: bool) -> Optional[str]:
+        """To be called every INTERVAL. :return: why the wait is over, in words; None to wait on.
+
+        :param clock: s, ROS time
+        :param begun: whether the loop has ever made a cycle
+        """
+        now = wall.monotonic()
+        if self._deadline is not None and now > self._deadline:
+            return "the control loop did not finish the switch within the timeout"
+        passed, self._looked = min(now - self._looked, 2.0 * self.INTERVAL), now
+        if self._switch.cycles != self._cycles or not begun:
+            self._cycles, self._silent = self._switch.cycles, 0.0
+        elif clock != self._clock:
+            self._silent += passed
+        self._clock = clock
+        if self._silent > PATIENCE:
+            return (f"the control loop has made no cycle for {PATIENCE:g} s although the clock goes on; has the hardware's "
+                    f"node or plugin failed? Look for its error")
+        return None
