@@ -136,12 +136,16 @@ def _fail(message: str, verbosity: int, error: BaseException) -> None:
     sys.exit(2)
 
 
-def main() -> None:
-    """Expand one file to standard output or to ``-o FILE``. Exit code 2 on any error, as upstream."""
-    options, file_name = xacro.cli.process_args(sys.argv[1:])
+def install() -> None:
+    """Put this module's functions into the module ``xacro``; done once, by its import."""
     xacro.parse = _parse
     _keep_place_in_clones()
     _accept_macros_without_prefix()
+
+
+def main() -> None:
+    """Expand one file to standard output or to ``-o FILE``. Exit code 2 on any error, as upstream."""
+    options, file_name = xacro.cli.process_args(sys.argv[1:])
     if options.root_dir:
         xacro.root_dir = options.root_dir
     try:
