@@ -19,14 +19,19 @@ def become_realtime(priority: int) -> None:
     All of them (those started later inherit it), because a thread of normal priority that is suspended while it holds
     the interpreter's lock would hold up the loop.
     """
-    try:
-        for thread in os.listdir("/proc/self/task"):
+    refused = None
+    for thread in os.listdir("/proc/self/task"):
+        try:
             os.sched_setscheduler(int(thread), os.SCHED_FIFO, os.sched_param(priority))
-    except OSError as error:
+        except ProcessLookupError:  # it has ended since it was listed
+            continue
+        except OSError as error:
+            refused = error
+    if refused is not None:
         rospy.logerr("Set scheduler failed, RUN THIS NODE AS SUPER USER. (%s) It runs on at normal priority, which is "
                      "enough for the motor bench; for a robot allow real-time priority: put '@realtime - rtprio 99' "
                      "into /etc/security/limits.d/realtime.conf, 'sudo usermod -aG realtime $USER', and log in again",
-                     error.strerror)
+                     refused.strerror)
     sys.setswitchinterval(_SWITCH_INTERVAL)
 
 
