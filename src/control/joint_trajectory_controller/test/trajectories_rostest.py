@@ -217,8 +217,26 @@ class Behaviour:
                 status, code, text = goal.finish()
                 self.assertEqual((status, code), (GoalStatus.ABORTED, Result.PATH_TOLERANCE_VIOLATED))
                 self.assertRegex(text, rf"^{joint} path error -?\d\.\d{{6}}: position error .* over the tolerance 0.05")
-                client.wait_until(lambda: abs(self.state.next().desired.positions[0] - 1.0) < EPS,
-                                  "the trajectory to go on to its end")
+                self.assertHoldsWhereItIs(below=0.9)
+
+    def assertHoldsWhereItIs(self, below):
+        """After an abort, the desired state is where the joints are, and stays there."""
+        self.wait_at_rest()
+        state = self.state.next()
+        self.assertStates(state.error.positions, REST)
+        self.assertLess(min(state.desired.positions), below)
+
+    def test_good_goals_after_one_out_of_reach(self):
+        tolerances = dict(path=[(name, 0.05, 0, 0) for name in self.joints],
+                          goal=[(name, 0.05, 0, 0) for name in self.joints])
+        client.set_faults(**{self.joints[0]: {"upper_bound": 0.5}})
+        self.assertEqual(self.send((1.0, [2.8, 0.5], REST), **tolerances).finish()[1], Result.PATH_TOLERANCE_VIOLATED)
+        self.assertHoldsWhereItIs(below=0.52)
+        self.assertEqual(self.send((0.5, [0.2, -0.1], REST), **tolerances).finish(), (GoalStatus.SUCCEEDED, 0, ""))
+        every = dict(path=[(name, -1.0, -1.0, -1.0) for name in self.joints], goal=tolerances["goal"])
+        self.assertEqual(self.send((0.5, [2.8, 0.5], REST), **every).finish()[1], Result.GOAL_TOLERANCE_VIOLATED)
+        self.assertHoldsWhereItIs(below=0.52)
+        self.assertEqual(self.send((0.5, [0.2, -0.1], REST), **tolerances).finish(), (GoalStatus.SUCCEEDED, 0, ""))
 
     def test_goal_tolerance_violation_names_joint_error_and_tolerance(self):
         for joint in self.joints:
