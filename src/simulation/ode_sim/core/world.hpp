@@ -35,6 +35,7 @@ struct Joint;
 void initialise_ode();  // for the calling thread
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
+constexpr double kFarthest = 1e8;   // m from the origin; beyond twice this the cells of ODE's collision space have no number
 constexpr double kUnlimited = 1e8;  // limits of this size and more (1e9, 1e16) mean none
 
 struct Surface {

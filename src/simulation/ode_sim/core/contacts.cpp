@@ -1,0 +1,257 @@
+// Collisions of shapes, and contact joints with the rules of Gazebo Classic.
+#include "ode_access.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ode_sim {
+
+// ------------------------------------------------------------------------------------------------ collisions
+
+bool World::allowed(const Shape& a, const Shape& b) const {
+  const Link &la = *a.link, &lb = *b.link;
+  if (&la == &lb) return false;
+  if (!(a.surface.collide_bitmask & b.surface.collide_bitmask)) return false;
+  const Cluster &ca = la.model->clusters[la.cluster], &cb = lb.model->clusters[lb.cluster];
+  const bool still_a = !ca.root ? !la.moving : ca.asleep, still_b = !cb.root ? !lb.moving : cb.asleep;
+  if (still_a && still_b) return false;
+  if (la.model == lb.model) {
+    if (!la.self_collide && !lb.self_collide) return false;
+    if (la.cluster == lb.cluster && !la.moving && !lb.moving) return false;
+    if (la.model->jointed.count(std::minmax(la.id, lb.id))) return false;
+  }
+  return !tied(la, lb);
+}
+
+void World::near_callback(void* data, dGeomID ga, dGeomID gb) {
+  auto* self = static_cast<World*>(data);
+  auto *a = static_cast<Shape*>(dGeomGetData(ga)), *b = static_cast<Shape*>(dGeomGetData(gb));
+  if (a->id > b->id) std::swap(a, b);
+  if (self->allowed(*a, *b)) self->pairs_.push_back({a, b});
+}
+
+void World::collide() {
+  contacts_.clear();
+  pairs_.clear();
+  dSpaceCollide(space_, this, &near_callback);
+  // The space reports pairs in an order that depends on its history.
+  std::sort(pairs_.begin(), pairs_.end(),
+            [](auto& p, auto& q) { return std::make_pair(p.first->id, p.second->id) < std::make_pair(q.first->id, q.second->id); });
+  dContactGeom found[250];
+  for (auto& [a, b] : pairs_) {
+    dGeomID ga = a->geom, gb = b->geom;
+    // ODE has no collider for two cylinders, or a cylinder and a capsule: one of them goes in as a faceted mesh.
+    const int ta = dGeomGetClass(ga), tb = dGeomGetClass(gb);
+    Shape* stand_in = nullptr;
+    if (ta == dCylinderClass && (tb == dCylinderClass || tb == dCapsuleClass)) stand_in = a;
+    else if (tb == dCylinderClass && ta == dCapsuleClass) stand_in = b;
+    if (stand_in && stand_in->faceted) {
+      dGeomSetPosition(stand_in->faceted, dGeomGetPosition(stand_in->geom)[0], dGeomGetPosition(stand_in->geom)[1],
+                       dGeomGetPosition(stand_in->geom)[2]);
+      dGeomSetRotation(stand_in->faceted, dGeomGetRotation(stand_in->geom));
+      (stand_in == a ? ga : gb) = stand_in->faceted;
+    }
+    int n = dCollide(ga, gb, 250, found, sizeof found[0]);
+    n = std::min(n, 250);
+    const int most = std::min({max_contacts, a->max_contacts, b->max_contacts});
+    if (n > most) {
+      std::stable_sort(found, found + n, [](auto& p, auto& q) { return p.depth > q.depth; });
+      n = std::max(most, 0);
+    }
+    const size_t first = contacts_.size();
+    for (int i = 0; i < n; ++i) {
+      Contact c;
+      c.a = a;
+      c.b = b;
+      c.pos = vec(found[i].pos);
+      c.normal = vec(found[i].normal);
+      c.depth = found[i].depth;
+      const double length = norm(c.normal);
+      if (!finite(c.pos) || !std::isfinite(c.depth) || !(length > 0.5)) continue;
+      c.normal = c.normal * (1 / length);
+      contacts_.push_back(c);
+    }
+    if (a->wheel) merge_tread(*a, first);
+    if (b->wheel) merge_tread(*b, first);
+    const int kept = static_cast<int>(contacts_.size() - first);
+    for (size_t i = first; i < contacts_.size(); ++i) contacts_[i].count = kept;
+  }
+  counters.contacts = contacts_.size();
+}
+
+// A wheel touches with the middle of its tread. ODE gives a contact at either edge; a robot that turns would then pivot on
+// one of them (two rings under dry friction leave it open on which), and its effective track be off by the tread's width.
+void World::merge_tread(const Shape& wheel, size_t first) {
+  const Vec3 axis = rotate(wheel.link->X_WL.q * wheel.X_LC.q, Vec3{0, 0, 1});
+  size_t kept = first;
+  for (size_t i = first; i < contacts_.size(); ++i) {
+    Contact c = contacts_[i];
+    if (std::abs(dot(c.normal, axis)) < 0.1) {
+      double low = dot(axis, c.pos), high = low;
+      for (size_t k = contacts_.size() - 1; k > i; --k) {
+        const Contact& other = contacts_[k];
+        if (dot(other.normal, c.normal) < 0.999) continue;
+        const double at = dot(axis, other.pos);
+        low = std::min(low, at);
+        high = std::max(high, at);
+        if (other.depth > c.depth) c.depth = other.depth, c.pos = other.pos;
+        contacts_.erase(contacts_.begin() + k);
+      }
+      c.pos += axis * ((low + high) / 2 - dot(axis, c.pos));
+    }
+    contacts_[kept++] = c;
+  }
+  contacts_.resize(kept);
+}
+
+// ------------------------------------------------------------------------------------------------ contacts
+
+// N: the share of the lighter model's weight, taken as even; for what only needs its size.
+double World::borne_by_contact(const Link& a, const Link& b) const {
+  double least = dInfinity;
+  for (const Link* l : {&a, &b})
+    if (!l->model->is_static) least = std::min(least, l->model->mass / l->model->contact_count);
+  return std::isfinite(least) ? least * norm(gravity) : 0;
+}
+
+void World::make_contact_joints() {
+  feedback_.clear();
+  size_t watched = 0;
+  auto wanted = [](const Contact& c) { return c.a->watched || c.b->watched || c.a->link->weighed || c.b->link->weighed; };
+  for (auto& m : models_) m->contact_count = 0;
+  for (auto& c : contacts_) {
+    watched += wanted(c);
+    ++c.a->link->model->contact_count;
+    ++c.b->link->model->contact_count;
+  }
+  feedback_.resize(watched);
+  size_t next = 0;
+  // Resting contacts must persist, or friction is lost every other step: this much overlap (m) is left alone.
+  constexpr double slack = 2e-5;
+  for (auto& c : contacts_) {
+    const Surface &sa = c.a->surface, &sb = c.b->surface;
+    if (sa.collide_without_contact || sb.collide_without_contact) continue;
+    Link *la = c.a->link, *lb = c.b->link;
+    dBodyID ba = body_of(la), bb = body_of(lb);
+    if (la->carrier) ba = nullptr;  // kinematic: only its surface speed counts
+    if (lb->carrier) bb = nullptr;
+    const Cluster &ca = la->model->clusters[la->cluster], &cb = lb->model->clusters[lb->cluster];
+    if (la->carrier && ca.root) ba = ca.root->body;
+    if (lb->carrier && cb.root) bb = cb.root->body;
+    if (ba == bb) continue;
+
+    dContact d{};
+    d.geom.pos[0] = c.pos.x; d.geom.pos[1] = c.pos.y; d.geom.pos[2] = c.pos.z;
+    Vec3 n = c.normal;
+    Link *l1 = la, *l2 = lb;
+    c.swapped = !ba;
+    if (c.swapped) {  // ODE's contact motion is only well defined with a first body
+      std::swap(ba, bb);
+      std::swap(l1, l2);
+      n = -n;
+    }
+    d.geom.normal[0] = n.x; d.geom.normal[1] = n.y; d.geom.normal[2] = n.z;
+
+    const double kp = sa.kp > 0 && sb.kp > 0 ? 1 / (1 / sa.kp + 1 / sb.kp) : 0;
+    const double kd = sa.kd + sb.kd;
+    const double soft = dt * kp + kd;
+    const double soft_erp = soft > 0 ? dt * kp / soft : erp;
+    d.surface.mode = dContactMu2 | dContactSoftERP | dContactSoftCFM | dContactApprox1 | dContactFDir1 | dContactBounce |
+                     dContactSlip1 | dContactSlip2;
+    d.surface.mu = std::max(std::min(sa.mu, sb.mu), 0.0);
+    d.surface.mu2 = std::max(std::min(sa.mu2, sb.mu2), 0.0);
+    d.surface.soft_erp = soft_erp;
+    double inverse_mass = 0;
+    for (Link* l : {la, lb})
+      if (!l->model->is_static) inverse_mass += 1 / l->model->mass;
+    d.surface.soft_cfm = std::max(soft > 0 ? 1 / soft : 1e-9, contact_softness * dt * inverse_mass);
+    d.surface.slip1 = (sa.slip1 + sb.slip1) * c.count + friction_softness * dt * inverse_mass;
+    d.surface.slip2 = (sa.slip2 + sb.slip2) * c.count + friction_softness * dt * inverse_mass;
+    d.surface.bounce = std::min(sa.restitution, sb.restitution);
+    d.surface.bounce_vel = std::min(sa.bounce_threshold, sb.bounce_threshold);
+
+    // Depth beyond the tolerated one, cut so that it is corrected no faster than allowed. What the model's own weight presses
+    // in at this stiffness is no error to correct: cut as well, it would carry less than the weight, which then sinks and sinks.
+    double depth = std::max(c.depth - std::max(std::min(sa.min_depth, sb.min_depth), slack), 0.0);
+    double fastest = contact_max_vel;
+    for (double v : {sa.max_vel, sb.max_vel})
+      if (v >= 0) fastest = std::min(fastest, v);
+    const double pressed_in = kp > 0 && inverse_mass > 0 ? norm(gravity) / (inverse_mass * kp) : 0;
+    if (soft_erp > 0) depth = std::min(depth, fastest * dt / soft_erp + pressed_in);
+    d.geom.depth = depth;
+
+    // First friction direction, where friction is not the same all around: what a collision asks for (of two that do, the one
+    // with less friction), as seen in the contact plane; else any tangent.
+    Vec3 t1{};
+    const bool second = norm(sb.fdir1) > 0 && (norm(sa.fdir1) == 0 || sb.mu < sa.mu);
+    const Shape& directed = second ? *c.b : *c.a;
+    const bool isotropic = d.surface.mu == d.surface.mu2 && sa.slip1 + sb.slip1 == sa.slip2 + sb.slip2;
+    if (isotropic) {
+      // Where it slides, friction is to point against the motion, not along two fixed axes at once: fully along the slip, and
+      // across it in proportion (Coulomb), or a wheel that spins would still be held sideways like one that stands.
+      t1 = la->velocity_at(c.pos) - lb->velocity_at(c.pos);
+      t1 = t1 - n * dot(n, t1);
+      const double speed = norm(t1), load = borne_by_contact(*la, *lb);
+      if (speed < 1e-5) t1 = {};
+      else if (load > 0 && d.surface.mu > 0) d.surface.slip2 += speed / (d.surface.mu * load);
+    } else if (norm(directed.surface.fdir1) > 0) {
+      t1 = rotate(directed.link->X_WL.q * directed.X_LC.q, directed.surface.fdir1);
+      t1 = t1 - n * dot(n, t1);
+    }
+    if (norm(t1) < 1e-6) {
+      const dReal nn[3] = {n.x, n.y, n.z};
+      dReal p[3], q[3];
+      dPlaneSpace(nn, p, q);
+      t1 = vec(p);
+    }
+    t1 = t1 * (1 / norm(t1));
+    d.fdir1[0] = t1.x; d.fdir1[1] = t1.y; d.fdir1[2] = t1.z;
+
+    // Surface speed that the bodies do not have: links moved by servo joints.
+    auto driven = [&](const Link* l) { return l->moving || (cluster_of(*l).by && !cluster_of(*cluster_of(*l).by).root->model->jump); };
+    const bool driven1 = driven(l1), driven2 = driven(l2);
+    if (driven1 || driven2) {
+      auto slide = [&](Link* l, dBodyID body) {
+        Vec3 u = l->velocity_at(c.pos);
+        if (body) u = u - (vec(dBodyGetLinearVel(body)) + cross(vec(dBodyGetAngularVel(body)), c.pos - vec(dBodyGetPosition(body))));
+        return u;
+      };
+      const Vec3 u = (driven1 ? slide(l1, ba) : Vec3{}) - (driven2 ? slide(l2, bb) : Vec3{});
+      d.surface.mode |= dContactMotion1 | dContactMotion2 | dContactMotionN;
+      d.surface.motion1 = -dot(t1, u);
+      d.surface.motion2 = -dot(cross(n, t1), u);
+      d.surface.motionN = -dot(n, u);
+    }
+    c.joint = dJointCreateContact(world_, contact_group_, &d);
+    dJointAttach(c.joint, ba, bb);
+    if (wanted(c)) {
+      c.feedback = static_cast<int>(next);
+      dJointSetFeedback(c.joint, &feedback_[next++]);
+    }
+  }
+}
+
+std::vector<ContactRecord> World::contact_records() {
+  std::vector<ContactRecord> out;
+  out.reserve(contacts_.size());
+  for (auto& c : contacts_) {
+    ContactRecord r{};
+    r.collision1 = c.a->id;
+    r.collision2 = c.b->id;
+    r.position[0] = c.pos.x; r.position[1] = c.pos.y; r.position[2] = c.pos.z;
+    r.normal[0] = c.normal.x; r.normal[1] = c.normal.y; r.normal[2] = c.normal.z;
+    r.depth = c.depth;
+    if (c.feedback >= 0 && c.feedback < static_cast<int>(feedback_.size())) {
+      // ODE gives what acts on its first body about that body's CoM; here: on the first link, about its CoM.
+      const dJointFeedback& f = feedback_[c.feedback];
+      const Vec3 force = c.swapped ? -vec(f.f1) : vec(f.f1);
+      const Vec3 torque = cross(c.pos - c.a->link->com_W(), force);
+      r.force[0] = force.x; r.force[1] = force.y; r.force[2] = force.z;
+      r.torque[0] = torque.x; r.torque[1] = torque.y; r.torque[2] = torque.z;
+    }
+    out.push_back(r);
+  }
+  return out;
+}
+
+}  // namespace ode_sim
