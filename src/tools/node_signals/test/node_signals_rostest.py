@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""A node that talks to the master all the time ends at every signal, its shutdown hook run."""
+"""Nodes end at every signal, whatever they are doing, their shutdown hooks run and the master told."""
 import signal
 import subprocess
 import sys
 import unittest
 
+import rosgraph
 import rostest
 
 NODE = """
@@ -17,7 +18,48 @@ while not rospy.is_shutdown():
 """
 
 
+WAITING = """
+import node_signals, rospy, sys
+from std_msgs.msg import Empty
+with node_signals.silent():
+    node_signals.init_node("waiting")
+    topic = rospy.Publisher("/of_waiting", Empty, queue_size=1)
+    rospy.on_shutdown(lambda: print("hook", flush=True))
+    print("up", flush=True)
+    {waits}
+    print("end", flush=True)
+    node_signals.leave(7)
+"""
+
+
 class NodeSignals(unittest.TestCase):
+    def end(self, waits, number):
+        """(what it printed after the signal, exit code) of a node that waits in a way of its own."""
+        node = subprocess.Popen([sys.executable, "-c", WAITING.format(waits=waits)], stdout=subprocess.PIPE, text=True)
+        self.assertEqual(node.stdout.readline(), "up\n")
+        self.assertIn("/waiting", self.publishers())
+        node.send_signal(number)
+        try:
+            output, _ = node.communicate(timeout=60)
+        finally:
+            node.kill()
+        self.assertNotIn("/waiting", self.publishers())
+        return output, node.returncode
+
+    @staticmethod
+    def publishers():
+        return [node for topic, nodes in rosgraph.Master("/test").getSystemState()[0] for node in nodes
+                if topic == "/of_waiting"]
+
+    def test_one_that_spins_ends_with_its_own_code(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            self.assertEqual(self.end("node_signals.spin()", number), ("hook\nend\n", 7))
+
+    def test_one_whose_main_thread_hangs_is_left_behind(self):
+        """As in a service call to a simulator that has stopped answering."""
+        for number in (signal.SIGINT, signal.SIGTERM):
+            self.assertEqual(self.end("import threading; threading.Event().wait()", number), ("hook\n", 128 + number))
+
     def test_a_busy_node_ends_at_every_signal(self):
         for number in (signal.SIGINT, signal.SIGTERM) * 3:
             node = subprocess.Popen([sys.executable, "-c", NODE], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)

@@ -97,7 +97,7 @@ class Spawner:
         except rospy.ServiceException as error:
             if not self._shut_down_soon():
                 rospy.logerr("Controller Spawner: the controller manager did not answer: %s", error)
-        rospy.spin()
+        node_signals.spin()
         return 0
 
     def _wait_for_topic(self, topic: str) -> bool:
@@ -226,7 +226,7 @@ class Unspawner:
             end = time.monotonic() + self._PERIOD
             while time.monotonic() < end and not rospy.core.is_shutdown_requested():
                 time.sleep(0.05)
-        rospy.spin()
+        node_signals.spin()
         return 0
 
     def _stop_running(self) -> None:

@@ -1,5 +1,8 @@
 #!/usr/bin/env python3
-from keyboard_teleop.node import main
+import node_signals
+
+with node_signals.silent():
+    from keyboard_teleop.node import main
 
 if __name__ == "__main__":
     main()

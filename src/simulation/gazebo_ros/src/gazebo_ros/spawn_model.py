@@ -215,5 +215,5 @@ def main() -> int:
         return 1
     if options.bond:
         rospy.loginfo("Model %s stays until this node ends", options.model)
-        rospy.spin()
+        node_signals.spin()
     return 0

@@ -1,25 +1,104 @@
-"""Ctrl-C for rospy nodes that never hangs.
+"""Ctrl-C for rospy nodes that ends them at once, without a traceback, at any moment.
 
 rospy runs the whole shutdown inside its signal handler, on top of whatever the main thread was doing. If that was an
 XML-RPC call to the master - every ``rospy.loginfo`` makes one - the handler waits for a lock that the interrupted call
 holds, for ever. Here the handler only starts a thread, which shuts down while the main thread finishes its call.
-"""
-import signal
-import threading
+And before ``rospy.init_node``, while a node imports what it needs, Python answers Ctrl-C with a traceback.
 
-import rospy
+A node script::
+
+    import node_signals
+
+    with node_signals.silent():  # imports take a second, in which Ctrl-C ends the process without a word
+        from my_package.node import main  # calls node_signals.init_node, waits in node_signals.spin
+        node_signals.leave(main())
+
+A script that handles ``KeyboardInterrupt`` itself has only its imports in that block.
+"""
+import contextlib
+import logging
+import os
+import signal
+import sys
+import threading
+from typing import Optional
+
+_SIGNALS = (signal.SIGINT, signal.SIGTERM)
+_PATIENCE = 1.5  # s that a main thread which hangs gets to return when the node is shut down
+_shut_down = threading.Event()  # the shutdown hooks have run, the master knows
+
+
+@contextlib.contextmanager
+def silent():
+    """Within the block SIGINT and SIGTERM end the process as they end a program in C: at once, without output - unless
+    the block takes them over, as :func:`init_node` does.
+
+    Costs no import of rospy, so that it can stand before all others. Main thread only.
+    """
+    before = {number: signal.signal(number, signal.SIG_DFL) for number in _SIGNALS}
+    try:
+        yield
+    finally:
+        for number, handler in before.items():
+            if signal.getsignal(number) == signal.SIG_DFL:
+                signal.signal(number, handler)
 
 
 def init_node(name: str, **options) -> None:
     """``rospy.init_node`` with SIGINT and SIGTERM handled as said above. Call it in the main thread.
 
-    Shutdown hooks run in a thread of their own; the process ends when they are done and the main thread has returned,
-    which it does when it watches ``rospy.is_shutdown()`` or waits in ``rospy.spin()``.
+    Shutdown hooks run in a thread of their own. The process ends when they are done and the main thread has returned,
+    which it does when it watches ``rospy.is_shutdown()`` or waits in :func:`spin`; one that hangs is left behind after
+    1.5 s.
     """
+    import rospy
+
     rospy.init_node(name, disable_signals=True, **options)
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, _shut_down)
+    rospy.core.add_shutdown_hook(lambda reason: _shut_down.set())  # the last one, after those of rospy itself
+    for number in _SIGNALS:
+        signal.signal(number, _on_signal)
 
 
-def _shut_down(number, _frame) -> None:
-    threading.Thread(target=rospy.signal_shutdown, args=(f"signal-{number}",), name="shutdown").start()
+def spin() -> None:
+    """``rospy.spin`` that returns the moment the node is shut down, where rospy's looks twice a second."""
+    _shut_down.wait()
+
+
+def leave(code: Optional[int] = 0) -> None:
+    """End the process like ``sys.exit(code)``, the node shut down in an orderly way, without waiting for rospy's threads.
+
+    Python would join them one by one at its end, up to 5 s each when one waits for a peer that hangs.
+
+    :param code: exit code; None counts as 0
+    """
+    import rospy
+
+    if rospy.core.is_initialized():
+        threading.Thread(target=rospy.signal_shutdown, args=("the node ends",), name="shutdown", daemon=True).start()
+        _shut_down.wait()
+    _exit(code or 0)
+
+
+def _on_signal(number, _frame) -> None:
+    threading.Thread(target=_end, args=(number,), name="shutdown", daemon=True).start()
+
+
+def _end(number: int) -> None:
+    import rospy
+
+    rospy.signal_shutdown(f"signal-{number}")
+    _shut_down.wait()  # when another thread was quicker to ask
+    main = threading.main_thread()
+    main.join(_PATIENCE)
+    if main.is_alive():
+        _exit(128 + number)
+
+
+def _exit(code: int) -> None:
+    logging.shutdown()
+    for stream in (sys.stdout, sys.stderr):
+        try:
+            stream.flush()
+        except (OSError, ValueError):  # whoever read it is gone
+            pass
+    os._exit(code)
