@@ -52,6 +52,19 @@ class DiscoveryTest(unittest.TestCase):
         self.assertEqual(utils.get_controller_managers(), [])
         self.assertIn("no controller manager at all", utils.describe_controller_managers())
 
+    def test_a_guess_is_believed_while_it_is_there(self):
+        self.manager("/incomplete", without=["reload_controller_libraries"])
+        self.manager("/whole")
+        self.assertEqual(utils.get_controller_managers(initial_guess=["/gone", "/incomplete"]),
+                         ["/incomplete", "/whole"])
+
+    def test_answers_of_the_double_can_be_changed(self):
+        double = self.manager("/told")
+        double.list_ctrl_resp.controller = CONTROLLERS
+        self.assertEqual(names(utils.ControllerLister("/told")()), ["foo", "bar", "foobar"])
+        double.list_ctrl.shutdown("on purpose")
+        self.assertFalse(utils.is_controller_manager("/told"))
+
     def test_lister_follows_what_comes_and_goes(self):
         lister = utils.ControllerManagerLister()
         self.assertEqual(lister(), [])

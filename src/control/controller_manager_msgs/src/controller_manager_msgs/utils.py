@@ -42,17 +42,17 @@ def is_controller_manager(namespace: str) -> bool:
 def get_controller_managers(namespace: str = "/", initial_guess: Optional[Sequence[str]] = None) -> List[str]:
     """Namespaces of the controller managers at or below ``namespace``, sorted, such as ``/arm/controller_manager``.
 
-    :param initial_guess: an earlier answer; what is still advertised of it is not asked for its types again.
+    :param initial_guess: an earlier answer; what is still there of it is not looked at again, right or wrong.
     """
     if not rosgraph.is_master_online():
         return []
     services = set(rosservice.get_service_list(namespace=namespace))
-    candidates = {name[:-len("/load_controller")] or "/" for name in services if name.endswith("/load_controller")}
+    candidates = {name[:-len("/list_controllers")] or "/" for name in services if name.endswith("/list_controllers")}
     known = set(initial_guess or ())
     found = []
     for candidate in sorted(candidates):
         complete = all(_join(candidate, name) in services for name in _SERVICES)
-        if complete and (candidate in known or is_controller_manager(candidate)):
+        if candidate in known or (complete and is_controller_manager(candidate)):
             found.append(candidate)
     return found
 
