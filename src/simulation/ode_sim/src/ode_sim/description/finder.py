@@ -3,11 +3,11 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
-from typing import Callable, Iterable, List, Optional, Tuple
+from typing import Callable, Iterable, Iterator, List, Optional, Tuple
 from urllib.parse import unquote
 
-from ode_sim.description.model import DescriptionError
-from ode_sim.description.xmlsource import parse_xml, text_of
+from ode_sim.description.model import DescriptionError, quoted
+from ode_sim.description.xmlsource import parse_xml, read_bytes, text_of
 
 STOCK_VARIABLE = "ODE_SIM_STOCK_PATH"
 _NEWEST_SDF = (1, 7)
@@ -27,6 +27,15 @@ def find_ros_package(name: str) -> Optional[str]:
                 folders.clear()
             folders[:] = [f for f in folders if not f.startswith(".")]
     return None
+
+
+def _leads_up(name: str) -> bool:
+    return os.path.normpath(name.lstrip("/")).split("/")[0] == ".."
+
+
+def _below(folder: str, name: str) -> List[str]:
+    """``name`` in ``folder``; nothing if it lies elsewhere. Links are followed: a catkin workspace is full of them."""
+    return [] if _leads_up(name) else [os.path.join(folder, os.path.normpath(name.lstrip("/")))]
 
 
 class ResourceFinder:
@@ -62,12 +71,15 @@ class ResourceFinder:
     def find(self, uri: str, base: str = "") -> Optional[str]:
         """Absolute path of an existing file or directory, or None.
 
+        A URI never leads out of the folder that it names (``model://cup/../../secret`` is not found): what is loaded may
+        come from a stranger. A plain path may lead anywhere.
+
         :param base: directory of the file that says so; a relative name is tried there first.
         """
         uri = uri.strip()
         scheme, _, rest = uri.partition("://")
         if not rest:
-            return self._find_relative(uri, base)
+            return self._first(self._relative(uri, base))
         rest = unquote(rest)
         if scheme == "model":
             return self._in_models(rest)
@@ -76,12 +88,14 @@ class ResourceFinder:
             return self._in_models(name) or self._in_models(name.lower().replace(" ", "_"))
         if scheme == "package":
             package, _, inside = rest.partition("/")
-            folder = self._package_path(package)
-            found = self._first([os.path.join(folder, inside)]) if folder else None
+            folder = self._package_path(package) if package not in ("", ".", "..") else None
+            found = self._first(_below(folder, inside)) if folder else None
             # URDF meshes that name a package of models: Gazebo turns package:// into model://
             return found or self._in_models(rest)
         if scheme == "file":
-            return self._find_relative(rest, base)
+            if os.path.isabs(rest):
+                return self._first([rest]) or self._in_models(rest)
+            return self._first(path for path in self._relative(rest, base) if not _leads_up(rest))
         return None
 
     def explain(self, uri: str) -> str:
@@ -90,7 +104,7 @@ class ResourceFinder:
         if scheme == "package" and rest:
             package = rest.partition("/")[0]
             folder = self._package_path(package)
-            return f"searched {folder}" if folder else f"there is no ROS package '{package}'"
+            return f"searched {folder}" if folder else f"there is no ROS package '{quoted(package)}'"
         if scheme in ("http", "https", "model") and rest:
             return ("" if scheme == "model" else "the network is never used; ") + "searched " + \
                 (":".join(self.model_paths) or "nothing, GAZEBO_MODEL_PATH is empty")
@@ -104,17 +118,21 @@ class ResourceFinder:
         return found if found and os.path.isfile(found) else None
 
     def _in_models(self, name: str) -> Optional[str]:
-        return self._first(os.path.join(path, name.lstrip("/")) for path in self.model_paths) if name else None
+        return self._first(candidate for path in self.model_paths for candidate in _below(path, name)) if name else None
 
-    def _find_relative(self, name: str, base: str) -> Optional[str]:
+    def _relative(self, name: str, base: str) -> Iterator[str]:
+        """Where a plain name may be meant to be."""
         if os.path.isabs(name):
-            return self._first([name] + [path + name for path in self.model_paths])
-        candidates = [os.path.join(base, name)] if base else []
-        candidates.append(os.path.join(os.getcwd(), name))
+            yield name
+            for path in self.model_paths:
+                yield from _below(path, name)
+            return
+        if base:
+            yield os.path.join(base, name)
+        yield os.path.join(os.getcwd(), name)
         for path in self.resource_paths:
-            candidates += [os.path.join(path, name), os.path.join(path, "models", name),
-                           os.path.join(path, "media/models", name), os.path.join(path, "Media/models", name)]
-        return self._first(candidates)
+            for folder in ("", "models", "media/models", "Media/models"):
+                yield from _below(os.path.join(path, folder), name)
 
     @staticmethod
     def _first(candidates: Iterable[str]) -> Optional[str]:
@@ -133,17 +151,16 @@ class ResourceFinder:
         found = self.find(uri, base)
         if found is None or os.path.isfile(found):
             return found
-        folder = Path(found)
         for name in ("model.config", "manifest.xml"):
-            if (folder / name).is_file():
-                return str(self._sdf_of_config(folder / name))
-        if (folder / "model.sdf").is_file():
-            return str(folder / "model.sdf")
-        raise DescriptionError(f"{folder}: no model.config, so '{uri}' is not a model directory")
+            if os.path.isfile(os.path.join(found, name)):
+                return self._sdf_of_config(os.path.join(found, name))
+        if os.path.isfile(os.path.join(found, "model.sdf")):
+            return os.path.join(found, "model.sdf")
+        raise DescriptionError(f"{found}: no model.config, so '{quoted(uri)}' is not a model directory")
 
     @staticmethod
-    def _sdf_of_config(config: Path) -> Path:
-        root = parse_xml(config.read_bytes(), str(config))
+    def _sdf_of_config(config: str) -> str:
+        root = parse_xml(read_bytes(config), config)
         entries: List[Tuple[Tuple[int, ...], str]] = []
         for entry in root.iter("sdf"):
             try:
@@ -155,9 +172,9 @@ class ResourceFinder:
             raise DescriptionError(f"{config}: has no <sdf version='1.6'>model.sdf</sdf> entry")
         supported = [entry for entry in entries if entry[0] <= _NEWEST_SDF]
         best = max(supported)[1] if supported else min(entries)[1]  # a newer one is read as far as it is known
-        file = config.parent / best
-        if not file.is_file():
-            raise DescriptionError(f"{config}: names '{best}', which is not there")
+        file = os.path.join(os.path.dirname(config), best)
+        if os.path.isabs(best) or _leads_up(best) or not os.path.isfile(file):
+            raise DescriptionError(f"{config}: names '{quoted(best)}', which is not there")
         return file
 
     def stock_models(self) -> List[str]:

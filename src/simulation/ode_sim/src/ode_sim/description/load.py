@@ -6,11 +6,11 @@ from dataclasses import replace
 from typing import List, Optional, Tuple
 
 from ode_sim.description.finder import ResourceFinder
-from ode_sim.description.model import DescriptionError, Light, Model, Problem, World
+from ode_sim.description.model import DescriptionError, Light, Model, Problem, World, quoted
 from ode_sim.description.sdf import SdfReader
-from ode_sim.description.sdf_document import ENTITIES, first_entity, parse_sdf
+from ode_sim.description.sdf_document import ENTITIES, first_entity, parse_sdf, sdf_root
 from ode_sim.description.urdf import urdf_to_model
-from ode_sim.description.xmlsource import parse_xml, source_of
+from ode_sim.description.xmlsource import Element, parse_xml, read_bytes, source_of
 
 
 def load_world(path_or_text: str, finder: Optional[ResourceFinder] = None) -> Tuple[World, List[Problem]]:
@@ -26,9 +26,9 @@ def load_world(path_or_text: str, finder: Optional[ResourceFinder] = None) -> Tu
         file = finder.find_world(path_or_text) or ""
         if not file:
             known = ", ".join(finder.stock_worlds())
-            raise DescriptionError(f"cannot find world '{path_or_text}' ({finder.explain(path_or_text)})"
+            raise DescriptionError(f"cannot find world '{quoted(path_or_text, 200)}' ({finder.explain(path_or_text)})"
                                    + (f"; worlds that come with the simulator: {known}" if known else ""))
-        text = _read(file)
+        text = read_bytes(file)
     root = parse_sdf(text, file)
     world = root.find("world")
     if world is None:
@@ -42,9 +42,10 @@ def root_kind(text: str, finder: Optional[ResourceFinder] = None) -> str:
 
     :raises DescriptionError: none of these, or not XML.
     """
-    if parse_xml(text).tag == "robot":
+    root = parse_xml(text)
+    if root.tag == "robot":
         return "urdf"
-    return _entity(SdfReader(finder), text, "").tag
+    return _entity(SdfReader(finder), root).tag
 
 
 def read_model(text: str, *, name: Optional[str] = None, finder: Optional[ResourceFinder] = None,
@@ -56,25 +57,33 @@ def read_model(text: str, *, name: Optional[str] = None, finder: Optional[Resour
     """
     root = parse_xml(text, file)
     if root.tag == "robot":
-        return read_urdf(text, name=name, finder=finder, file=file)
+        return _urdf(root, name, finder)
     if root.tag in ("sdf", "gazebo", "model", "world"):
-        return read_sdf_model(text, name=name, finder=finder, file=file)
+        return _sdf_model(root, name, finder)
     raise DescriptionError(f"{source_of(root)}: neither URDF nor SDF; expected <robot> or <sdf> as the root element")
 
 
 def read_urdf(text: str, *, name: Optional[str] = None, finder: Optional[ResourceFinder] = None,
               file: str = "") -> Tuple[Model, List[Problem]]:
     """A model from URDF text, by Gazebo's conversion rules."""
-    reader = SdfReader(finder, os.path.dirname(file))
-    model = urdf_to_model(parse_xml(text, file), reader)
+    return _urdf(parse_xml(text, file), name, finder)
+
+
+def _urdf(robot: Element, name: Optional[str], finder: Optional[ResourceFinder]) -> Tuple[Model, List[Problem]]:
+    reader = SdfReader(finder, os.path.dirname(robot.file))
+    model = urdf_to_model(robot, reader)
     return (replace(model, name=name) if name else model), reader.problems
 
 
 def read_sdf_model(text: str, *, name: Optional[str] = None, finder: Optional[ResourceFinder] = None,
                    file: str = "") -> Tuple[Model, List[Problem]]:
     """The first model of SDF text: ``<sdf><model>``, or in a ``<world>``, there also by ``<include>``."""
-    reader = SdfReader(finder, os.path.dirname(file))
-    element = _entity(reader, text, file)
+    return _sdf_model(parse_xml(text, file), name, finder)
+
+
+def _sdf_model(root: Element, name: Optional[str], finder: Optional[ResourceFinder]) -> Tuple[Model, List[Problem]]:
+    reader = SdfReader(finder, os.path.dirname(root.file))
+    element = _entity(reader, root)
     if element.tag != "model":
         raise DescriptionError(f"{source_of(element)}: is no <model>")
     model = reader.model(element)
@@ -85,16 +94,16 @@ def read_light(text: str, *, name: Optional[str] = None, finder: Optional[Resour
                file: str = "") -> Tuple[Light, List[Problem]]:
     """The first light of SDF text."""
     reader = SdfReader(finder, os.path.dirname(file))
-    element = _entity(reader, text, file)
+    element = _entity(reader, parse_xml(text, file))
     if element.tag != "light":
         raise DescriptionError(f"{source_of(element)}: is no <light>")
     light = reader.light(element)
     return (replace(light, name=name) if name else light), reader.problems
 
 
-def _entity(reader: SdfReader, text: str, file: str):
+def _entity(reader: SdfReader, root: Element) -> Element:
     """The first model or light, an ``<include>`` resolved."""
-    root = parse_sdf(text, file)
+    root = sdf_root(root)
     element = _first_with_include(root)
     if element is None or element.tag != "include":
         return first_entity(root)
@@ -110,11 +119,3 @@ def _first_with_include(root):
             if element.tag in ENTITIES + ("include",):
                 return element
     return None
-
-
-def _read(file: str) -> bytes:
-    try:
-        with open(file, "rb") as stream:
-            return stream.read()
-    except OSError as error:
-        raise DescriptionError(f"cannot read {file}: {error.strerror}") from None

@@ -1,16 +1,17 @@
 """Looks: Gazebo's own material names, and OGRE ``.material`` scripts that a model brings along."""
 from __future__ import annotations
 
+import glob
 import os
 import re
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Dict, Iterable, List, Optional, Tuple
 
 from ode_sim.description.finder import ResourceFinder
 from ode_sim.description.model import Material, Rgba
 
 Rgb = Tuple[float, float, float]
+_BRIGHTEST = 1e6  # of colours, which are 0..1
 
 
 @dataclass(frozen=True)
@@ -92,52 +93,93 @@ def gazebo_material(name: str, finder: Optional[ResourceFinder] = None) -> Optio
 
 # ---------------------------------------------------------------------------------------------- OGRE scripts
 
-_COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
+_COMMENT_BEGIN = re.compile(r"//|/\*")
+_PIECE = re.compile(r"[{}]|[^\n{}]+")
+_LONGEST_SCRIPT = 4_000_000  # characters; what follows is not read
+_MOST_SCRIPTS = 1000  # of a folder
 
 
 def script_material(name: str, locations: Iterable[str]) -> Optional[Material]:
     """The material ``name`` of the OGRE scripts in ``locations`` (files, or directories to look through).
 
     The first pass counts; of a texture unit only the image is taken, from the directories of ``locations``, a
-    ``textures`` folder beside them, or the script's own directory.
+    ``textures`` folder beside them, or the script's own directory. What cannot be read as a script has no materials.
     """
     files, folders = _scripts(locations)
     for file in files:
-        statements = _statements(file.read_text(encoding="utf-8", errors="replace"), name)
+        try:
+            with open(file, encoding="utf-8", errors="replace") as stream:
+                text = stream.read(_LONGEST_SCRIPT)
+        except OSError:
+            continue
+        statements = _statements(text, name)
         if statements is not None:
-            return _material_of(name, statements, [file.parent] + folders)
+            return _material_of(name, statements, [os.path.dirname(file)] + folders)
     return None
 
 
-def _scripts(locations: Iterable[str]) -> Tuple[List[Path], List[Path]]:
-    files: List[Path] = []
-    folders: List[Path] = []
+def _scripts(locations: Iterable[str]) -> Tuple[List[str], List[str]]:
+    """(files, folders to find textures in)"""
+    files: List[str] = []
+    folders: List[str] = []
     for location in locations:
-        path = Path(location)
-        if path.is_dir():
-            files += sorted(path.glob("*.material"))
-            folders += [path, path.parent / "textures"]
-        elif path.is_file():
-            files.append(path)
-            folders += [path.parent, path.parent.parent / "textures"]
+        if os.path.isdir(location):
+            files += sorted(glob.glob(os.path.join(glob.escape(location), "*.material")))[:_MOST_SCRIPTS]
+            folders += [location, os.path.join(os.path.dirname(location), "textures")]
+        elif os.path.isfile(location):
+            files.append(location)
+            folder = os.path.dirname(location)
+            folders += [folder, os.path.join(os.path.dirname(folder), "textures")]
     return files, folders
+
+
+def _without_comments(text: str) -> str:
+    pieces, at = [], 0
+    unclosed = False
+    for match in _COMMENT_BEGIN.finditer(text):
+        line = match.group() == "//"
+        if match.start() < at or (unclosed and not line):
+            continue  # inside of the one before; or does not end either
+        end = text.find("\n" if line else "*/", match.end())
+        if end < 0 and not line:
+            unclosed = True
+            continue
+        pieces.append(text[at:match.start()])
+        at = len(text) if end < 0 else end if line else end + 2
+    return "".join(pieces) + text[at:]
 
 
 def _statements(text: str, name: str) -> Optional[List[List[str]]]:
     """The lines inside ``material <name> { ... }``, each split into words; None if the script has no such material."""
-    text = _COMMENT.sub("", text)
-    start = re.search(rf'^\s*material\s+"?{re.escape(name)}"?\s*(?::[^\n{{]*)?\s*\{{', text, re.MULTILINE)
-    if start is None:
-        return None
-    depth, end = 1, start.end()
-    while depth and end < len(text):
-        depth += {"{": 1, "}": -1}.get(text[end], 0)
-        end += 1
-    lines = re.split(r"[\n{}]", text[start.end():end])
-    return [words for words in (line.replace('"', "").split() for line in lines) if words]
+    depth = 0
+    found: Optional[List[List[str]]] = None
+    header: List[str] = []  # words since the last statement outside of all braces
+    for piece in _PIECE.findall(_without_comments(text)):
+        if piece == "{":
+            if depth == 0 and found is None and _begins(header, name):
+                found = []
+            depth, header = depth + 1, []
+        elif piece == "}":
+            depth = max(0, depth - 1)
+            if depth == 0 and found is not None:
+                return found
+            header = []
+        elif piece.strip():
+            words = piece.replace('"', "").split()
+            if found is not None:
+                found.append(words)
+            elif depth == 0:
+                header = words
+    return found
 
 
-def _material_of(name: str, statements: List[List[str]], folders: List[Path]) -> Material:
+def _begins(header: List[str], name: str) -> bool:
+    """Whether this is ``material <name>``, which may be followed by ``: <parent>``."""
+    rest = " ".join(header[1:])
+    return header[:1] == ["material"] and rest.startswith(name) and rest[len(name):].lstrip()[:1] in ("", ":")
+
+
+def _material_of(name: str, statements: List[List[str]], folders: List[str]) -> Material:
     colours: Dict[str, Rgba] = {}
     texture = ""
     for words in statements:
@@ -147,10 +189,11 @@ def _material_of(name: str, statements: List[List[str]], folders: List[Path]) ->
                 numbers = [float(value) for value in values]
             except ValueError:
                 continue  # 'vertexcolour' and the like
-            if len(numbers) >= 3:
+            if len(numbers) >= 3 and all(abs(value) <= _BRIGHTEST for value in numbers):
                 alpha = numbers[3] if key == "diffuse" and len(numbers) > 3 else 1.0
                 colours[key] = (numbers[0], numbers[1], numbers[2], alpha)
         elif key == "texture" and values and not texture:
-            found = [folder / values[0] for folder in folders if (folder / values[0]).is_file()]
+            places = [os.path.join(folder, values[0]) for folder in folders]
+            found = [place for place in places if os.path.isfile(place)]
             texture = os.path.abspath(found[0]) if found else ""
     return Material(name, texture=texture, **colours)

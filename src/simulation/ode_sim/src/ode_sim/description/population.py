@@ -7,8 +7,10 @@ import xml.etree.ElementTree as ET
 from typing import Iterator, Optional
 
 from ode_sim import math3
-from ode_sim.description.model import Pose
+from ode_sim.description.model import FARTHEST, Pose, quoted
 from ode_sim.description.xmlsource import child, clone, text_of
+
+_MOST = 1_000_000  # of anything counted
 
 
 def population(reader, element: ET.Element, template: Optional[ET.Element]) -> Iterator[ET.Element]:
@@ -20,16 +22,20 @@ def population(reader, element: ET.Element, template: Optional[ET.Element]) -> I
     if template is None:
         reader.warn(element, "a population needs a <model> or <include>; left out")
         return
-    count = max(0, int(reader.number(element, "model_count", 1)))
+    count = reader.whole(element, "model_count", 1, 0, _MOST)
     kind = text_of(element.find("distribution/type")) or "random"
     x_wr = reader.pose(element.find("pose"))
-    size = reader.vector(element, "box/size", (1.0, 1.0, 1.0))
-    radius = reader.number(element, "cylinder/radius", 1.0) if element.find("cylinder") is not None else None
-    rows, cols = (int(reader.number(element, f"distribution/{tag}", 1)) for tag in ("rows", "cols"))
-    step = reader.vector(element, "distribution/step", (0.5, 0.5, 0.0))
+    size = reader.vector(element, "box/size", (1.0, 1.0, 1.0), most=FARTHEST)
+    radius = reader.number(element, "cylinder/radius", 1.0, most=FARTHEST) if element.find("cylinder") is not None else None
+    rows, cols = (reader.whole(element, f"distribution/{tag}", 1, 0, _MOST) for tag in ("rows", "cols"))
+    total = rows * cols if kind == "grid" else count
+    if not reader.room_for(total * sum(1 for _ in template.iter())):
+        reader.warn(element, f"{total} copies of model '{quoted(template.get('name'))}' are too many; left out")
+        return
+    step = reader.vector(element, "distribution/step", (0.5, 0.5, 0.0), most=FARTHEST)
     rng = random.Random(f"population {element.get('name')}")
     name = template.get("name") or "model"
-    for i in range(rows * cols if kind == "grid" else count):
+    for i in range(total):
         fraction = (i + 0.5) / count if count else 0.0
         if kind == "grid":
             row, col = divmod(i, cols)

@@ -29,6 +29,16 @@ def scaled_geometry(shape: Geometry, scale: Vec3) -> Geometry:
     return shape  # terrains and polylines keep their size, as in Gazebo
 
 
+def largest_size(model: Model) -> float:
+    """Of all its shapes, m; a mesh counts by its scale."""
+    def sizes(shape: Geometry):
+        for name in ("size", "radius", "length", "scale"):
+            value = getattr(shape, name, 0.0)
+            yield from map(abs, value) if isinstance(value, tuple) else (value,)
+    return max((size for link in model.links for part in link.collisions + link.visuals for size in sizes(part.geometry)),
+               default=0.0)
+
+
 def scaled_model(model: Model, scale: Vec3) -> Model:
     """``model`` with everything that is drawn or collides stretched by ``scale`` (x, y, z)."""
     def stretch(part):

@@ -8,18 +8,20 @@ from __future__ import annotations
 import math
 import xml.etree.ElementTree as ET
 from dataclasses import replace
-from typing import Iterator, List, Optional
+from typing import Iterator, List, Optional, Set
 
 from ode_sim import math3
 from ode_sim.description.model import (
-    DescriptionError, Light, LinkState, Model, ModelState, Physics, Scene, World, WorldState)
+    FARTHEST, DescriptionError, Light, LinkState, Model, ModelState, Physics, Scene, Vec3, World, WorldState, quoted)
 from ode_sim.description.population import population
-from ode_sim.description.scaling import scaled_model
+from ode_sim.description.scaling import largest_size, scaled_model
 from ode_sim.description.sdf_frames import relative_to, world_frames
 from ode_sim.description.sdf_model import SdfModels
 from ode_sim.description.xmlsource import is_true, source_of, text_of
 
 _UNSCALED = (1.0, 1.0, 1.0)
+_STRONGEST_FIELD = 1e6  # T
+_LONGEST_TIME = 1e9  # s; in nanoseconds it still fits into 64 bits
 
 
 class SdfReader(SdfModels):
@@ -28,6 +30,7 @@ class SdfReader(SdfModels):
     def world(self, element: ET.Element) -> World:
         models: List[Model] = []
         lights: List[Light] = []
+        taken: Set[str] = set()  # names of models
         plugins = self.plugins(element)
         frames = world_frames(self, element)
 
@@ -35,21 +38,28 @@ class SdfReader(SdfModels):
             try:
                 model = self.model(source)
             except DescriptionError as error:
-                self.warn(None, f"{error}; model '{source.get('name')}' is left out", "error")
+                self.warn(None, f"{error}; model '{quoted(source.get('name'))}' is left out", "error")
                 return
-            if any(model.name == other.name for other in models):
-                self.warn(source, f"a model named '{model.name}' is there already; this one is left out")
+            if model.name in taken:
+                self.warn(source, f"a model named '{quoted(model.name)}' is there already; this one is left out")
                 return
+            taken.add(model.name)
             frame = relative_to(source.find("pose"))
             if frame in frames:
                 model = replace(model, pose=math3.compose(frames[frame], model.pose))
             models.append(model)
 
+        def add_light(source: ET.Element) -> None:
+            try:
+                lights.append(self.light(source))
+            except DescriptionError as error:
+                self.warn(None, f"{error}; light '{quoted(source.get('name'))}' is left out", "error")
+
         for child in element:
             if child.tag == "model":
                 add_model(child)
             elif child.tag == "light":
-                lights.append(self.light(child))
+                add_light(child)
             elif child.tag == "include":
                 included = self.include(child)
                 if included is None:
@@ -57,7 +67,7 @@ class SdfReader(SdfModels):
                 if included.tag == "model":
                     add_model(included)
                 elif included.tag == "light":
-                    lights.append(self.light(included))
+                    add_light(included)
                 else:
                     self.warn(child, "actors are not simulated; left out")
             elif child.tag == "population":
@@ -75,15 +85,15 @@ class SdfReader(SdfModels):
             if inserted.tag == "model":
                 add_model(inserted)
             elif inserted.tag == "light":
-                lights.append(self.light(inserted))
+                add_light(inserted)
         if state is not None:
             models = self._scaled(models, state, element)
         coordinates = element.find("spherical_coordinates")
         default = World()
         return World(
             name=element.get("name") or "default",
-            gravity=self.vector(element, "gravity", self.vector(element, "physics/gravity", default.gravity)),
-            magnetic_field=self.vector(element, "magnetic_field", default.magnetic_field),
+            gravity=self._gravity(element, default.gravity),
+            magnetic_field=self.vector(element, "magnetic_field", default.magnetic_field, most=_STRONGEST_FIELD),
             physics=self._physics(element), scene=self._scene(element.find("scene")), models=tuple(models),
             lights=tuple(lights), plugins=tuple(plugins), state=state,
             spherical_coordinates=(self.number(coordinates, "latitude_deg", 0.0),
@@ -92,41 +102,60 @@ class SdfReader(SdfModels):
                                    self.number(coordinates, "heading_deg", 0.0)),
             source=source_of(element))
 
+    def _gravity(self, world: ET.Element, default: Vec3) -> Vec3:
+        from ode_sim.physics import STRONGEST_GRAVITY
+
+        older = self.vector(world, "physics/gravity", default, most=STRONGEST_GRAVITY)
+        return self.vector(world, "gravity", older, most=STRONGEST_GRAVITY)
+
     def _scaled(self, models: List[Model], state: WorldState, world: ET.Element) -> List[Model]:
         """What was stretched in the simulator's window is saved at its old size, with the factors in ``<state>``."""
-        scales = {}
-        for saved in state.models:
-            if all(0.0 < factor < math.inf for factor in saved.scale):
-                scales[saved.name] = saved.scale
+        scales = {saved.name: saved.scale for saved in state.models}
+
+        def scaled(model: Model) -> Model:
+            scale = scales.get(model.name, _UNSCALED)
+            if scale == _UNSCALED:
+                return model
+            factors = " ".join(f"{factor:g}" for factor in scale)
+            if not all(0.0 < factor < math.inf for factor in scale):
+                reason = f"scale {factors} must be positive"
             else:
-                self.warn(world.find("state"), f"model '{saved.name}': scale {' '.join(f'{f:g}' for f in saved.scale)} "
-                                               "must be positive; the model keeps its size")
-        return [scaled_model(model, scales[model.name]) if scales.get(model.name, _UNSCALED) != _UNSCALED else model
-                for model in models]
+                stretched = scaled_model(model, scale)
+                if largest_size(stretched) <= FARTHEST:
+                    return stretched
+                reason = f"scale {factors} makes it larger than {FARTHEST:g} m"
+            self.warn(world.find("state"), f"model '{quoted(model.name)}': {reason}; the model keeps its size")
+            return model
+
+        return [scaled(model) for model in models]
 
     def _physics(self, world: ET.Element) -> Physics:
+        from ode_sim.physics import usable_physics  # which is built on the records of this package
+
         blocks = world.findall("physics")
         if not blocks:
             return Physics()
         block = next((b for b in blocks if is_true(b.get("default", ""))), blocks[0])
         kind = (block.get("type") or "ode").strip()
         if kind != "ode":
-            self.warn(block, f"the physics engine is ODE; '{kind}' is simulated by it, its own parameters are ignored")
+            self.warn(block, f"the physics engine is ODE; '{quoted(kind)}' is simulated by it, its own parameters are ignored")
         default = Physics()
         ode = block.find("ode")
-        step = self.number(block, "max_step_size", self.number(block, "dt", default.max_step_size))
-        if not 0.0 < step < math.inf:
-            self.warn(block, f"max_step_size {step:g} must be positive; using {default.max_step_size:g}")
-            step = default.max_step_size
-        return Physics(
-            max_step_size=step,
+        values = {
+            "max_step_size": self.number(block, "max_step_size", self.number(block, "dt", default.max_step_size)),
+            "max_contacts": self.number(block, "max_contacts", default.max_contacts)}
+        for name, value in values.items():
+            if value <= 0.0:
+                values[name] = getattr(default, name)
+                self.warn(block, f"{name} {value:g} must be positive; using {values[name]:g}")
+        written = Physics(
+            **values,
             real_time_update_rate=self.number(block, "real_time_update_rate",
                                               self.number(block, "update_rate", default.real_time_update_rate)),
             real_time_factor=self.number(block, "real_time_factor", default.real_time_factor),
-            max_contacts=int(self.number(block, "max_contacts", default.max_contacts)),
             solver=text_of(ode.find("solver/type")) or default.solver if ode is not None else default.solver,
-            iters=int(self.number(ode, "solver/iters", default.iters)),
-            precon_iters=int(self.number(ode, "solver/precon_iters", default.precon_iters)),
+            iters=self.number(ode, "solver/iters", default.iters),
+            precon_iters=self.number(ode, "solver/precon_iters", default.precon_iters),
             sor=self.number(ode, "solver/sor", default.sor),
             cfm=self.number(ode, "constraints/cfm", default.cfm),
             erp=self.number(ode, "constraints/erp", default.erp),
@@ -134,6 +163,10 @@ class SdfReader(SdfModels):
                                                    default.contact_max_correcting_vel),
             contact_surface_layer=self.number(ode, "constraints/contact_surface_layer",
                                               default.contact_surface_layer))
+        physics, changes = usable_physics(written)
+        for change in changes:
+            self.warn(block, change)
+        return physics
 
     def _scene(self, element: Optional[ET.Element]) -> Scene:
         if element is None:
@@ -150,20 +183,23 @@ class SdfReader(SdfModels):
 
         def link_states(model: ET.Element, scope: str) -> Iterator[LinkState]:
             for link in model.findall("link"):
-                velocity = self.vector(link, "velocity", (0.0,) * 6)
+                velocity = self.vector(link, "velocity", (0.0,) * 6, most=FARTHEST)
                 yield LinkState(scope + (link.get("name") or ""), self.pose(link.find("pose")),
                                 velocity[:3], velocity[3:])
             for sub in model.findall("model"):
                 yield from link_states(sub, f"{scope}{sub.get('name')}::")
 
-        time = (text_of(element.find("sim_time")) or "0").split()
+        time = element.find("sim_time")
+        given = text_of(time).split(None, 2) or ["0"]
         try:
-            sim_time = float(time[0]) + (float(time[1]) * 1e-9 if len(time) > 1 else 0.0)
+            sim_time = float(given[0]) + (float(given[1]) * 1e-9 if len(given) > 1 else 0.0)
         except ValueError:
-            self.warn(element.find("sim_time"), f"'{' '.join(time)}' is no time; starting from 0")
+            sim_time = math.nan
+        if not 0.0 <= sim_time <= _LONGEST_TIME:
+            self.warn(time, f"'{quoted(text_of(time))}' is no time; starting from 0")
             sim_time = 0.0
         return WorldState(
-            sim_time=sim_time, iterations=int(self.number(element, "iterations", 0)),
+            sim_time=sim_time, iterations=self.whole(element, "iterations", 0, 0, 2 ** 62),
             models=tuple(ModelState(
                 model.get("name") or "", self.pose(model.find("pose")) if model.find("pose") is not None else None,
                 self.vector(model, "scale", (1.0, 1.0, 1.0)), tuple(link_states(model, "")))

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 from typing import Tuple, Union
 
-from ode_sim.description.model import DescriptionError
+from ode_sim.description.model import DescriptionError, quoted
 from ode_sim.description.xmlsource import Element, child, parse_xml, source_of
 
 ENTITIES = ("model", "light", "actor")
@@ -14,7 +14,11 @@ def parse_sdf(text: Union[str, bytes], file: str = "") -> Element:
 
     :raises DescriptionError: not XML, or not SDF.
     """
-    root = parse_xml(text, file)
+    return sdf_root(parse_xml(text, file))
+
+
+def sdf_root(root: Element) -> Element:
+    """As :func:`parse_sdf`, of the root element of a text."""
     if root.tag in ENTITIES + ("world",):
         wrapper = Element("sdf", {"version": "1.6"})
         wrapper.file, wrapper.line = root.file, root.line
@@ -33,7 +37,7 @@ def _version(root: Element) -> Tuple[int, ...]:
     try:
         return tuple(int(part) for part in root.get("version", "1.6").split("."))
     except ValueError:
-        raise DescriptionError(f"{source_of(root)}: '{root.get('version')}' is no SDF version; "
+        raise DescriptionError(f"{source_of(root)}: '{quoted(root.get('version'))}' is no SDF version; "
                                "use 1.4 to 1.7") from None
 
 

@@ -5,8 +5,8 @@ import xml.etree.ElementTree as ET
 from typing import Dict, Optional, Sequence, Tuple
 
 from ode_sim import math3
-from ode_sim.description.model import DescriptionError, Pose
-from ode_sim.description.xmlsource import source_of, text_of
+from ode_sim.description.model import DescriptionError, Pose, quoted
+from ode_sim.description.xmlsource import joint_end, source_of
 
 Nested = Tuple[str, ET.Element, Dict[str, Pose]]  # name, element, X_S of its own frames
 
@@ -41,7 +41,7 @@ class _Solver:
             for element in model.findall(tag):
                 usual = "__model__"
                 if tag == "joint":
-                    usual = text_of(element.find("child")) or text_of(element.find("child/link"))
+                    usual = joint_end(element, "child")
                 elif tag == "frame":
                     usual = (element.get("attached_to") or "").strip() or "__model__"
                 self._add(element.get("name") or "", element.find("pose"), usual)
@@ -52,22 +52,28 @@ class _Solver:
 
     def resolved(self) -> Dict[str, Pose]:
         for name in self._entries:
-            self._solve(name, ())
+            self._solve(name)
         return self._solved
 
-    def _solve(self, name: str, path: Tuple[str, ...]) -> Pose:
-        if name in self._solved:
-            return self._solved[name]
-        x_rf, reference, element = self._entries[name]
-        if reference in path or reference == name:
-            raise DescriptionError(f"{source_of(element) if element is not None else name}: the pose refers to itself "
-                                   f"({' > '.join(path + (name, reference))})")
-        if reference in self._entries or reference in self._solved:
-            x_rf = math3.compose(self._solve(reference, path + (name,)), x_rf)
-        elif relative_to(element) and reference != "world":  # what old files call the frame of the model
-            self._reader.warn(element, f"there is no frame '{reference}'; using that of the model")
-        self._solved[name] = x_rf
-        return x_rf
+    def _solve(self, name: str) -> None:
+        """X_M of ``name``, and of the frames that it is given in, one in another."""
+        path = {name: None}  # in order
+        while (reference := self._entries[name][1]) in self._entries and reference not in self._solved:
+            if reference in path:
+                element = self._entries[name][2]
+                raise DescriptionError(f"{source_of(element) if element is not None else quoted(name)}: the pose refers to "
+                                       f"itself ({quoted(' > '.join([*path, reference]), 200)})")
+            path[reference] = None
+            name = reference
+        for name in reversed(path):
+            if name in self._solved:
+                continue
+            x_rf, reference, element = self._entries[name]
+            if reference in self._solved:
+                x_rf = math3.compose(self._solved[reference], x_rf)
+            elif relative_to(element) and reference != "world":  # what old files call the frame of the model
+                self._reader.warn(element, f"there is no frame '{quoted(reference)}'; using that of the model")
+            self._solved[name] = x_rf
 
 
 def world_frames(reader, world: ET.Element) -> Dict[str, Pose]:

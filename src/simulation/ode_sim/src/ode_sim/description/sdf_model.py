@@ -5,21 +5,25 @@ import math
 import os
 import xml.etree.ElementTree as ET
 from dataclasses import dataclass, field, replace
-from typing import Dict, Iterator, List, Optional, Tuple
+from typing import Dict, Iterator, List, Optional, Set, Tuple
 
 from ode_sim import math3
 from ode_sim.description.model import (
-    Axis, Collision, DescriptionError, Inertial, Joint, Link, Model, Plugin, Pose, Sensor, Surface, Visual)
+    FARTHEST, Axis, Collision, DescriptionError, Inertial, Joint, Link, Model, Plugin, Pose, Sensor, Surface, Visual, quoted)
 from ode_sim.description.sdf_document import first_entity, parse_sdf
 from ode_sim.description.sdf_frames import model_frames, relative_to
 from ode_sim.description.sdf_shapes import SdfShapes
-from ode_sim.description.xmlsource import is_true, source_of, text_of
+from ode_sim.description.sdf_values import LONGEST
+from ode_sim.description.xmlsource import is_true, joint_end, read_bytes, source_of, text_of
 
 _JOINT_AXES = {"revolute": 1, "prismatic": 1, "fixed": 0, "ball": 0, "universal": 2, "revolute2": 2, "screw": 1,
                 "gearbox": 2, "piston": 1}
 _OLD_JOINT_TYPES = {"hinge": "revolute", "slider": "prismatic", "hinge2": "revolute2"}
 #: kg or kg m^2. Homework has inertias of 1e8; far beyond, the solver's products overflow and what touches it is lost too
 _HEAVIEST = 1e30
+_STIFFEST = 1e30  # springs, dampers, friction: so large that nothing moves, and its product is still a number
+_MOST_CONTACTS = 10_000_000
+_DEEPEST = 20  # models that include one another
 
 
 @dataclass
@@ -37,6 +41,17 @@ class _Parts:
 
 class SdfModels(SdfShapes):
     """Reads ``<model>`` and what an ``<include>`` stands for."""
+
+    #: elements of all included and multiplied models: two of them that include the next one twice grow without end
+    MOST_COPIED = 1_000_000
+    _copied = 0
+
+    def room_for(self, elements: int) -> bool:
+        """Whether so many more elements may be included or copied; they are counted."""
+        if self._copied + elements > self.MOST_COPIED:
+            return False
+        self._copied += elements
+        return True
 
     def model(self, element: ET.Element) -> Model:
         parts = self._parts(element)
@@ -76,22 +91,27 @@ class SdfModels(SdfShapes):
             elif included is not None:
                 self.warn(include, "only a model can be included into a model; left out")
         parts.frames = model_frames(self, element, [(sub.name, sub.element, sub.frames) for sub in nested])
-        for link in element.findall("link"):
-            if any(link.get("name") == other.name for other in parts.links):
-                self.warn(link, "a link of this name is there already; this one is left out", "error")
-                continue
+        for link in self._named_once(element, "link"):
             parts.links.append(self._link(link, parts.frames))
-        for joint in element.findall("joint"):
-            if any(joint.get("name") == other.name for other in parts.joints):
-                self.warn(joint, "a joint of this name is there already; this one is left out", "error")
-            else:
-                parts.joints += self._joint(joint, parts, nested)
+        known = {link.name for link in parts.links} | {f"{sub.name}::{link.name}" for sub in nested for link in sub.links}
+        for joint in self._named_once(element, "joint"):
+            parts.joints += self._joint(joint, parts, known)
         for sub in nested:
             self._merge(parts, sub)
         parts.plugins += self.plugins(element)
         for gripper in element.findall("gripper"):
             self.warn(gripper, "the gripper element has no effect here; contact friction holds what is gripped")
         return parts
+
+    def _named_once(self, parent: ET.Element, tag: str) -> Iterator[ET.Element]:
+        """Children of one kind without those whose name another one before them has."""
+        names: Set[Optional[str]] = set()
+        for element in parent.findall(tag):
+            if element.get("name") in names:
+                self.warn(element, f"a {tag} of this name is there already; this one is left out", "error")
+                continue
+            names.add(element.get("name"))
+            yield element
 
     @staticmethod
     def _merge(parts: _Parts, sub: _Parts) -> None:
@@ -124,12 +144,12 @@ class SdfModels(SdfShapes):
             if not frame or frame == name:
                 return x
             if frame not in frames:
-                self.warn(pose, f"there is no frame '{frame}'; using that of link '{name}'")
+                self.warn(pose, f"there is no frame '{quoted(frame)}'; using that of link '{quoted(name)}'")
                 return x
             return math3.compose(math3.relative(x_ml, frames[frame]), x)
 
         for plugin in self.plugins(element):
-            self.warn(plugin.element, f"{plugin.filename}: a plugin inside a link is never started; write it into the "
+            self.warn(plugin.element, f"{quoted(plugin.filename)}: a plugin inside a link is never started; write it into the "
                                       "model, or into a sensor (in a URDF: <gazebo> without reference)")
         collide = element.find("self_collide")
         return Link(
@@ -141,8 +161,8 @@ class SdfModels(SdfShapes):
             gravity=self.boolean(element, "gravity", True),
             self_collide=is_true(text_of(collide)) if collide is not None else None,
             kinematic=self.boolean(element, "kinematic", False),
-            linear_decay=self.number(element, "velocity_decay/linear", 0.0),
-            angular_decay=self.number(element, "velocity_decay/angular", 0.0),
+            linear_decay=self.number(element, "velocity_decay/linear", 0.0, most=_STIFFEST),
+            angular_decay=self.number(element, "velocity_decay/angular", 0.0, most=_STIFFEST),
             source=source_of(element))
 
     def _unique(self, parent: ET.Element, tag: str, read) -> Iterator:
@@ -153,7 +173,7 @@ class SdfModels(SdfShapes):
             count = seen.get(item.name, 0)
             seen[item.name] = count + 1
             if count:
-                self.warn(element, f"the name is used twice in this link; renamed '{item.name}_{count}'")
+                self.warn(element, f"the name is used twice in this link; renamed '{quoted(item.name)}_{count}'")
                 item = replace(item, name=f"{item.name}_{count}")
             yield item
 
@@ -167,17 +187,17 @@ class SdfModels(SdfShapes):
     def _collision(self, element: ET.Element, pose: Pose) -> Collision:
         return Collision(name=element.get("name") or "", pose=pose, geometry=self.geometry(element),
                          surface=self._surface(element.find("surface")),
-                         max_contacts=int(self.number(element, "max_contacts", 10)),
-                         laser_retro=self.number(element, "laser_retro", 0.0), source=source_of(element))
+                         max_contacts=self.whole(element, "max_contacts", 10, 0, _MOST_CONTACTS),
+                         laser_retro=self.number(element, "laser_retro", 0.0, most=1e30), source=source_of(element))
 
     def _visual(self, element: ET.Element, pose: Pose) -> Visual:
         for plugin in self.plugins(element):
-            self.warn(plugin.element, f"{plugin.filename}: plugins of a visual have no effect; it is drawn without")
+            self.warn(plugin.element, f"{quoted(plugin.filename)}: plugins of a visual have no effect; it is drawn without")
         return Visual(name=element.get("name") or "", pose=pose, geometry=self.geometry(element),
                       material=self.material(element.find("material")),
-                      transparency=self.number(element, "transparency", 0.0),
+                      transparency=self.number(element, "transparency", 0.0, most=FARTHEST),
                       cast_shadows=self.boolean(element, "cast_shadows", True),
-                      laser_retro=self.number(element, "laser_retro", 0.0), source=source_of(element))
+                      laser_retro=self.number(element, "laser_retro", 0.0, most=1e30), source=source_of(element))
 
     def _sensor(self, element: ET.Element, pose: Pose) -> Sensor:
         return Sensor(name=element.get("name") or "", type=(element.get("type") or "").strip(), pose=pose,
@@ -196,11 +216,11 @@ class SdfModels(SdfShapes):
         try:
             collide_bitmask = int(bitmask, 0) if bitmask else default.collide_bitmask
         except ValueError:
-            self.warn(element.find("contact/collide_bitmask"), f"'{bitmask}' is no integer; using 65535")
+            self.warn(element.find("contact/collide_bitmask"), f"'{quoted(bitmask)}' is no integer; using 65535")
             collide_bitmask = default.collide_bitmask
         return Surface(
             mu=self.number(ode, "mu", default.mu), mu2=self.number(ode, "mu2", default.mu2),
-            fdir1=self.vector(ode, "fdir1", default.fdir1),
+            fdir1=self.vector(ode, "fdir1", default.fdir1, most=LONGEST),
             slip1=self.number(ode, "slip1", 0.0), slip2=self.number(ode, "slip2", 0.0),
             torsional_mu=self.numbers(torsion, (1.0,))[0] if torsion is not None else None,
             kp=self.number(contact, "kp", default.kp), kd=self.number(contact, "kd", default.kd),
@@ -213,30 +233,27 @@ class SdfModels(SdfShapes):
 
     # ------------------------------------------------------------------ joints
 
-    def _joint(self, element: ET.Element, parts: _Parts, nested: List[_Parts]) -> List[Joint]:
+    def _joint(self, element: ET.Element, parts: _Parts, known: Set[str]) -> List[Joint]:
         name = element.get("name") or ""
         kind = (element.get("type") or "").strip()
         kind = _OLD_JOINT_TYPES.get(kind, kind)
         if kind not in _JOINT_AXES:
-            self.warn(element, f"unknown joint type '{kind}'; use one of {', '.join(_JOINT_AXES)}; "
+            self.warn(element, f"unknown joint type '{quoted(kind)}'; use one of {', '.join(_JOINT_AXES)}; "
                                "the joint is left out", "error")
             return []
-        parent, child = (text_of(element.find(tag)) or text_of(element.find(tag + "/link"))
-                         for tag in ("parent", "child"))
-        known = {link.get("name") for link in parts.element.findall("link")}
-        known |= {f"{sub.name}::{link.name}" for sub in nested for link in sub.links}
+        parent, child = joint_end(element, "parent"), joint_end(element, "child")
         for role, link in (("parent", parent), ("child", child)):
             if link not in known and link != "world":
-                self.warn(element, f"{role} link '{link}' is not in model '{parts.name}'; the joint is left out",
+                self.warn(element, f"{role} link '{quoted(link)}' is not in model '{quoted(parts.name)}'; the joint is left out",
                           "error")
                 return []
         if child == "world" or parent == child:
-            self.warn(element, f"cannot join '{parent}' to '{child}'; the joint is left out", "error")
+            self.warn(element, f"cannot join '{quoted(parent)}' to '{quoted(child)}'; the joint is left out", "error")
             return []
         pose = element.find("pose")
         reference = relative_to(pose) or child
         if reference not in parts.frames:
-            self.warn(pose, f"there is no frame '{reference}'; using that of the child link")
+            self.warn(pose, f"there is no frame '{quoted(reference)}'; using that of the child link")
             reference = child
         x_mj = math3.compose(parts.frames[reference], self.pose(pose))
         x_cj = math3.relative(parts.frames[child], x_mj)
@@ -261,7 +278,7 @@ class SdfModels(SdfShapes):
                 yield Axis()
                 continue
             xyz_element = axis.find("xyz")
-            xyz = self.numbers(xyz_element, (0.0, 0.0, 1.0))
+            xyz = self.numbers(xyz_element, (0.0, 0.0, 1.0), most=LONGEST)
             if math3.norm(xyz) == 0.0:
                 self.warn(axis, "the axis has no length; using 0 0 1")
                 xyz = (0.0, 0.0, 1.0)
@@ -272,7 +289,7 @@ class SdfModels(SdfShapes):
                 in_model = math3.rotate(frames[expressed_in], xyz)
                 xyz = math3.quat_rotate(math3.quat_inverse(x_mj.q), in_model)
             elif expressed_in:
-                self.warn(axis, f"there is no frame '{expressed_in}'; using that of the joint")
+                self.warn(axis, f"there is no frame '{quoted(expressed_in)}'; using that of the joint")
             lower, upper = self.number(axis, "limit/lower", -1e16), self.number(axis, "limit/upper", 1e16)
             if lower > upper:
                 self.warn(axis, f"lower limit {lower:g} is above upper limit {upper:g}; switching the two")
@@ -298,18 +315,22 @@ class SdfModels(SdfShapes):
         :param chain: URIs that led here, outermost first.
         """
         uri = text_of(include.find("uri"))
-        if uri in chain:
-            self.warn(include, f"'{uri}' includes itself ({' > '.join(chain + (uri,))}); left out", "error")
+        if uri in chain or len(chain) >= _DEEPEST:
+            what = "includes itself" if uri in chain else f"lies more than {_DEEPEST} models deep"
+            self.warn(include, f"'{quoted(uri)}' {what} ({quoted(' > '.join(chain + (uri,)), 200)}); left out", "error")
             return None
         try:
             file = self.finder.find_model_sdf(uri, os.path.dirname(getattr(include, "file", "")) or self.base)
             if file is None:
                 self.warn_missing(include, uri, "left out")
                 return None
-            with open(file, "rb") as stream:
-                element = first_entity(parse_sdf(stream.read(), file))
-        except (DescriptionError, OSError) as error:
-            self.warn(include, f"{error}; '{uri}' is left out", "error")
+            element = first_entity(parse_sdf(read_bytes(file), file))
+        except DescriptionError as error:
+            self.warn(include, f"{error}; '{quoted(uri)}' is left out", "error")
+            return None
+        if not self.room_for(sum(1 for _ in element.iter())):
+            self.warn(include, f"the models included here have more than {self.MOST_COPIED} elements; '{quoted(uri)}' is left "
+                               "out", "error")
             return None
         element.include_chain = chain + (uri,)
         return self._changed(element, include)

@@ -1,7 +1,6 @@
 """Shapes, looks and lights of SDF."""
 from __future__ import annotations
 
-import math
 import os
 import xml.etree.ElementTree as ET
 from dataclasses import replace
@@ -10,9 +9,13 @@ from typing import Optional, Tuple
 from ode_sim import math3
 from ode_sim.description import materials
 from ode_sim.description.model import (
-    Box, Capsule, Cylinder, DescriptionError, Geometry, Heightmap, Light, Material, Mesh, Plane, Polyline, Sphere)
-from ode_sim.description.sdf_values import SdfValues
+    FARTHEST, Box, Capsule, Cylinder, DescriptionError, Geometry, Heightmap, Light, Material, Mesh, Plane, Polyline, Sphere,
+    quoted)
+from ode_sim.description.sdf_values import LONGEST, SdfValues
 from ode_sim.description.xmlsource import source_of, text_of
+
+_MOST_CORNERS = 1000  # of a polyline; to cut one into triangles takes a time that grows with the square of their number
+_FAR_LIGHT = 1e16  # of numbers that graphics take, in single precision
 
 
 class SdfShapes(SdfValues):
@@ -24,37 +27,51 @@ class SdfShapes(SdfValues):
         if shape is None:
             return None
         if shape.tag == "box":
-            return Box(self._positive(shape, self.vector(shape, "size", (1.0, 1.0, 1.0))))
+            return Box(self._sizes(shape, self.vector(shape, "size", (1.0, 1.0, 1.0))))
         if shape.tag == "sphere":
-            return Sphere(*self._positive(shape, (self.number(shape, "radius", 1.0),)))
+            return Sphere(*self._sizes(shape, (self.number(shape, "radius", 1.0),)))
         if shape.tag in ("cylinder", "capsule"):
             kind = Cylinder if shape.tag == "cylinder" else Capsule
-            return kind(*self._positive(shape, (self.number(shape, "radius", 1.0), self.number(shape, "length", 1.0))))
+            return kind(*self._sizes(shape, (self.number(shape, "radius", 1.0), self.number(shape, "length", 1.0))))
         if shape.tag == "plane":
-            normal = math3.unit(self.vector(shape, "normal", (0.0, 0.0, 1.0)))
-            return Plane(normal if any(normal) else (0.0, 0.0, 1.0), self.vector(shape, "size", (1.0, 1.0)))
+            normal = math3.unit(self.vector(shape, "normal", (0.0, 0.0, 1.0), most=LONGEST))
+            return Plane(normal if any(normal) else (0.0, 0.0, 1.0),
+                         self.vector(shape, "size", (1.0, 1.0), most=FARTHEST))
         if shape.tag == "mesh":
             return self._mesh(shape)
         if shape.tag == "heightmap":
             uri = text_of(shape.find("uri"))
-            return Heightmap(self._file(shape, uri), uri, self.vector(shape, "size", (1.0, 1.0, 1.0)),
-                             self.vector(shape, "pos", (0.0, 0.0, 0.0)), int(self.number(shape, "sampling", 2)))
+            return Heightmap(self._file(shape, uri), uri, self._sizes(shape, self.vector(shape, "size", (1.0, 1.0, 1.0))),
+                             self.vector(shape, "pos", (0.0, 0.0, 0.0), most=FARTHEST),
+                             self.whole(shape, "sampling", 2, 0, 1000))
         if shape.tag == "polyline":
-            return Polyline(tuple(self.numbers(p, (0.0, 0.0)) for p in shape.findall("point")),
-                            self.number(shape, "height", 1.0))
+            return self._polyline(shape)
         self.warn(shape, "this kind of geometry is not known here; left out")
         return None
 
     @staticmethod
-    def _positive(shape: ET.Element, sizes: Tuple[float, ...]) -> Tuple[float, ...]:
-        if any(size < 0.0 or not math.isfinite(size) for size in sizes):
+    def _sizes(shape: ET.Element, sizes: Tuple[float, ...]) -> Tuple[float, ...]:
+        """``sizes`` (m) if a shape can have them.
+
+        :raises DescriptionError: negative, or larger than :data:`FARTHEST`.
+        """
+        if not all(0.0 <= size <= FARTHEST for size in sizes):
             raise DescriptionError(f"{source_of(shape)}: size {' '.join(f'{s:g}' for s in sizes)}; "
-                                   "sizes must be positive and finite")
+                                   f"sizes must be positive and finite, and at most {FARTHEST:g} m")
         return sizes
+
+    def _polyline(self, shape: ET.Element) -> Geometry:
+        corners = shape.findall("point")
+        if len(corners) > _MOST_CORNERS:
+            self.warn(shape, f"an outline of {len(corners)} points; it may have {_MOST_CORNERS}, this shape is left out")
+            return None
+        return Polyline(tuple(self.numbers(corner, (0.0, 0.0), most=FARTHEST) for corner in corners),
+                        *self._sizes(shape, (self.number(shape, "height", 1.0),)))
 
     def _mesh(self, shape: ET.Element) -> Mesh:
         uri = text_of(shape.find("uri")) or text_of(shape.find("filename"))
-        return Mesh(path=self._file(shape, uri), uri=uri, scale=self.vector(shape, "scale", (1.0, 1.0, 1.0)),
+        scale = self.vector(shape, "scale", (1.0, 1.0, 1.0), most=FARTHEST)
+        return Mesh(path=self._file(shape, uri), uri=uri, scale=scale,
                     submesh=text_of(shape.find("submesh/name")), center=self.boolean(shape, "submesh/center", False))
 
     def _file(self, element: ET.Element, uri: str) -> str:
@@ -76,8 +93,8 @@ class SdfShapes(SdfValues):
             known = materials.script_material(name, [place for place in places if place])
             if known is None and name not in self._missing:
                 self._missing.add(name)
-                self.warn(element, f"there is no material '{name}'"
-                          + (f" in {', '.join(uris)}" if uris else "") + "; using white")
+                self.warn(element, f"there is no material '{quoted(name)}'"
+                          + (f" in {quoted(', '.join(uris), 200)}" if uris else "") + "; using white")
         colours = {tag: self.rgba(element, tag) for tag in ("ambient", "diffuse", "specular", "emissive")}
         given = {tag: colour for tag, colour in colours.items() if colour is not None}
         if known is None and not given:
@@ -86,15 +103,17 @@ class SdfShapes(SdfValues):
 
     def light(self, element: ET.Element) -> Light:
         default = Light(name="")
+
+        def value(path: str, usual: float) -> float:
+            return self.number(element, path, usual, most=_FAR_LIGHT)
+
         return Light(
             name=element.get("name") or "", type=(element.get("type") or "point").strip(),
             pose=self.pose(element.find("pose")), diffuse=self.rgba(element, "diffuse", default.diffuse),
             specular=self.rgba(element, "specular", default.specular),
-            direction=self.vector(element, "direction", default.direction),
-            range=self.number(element, "attenuation/range", default.range),
-            constant=self.number(element, "attenuation/constant", default.constant),
-            linear=self.number(element, "attenuation/linear", default.linear),
-            quadratic=self.number(element, "attenuation/quadratic", default.quadratic),
-            spot=(self.number(element, "spot/inner_angle", 0.0), self.number(element, "spot/outer_angle", 0.0),
-                  self.number(element, "spot/falloff", 0.0)),
+            direction=self.vector(element, "direction", default.direction, most=_FAR_LIGHT),
+            range=value("attenuation/range", default.range), constant=value("attenuation/constant", default.constant),
+            linear=value("attenuation/linear", default.linear),
+            quadratic=value("attenuation/quadratic", default.quadratic),
+            spot=(value("spot/inner_angle", 0.0), value("spot/outer_angle", 0.0), value("spot/falloff", 0.0)),
             cast_shadows=self.boolean(element, "cast_shadows", False), source=source_of(element))

@@ -7,8 +7,11 @@ from typing import List, Optional, Sequence, Set, Tuple
 
 from ode_sim import math3
 from ode_sim.description.finder import ResourceFinder
-from ode_sim.description.model import DescriptionError, Pose, Problem, Source
+from ode_sim.description.model import FARTHEST, DescriptionError, Pose, Problem, Source, quoted
 from ode_sim.description.xmlsource import is_true, source_of, text_of
+
+LONGEST = 1e100  # of vectors that only tell a direction; the square of a longer one is infinite
+_BRIGHTEST = 1e6  # of colours, which are 0..1
 
 
 class SdfValues:
@@ -20,45 +23,66 @@ class SdfValues:
         self.base = base
         self.problems: List[Problem] = []
         self._missing: Set[str] = set()  # names reported as not found
+        self._noticed: Set[Problem] = set()
 
     # ------------------------------------------------------------------ values
 
     def warn(self, element: Optional[ET.Element], message: str, severity: str = "warning") -> None:
         problem = Problem(severity, message, source_of(element) if element is not None else Source())
-        if problem not in self.problems:
+        if problem not in self._noticed:
+            self._noticed.add(problem)
             self.problems.append(problem)
 
     def warn_missing(self, element: ET.Element, uri: str, consequence: str) -> None:
         """One warning for each name, however often it is used."""
         if uri not in self._missing:
             self._missing.add(uri)
-            self.warn(element, f"cannot find '{uri}' ({self.finder.explain(uri)}); {consequence}")
+            self.warn(element, f"cannot find '{quoted(uri, 200)}' ({self.finder.explain(uri)}); {consequence}")
 
-    def numbers(self, element: Optional[ET.Element], default: Sequence[float], nan: bool = False) -> Tuple[float, ...]:
+    def numbers(self, element: Optional[ET.Element], default: Sequence[float], nan: bool = False,
+                most: float = math.inf) -> Tuple[float, ...]:
         """As many numbers as ``default`` has; the default (with a warning) when they cannot be read.
 
         :param nan: the caller deals with values that are not a number; otherwise they are refused.
+        :param most: the largest that makes sense, of either sign; beyond it the default is taken, with a warning.
         """
         text = text_of(element)
         if not text:
             return tuple(default)
+        words = text.split(None, len(default))
         try:
-            values = tuple(float(word) for word in text.split())
+            values = tuple(float(word) for word in words[:len(default)])
         except ValueError:
             values = ()
         if not nan and any(math.isnan(value) for value in values):
-            raise DescriptionError(f"{source_of(element)}: '{text}' is not a number; give finite values")
+            raise DescriptionError(f"{source_of(element)}: '{quoted(text)}' is not a number; give finite values")
         if len(values) < len(default):
-            self.warn(element, f"'{text}' is not {len(default)} number{'s' * (len(default) > 1)}; "
-                               f"using {' '.join(f'{v:g}' for v in default)}")
-            return tuple(default)
-        return values[:len(default)]
+            problem = f"is not {len(default)} number{'s' * (len(default) > 1)}"
+        elif most < math.inf and any(abs(value) > most for value in values):
+            problem = f"is beyond {most:g}"
+        else:
+            return values
+        self.warn(element, f"'{quoted(text)}' {problem}; using {' '.join(f'{v:g}' for v in default)}")
+        return tuple(default)
 
-    def number(self, parent: Optional[ET.Element], path: str, default: float, nan: bool = False) -> float:
-        return self.numbers(parent.find(path), (default,), nan)[0] if parent is not None else default
+    def number(self, parent: Optional[ET.Element], path: str, default: float, nan: bool = False,
+               most: float = math.inf) -> float:
+        return self.numbers(parent.find(path), (default,), nan, most)[0] if parent is not None else default
 
-    def vector(self, parent: Optional[ET.Element], path: str, default):
-        return self.numbers(parent.find(path), default) if parent is not None else tuple(default)
+    def between(self, parent: Optional[ET.Element], path: str, default: float, lowest: float, highest: float) -> float:
+        """A number of that range; outside of it the default, with a warning."""
+        value = self.number(parent, path, default)
+        if not lowest <= value <= highest:
+            self.warn(parent.find(path), f"{value:g} is not between {lowest:g} and {highest:g}; using {default:g}")
+            return default
+        return value
+
+    def whole(self, parent: Optional[ET.Element], path: str, default: int, lowest: int, highest: int) -> int:
+        """As :meth:`between`, without what stands behind the decimal point."""
+        return int(self.between(parent, path, default, lowest, highest))
+
+    def vector(self, parent: Optional[ET.Element], path: str, default, most: float = math.inf):
+        return self.numbers(parent.find(path), default, most=most) if parent is not None else tuple(default)
 
     @staticmethod
     def boolean(parent: ET.Element, path: str, default: bool) -> bool:
@@ -69,23 +93,29 @@ class SdfValues:
         element = parent.find(tag) if parent is not None else None
         if element is None or not text_of(element):
             return default
-        words = text_of(element).split()
-        return self.numbers(element, (0.0, 0.0, 0.0, 1.0)) if len(words) > 3 else \
-            (*self.numbers(element, (0.0, 0.0, 0.0)), 1.0)
+        if len(text_of(element).split(None, 3)) > 3:
+            return self.numbers(element, (0.0, 0.0, 0.0, 1.0), most=_BRIGHTEST)
+        return (*self.numbers(element, (0.0, 0.0, 0.0), most=_BRIGHTEST), 1.0)
 
     def pose(self, element: Optional[ET.Element]) -> Pose:
-        """The numbers of a ``<pose>``, whatever frame they are in."""
+        """The numbers of a ``<pose>``, whatever frame they are in.
+
+        :raises DescriptionError: not finite, or farther away than :data:`FARTHEST`.
+        """
         text = text_of(element)
         if not text:
             return math3.IDENTITY
-        if element.get("rotation_format") == "quat_xyzw":
-            values = self.numbers(element, (0.0,) * 6 + (1.0,))
+        by_quaternion = element.get("rotation_format") == "quat_xyzw"
+        count = 7 if by_quaternion else 3 if len(text.split(None, 4)) == 3 else 6
+        values = self.numbers(element, ((0.0,) * 6 + (1.0,))[:count])
+        if not all(math.isfinite(value) for value in values):
+            raise DescriptionError(f"{source_of(element)}: '{quoted(text)}' is not a pose; give finite values")
+        if max(abs(value) for value in values[:3]) > FARTHEST:
+            raise DescriptionError(f"{source_of(element)}: '{quoted(text)}' is farther away than {FARTHEST:g} m")
+        if by_quaternion:
+            if max(abs(value) for value in values[3:]) > LONGEST:
+                raise DescriptionError(f"{source_of(element)}: '{quoted(text)}' is not a pose; give a unit quaternion")
             return Pose(values[:3], math3.quat_normalize(values[3:]))
-        if len(text.split()) == 3:
-            return Pose(self.numbers(element, (0.0,) * 3))
-        values = self.numbers(element, (0.0,) * 6)
         if element.get("degrees") is not None and is_true(element.get("degrees")):
             values = values[:3] + tuple(math.radians(v) for v in values[3:])
-        if not all(math.isfinite(value) for value in values):
-            raise DescriptionError(f"{source_of(element)}: '{text}' is not a pose; give finite values")
         return math3.from_rpy(*values)

@@ -9,15 +9,16 @@ from __future__ import annotations
 import math
 import xml.etree.ElementTree as ET
 from dataclasses import dataclass, field, replace
-from typing import Dict, List, Optional, Tuple
+from typing import Dict, Iterator, List, Optional, Tuple
 
 from ode_sim import math3
 from ode_sim.description import urdf_extensions as extensions
-from ode_sim.description.model import DescriptionError, Mimic, Model, Pose, Vec3
+from ode_sim.description.model import FARTHEST, DescriptionError, Mimic, Model, Pose, Vec3, quoted
 from ode_sim.description.xmlsource import Element, child, source_of
 
 _JOINT_TYPES = ("revolute", "continuous", "prismatic", "fixed", "floating", "planar")
 _LUMP = extensions.LUMP
+_MOST_FIXED = 200  # fixed joints in a row; what hangs on the last is moved as often
 
 
 @dataclass
@@ -45,7 +46,9 @@ class _UrdfLink:
     visuals: List[_Shape] = field(default_factory=list)
     collisions: List[_Shape] = field(default_factory=list)
     parent_joint: Optional["_UrdfJoint"] = None
-    child_joints: List["_UrdfJoint"] = field(default_factory=list)
+    child_joints: List["_UrdfJoint"] = field(default_factory=list)  # as written
+    joints: List["_UrdfJoint"] = field(default_factory=list)  # those that hang on it, once fixed ones are lumped
+    fixed_below: int = 0  # of the longest row of fixed joints that was lumped into it
     lumped_into: Optional["_UrdfLink"] = None
 
 
@@ -68,6 +71,15 @@ def urdf_to_model(robot: ET.Element, reader) -> Model:
     return _Conversion(robot, reader).model()
 
 
+def _tree_of(top: _UrdfLink, last_first: bool = False) -> Iterator[_UrdfLink]:
+    """``top`` and all that hangs on it, each link before what hangs on it, the joints of one in the order of their names."""
+    todo = [top]
+    while todo:
+        link = todo.pop()
+        yield link
+        todo += [joint.child for joint in (link.child_joints if last_first else reversed(link.child_joints))]
+
+
 def _attribute(element: ET.Element, key: str) -> str:
     value = (element.get(key) or "").strip()
     if not value:
@@ -88,7 +100,7 @@ def _floats(element: ET.Element, key: str, default: Optional[Tuple[float, ...]])
     except ValueError:
         values = ()
     if len(values) != count or any(math.isnan(value) for value in values):
-        raise DescriptionError(f"{source_of(element)}: {key}='{text}' is not "
+        raise DescriptionError(f"{source_of(element)}: {key}='{quoted(text)}' is not "
                                + ("a number" if count == 1 else f"{count} numbers")
                                + ("; this is xacro text, run it through 'rosrun xacro xacro FILE' first"
                                   if "${" in text or "$(" in text else ""))
@@ -102,6 +114,8 @@ def _origin(parent: ET.Element) -> Pose:
     xyz, rpy = _floats(origin, "xyz", (0.0, 0.0, 0.0)), _floats(origin, "rpy", (0.0, 0.0, 0.0))
     if not all(math.isfinite(value) for value in xyz + rpy):
         raise DescriptionError(f"{source_of(origin)}: the pose must be finite")
+    if max(map(abs, xyz)) > FARTHEST:
+        raise DescriptionError(f"{source_of(origin)}: xyz='{quoted(origin.get('xyz'))}' is farther away than {FARTHEST:g} m")
     return math3.from_rpy(*xyz, *rpy)
 
 
@@ -137,8 +151,8 @@ class _Conversion:
         if sdf.find("link") is None:
             mass = root.element.find("inertial/mass")
             raise DescriptionError(
-                f"{source_of(root.element)}: robot '{name}' has no link with a mass that could be simulated; give the "
-                "root link " + ("an <inertial>" if mass is None else f"a positive mass, not {mass.get('value')} kg")
+                f"{source_of(root.element)}: robot '{quoted(name)}' has no link with a mass that could be simulated; give the "
+                "root link " + ("an <inertial>" if mass is None else f"a positive mass, not {quoted(mass.get('value'))} kg")
                 + ", or join one that has it by a fixed joint")
         model = self.reader.model(sdf)
         return replace(model, joints=tuple(self._with_urdf_facts(joint) for joint in model.joints))
@@ -155,7 +169,7 @@ class _Conversion:
         for element in self.robot.findall("link"):
             name = _attribute(element, "name")
             if name in self.links:
-                raise DescriptionError(f"{source_of(element)}: a link named '{name}' is there already")
+                raise DescriptionError(f"{source_of(element)}: a link named '{quoted(name)}' is there already")
             self.links[name] = self._link(name, element)
         if not self.links:
             raise DescriptionError(f"{source_of(self.robot)}: has no <link>")
@@ -164,15 +178,21 @@ class _Conversion:
             self.joints[joint.name] = joint
         for _, joint in sorted(self.joints.items()):
             if joint.child.parent_joint is not None:
-                raise DescriptionError(f"{source_of(joint.element)}: link '{joint.child.name}' is the child of joint "
-                                       f"'{joint.child.parent_joint.name}' already; a robot must be a tree")
+                raise DescriptionError(f"{source_of(joint.element)}: link '{quoted(joint.child.name)}' is the child of joint "
+                                       f"'{quoted(joint.child.parent_joint.name)}' already; a robot must be a tree")
             joint.child.parent_joint = joint
             joint.parent.child_joints.append(joint)
+            joint.parent.joints.append(joint)
         roots = [link for link in self.links.values() if link.parent_joint is None]
         if len(roots) != 1:
             what = "no root link, its joints form a circle" if not roots else \
-                "several root links (" + ", ".join(link.name for link in roots) + "), join them"
+                "several root links (" + quoted(", ".join(link.name for link in roots), 200) + "), join them"
             raise DescriptionError(f"{source_of(self.robot)}: {what}; a robot must be a tree")
+        reached = {link.name for link in _tree_of(roots[0])}
+        astray = next((link for link in self.links.values() if link.name not in reached), None)
+        if astray is not None:
+            raise DescriptionError(f"{source_of(astray.element)}: its joints form a circle, apart from the root "
+                                   f"link '{quoted(roots[0].name)}'; a robot must be a tree")
         return roots[0]
 
     def _link(self, name: str, element: ET.Element) -> _UrdfLink:
@@ -182,18 +202,18 @@ class _Conversion:
             mass, tensor = inertial.find("mass"), inertial.find("inertia")
             for part, tag in ((mass, "mass"), (tensor, "inertia")):
                 if part is None:
-                    raise DescriptionError(f"{source_of(inertial)} of link '{name}': <{tag}> is missing")
+                    raise DescriptionError(f"{source_of(inertial)} of link '{quoted(name)}': <{tag}> is missing")
             kilograms = _floats(mass, "value", None)[0]
             i = {key: _floats(tensor, key, None)[0] for key in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")}
             if not all(math.isfinite(value) for value in (kilograms, *i.values())):
-                raise DescriptionError(f"{source_of(inertial)} of link '{name}': mass and inertia must be finite")
+                raise DescriptionError(f"{source_of(inertial)} of link '{quoted(name)}': mass and inertia must be finite")
             if kilograms > 0.0:
                 pose = _origin(inertial)
                 rows = ((i["ixx"], i["ixy"], i["ixz"]), (i["ixy"], i["iyy"], i["iyz"]), (i["ixz"], i["iyz"], i["izz"]))
                 link.inertial = _Mass(kilograms, pose.p, math3.rotate_inertia(pose.q, rows))
                 link.raw_inertial = (pose, inertial)
             elif kilograms < 0.0:
-                self.reader.warn(mass, f"link '{name}' has the negative mass {kilograms:g} kg; it counts as massless")
+                self.reader.warn(mass, f"link '{quoted(name)}' has the negative mass {kilograms:g} kg; it counts as massless")
         link.visuals = self._shapes(element.findall("visual"), name)
         link.collisions = self._shapes(element.findall("collision"), name)
         return link
@@ -203,7 +223,7 @@ class _Conversion:
         for element in elements:
             geometry = element.find("geometry")
             if geometry is None or len(geometry) == 0:
-                self.reader.warn(element, f"link '{link}' has a <{element.tag}> without a shape in its <geometry>; "
+                self.reader.warn(element, f"link '{quoted(link)}' has a <{element.tag}> without a shape in its <geometry>; "
                                           "it is left out")
             else:
                 shapes.append(_Shape(element, (element.get("name") or "").strip(), _origin(element)))
@@ -212,9 +232,9 @@ class _Conversion:
     def _joint(self, element: ET.Element) -> _UrdfJoint:
         name, kind = _attribute(element, "name"), _attribute(element, "type")
         if name in self.joints:
-            raise DescriptionError(f"{source_of(element)}: a joint named '{name}' is there already")
+            raise DescriptionError(f"{source_of(element)}: a joint named '{quoted(name)}' is there already")
         if kind not in _JOINT_TYPES:
-            raise DescriptionError(f"{source_of(element)}: unknown type '{kind}'; use one of {', '.join(_JOINT_TYPES)}")
+            raise DescriptionError(f"{source_of(element)}: unknown type '{quoted(kind)}'; use one of {', '.join(_JOINT_TYPES)}")
         ends = []
         for tag in ("parent", "child"):
             end = element.find(tag)
@@ -222,7 +242,7 @@ class _Conversion:
                 raise DescriptionError(f"{source_of(element)}: <{tag} link='...'/> is missing")
             link = _attribute(end, "link")
             if link not in self.links:
-                raise DescriptionError(f"{source_of(element)}: {tag} link '{link}' is not in the robot")
+                raise DescriptionError(f"{source_of(element)}: {tag} link '{quoted(link)}' is not in the robot")
             ends.append(self.links[link])
         if kind in ("revolute", "prismatic") and element.find("limit") is None:
             raise DescriptionError(f"{source_of(element)}: a {kind} joint needs <limit lower upper effort velocity/>"
@@ -235,12 +255,17 @@ class _Conversion:
         return (joint is not None and joint.type == "fixed" and joint.parent.name != "world"
                 and not self.extensions.keeps_fixed_joint(joint.name))
 
-    def _reduce(self, link: _UrdfLink) -> None:
-        for joint in list(link.child_joints):
-            self._reduce(joint.child)
-        joint = link.parent_joint
-        if self._lumps(joint):
+    def _reduce(self, root: _UrdfLink) -> None:
+        """Lump what hangs on fixed joints into its parent, from the ends of the tree to its root."""
+        for link in reversed(list(_tree_of(root, last_first=True))):
+            joint = link.parent_joint
+            if not self._lumps(joint):
+                continue
             self._lump(link, joint.parent, joint.pose)
+            joint.parent.fixed_below = max(joint.parent.fixed_below, link.fixed_below + 1)
+            if link.fixed_below > _MOST_FIXED:
+                raise DescriptionError(f"{source_of(joint.element)}: more than {_MOST_FIXED} fixed joints hang one behind "
+                                       "the other")
 
     def _lump(self, link: _UrdfLink, parent: _UrdfLink, x_pl: Pose) -> None:
         link.lumped_into = parent
@@ -251,39 +276,38 @@ class _Conversion:
         for mine, theirs in ((link.visuals, parent.visuals), (link.collisions, parent.collisions)):
             for shape in mine:
                 theirs.append(_Shape(shape.element, shape.name or link.name, math3.compose(x_pl, shape.pose)))
-        for joint in self.joints.values():  # its own, and those of what was lumped into it before
-            if joint.parent is link and joint.child.lumped_into is None:
+        for joint in link.joints:  # its own, and those of what was lumped into it before
+            if joint.child.lumped_into is None:
                 joint.parent, joint.pose = parent, math3.compose(x_pl, joint.pose)
+                parent.joints.append(joint)
 
     # ------------------------------------------------------------------ writing
 
-    def _convert(self, sdf: Element, link: _UrdfLink, x_mp: Pose = math3.IDENTITY) -> None:
-        """Append ``link`` and what hangs on it to the model; ``x_mp`` is the pose of its parent link."""
-        joint = link.parent_joint
-        if link.lumped_into is not None:  # its joints hang on the link that took it in, whose pose x_mp is
-            for child_joint in link.child_joints:
-                self._convert(sdf, child_joint.child, x_mp)
-            return
-        x_ml = math3.compose(x_mp, joint.pose) if joint is not None else x_mp
-        if link.inertial is None:
-            self._drop(link)
-            return
-        if joint is not None:
-            self._write_joint(sdf, joint)
-        self._write_link(sdf, link, x_ml)
-        for child_joint in link.child_joints:
-            self._convert(sdf, child_joint.child, x_ml)
+    def _convert(self, sdf: Element, top: _UrdfLink) -> None:
+        """Append ``top`` and what hangs on it to the model."""
+        todo = [(top, math3.IDENTITY)]  # links with the pose X_MP of the link that their joint hangs on
+        while todo:
+            link, x_mp = todo.pop()
+            joint = link.parent_joint
+            x_ml = x_mp
+            if link.lumped_into is None:  # else its joints hang on the link that took it in, whose pose x_mp is
+                if joint is not None:
+                    x_ml = math3.compose(x_mp, joint.pose)
+                if link.inertial is None:
+                    self._drop(link)
+                    continue
+                if joint is not None:
+                    self._write_joint(sdf, joint)
+                self._write_link(sdf, link, x_ml)
+            todo += [(child_joint.child, x_ml) for child_joint in reversed(link.child_joints)]
 
     def _drop(self, link: _UrdfLink) -> None:
-        def below(top: _UrdfLink) -> List[str]:
-            return [name for joint in top.child_joints for name in [joint.child.name] + below(joint.child)]
-
-        others = below(link)
+        others = [other.name for other in _tree_of(link)][1:]
         joint = link.parent_joint
-        self.reader.warn(link.element, f"link '{link.name}' has no mass, so it is left out"
-                         + (f" and with it {', '.join(others)}" if others else "")
-                         + (f" (joint '{joint.name}' too)" if joint is not None else "")
-                         + f"; to keep {'them' if others else 'it'}, give '{link.name}' an <inertial> with a mass"
+        self.reader.warn(link.element, f"link '{quoted(link.name)}' has no mass, so it is left out"
+                         + (f" and with it {quoted(', '.join(others), 500)}" if others else "")
+                         + (f" (joint '{quoted(joint.name)}' too)" if joint is not None else "")
+                         + f"; to keep {'them' if others else 'it'}, give '{quoted(link.name)}' an <inertial> with a mass"
                          + ("" if joint is None else " or make the joint fixed"))
 
     def _write_link(self, sdf: Element, link: _UrdfLink, x_ml: Pose) -> None:
@@ -327,7 +351,7 @@ class _Conversion:
             child(form, "uri", _attribute(given, "filename"))
             child(form, "scale", " ".join(repr(v) for v in _scale(given)))
         else:
-            raise DescriptionError(f"{source_of(given)} of link '{link.name}': unknown shape; use box, cylinder, "
+            raise DescriptionError(f"{source_of(given)} of link '{quoted(link.name)}': unknown shape; use box, cylinder, "
                                    "sphere or mesh")
         if kind == "collision":
             self.extensions.insert_in_collision(element, link.name)
@@ -367,14 +391,14 @@ class _Conversion:
         if joint.type != "continuous":
             lower, upper = _floats(limits, "lower", (0.0,))[0], _floats(limits, "upper", (0.0,))[0]
             if lower > upper:
-                self.reader.warn(limits, f"joint '{joint.name}': lower limit {lower:g} is above upper limit {upper:g}; "
+                self.reader.warn(limits, f"joint '{quoted(joint.name)}': lower limit {lower:g} is above upper limit {upper:g}; "
                                          "switching the two")
                 lower, upper = upper, lower
             child(limit, "lower", repr(lower))
             child(limit, "upper", repr(upper))
         for key in ("effort", "velocity"):
             if not (limits.get(key) or "").strip():
-                raise DescriptionError(f"{source_of(limits)} of joint '{joint.name}': attribute '{key}' is missing")
+                raise DescriptionError(f"{source_of(limits)} of joint '{quoted(joint.name)}': attribute '{key}' is missing")
             child(limit, key, repr(_floats(limits, key, None)[0]))
 
 

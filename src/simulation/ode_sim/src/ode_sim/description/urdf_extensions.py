@@ -3,10 +3,10 @@ from __future__ import annotations
 
 import xml.etree.ElementTree as ET
 from dataclasses import dataclass, field
-from typing import Dict, List, Optional
+from typing import Dict, List, Optional, Tuple
 
 from ode_sim import math3
-from ode_sim.description.model import Pose
+from ode_sim.description.model import Pose, quoted
 from ode_sim.description.xmlsource import Element, child, clone, is_true, text_of
 
 LUMP = "_fixed_joint_lump__"
@@ -27,6 +27,7 @@ _JOINT_TAGS = {
 _LINK_TAGS = {"selfCollide": "self_collide"}
 _OWN_MEANING = ("material", "visual", "collision", "turnGravityOff", "dampingFactor", "static", "canonicalBody",
                 "preserveFixedJoint", "disableFixedJointLumping")
+_NAMING = {"plugin": ("bodyName", "frameName"), "joint": ("parent", "child"), "gripper": ("gripper_link", "palm_link")}
 _MOVED_WITH_POSE = ("sensor", "light", "projector")
 
 
@@ -52,7 +53,7 @@ class Extensions:
         for block in robot.findall("gazebo"):
             reference = (block.get("reference") or "").strip()
             if reference and reference not in names:
-                reader.warn(block, f"refers to '{reference}', which is no link or joint of the robot; ignored")
+                reader.warn(block, f"refers to '{quoted(reference)}', which is no link or joint of the robot; ignored")
             extension = _Extension(reference)
             for element in block:
                 if element.tag in ("visual", "collision") and reference:
@@ -62,6 +63,12 @@ class Extensions:
                 else:
                     extension.others.append(clone(element))
             self._blocks.setdefault(reference, []).append(extension)
+        self._numbered: Dict[str, Dict[str, List[Tuple[int, _Extension]]]] = {}  # link -> origin -> its blocks, in order
+        self._referring: Dict[str, Dict[int, Element]] = {}  # link -> what names it, beside the links, by id()
+        for blocks in self._blocks.values():
+            for element in (element for block in blocks for element in block.others):
+                for name in {text_of(named) for tag in _NAMING.get(element.tag, ()) for named in element.findall(tag)}:
+                    self._referring.setdefault(name, {})[id(element)] = element
 
     # ------------------------------------------------------------------ fixed joints
 
@@ -85,10 +92,10 @@ class Extensions:
                     if text_of(contact) == link + "_collision":
                         contact.text = f"{parent}_collision_{link}"
             self._blocks.setdefault(parent, []).append(block)
-        for blocks in self._blocks.values():
-            for block in blocks:
-                for element in block.others:
-                    self._rename(element, link, parent, x_pl)
+        referring = self._referring.pop(link, {})
+        for element in referring.values():
+            self._rename(element, link, parent, x_pl)
+        self._referring.setdefault(parent, {}).update(referring)
 
     def _move_pose(self, element: Element, x_pl: Pose) -> None:
         old = element.find("pose")
@@ -172,10 +179,16 @@ class Extensions:
 
     def _blocks_for(self, element: Element, link: str, suffix: str) -> List[_Extension]:
         """Those of the link that the shape was written in: its name tells, as in sdformat."""
-        name = element.get("name") or ""
-        lumped = LUMP in name
-        return [block for block in self._blocks.get(link, ())
-                if (f"{LUMP}{block.origin}{suffix}" in name if lumped else block.origin == link)]
+        if link not in self._numbered:
+            numbered = self._numbered[link] = {}
+            for number, block in enumerate(self._blocks.get(link, ())):
+                numbered.setdefault(block.origin, []).append((number, block))
+        origins = {link}
+        pieces = (element.get("name") or "").split(LUMP)
+        if len(pieces) > 1:
+            origins = {piece[:end] for piece in pieces[1:] for end in range(len(piece)) if piece.startswith(suffix, end)}
+        found = [entry for origin in origins for entry in self._numbered[link].get(origin, ())]
+        return [block for _, block in sorted(found, key=lambda entry: entry[0])]
 
     @staticmethod
     def _insert_blobs(element: Element, blobs: List[ET.Element], replacing: str) -> None:
@@ -200,6 +213,6 @@ class Extensions:
         if old is not None:
             if text_of(old) != text:
                 self._reader.warn(like, f"<{like.tag if like is not None else tags[-1]}> is given twice; "
-                                        f"'{text}' takes the place of '{text_of(old)}'")
+                                        f"'{quoted(text)}' takes the place of '{quoted(text_of(old))}'")
             element.remove(old)
         child(element, tags[-1], text, like=like)
