@@ -1,0 +1,1 @@
+include(/usr/share/catkin/cmake/catkinConfig-version.cmake)

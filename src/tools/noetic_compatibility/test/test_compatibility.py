@@ -1,0 +1,94 @@
+"""Small packages in Noetic's style, configured and built with plain CMake against the sourced workspace."""
+import os
+import re
+import subprocess
+from pathlib import Path
+
+import pytest
+
+HERE = Path(__file__).resolve().parents[1]
+LIST = HERE / "cmake/absent_packages.cmake"
+PREFIX = next((Path(prefix) for prefix in os.environ.get("CMAKE_PREFIX_PATH", "").split(":")
+               if (Path(prefix) / "share/catkin/cmake/absent_packages.cmake").is_file()), None)
+pytestmark = pytest.mark.skipif(PREFIX is None, reason="no sourced workspace has noetic_compatibility")
+
+
+@pytest.fixture
+def package(tmp_path):
+    """Function that writes a package, configures it and builds it; its result has returncode and stdout."""
+    def make(components, source=None, options=""):
+        depends = "".join(f"<depend>{name}</depend>" for name in components.split())
+        (tmp_path / "package.xml").write_text(
+            "<package format='2'><name>p</name><version>1.0.0</version><description>d</description>"
+            f"<maintainer email='a@example.org'>m</maintainer><license>BSD</license><buildtool_depend>catkin</buildtool_depend>{depends}</package>")
+        lists = (f"cmake_minimum_required(VERSION 3.0.2)\nproject(p)\n{options}\n"
+                 f"find_package(catkin REQUIRED COMPONENTS {components})\ncatkin_package()\n"
+                 "include_directories(${catkin_INCLUDE_DIRS})\n")
+        if source:
+            (tmp_path / "p.cpp").write_text(source)
+            lists += "add_library(p SHARED p.cpp)\ntarget_link_libraries(p ${catkin_LIBRARIES})\n"
+        (tmp_path / "CMakeLists.txt").write_text(lists)
+        ended = subprocess.run(["cmake", "-S", tmp_path, "-B", tmp_path / "build", "-Wno-dev"], capture_output=True, text=True, timeout=200)
+        if ended.returncode == 0 and source:
+            ended = subprocess.run(["cmake", "--build", tmp_path / "build"], capture_output=True, text=True, timeout=280)
+        return ended
+    return make
+
+
+@pytest.mark.parametrize("standard", ["", "add_compile_options(-std=c++11)"])
+def test_old_sources_build(package, standard):
+    """Placeholders without namespace, an undeclared package's messages, headers under their names of before 2018."""
+    ended = package("roscpp std_msgs pluginlib", """
+        #include <ros/ros.h>
+        #include <std_msgs/Float64.h>
+        #include <control_msgs/JointControllerState.h>
+        #include <pluginlib/class_list_macros.h>
+        #include <class_loader/class_loader.h>
+        struct Base { virtual ~Base() {} };
+        struct Node : Base {
+          void heard(const std_msgs::Float64::ConstPtr&, int) {}
+          ros::Subscriber subscribe(ros::NodeHandle& nh) {
+            return nh.subscribe<std_msgs::Float64>("x", 1, boost::bind(&Node::heard, this, _1, 3));
+          }
+          control_msgs::JointControllerState state;
+        };
+        PLUGINLIB_EXPORT_CLASS(Node, Base)
+        """, standard)
+    assert ended.returncode == 0, ended.stdout + ended.stderr
+    assert "global namespace is deprecated" not in ended.stdout + ended.stderr
+
+
+def paragraph(ended):
+    assert ended.returncode != 0 and ended.stderr.count("CMake Error") == 1, ended.stderr
+    return " ".join(ended.stderr.split())
+
+
+def test_an_absent_package_is_explained_in_one_paragraph(package):
+    said = paragraph(package("roscpp amcl"))
+    assert "The package 'amcl', which p asks for, is not here. It belongs to the navigation stack" in said
+    assert "--continue-on-failure" in said and "Could not find a package configuration file" not in said
+
+
+def test_a_package_of_the_course_that_is_not_built_is_explained(package):
+    said = paragraph(package("no_such_course_msgs"))
+    assert "'no_such_course_msgs'" in said and "has to stand in this workspace's src folder" in said
+
+
+def test_a_package_that_debian_has_is_named_with_its_debian_packages(package):
+    if Path("/usr/share/octovis").exists() or not Path("/usr/share/python3-rosdep2/debian.yaml").exists():
+        pytest.skip("octovis is installed, or rosdep's rules are not")
+    assert "Debian has it: sudo apt install " in paragraph(package("octovis"))
+
+
+def test_what_is_optional_stays_silent(package, tmp_path):
+    (tmp_path / "CMakeLists.txt").write_text("cmake_minimum_required(VERSION 3.0.2)\nproject(q)\n"
+                                             "find_package(catkin QUIET COMPONENTS amcl)\nmessage(STATUS \"amcl ${amcl_FOUND}\")\n")
+    ended = subprocess.run(["cmake", "-S", tmp_path, "-B", tmp_path / "b"], capture_output=True, text=True, timeout=200)
+    assert ended.returncode == 0 and "amcl 0" in ended.stdout and ended.stderr == ""
+
+
+def test_nothing_of_this_workspace_is_called_absent():
+    """A new package here takes its name off the list."""
+    absent = " ".join(re.findall(r'^_noetic_absent\("[^"]*"([^)]*)\)', LIST.read_text(), re.MULTILINE)).split()
+    ours = {path.parent.name for path in HERE.parents[1].rglob("package.xml")}
+    assert len(absent) > 50 and not set(absent) & ours
