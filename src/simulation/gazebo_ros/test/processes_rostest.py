@@ -18,6 +18,8 @@ from rosgraph_msgs.msg import Clock
 
 from simulator import Simulator, box, pose, urdf
 
+PHYSICS = """{time_step: 0.001, max_update_rate: 1000.0, gravity: {z: -1.5}, ode_config: {sor_pgs_iters: 50, sor_pgs_w: 1.3,
+contact_surface_layer: 0.001, contact_max_correcting_vel: 100.0, erp: 0.2, max_contacts: 20}}"""
 BENCH = os.path.join(os.path.dirname(os.path.abspath(__file__)), "worlds", "bench.world")
 
 
@@ -147,37 +149,79 @@ class Options(unittest.TestCase):
         self.assertEqual(min(steps()), 10_000_000)
 
 
+def master_place(case):
+    """The URI of a master that may be started in this test; its port is kept from others."""
+    place = socket.socket()
+    case.addCleanup(place.close)
+    place.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    place.bind(("", 0))
+    return f"http://localhost:{place.getsockname()[1]}"
+
+
+def start_master(case, uri):
+    """The process of a master that answers."""
+    process = subprocess.Popen(["rosmaster", "--core", "-p", uri.rpartition(":")[2]], stdout=subprocess.DEVNULL,
+                               env={**os.environ, "ROS_MASTER_URI": uri})
+    case.addCleanup(lambda: (process.kill(), process.wait()))
+    while not rosgraph.is_master_online(uri):
+        case.assertIsNone(process.poll())
+        rospy.rostime.wallsleep(0.01)
+    return process
+
+
 class Masters(unittest.TestCase):
     def test_simulators_of_the_same_name_under_two_masters_do_not_meet(self):
-        place = socket.socket()  # keeps the port for the master, which may bind it too
-        self.addCleanup(place.close)
-        place.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-        place.bind(("", 0))
-        uri = f"http://localhost:{place.getsockname()[1]}"
-        master = subprocess.Popen(["rosmaster", "--core", "-p", uri.rpartition(":")[2]], stdout=subprocess.DEVNULL,
-                                  env={**os.environ, "ROS_MASTER_URI": uri})
-        try:
-            while not rosgraph.is_master_online(uri):
-                self.assertIsNone(master.poll())
-                rospy.rostime.wallsleep(0.01)
-            with Server("", "-u", BENCH) as near, Server("", "-u", BENCH, master=uri) as far:
-                def gz(*command):
-                    return subprocess.run(["gz", *command], env=far.environment, text=True, capture_output=True, timeout=60)
+        uri = master_place(self)
+        start_master(self, uri)
+        with Server("", "-u", BENCH) as near, Server("", "-u", BENCH, master=uri) as far:
+            def gz(*command):
+                return subprocess.run(["gz", *command], env=far.environment, text=True, capture_output=True, timeout=60)
 
-                sim = Simulator("/gazebo")
-                while gz("world", "-m", "1").returncode:  # until it is there
-                    self.assertIsNone(far.process.poll())
-                self.assertEqual(gz("world", "-m", "99").stderr, "")
-                self.assertEqual(gz("model", "-m", "crate", "-x", "9", "-z", "4").stderr, "")
-                self.assertEqual((sim.world().sim_time, sim.model("crate").pose.position.x), (0.0, 5.0))
-                self.assertTrue(sim.step(3).success)
-                near.end()
-                self.assertEqual(gz("world", "-s").stderr, "")
-                self.assertEqual(gz("model", "-m", "crate", "-p").stdout.split()[:3], ["9", "0", "4"])
-                self.assertIn("SimTime[0.10]", gz("stats", "-d", "0.1").stdout)  # 101 steps of its own, none of the other's
-        finally:
-            master.terminate()
-            master.wait(timeout=60)
+            sim = Simulator("/gazebo")
+            while gz("world", "-m", "1").returncode:  # until it is there
+                self.assertIsNone(far.process.poll())
+            self.assertEqual(gz("world", "-m", "99").stderr, "")
+            self.assertEqual(gz("model", "-m", "crate", "-x", "9", "-z", "4").stderr, "")
+            self.assertEqual((sim.world().sim_time, sim.model("crate").pose.position.x), (0.0, 5.0))
+            self.assertTrue(sim.step(3).success)
+            near.end()
+            self.assertEqual(gz("world", "-s").stderr, "")
+            self.assertEqual(gz("model", "-m", "crate", "-p").stdout.split()[:3], ["9", "0", "4"])
+            self.assertIn("SimTime[0.10]", gz("stats", "-d", "0.1").stdout)  # 101 steps of its own, none of the other's
+
+    def test_a_master_that_is_killed_and_comes_back_knows_the_simulator_again(self):
+        uri = master_place(self)
+        process = start_master(self, uri)
+        master = xmlrpc.client.ServerProxy(uri)
+        with Server("", "-u", BENCH, master=uri) as server:
+            def known():
+                """Topics, services and parameters of the node."""
+                state = master.getSystemState("/t")[2]
+                return [sorted(name for name, nodes in kind if "/gazebo" in nodes) for kind in state] + [
+                    master.getParam("/t", "/")[2]]
+
+            def wait_until(condition):
+                while not condition():
+                    self.assertIsNone(server.process.poll())
+                    rospy.rostime.wallsleep(0.05)
+
+            def command(*words):
+                return subprocess.run(words, env=server.environment, text=True, capture_output=True, timeout=60)
+
+            wait_until(lambda: "/gazebo/ready" in known()[0])
+            self.assertIn("success: True", command("rosservice", "call", "/gazebo/set_physics_properties", PHYSICS).stdout)
+            before = known()
+            self.assertEqual((before[3]["use_sim_time"], before[3]["gazebo"]["gravity_z"]), (True, -1.5))
+            process.kill()
+            process.wait()
+            start_master(self, uri)
+            wait_until(lambda: known() == before)
+            self.assertEqual(command("gz", "world", "-m", "5").returncode, 0)
+            self.assertIn("secs", command("rostopic", "echo", "-n", "1", "/clock").stdout)
+            code, text = server.end()
+            self.assertEqual((code, known()[:3]), (0, [[], [], []]))
+        self.assertEqual(text.count("this node has registered with it"), 1, text)
+        self.assertNotIn("Traceback", text)
 
 
 class Twice(unittest.TestCase):

@@ -389,12 +389,25 @@ class Physics(Case):
         self.done(self.sim.set_physics())
 
     def test_impossible_values_are_refused_and_change_nothing(self):
-        self.refused(self.sim.set_physics(time_step=0.0), "SetPhysicsProperties: ", "time_step", "positive")
-        self.refused(self.sim.set_physics(time_step=-0.001), "time_step")
-        self.refused(self.sim.set_physics(rate=-1.0), "max_update_rate")
-        self.refused(self.sim.set_physics(gravity=(0, NAN, 0)), "nan")
-        self.assertEqual(self.sim.physics().time_step, 0.001)
-        self.assertTrue(self.sim.physics().pause)
+        before = self.sim.physics()
+        wrong = [("time_step", step) for step in (0.0, -0.001, NAN, 1e300, 1e9, 1e-12)]
+        wrong += [("max_update_rate", rate) for rate in (-1.0, NAN, 1e-300, 1e300)]
+        wrong += [("sor_pgs_iters", 0), ("max_contacts", 0), ("max_contacts", 2**32 - 1), ("sor_pgs_w", 1e300)]
+        for name, value in wrong:
+            asked = {"time_step": 0.002, "gravity": (1.0, 2.0, 3.0), "cfm": 0.5,
+                     "rate" if name == "max_update_rate" else name: value}
+            self.refused(self.sim.set_physics(**asked), "SetPhysicsProperties: ", name, f"{value:g}")
+        self.refused(self.sim.set_physics(gravity=(0, NAN, 0), time_step=0.002), "nan")
+        self.assertEqual(self.sim.physics(), before)
+        self.assertEqual(self.sim.step(2).sim_time.to_nsec(), 2_000_000)
+
+    def test_a_slow_rate_does_not_outlast_the_next_one(self):
+        self.done(self.sim.set_physics(rate=0.001))
+        self.sim.empty("unpause_physics")
+        self.wait(lambda: self.sim.world().sim_time > 0.0)  # the next step is due in a quarter of an hour
+        self.done(self.sim.set_physics(rate=1000.0))
+        self.wait(lambda: self.sim.world().sim_time > 0.1)
+        self.sim.empty("pause_physics")
 
     def test_dynamic_reconfigure(self):
         from dynamic_reconfigure.client import Client
@@ -406,6 +419,21 @@ class Physics(Case):
         self.assertEqual((physics.gravity.x, physics.ode_config.sor_pgs_iters), (2.5, 77))
         self.assertEqual(rospy.get_param("/gazebo/gravity_x"), 2.5)
         client.update_configuration({"gravity_x": 0.0, "sor_pgs_iters": 50})
+
+    def test_dynamic_reconfigure_shows_and_starts_from_what_is(self):
+        from dynamic_reconfigure.client import Client
+        client = Client("/gazebo", timeout=60)
+        self.done(self.sim.set_physics(time_step=0.002, rate=5000.0, gravity=(0.0, 0.0, -3.7)))
+        self.wait(lambda: client.get_configuration(60)["max_update_rate"] == 5000.0)  # beyond what a client may ask for
+        self.assertEqual([rospy.get_param(f"/gazebo/{name}") for name in ("time_step", "gravity_z")], [0.002, -3.7])
+        client.update_configuration({"sor_pgs_w": 1.2})
+        physics = self.sim.physics()
+        self.assertEqual((physics.time_step, physics.max_update_rate, physics.gravity.z), (0.002, 5000.0, -3.7))
+        for wrong in ({"sor_pgs_iters": 0}, {"time_step": 0.0}, {"time_step": 10.0, "gravity_z": 1.0}):
+            answer = client.update_configuration(wrong)  # an answer, not an error
+            self.assertEqual((answer["sor_pgs_iters"], answer["time_step"], answer["gravity_z"]), (50, 0.002, -3.7))
+        self.assertEqual(self.sim.physics(), physics)
+        self.done(self.sim.set_physics())
 
 
 class Spawning(Case):

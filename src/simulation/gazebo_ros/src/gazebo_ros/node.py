@@ -17,6 +17,7 @@ import ode_sim
 import rosgraph
 import rospkg
 import rospy
+from node_signals import master_watch
 from ode_sim.description import DescriptionError, Problem, ResourceFinder, load_world
 from plugin_loader import exported_values
 from rospy.names import load_mappings
@@ -58,15 +59,17 @@ def _run() -> int:
     _wait_for_master(ending)
     if _runs_already():
         return _TAKEN
-    if not rosgraph.Master("/gazebo").hasParam("/use_sim_time"):
-        rosgraph.Master("/gazebo").setParam("/use_sim_time", True)
+    _use_sim_time(True)
     # rospy's clock would come back from the /clock that this node publishes: the server sets it without that detour
     rospy.init_node("gazebo", disable_rostime=True, disable_signals=True,
                     log_level=rospy.DEBUG if options.verbose else rospy.INFO)
     rospy.on_shutdown(ending.request)
     for line in command_line.remarks(options):
         rospy.logwarn("%s", line)
-    server = make_server(options)
+    sim_time = bool(rospy.get_param("/use_sim_time", True))
+    master_watch.on_return(lambda: _use_sim_time(sim_time))
+    server = make_server(options, sim_time)
+    master_watch.watch()
     ending.follow(server)
     gc.collect()
     gc.freeze()  # what is there stays: collections in mid-run need not look at it
@@ -77,6 +80,13 @@ def _run() -> int:
         physics.join(1.0)
     _leave_ros()
     return 1 if physics.failed else 0
+
+
+def _use_sim_time(value: bool) -> None:
+    """Tell the nodes that come later, unless somebody has said otherwise."""
+    master = rosgraph.Master("/gazebo")
+    if not master.hasParam("/use_sim_time"):
+        master.setParam("/use_sim_time", value)
 
 
 def _leave_ros() -> None:
@@ -170,7 +180,7 @@ def _load_world(name: str, finder: ResourceFinder) -> Tuple[object, List[Problem
         return load_world(_EMPTY_WORLD, finder)
 
 
-def make_server(options) -> Server:
+def make_server(options, sim_time: bool) -> Server:
     """The world, its node and everything the node offers; plugins are started by ``Server.run``."""
     rospack = rospkg.RosPack()
     finder = make_finder(rospack)
@@ -180,7 +190,6 @@ def make_server(options) -> Server:
     for library in options.server_plugin:
         if library_key(library) not in map(library_key, BUILTIN):
             rospy.logwarn("system plugin %s is not known here and is left out; known: %s", library, ", ".join(BUILTIN))
-    sim_time = bool(rospy.get_param("/use_sim_time", True))
     server = Server(world, description, finder, host, paused=options.pause, lockstep=options.lockstep,
                     iterations=options.iters, ros_time=sim_time)
     server.report_problems(f"world {description.name}")

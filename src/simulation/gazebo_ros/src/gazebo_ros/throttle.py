@@ -20,10 +20,10 @@ class Throttle:
     """
 
     def __init__(self, rate: float = 1000.0, catch_up: float = 0.1, clock: Callable[[], int] = time.monotonic_ns):
-        self.rate = rate
         self._catch_up_ns = int(catch_up * _NS)
         self._clock = clock
         self.restart()
+        self.rate = rate
 
     @property
     def rate(self) -> float:
@@ -33,6 +33,7 @@ class Throttle:
     def rate(self, rate: float) -> None:
         self._rate = rate
         self._period_ns = int(_NS / rate) if rate > 0 else 0
+        self._next_ns = min(self._next_ns, self._clock() + self._period_ns)  # a slow rate may have put it far off
 
     def restart(self) -> None:
         """The next step may be taken at once (the simulation was paused)."""

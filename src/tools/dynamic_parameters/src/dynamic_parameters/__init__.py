@@ -22,7 +22,12 @@ rqt_reconfigure see no difference::
 Offered in the namespace: latched topics ``parameter_descriptions`` and ``parameter_updates``, service
 ``set_parameters``; the values are kept on the parameter server. A value that is already there when the server starts
 wins over the table's default, but ``initial`` wins over both. ``changed`` is called once at start with level -1, then
-in a service thread at every change with the or-ed levels of the parameters that changed.
+in a service thread at every change with the or-ed levels of the parameters that changed. What it raises then refuses the
+change: one WARN line, and the client is told the values that still hold.
+
+Where others change the values too, ``current=f`` makes the server ask ``f()`` for all of them before and after each
+change, in the thread of the change, and ``server.refresh()`` shows them to the clients. They are shown as they are; only
+what a client asks for is kept within the table's ranges. ``initial`` must then be given in full.
 """
 from .server import Parameter, Server
 

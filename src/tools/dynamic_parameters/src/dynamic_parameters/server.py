@@ -5,10 +5,12 @@ import threading
 from dataclasses import dataclass
 from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence
 
+import rosgraph
 import rospy
 from dynamic_reconfigure.msg import (BoolParameter, Config, ConfigDescription, DoubleParameter, Group, GroupState,
                                      IntParameter, ParamDescription, StrParameter)
 from dynamic_reconfigure.srv import Reconfigure, ReconfigureResponse
+from node_signals import master_watch
 
 #: Python type -> (name on the wire, field of Config, message of one value, lowest, highest)
 _TYPES = {
@@ -69,10 +71,12 @@ class Server:
 
     def __init__(self, namespace: str, parameters: Sequence[Parameter],
                  callback: Callable[[Dict[str, Any], int], Optional[Mapping[str, Any]]],
-                 initial: Optional[Mapping[str, Any]] = None):
+                 initial: Optional[Mapping[str, Any]] = None, current: Optional[Callable[[], Mapping[str, Any]]] = None):
         self._ns = rospy.resolve_name(namespace).rstrip("/") + "/"
         self._parameters = {parameter.name: parameter for parameter in parameters}
         self._callback = callback
+        self._current = current
+        self._closed = False
         self._lock = threading.RLock()
         self._config: Dict[str, Any] = {}
         for parameter in parameters:
@@ -81,8 +85,11 @@ class Server:
                                              queue_size=1)
         self._descriptions.publish(self._describe())
         self._updates = rospy.Publisher(self._ns + "parameter_updates", Config, latch=True, queue_size=1)
-        self._apply(self._config, -1)
+        self._config = self._called_back(self._config, -1)
+        self._store(self._config)
+        self._updates.publish(self._encode(self._config))
         self._service = rospy.Service(self._ns + "set_parameters", Reconfigure, self._set)
+        master_watch.on_return(self._restore)
 
     @property
     def config(self) -> Dict[str, Any]:
@@ -96,27 +103,40 @@ class Server:
         :param call_back: also call the callback, as for a change by a client.
         """
         with self._lock:
-            config = self._merged(values)
-            self._apply(config, self._level(config), call_back)
+            config = self._merged(self._config, values)
+            if call_back:
+                config = self._called_back(config, self._level(self._config, config))
+            self._take(config)
+
+    def refresh(self) -> None:
+        """Tell the clients what ``current`` says now: the program, or another client of it, has changed something."""
+        with self._lock:
+            self._take(self._live())
 
     def shutdown(self) -> None:
         """Withdraw topics and service; the values stay on the parameter server."""
+        self._closed = True
         self._service.shutdown("no longer needed")
         self._descriptions.unregister()
         self._updates.unregister()
 
     def _first_value(self, parameter: Parameter, initial: Mapping[str, Any]) -> Any:
+        if parameter.name in initial and self._current is not None:
+            return initial[parameter.name]  # it is what is, whatever the table allows
         value = initial[parameter.name] if parameter.name in initial else rospy.get_param(
             self._ns + parameter.name, parameter.default)
         try:
             return parameter.clamp(value)
-        except (TypeError, ValueError):
+        except (TypeError, ValueError, OverflowError):
             rospy.logwarn("parameter %s%s is %r, which is no %s; using %r", self._ns, parameter.name, value,
                           _TYPES[parameter.type][0], parameter.default)
             return parameter.default
 
-    def _merged(self, values: Mapping[str, Any]) -> Dict[str, Any]:
-        config = dict(self._config)
+    def _live(self) -> Dict[str, Any]:
+        return self._config if self._current is None else dict(self._current())
+
+    def _merged(self, config: Mapping[str, Any], values: Mapping[str, Any]) -> Dict[str, Any]:
+        config = dict(config)
         for name, value in values.items():
             if name not in self._parameters:
                 rospy.logwarn("dynamic_reconfigure: %s has no parameter '%s'; it has: %s", self._ns.rstrip("/"), name,
@@ -124,43 +144,69 @@ class Server:
                 continue
             try:
                 config[name] = self._parameters[name].clamp(value)
-            except (TypeError, ValueError) as error:
+            except (TypeError, ValueError, OverflowError) as error:
                 rospy.logwarn("dynamic_reconfigure: %s%s keeps %r: %s", self._ns, name, config[name], error)
         return config
 
-    def _level(self, config: Mapping[str, Any]) -> int:
+    def _level(self, before: Mapping[str, Any], config: Mapping[str, Any]) -> int:
         level = 0
         for name, parameter in self._parameters.items():
-            if config[name] != self._config[name]:
+            if config[name] != before[name]:
                 level |= parameter.level
         return level
 
-    def _apply(self, config: Dict[str, Any], level: int, call_back: bool = True) -> None:
-        if call_back:
-            corrected = self._callback(dict(config), level)
-            if corrected is not None:
-                config = {name: parameter.clamp(corrected[name]) for name, parameter in self._parameters.items()}
-        first = level == -1
-        for name, value in config.items():
-            if first or value != self._config[name]:
-                rospy.set_param(self._ns + name, value)
+    def _called_back(self, config: Dict[str, Any], level: int) -> Dict[str, Any]:
+        corrected = self._callback(dict(config), level)
+        if corrected is None:
+            return config
+        return {name: parameter.clamp(corrected[name]) for name, parameter in self._parameters.items()}
+
+    def _take(self, config: Dict[str, Any]) -> None:
+        changed = {name: value for name, value in config.items() if value != self._config[name]}
         self._config = config
+        self._store(changed)
         self._updates.publish(self._encode(config))
+
+    def _store(self, values: Mapping[str, Any]) -> None:
+        """Keep values on the parameter server, when there is one."""
+        try:
+            for name, value in values.items():
+                rospy.set_param(self._ns + name, value)
+        except (OSError, rosgraph.MasterException) as error:
+            rospy.logdebug("dynamic_reconfigure: the parameters in %s are not stored: %s", self._ns, error)
+
+    def _restore(self) -> None:
+        with self._lock:
+            if not self._closed:
+                self._store(self._config)
 
     def _set(self, request: Any) -> ReconfigureResponse:
         values = {entry.name: entry.value for field in ("bools", "ints", "strs", "doubles")
                   for entry in getattr(request.config, field)}
         with self._lock:
-            config = self._merged(values)
-            if values:
-                self._apply(config, self._level(config))
+            try:
+                if values:
+                    self._change(values)
+                elif self._current is not None:
+                    self._take(self._live())
+            except Exception as error:  # whatever the program raises, the client gets an answer and the program goes on
+                reason = str(error) if isinstance(error, ValueError) else f"{type(error).__name__}: {error}"
+                rospy.logwarn("dynamic_reconfigure: %s stays as it was: %s", self._ns.rstrip("/"), reason)
+                self._updates.publish(self._encode(self._config))
             return ReconfigureResponse(self._encode(self._config))
+
+    def _change(self, values: Mapping[str, Any]) -> None:
+        before = self._live()
+        wanted = self._merged(before, values)
+        config = self._called_back(wanted, self._level(before, wanted))
+        self._take(config if self._current is None else self._live())
 
     def _encode(self, values: Mapping[str, Any]) -> Config:
         message = Config(groups=[GroupState("Default", True, 0, 0)])
         for name, parameter in self._parameters.items():
-            _, field, entry, _, _ = _TYPES[parameter.type]
-            getattr(message, field).append(entry(name, values[name]))
+            _, field, entry, low, high = _TYPES[parameter.type]
+            value = min(max(values[name], low), high) if parameter.type is int else values[name]  # what the wire carries
+            getattr(message, field).append(entry(name, value))
         return message
 
     def _describe(self) -> ConfigDescription:

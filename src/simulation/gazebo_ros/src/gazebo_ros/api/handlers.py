@@ -9,7 +9,7 @@ import rospy
 from gazebo_ros.server import Server, Stopped
 
 
-class Refused(Exception):
+class Refused(ValueError):
     """The request cannot be met; the text says why and what to do."""
 
 
@@ -29,7 +29,7 @@ def advertise(server: Server, name: str, service: type, f: Callable[[Any, Any], 
         try:
             status = server.call(lambda: f(request, response)) if in_physics_thread else f(request, response)
             success = True
-        except (Refused, Stopped, ValueError) as error:
+        except (ValueError, Stopped) as error:
             status, success = f"{prefix}: {error}", False
         except Exception as error:  # the answer must reach the client, and the server must go on
             status, success = f"{prefix}: internal error, {type(error).__name__}: {error}", False

@@ -1,16 +1,24 @@
 """Physics parameters: the services and dynamic_reconfigure."""
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any, Dict
 
 import rospy
 from dynamic_parameters import Parameter, Server as ParameterServer
 from gazebo_msgs.msg import ODEPhysics
 from gazebo_msgs.srv import GetPhysicsProperties, SetPhysicsProperties
+from ode_sim.physics import BOUNDS
 
 from gazebo_ros.api.geometry import vector_of
-from gazebo_ros.api.handlers import Refused, advertise, finite
-from gazebo_ros.server import Server, Stopped
+from gazebo_ros.api.handlers import Refused, advertise
+from gazebo_ros.server import Server
+
+#: name in messages and parameters -> in ode_sim
+_SETTINGS = {"time_step": "max_step_size", "max_update_rate": "real_time_update_rate", "sor_pgs_precon_iters": "precon_iters",
+             "sor_pgs_iters": "iters", "sor_pgs_w": "sor", "cfm": "cfm", "erp": "erp",
+             "contact_surface_layer": "contact_surface_layer", "contact_max_correcting_vel": "contact_max_correcting_vel",
+             "max_contacts": "max_contacts"}
 
 PARAMETERS = (
     Parameter("time_step", float, 0.001, 0.0, 10.0, "Length of a physics step, s"),
@@ -40,45 +48,31 @@ class PhysicsServices:
         self._auto_disable = False
         self._parameters = None
         advertise(server, "get_physics_properties", GetPhysicsProperties, self._get)
-        advertise(server, "set_physics_properties", SetPhysicsProperties, self._set)
+        advertise(server, "set_physics_properties", SetPhysicsProperties, self._set, in_physics_thread=False)
 
     def start_reconfigure(self) -> None:
-        """Offer the parameters through dynamic_reconfigure, starting from the live values."""
-        self._parameters = ParameterServer("~", PARAMETERS, self._on_reconfigure, initial=self._values())
+        """Offer the parameters through dynamic_reconfigure, which shows the live values and changes what it is asked to."""
+        self._parameters = ParameterServer("~", PARAMETERS, self._on_reconfigure, initial=self._values(),
+                                           current=lambda: self._server.call(self._values))
         rospy.loginfo("Physics dynamic reconfigure ready.")
 
     def _values(self) -> Dict[str, Any]:
-        physics, gravity = self._world.physics, self._world.gravity
-        return {"time_step": physics.max_step_size, "max_update_rate": physics.real_time_update_rate,
+        gravity = self._world.gravity
+        return {**{name: getattr(self._world.physics, setting) for name, setting in _SETTINGS.items()},
                 "gravity_x": gravity[0], "gravity_y": gravity[1], "gravity_z": gravity[2],
-                "auto_disable_bodies": self._auto_disable, "sor_pgs_precon_iters": physics.precon_iters,
-                "sor_pgs_iters": physics.iters, "sor_pgs_w": physics.sor, "sor_pgs_rms_error_tol": 0.0,
-                "cfm": physics.cfm, "erp": physics.erp, "contact_surface_layer": physics.contact_surface_layer,
-                "contact_max_correcting_vel": physics.contact_max_correcting_vel, "max_contacts": physics.max_contacts}
+                "auto_disable_bodies": self._auto_disable, "sor_pgs_rms_error_tol": 0.0}
 
     def _apply(self, values: Dict[str, Any]) -> None:
-        """Check all, then set all.
+        """Take over all values, or none.
 
-        :raises Refused: a value that no simulation can run with
+        :raises Refused, ValueError: a value that no simulation can run with
         """
-        finite("the request", *(value for value in values.values() if isinstance(value, float)))
-        if not values["time_step"] > 0.0:
-            raise Refused(f"time_step {values['time_step']:g} s; it must be positive")
-        if values["max_update_rate"] < 0.0:
-            raise Refused(f"max_update_rate {values['max_update_rate']:g} Hz; it must be 0 (no limit) or more")
-        physics = self._world.physics
-        physics.max_step_size = values["time_step"]
-        physics.real_time_update_rate = values["max_update_rate"]
-        self._world.gravity = (values["gravity_x"], values["gravity_y"], values["gravity_z"])
+        for name, setting in _SETTINGS.items():
+            if not BOUNDS[setting].hold(values[name]):
+                raise Refused(f"{name} must be {BOUNDS[setting]}, not {values[name]:g}; nothing is changed")
+        physics = replace(self._world.physics.record(), **{setting: values[name] for name, setting in _SETTINGS.items()})
+        self._world.set_physics(physics, (values["gravity_x"], values["gravity_y"], values["gravity_z"]))
         self._auto_disable = values["auto_disable_bodies"]
-        physics.precon_iters = values["sor_pgs_precon_iters"]
-        physics.iters = values["sor_pgs_iters"]
-        physics.sor = values["sor_pgs_w"]
-        physics.cfm = values["cfm"]
-        physics.erp = values["erp"]
-        physics.contact_surface_layer = values["contact_surface_layer"]
-        physics.contact_max_correcting_vel = values["contact_max_correcting_vel"]
-        physics.max_contacts = values["max_contacts"]
 
     def _get(self, request, response) -> str:
         values = self._values()
@@ -91,16 +85,14 @@ class PhysicsServices:
     def _set(self, request, response) -> str:
         x, y, z = vector_of(request.gravity, "gravity")
         values = {name: getattr(request.ode_config, name) for name in ODEPhysics.__slots__}
-        self._apply({**values, "time_step": request.time_step, "max_update_rate": request.max_update_rate,
-                     "gravity_x": x, "gravity_y": y, "gravity_z": z})
+        values.update(time_step=request.time_step, max_update_rate=request.max_update_rate,
+                      gravity_x=x, gravity_y=y, gravity_z=z)
+        self._server.call(lambda: self._apply(values))
+        if self._parameters:
+            self._parameters.refresh()
         return "SetPhysicsProperties: physics engine updated"
 
-    def _on_reconfigure(self, config: Dict[str, Any], level: int) -> Dict[str, Any]:
+    def _on_reconfigure(self, config: Dict[str, Any], level: int) -> None:
         if level == -1:  # the call at start
-            return config
-        try:
-            self._server.call(lambda: self._apply(config))
-        except (Refused, Stopped) as error:
-            rospy.logwarn("dynamic_reconfigure of the physics: %s; nothing is changed", error)
-            return self._values()
-        return config
+            return
+        self._server.call(lambda: self._apply(config))
