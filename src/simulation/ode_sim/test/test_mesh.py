@@ -1,5 +1,9 @@
 """Mesh files written by the test, read back."""
+import os
 import struct
+import time
+import warnings
+import zipfile
 
 import numpy as np
 import pytest
@@ -176,3 +180,102 @@ def test_a_broken_file_is_one_line_that_names_it(tmp_path, name, content):
 def test_a_missing_file_is_named():
     with pytest.raises(DescriptionError, match="nowhere/a.stl"):
         mesh.load(Mesh(path="", uri="nowhere/a.stl"))
+
+
+# ---------------------------------------------------------------------------------------------- traps
+
+def refused(path):
+    begin = time.process_time()
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", RuntimeWarning)
+        with pytest.raises(DescriptionError) as error:
+            mesh.load_surface(str(path))
+        with pytest.raises(DescriptionError):
+            mesh.load_visual(str(path))
+    assert time.process_time() - begin < 1.5
+    line = str(error.value)
+    assert str(path) in line and "\n" not in line and len(line) < 400
+    return line
+
+
+def doctype(entities):
+    return DAE.format(up="").replace("<COLLADA", f"<!DOCTYPE COLLADA [{entities}]>\n<COLLADA", 1)
+
+
+BOMB = "".join(f'<!ENTITY a{i} "{f"&a{i - 1};" * 10 if i else "ha" * 50}">' for i in range(10))
+NESTED = "<node>" * 500 + "</node>" * 500
+DOUBLING = "".join(f'<node id="n{i}"><instance_node url="#n{i - 1}"/><instance_node url="#n{i - 1}"/></node>'
+                   if i else '<node id="n0"><instance_geometry url="#tri"/></node>' for i in range(40))
+
+
+@pytest.mark.parametrize("text, message", [
+    (doctype(BOMB).replace("2020-01-01", "&a9;", 1), "declares the entity 'a0'"),
+    (doctype('<!ENTITY a SYSTEM "file:///etc/hostname">').replace("2020-01-01", "&a;", 1), "declares the entity 'a'"),
+    (doctype('<!ENTITY % a SYSTEM "file:///etc/hostname"> %a;'), "declares the entity 'a'"),
+    (DAE.format(up="").replace("<library_geometries>", f"<library_nodes>{NESTED}</library_nodes><library_geometries>"),
+     "nests more than 100 elements deep"),
+    (DAE.format(up="").replace("<library_geometries>", f"<library_nodes>{DOUBLING}</library_nodes><library_geometries>"),
+     "its nodes stand for each other more than 50000 times"),
+    (DAE.format(up="").replace("<library_geometries>", '<library_nodes><node id="n"><instance_node url="#n"/></node>'
+                               "</library_nodes><library_geometries>"), "node 'n' stands for itself"),
+], ids=["bomb", "xxe", "parameter", "deep", "doubling", "circle"])
+def test_a_collada_file_that_is_a_trap_is_refused_at_once(tmp_path, text, message):
+    path = tmp_path / "trap.dae"
+    path.write_text(text)
+    assert message in refused(path)
+
+
+def test_a_zip_bomb_is_no_collada_file(tmp_path):
+    path = tmp_path / "a.dae"
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("a.dae", b" " * 100_000_000)
+    assert "is a zip archive" in refused(path)
+    path.write_bytes(DAE.format(up="").encode() + path.read_bytes())  # XML and archive at once
+    assert "is a zip archive" in refused(path)
+
+
+def stl(points, count=None):
+    records = b"".join(struct.pack("<12fH", 0, 0, 0, *points[3 * i:3 * i + 9], 0) for i in range(0, len(points) // 3, 3))
+    return b" " * 80 + struct.pack("<I", len(points) // 9 if count is None else count) + records
+
+
+@pytest.mark.parametrize("name, content", [
+    ("inf.stl", stl([float("inf")] * 9)), ("nan.stl", stl([float("nan")] * 9)),
+    ("far.stl", stl([3e38, 0, 0, 0, 3e38, 0, 0, 0, -3e38])),
+    ("count.stl", stl([0.0] * 9, 4_000_000_000)), ("word.stl", b"solid x\nvertex 1 2 z\nvertex 1 2 3\nvertex 1 2 3\n"),
+    ("short.stl", b"solid x\nvertex 1 2\nvertex 1\nvertex 1 2 3\n"), ("tiny.stl", stl([5e-324, 0, 0, 0, 1e-45, 0, 0, 0, 0])),
+    ("far.obj", b"v 1e300 0 0\nv 0 1e300 0\nv 0 0 -1e308\nf 1 2 3\n"), ("inf.obj", b"v 1e999 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\n"),
+    ("index.obj", b"v 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 99999999999999999999999\n"), ("ragged.obj", b"v 1\nv 0 1\nv 0 0 1\nf 1 2 3\n"),
+    ("vt.obj", b"v 1\nv 0 1\nv 0 0 1\nvt\nf 1/1 2/9 3/7\n"), ("words.obj", b"newmtl\nusemtl\nmtllib\no\nf\nv\nvt\nvn\n")],
+                         ids=lambda value: value if isinstance(value, str) else "")
+def test_numbers_that_are_none_or_too_large_are_refused_without_a_warning(tmp_path, name, content):
+    path = tmp_path / name
+    path.write_bytes(content)
+    refused(path)
+
+
+def test_normals_that_are_no_use_are_computed(tmp_path):
+    path = tmp_path / "a.obj"
+    path.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nvn nan 0 0\nvt inf 0\nf 1/1/1 2/1/1 3/1/1\n")
+    part, = mesh.load_visual(str(path))
+    assert np.allclose(part.normals, [0, 0, 1]) and part.uv is None
+
+
+def test_files_that_are_too_large_are_refused(tmp_path, monkeypatch):
+    from ode_sim import mesh_files
+    path = tmp_path / "a.stl"
+    binary_stl(path)
+    monkeypatch.setattr(mesh_files, "MOST_TRIANGLES", 11)
+    assert "triangles; reduce them" in refused(path)
+    monkeypatch.setattr(mesh_files, "MOST_BYTES", 100)
+    path.write_bytes(path.read_bytes() + b" ")
+    assert "is larger than" in refused(path)
+    os.mkfifo(tmp_path / "pipe.obj")
+    assert "is no file" in refused(tmp_path / "pipe.obj")
+
+
+def test_materials_of_a_mesh_may_be_rubbish(tmp_path):
+    (tmp_path / "m.mtl").write_bytes(b"newmtl\nKd\nnewmtl a\nmap_Kd\n")
+    path = tmp_path / "a.obj"
+    path.write_text("mtllib m.mtl\nusemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    assert len(mesh.load_visual(str(path))) == 1

@@ -3,16 +3,18 @@ trouble."""
 import os
 import signal
 import socket
+import struct
 import subprocess
 import sys
 import time
+import zlib
 from dataclasses import replace
 from types import SimpleNamespace
 
 import cv2
 import numpy as np
 import pytest
-from ode_sim.description.model import Box, Light, Link, Material, Model, Pose, Scene, Sphere, Visual
+from ode_sim.description.model import Box, Heightmap, Light, Link, Material, Mesh, Model, Pose, Scene, Sphere, Visual
 from ode_sim.rendering import Camera, RenderProcess, Renderer, arrange, render, segment_names
 from ode_sim.rendering.image import add_noise, cloud, encode
 
@@ -346,3 +348,58 @@ def test_segment_names_in_process():
 
 def test_renderer_is_closed_without_noise():
     Renderer().close()
+
+
+# ---------------------------------------------------------------------------------------------- bad assets
+
+def png(width, height, body, kind=6):
+    def chunk(name, data):
+        return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, kind, 0, 0, 0))
+            + chunk(b"IDAT", body) + chunk(b"IEND", b""))
+
+
+GOOD = png(2, 2, zlib.compress(b"\0" + b"\0\xff\0\xff" * 2 + b"\0" + b"\0\xff\0\xff" * 2))
+BAD_TEXTURES = {
+    "empty.png": b"", "text.png": b"not an image", "cut.png": GOOD[:42], "header.png": GOOD[:20], "crc.png": GOOD[:20] + b"xxxx" + GOOD[24:],
+    "deflate.png": png(2, 2, b"rubbish"), "no_size.png": png(0, 0, b""), "huge.png": png(60000, 60000, zlib.compress(b"")),
+    "bomb.png": png(9500, 9500, zlib.compress(b"")), "kind.png": png(2, 2, zlib.compress(b"x" * 99), kind=5),
+    "page.png": b"%!PS-Adobe-3.0 EPSF-3.0\n%%BoundingBox: 0 0 9 9\nshowpage\n", "cut.jpg": b"\xff\xd8\xff\xe0\0\x10JFIF",
+    "cut.tif": b"II*\0\x08\0\0\0\xff\xff" + b"\1" * 40, "cut.gif": b"GIF89a\1\0\1\0\x80", "cut.dds": b"DDS " + b"\x7c" * 200}
+
+
+def test_no_texture_or_mesh_ends_the_cameras(studio_of, tmp_path):
+    visuals = []
+    for name, content in BAD_TEXTURES.items():
+        (tmp_path / name).write_bytes(content)
+        visuals.append(Visual(name, Pose((0, 0, -5)), Sphere(0.1), Material(texture=str(tmp_path / name))))
+    os.mkfifo(tmp_path / "pipe.png")
+    (tmp_path / "wide.png").write_bytes(png(20000, 1, zlib.compress(b"\0" + b"\0\xff\0\xff" * 20000)))
+    (tmp_path / "x.stl").write_bytes(b"solid x\nvertex 1 2\n")
+    visuals += [Visual("folder", Pose((0, 0, -5)), Sphere(0.1), Material(texture=str(tmp_path))),
+                Visual("pipe", Pose((0, 0, -5)), Sphere(0.1), Material(texture=str(tmp_path / "pipe.png"))),
+                Visual("mesh", Pose((0, 0, -5)), Mesh(str(tmp_path / "x.stl"))),
+                Visual("terrain", Pose((0, 0, -5)), Heightmap(str(tmp_path / "text.png"))),
+                Visual("far", Pose((1e7, 0, -1e7)), Sphere(1e7), Material(diffuse=(1e6, 0, 0, 1))),
+                Visual("wide", Pose((2, 0, 0)), Sphere(0.3), Material(texture=str(tmp_path / "wide.png"))),
+                shape("ball", Sphere(0.3), (2, 0.7, 0), (1, 0, 0))]
+    world = World(Model("m", links=(Link("link", visuals=tuple(visuals)),)))
+    studio, lines = studio_of(world)
+    image = np.frombuffer(take(studio, studio.add_camera(CAMERA))["image"], np.uint8).reshape(48, 64, 3)
+    assert tuple(image[24, 32]) == (0, 255, 0) and (image == (255, 0, 0)).all(axis=-1).any()  # the wide one, and the ball
+    for name in [*BAD_TEXTURES, "folder", "pipe", "mesh", "terrain"]:
+        about = [line for line in lines if f"visual '{name}' of link 'link' of model 'm'" in line]
+        assert len(about) == 1 and "\n" not in about[0], (name, about)
+    assert len(lines) == len(BAD_TEXTURES) + 4
+
+
+def test_a_scene_that_cannot_be_set_is_one_line_and_cameras_go_on(studio_of):
+    world = World(ball("red", (2, 0, 0), (1, 0, 0)))
+    world.lights["sun"] = Light("sun", "directional", specular=("bright",) * 4)
+    studio, lines = studio_of(world)
+    key = studio.add_camera(CAMERA)
+    for _ in range(2):
+        image = np.frombuffer(take(studio, key)["image"], np.uint8).reshape(48, 64, 3)
+        assert tuple(image[24, 32]) == (255, 0, 0)
+        assert len(lines) == 1 and lines[0].startswith("cameras do not see all of the world: ")
+        world.lights.clear()

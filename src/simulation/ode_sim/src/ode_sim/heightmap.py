@@ -3,7 +3,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from ode_sim.description.model import DescriptionError, Heightmap
+from ode_sim.description.model import DescriptionError, Heightmap, quoted
+from ode_sim.images import read_grey
+
+MOST_HEIGHTS = 4097 ** 2  # 250 MB in the collision space
 
 
 def load_heights(heightmap: Heightmap) -> np.ndarray:
@@ -13,13 +16,6 @@ def load_heights(heightmap: Heightmap) -> np.ndarray:
 
     :raises DescriptionError: the image cannot be read.
     """
-    from PIL import Image
     if not heightmap.path:
-        raise DescriptionError(f"height map image '{heightmap.uri}' cannot be found")
-    try:
-        with Image.open(heightmap.path) as image:
-            grey = np.asarray(image.convert("I" if image.mode.startswith("I") else "L"), dtype=float)
-            full = 65535.0 if image.mode.startswith("I") else 255.0
-    except OSError as error:
-        raise DescriptionError(f"height map image {heightmap.path} cannot be read: {error}") from None
-    return np.ascontiguousarray(np.clip(grey / full, 0.0, 1.0) * heightmap.size[2])
+        raise DescriptionError(f"height map image '{quoted(heightmap.uri)}' cannot be found")
+    return np.ascontiguousarray(read_grey(heightmap.path, MOST_HEIGHTS) * heightmap.size[2])

@@ -2,18 +2,22 @@
 from __future__ import annotations
 
 import functools
-import logging
 import os
 import struct
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Dict, List, Optional, Tuple
-from urllib.parse import unquote
 
 import numpy as np
 
-from ode_sim.description.model import DescriptionError, Material
+from ode_sim.description.model import DescriptionError, Material, one_line
 
-logging.getLogger("collada").setLevel(logging.ERROR)
+MOST_BYTES = 256_000_000  # of a file
+MOST_TEXT = 128_000_000  # of one that is text: it takes several times its size in memory
+MOST_TRIANGLES = 5_000_000
+_LONGEST_MTL = 4_000_000  # characters; what follows is not read
+FARTHEST = 1e9  # of a coordinate, in the file's own unit
+LARGEST = 1e30  # of a surface, scaled or not; the products of larger ones are infinite
+
 
 
 @dataclass(frozen=True)
@@ -35,29 +39,70 @@ def read_parts(path: str, stamp) -> List[MeshPart]:
     if suffix not in readers:
         raise DescriptionError(f"mesh {path}: '{suffix}' files cannot be read; use .stl, .dae or .obj")
     try:
-        parts = readers[suffix](path)
+        with np.errstate(all="ignore"):  # numbers that overflow are refused below
+            parts = readers[suffix](path, _content(path, suffix))
     except DescriptionError:
         raise
     except ImportError as error:
         raise DescriptionError(f"mesh {path}: needs the Python package {error.name}; "
                                "scripts/setup installs it") from None
+    except MemoryError:
+        raise DescriptionError(f"mesh {path}: there is not enough memory to read it") from None
     except Exception as error:  # a parser fed with a broken file may raise anything
-        reason = " ".join(str(error).split())[:150] or type(error).__name__
+        reason = " ".join(one_line(error, 150).split()) or type(error).__name__
         raise DescriptionError(f"mesh {path}: is broken, {reason}") from None
     parts = [part for part in parts if len(part.triangles)]
     if not parts:
         raise DescriptionError(f"mesh {path}: holds no triangles")
-    if not all(np.isfinite(part.vertices).all() for part in parts):
-        raise DescriptionError(f"mesh {path}: holds coordinates that are not finite")
-    return parts
+    return [_usable(part, path) for part in parts]
 
 
-def _read_stl(path: str) -> List[MeshPart]:
+def _content(path: str, suffix: str) -> bytes:
+    most = MOST_BYTES if suffix.startswith(".stl") else MOST_TEXT
+    if not os.path.isfile(path):
+        raise DescriptionError(f"mesh {path}: is no file")  # a pipe would be waited for
     with open(path, "rb") as stream:
-        data = stream.read()
+        data = stream.read(most + 1)
+    if len(data) > most:
+        raise DescriptionError(f"mesh {path}: is larger than {most // 1_000_000} MB; reduce its triangles")
+    return data
+
+
+def check_triangles(count: int, path: str) -> None:
+    """:raises DescriptionError: more of them than :data:`MOST_TRIANGLES`."""
+    if count > MOST_TRIANGLES:
+        raise DescriptionError(f"mesh {path}: has more than {MOST_TRIANGLES // 1_000_000} million triangles; reduce them")
+
+
+def _usable(part: MeshPart, path: str) -> MeshPart:
+    """With vertices that can be drawn and collided with; normals and texture coordinates that are no use are left out.
+
+    :raises DescriptionError: broken.
+    """
+    _check_vertices(part.vertices, path)
+    if part.triangles.min() < 0 or part.triangles.max() >= len(part.vertices):
+        raise DescriptionError(f"mesh {path}: a triangle refers to a vertex that is not there")
+
+    def fits(array: Optional[np.ndarray], width: int) -> bool:
+        return array is not None and array.shape == (len(part.vertices), width) and bool((np.abs(array) <= FARTHEST).all())
+
+    if (part.normals is None or fits(part.normals, 3)) and (part.uv is None or fits(part.uv, 2)):
+        return part
+    return replace(part, normals=part.normals if fits(part.normals, 3) else None, uv=part.uv if fits(part.uv, 2) else None)
+
+
+def _check_vertices(vertices: np.ndarray, path: str) -> None:
+    if not np.isfinite(vertices).all():
+        raise DescriptionError(f"mesh {path}: holds coordinates that are not finite")
+    if np.abs(vertices).max(initial=0.0) > FARTHEST:
+        raise DescriptionError(f"mesh {path}: holds coordinates beyond {FARTHEST:g}")
+
+
+def _read_stl(path: str, data: bytes) -> List[MeshPart]:
     count = struct.unpack_from("<I", data, 80)[0] if len(data) >= 84 else -1
     # the length decides: many binary files start with the word 'solid' as well
     if len(data) == 84 + 50 * count or (count > 0 and len(data) > 84 + 50 * count and not data[:5] == b"solid"):
+        check_triangles(count, path)
         record = np.dtype([("normal", "<f4", 3), ("points", "<f4", (3, 3)), ("attribute", "<u2")])
         points = np.frombuffer(data, record, count, 84)["points"].reshape(-1, 3).astype(float)
     elif data.lstrip()[:5].lower() == b"solid" or b"vertex" in data[:2000]:
@@ -68,19 +113,21 @@ def _read_stl(path: str) -> List[MeshPart]:
     else:
         raise DescriptionError(f"mesh {path}: is no STL file, or cut off ({len(data)} bytes)")
     points = points.reshape(-1, 3)
+    check_triangles(len(points) // 3, path)
+    _check_vertices(points, path)
     vertices, triangles = weld(points, np.arange(len(points)).reshape(-1, 3))
     return [MeshPart(os.path.basename(path), vertices, triangles, None, None, Material())]
 
 
-def _read_obj(path: str) -> List[MeshPart]:
+def _read_obj(path: str, data: bytes) -> List[MeshPart]:
     """Polygons with v, vt, vn; one part for each object and material."""
     points, texture_points, normals = [], [], []
     materials: Dict[str, Material] = {}
     corners: Dict[Tuple[str, str], List[Tuple[int, int, int]]] = {}
     name, material = os.path.basename(path), ""
     rows = {"v": points, "vt": texture_points, "vn": normals}
-    with open(path, "rb") as stream:
-        lines = stream.read().decode("utf-8", "replace").replace("\\\n", " ").splitlines()
+    lines = data.decode("utf-8", "replace").replace("\\\n", " ").splitlines()
+    corner_count = 0
     for number, line in enumerate(lines, 1):
         words = line.split()
         if not words:
@@ -92,13 +139,15 @@ def _read_obj(path: str) -> List[MeshPart]:
             polygon = [_obj_corner(word, len(points), len(texture_points), len(normals)) for word in words[1:]]
             if any(not 0 <= corner[0] < len(points) for corner in polygon):
                 raise DescriptionError(f"mesh {path}:{number}: a face refers to a vertex that is not there")
+            corner_count += 3 * max(0, len(polygon) - 2)
+            check_triangles(corner_count // 3, path)
             fan = corners.setdefault((name, material), [])
             for i in range(1, len(polygon) - 1):
                 fan += [polygon[0], polygon[i], polygon[i + 1]]
-        elif key == "mtllib":
+        elif key == "mtllib" and len(words) > 1:
             materials.update(_read_mtl(os.path.join(os.path.dirname(path), line.split(None, 1)[1].strip())))
         elif key == "usemtl":
-            material = line.split(None, 1)[1].strip() if len(words) > 1 else ""
+            material = " ".join(words[1:])
         elif key == "o" and len(words) > 1:
             name = words[1]
     parts = []
@@ -127,13 +176,13 @@ def _read_mtl(path: str) -> Dict[str, Material]:
     materials: Dict[str, Dict[str, object]] = {}
     current: Dict[str, object] = {}
     with open(path, encoding="utf-8", errors="replace") as stream:
-        for line in stream:
+        for line in stream.read(_LONGEST_MTL).splitlines():
             words = line.split()
             if not words:
                 continue
             key = words[0]
             if key == "newmtl":
-                current = materials.setdefault(line.split(None, 1)[1].strip(), {})
+                current = materials.setdefault(" ".join(words[1:]), {})
             elif key in ("Ka", "Kd", "Ks", "Ke"):
                 current[key] = tuple(float(word) for word in words[1:4])
             elif key == "d":
@@ -153,94 +202,21 @@ def _read_mtl(path: str) -> Dict[str, Material]:
     return {name: material(name, given) for name, given in materials.items()}
 
 
-def _read_dae(path: str) -> List[MeshPart]:
-    import collada
-    from collada.common import DaeBrokenRefError, DaeUnsupportedError
-
-    document = collada.Collada(path, ignore=[DaeUnsupportedError, DaeBrokenRefError])
-    unit = float(document.assetInfo.unitmeter or 1.0)
-    if document.scene is None:
-        raise DescriptionError(f"mesh {path}: the Collada file has no visual scene")
-    parts = []
-    for geometry in document.scene.objects("geometry"):
-        for primitive in geometry.primitives():
-            if hasattr(primitive, "triangleset"):
-                primitive = primitive.triangleset()
-            if not hasattr(primitive, "vertex_index") or primitive.vertex_index is None \
-                    or np.ndim(primitive.vertex_index) != 2 or primitive.vertex_index.shape[1] != 3:
-                continue  # lines
-            material = _dae_material(primitive.material, path)
-            columns = [primitive.vertex_index.ravel()]
-            has_normals = primitive.normal is not None and primitive.normal_index is not None
-            has_uv = bool(primitive.texcoordset) and bool(material.texture)
-            columns.append(primitive.normal_index.ravel() if has_normals else np.zeros_like(columns[0]))
-            columns.append(primitive.texcoord_indexset[0].ravel() if has_uv else np.zeros_like(columns[0]))
-            unique, inverse = np.unique(np.stack(columns, axis=1), axis=0, return_inverse=True)
-            normals = primitive.normal[unique[:, 1]] if has_normals else None
-            parts.append(MeshPart(geometry.original.name or geometry.original.id,
-                               primitive.vertex[unique[:, 0]] * unit, inverse.reshape(-1, 3), normals,
-                               primitive.texcoordset[0][unique[:, 2], :2] if has_uv else None, material))
-    return parts
-
-
-def _dae_material(material, path: str) -> Material:
-    effect = getattr(material, "effect", None)
-    if effect is None:
-        return Material()
-    texture = ""
-
-    def colour(value):
-        nonlocal texture
-        if isinstance(value, (tuple, list)):
-            return tuple(float(v) for v in (tuple(value) + (1.0,))[:4])
-        image = getattr(getattr(getattr(value, "sampler", None), "surface", None), "image", None)
-        if image is not None and not texture:
-            texture = _texture_file(image.path, path)
-        return None
-
-    diffuse = colour(effect.diffuse)
-    alpha = _dae_alpha(effect)
-    if texture:
-        diffuse = (1.0, 1.0, 1.0, 1.0)
-    if diffuse is not None and alpha != 1.0:
-        diffuse = diffuse[:3] + (alpha,)
-    emissive = colour(effect.emission)
-    return Material(getattr(material, "name", "") or "", ambient=diffuse, diffuse=diffuse,
-                    specular=colour(effect.specular), emissive=emissive if emissive and any(emissive[:3]) else None,
-                    texture=texture)
-
-
-def _dae_alpha(effect) -> float:
-    """Opacity by the file's own mode. A wholly transparent result is an exporter's mistake: it counts as opaque."""
-    amount = effect.transparency if isinstance(effect.transparency, (int, float)) else 1.0
-    colour = effect.transparent
-    if not isinstance(colour, (tuple, list)):
-        return 1.0
-    colour = tuple(colour) + (1.0,)
-    if str(getattr(effect, "opaque_mode", None) or "A_ONE").endswith("RGB_ZERO"):
-        alpha = 1.0 - amount * sum(colour[:3]) / 3.0
-    else:
-        alpha = amount * colour[3]
-    return float(alpha) if 0.0 < alpha < 1.0 else 1.0
-
-
-def _texture_file(name: str, mesh_path: str) -> str:
-    """An image that a mesh names: beside it, or in the ``materials/textures`` of its model."""
-    name = unquote(name[7:] if name.startswith("file://") else name).replace("\\", "/")
-    folder = os.path.dirname(mesh_path)
-    base = os.path.basename(name)
-    for candidate in (os.path.join(folder, name), os.path.join(folder, base),
-                      os.path.join(folder, "../materials/textures", base), os.path.join(folder, "textures", base)):
-        if os.path.isfile(candidate):
-            return os.path.abspath(candidate)
-    return ""
+def _read_dae(path: str, data: bytes) -> List[MeshPart]:
+    from ode_sim.collada_mesh import read_dae  # which takes a moment to load
+    return read_dae(path, data)
 
 
 def weld(vertices: np.ndarray, triangles: np.ndarray) -> Tuple[np.ndarray, np.ndarray]:
-    """Merge vertices closer than a millionth of the size, drop triangles without area and unused vertices."""
+    """Merge vertices closer than a millionth of the size, drop triangles without area and unused vertices.
+
+    :raises DescriptionError: the size is beyond all measure.
+    """
     if len(vertices) == 0:
         return vertices, triangles
     extent = np.ptp(vertices, axis=0).max()
+    if not extent < LARGEST:
+        raise DescriptionError(f"its coordinates reach over {extent:g}; at most {LARGEST:g} make sense")
     grid = np.round((vertices - vertices.min(axis=0)) / (extent * 1e-6 or 1.0)).astype(np.int64)
     keys = (grid[:, 0] * 1_000_003 + grid[:, 1]) * 1_000_003 + grid[:, 2]
     _, first, inverse = np.unique(keys, return_index=True, return_inverse=True)

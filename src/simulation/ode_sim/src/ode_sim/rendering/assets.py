@@ -1,13 +1,14 @@
 """From a visual of the description to what is drawn: meshes, textures, colours. Everything is loaded once."""
 from __future__ import annotations
 
-import os
 from dataclasses import dataclass, replace
 from typing import Callable, Dict, Hashable, List, Optional, Tuple
 
 import numpy as np
 
 from ode_sim.description import model as d
+from ode_sim.description.model import DescriptionError, one_line, quoted
+from ode_sim.images import read_rgba
 from ode_sim.math3 import compose, quat_between
 from ode_sim.rendering import geometry
 from ode_sim.rendering.geometry import TriMesh
@@ -73,6 +74,10 @@ class Assets:
         self._shapes = {"box": geometry.box, "sphere": geometry.sphere, "cylinder": geometry.cylinder,
                         "plane": geometry.plane}
 
+    def note(self, name: str, trouble: str) -> None:
+        """A problem of the visual of that scoped name."""
+        self.problems.append(f"{_describe(name)} {trouble}")
+
     def parts(self, visual: d.Visual, name: str) -> List[Part]:
         """What to draw for ``visual``; empty (and a problem noted) where there is nothing.
 
@@ -80,12 +85,12 @@ class Assets:
         """
         shape = visual.geometry
         try:
-            pieces, pose, scale = self._pieces(shape, visual.pose)
-        except (OSError, ValueError, ArithmeticError, LookupError) as error:
-            detail = str(error).strip().splitlines()
-            self.problems.append(f"{_describe(name)} is not drawn: {detail[0] if detail else type(error).__name__}")
+            with np.errstate(all="ignore"):
+                pieces, pose, scale = self._pieces(shape, visual.pose)
+                return [Part(key, look_of(visual.material, own, visual.transparency), pose, scale) for key, own in pieces]
+        except Exception as error:  # whatever a broken file makes a parser raise: the rest is drawn all the same
+            self.note(name, f"is not drawn: {one_line(error, 200).strip() or type(error).__name__}")
             return []
-        return [Part(key, look_of(visual.material, own, visual.transparency), pose, scale) for key, own in pieces]
 
     def _pieces(self, shape, pose: d.Pose):
         """([(mesh key, the mesh's own material)], pose, scale) of a geometry."""
@@ -134,20 +139,22 @@ class Assets:
             self._files[shape] = pieces
         return self._files[shape]
 
-    def texture(self, path: str, name: str) -> Optional[np.ndarray]:
-        """RGBA bytes (H,W,4), first row at the bottom, of an image file; None (and a problem noted) if unreadable."""
-        from PIL import Image
+    def texture(self, path: str, name: str, most: int = 4096) -> Optional[np.ndarray]:
+        """RGBA bytes (H,W,4), first row at the bottom, of an image file; None (and a problem noted) if unreadable.
+
+        :param most: pixels along a side; of a larger image only every second, third ... row and column is taken.
+        """
         try:
-            with Image.open(path) as image:
-                return np.ascontiguousarray(np.asarray(image.convert("RGBA"))[::-1])
-        except (OSError, ValueError) as error:
-            self.problems.append(f"{_describe(name)}: texture {os.path.basename(path)} cannot be read ({error}); "
-                                 f"drawn without it")
+            image = read_rgba(path)
+        except DescriptionError as error:
+            self.note(name, f"is drawn without its texture: {error}")
             return None
+        step = -(-max(image.shape[:2]) // most)
+        return np.ascontiguousarray(image[::-step, ::step])
 
 
 def _describe(name: str) -> str:
     """``visual 'v' of link 'l' of model 'm'`` from a scoped name."""
     model, _, rest = name.partition("::")
     link, _, visual = rest.rpartition("::")
-    return f"visual '{visual or name}' of link '{link}' of model '{model}'"
+    return f"visual '{quoted(visual or name)}' of link '{quoted(link)}' of model '{quoted(model)}'"

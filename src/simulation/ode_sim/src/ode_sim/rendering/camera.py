@@ -8,11 +8,13 @@ from typing import Optional, Tuple
 
 import numpy as np
 
-from ode_sim.description.model import Pose, Vec3
+from ode_sim.description.model import FARTHEST, Pose, Vec3, one_line, quoted
 from ode_sim.math3 import compose, from_rpy
 
 MAX_SIZE = 8192  # pixels along a side; llvmpipe's largest texture is 16384, and a frame of 8192x8192 is 268 MB
 _MAX_PIXELS = 64_000_000
+_NOISIEST = 1e3  # noise is in fractions of full scale
+_BENT = 1e6  # of lens coefficients
 
 ENCODINGS = {
     "L8": "mono8", "L_INT8": "mono8", "L16": "mono16", "L_INT16": "mono16", "R8G8B8": "rgb8", "RGB_INT8": "rgb8",
@@ -23,6 +25,9 @@ ENCODINGS = {
 
 class CameraError(ValueError):
     """A camera that cannot be made; one line naming the value and what is allowed."""
+
+    def __init__(self, message: object = "") -> None:
+        super().__init__(one_line(message))
 
 
 @dataclass(frozen=True)
@@ -74,10 +79,14 @@ class Camera:
         if not 0 < self.near < self.far < math.inf:
             raise CameraError(f"clip near {self.near:g} m, far {self.far:g} m; near must be above 0 and below far")
         if self.format not in ENCODINGS:
-            raise CameraError(f"unknown image format '{self.format}'; use one of {', '.join(ENCODINGS)}")
-        if not (self.noise_stddev >= 0 and math.isfinite(self.noise_stddev) and math.isfinite(self.noise_mean)):
-            raise CameraError(
-                f"noise mean {self.noise_mean:g}, stddev {self.noise_stddev:g}; stddev must not be negative")
+            raise CameraError(f"unknown image format '{quoted(self.format)}'; use one of {', '.join(ENCODINGS)}")
+        if not (0 <= self.noise_stddev <= _NOISIEST and abs(self.noise_mean) <= _NOISIEST):
+            raise CameraError(f"noise mean {self.noise_mean:g}, stddev {self.noise_stddev:g}; stddev must not be negative, "
+                              f"neither may be above {_NOISIEST:g} of full scale")
+        lens = self.distortion
+        if not all(abs(value) <= _BENT for value in (lens.k1, lens.k2, lens.k3, lens.p1, lens.p2, *lens.center)):
+            raise CameraError(f"distortion of {lens.k1:g} {lens.k2:g} {lens.k3:g} {lens.p1:g} {lens.p2:g} about "
+                              f"{lens.center[0]:g} {lens.center[1]:g}; each must be finite and at most {_BENT:g}")
 
     @property
     def focal_length(self) -> float:
@@ -104,7 +113,7 @@ def _number(element: Optional[ET.Element], path: str, default: float) -> float:
     try:
         return float(text.split()[0])
     except ValueError:
-        raise CameraError(f"<{path.rpartition('/')[2]}> is '{text.strip()}', not a number") from None
+        raise CameraError(f"<{path.rpartition('/')[2]}> is '{quoted(text)}', not a number") from None
 
 
 def _pixels(element: Optional[ET.Element], path: str, default: int) -> int:
@@ -119,7 +128,9 @@ def _pose(text: Optional[str]) -> Pose:
     try:
         values = [float(word) for word in (text or "").split()][:6]
     except ValueError:
-        raise CameraError(f"<pose> is '{text.strip()}'; six numbers are needed") from None
+        raise CameraError(f"<pose> is '{quoted(text)}'; six numbers are needed") from None
+    if not all(abs(value) <= FARTHEST for value in values):
+        raise CameraError(f"<pose> is '{quoted(text)}'; six finite numbers are needed, of at most {FARTHEST:g}")
     return from_rpy(*values)
 
 
@@ -129,7 +140,7 @@ def read_distortion(element: Optional[ET.Element]) -> Distortion:
     try:
         cx, cy = (float(word) for word in center[:2])
     except ValueError:
-        raise CameraError(f"<distortion><center> is '{' '.join(center)}'; two numbers are needed") from None
+        raise CameraError(f"<distortion><center> is '{quoted(' '.join(center))}'; two numbers are needed") from None
     return Distortion(*(_number(element, key, 0.0) for key in ("k1", "k2", "k3", "p1", "p2")), center=(cx, cy))
 
 

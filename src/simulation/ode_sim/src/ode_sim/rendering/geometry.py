@@ -6,6 +6,9 @@ from typing import Optional, Tuple
 
 import numpy as np
 
+from ode_sim.description.model import DescriptionError
+from ode_sim.images import read_grey
+
 _SEGMENTS = 32  # round shapes; Gazebo draws cylinders and spheres with 32
 
 
@@ -175,13 +178,10 @@ def height_grid(heights: np.ndarray, size, pos) -> TriMesh:
 def load_heights(path: str) -> np.ndarray:
     """Grey image as heights 0..1, float64 (rows, columns).
 
-    :raises OSError, ValueError: unreadable image.
+    :raises DescriptionError: unreadable image, or too small.
     """
-    from PIL import Image
-    with Image.open(path) as image:
-        values = np.asarray(image if image.mode in ("L", "I;16", "I") else image.convert("L"), float)
-    heights = values / (65535.0 if values.max() > 255 else 255.0)
-    if heights.ndim != 2 or min(heights.shape) < 2:
-        raise ValueError("a height map must be a grey image of at least 2x2 pixels")
+    heights = read_grey(path)
+    if min(heights.shape) < 2:
+        raise DescriptionError(f"image {path}: a height map must have at least 2x2 pixels")
     step = max(1, int(np.ceil(max(heights.shape) / 513)))  # more than half a million triangles only slows the picture
     return heights[::step, ::step]

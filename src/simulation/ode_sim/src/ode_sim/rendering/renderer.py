@@ -9,6 +9,7 @@ from typing import Dict, Hashable, List, Optional, Sequence, Tuple
 import cv2
 import numpy as np
 
+from ode_sim.description.model import one_line
 from ode_sim.rendering import shaders
 from ode_sim.rendering.assets import Assets, Part
 from ode_sim.rendering.camera import Camera
@@ -22,6 +23,7 @@ NOTHING = -1  # of a segmentation image: no visual there
 MAX_LIGHTS = 16
 ANTIALIASING = ("none", "msaa")
 _MAX_TARGETS = 8  # frame buffers kept for cameras of different sizes
+_WIDEST_TEXTURE = 4096  # pixels along a side
 _SKY = (0.55, 0.70, 0.90)  # in place of Gazebo's moving clouds
 _VISIBLE = 1.0 / 512.0  # a highlight darker than half a grey level is not computed
 
@@ -125,6 +127,7 @@ class Renderer:
         # renderer draws would delete that one's objects of the same number
         self._ctx.gc_mode = "context_gc"
         self._closed = False
+        self._widest = min(_WIDEST_TEXTURE, self._ctx.info["GL_MAX_TEXTURE_SIZE"])
         self._samples = 4 if antialiasing == "msaa" else 0
         self._shadows = shadows
         self._assets = assets or Assets()
@@ -157,11 +160,12 @@ class Renderer:
 
     def set_scene(self, scene: SceneDescription) -> None:
         """Replace what is drawn. Meshes and textures already loaded stay loaded."""
-        with self._ctx:
+        with self._ctx, np.errstate(all="ignore"):
             self._scene = scene
             parts: List[Tuple[int, int, str, Part]] = []  # (link row, number of the visual, its name, part)
             for number, seen in enumerate(scene.visuals):
-                parts += [(seen.link, number, seen.name, part) for part in self._assets.parts(seen.visual, seen.name)]
+                parts += [(seen.link, number, seen.name, part) for part in self._assets.parts(seen.visual, seen.name)
+                          if self._takes(part, seen.name)]
             self._names = tuple(seen.name for seen in scene.visuals)
             self._set_parts(parts)
             # a flat floor shades nothing, and would stretch the shadow map over all of its size
@@ -174,6 +178,18 @@ class Renderer:
                 self._shadow.forget()
             elif self._sun >= 0:
                 self._shadow = ShadowMap(self._ctx)
+
+    def _takes(self, part: Part, name: str) -> bool:
+        """Whether OpenGL has taken the mesh of ``part``, and its texture if it has one; else a problem is noted."""
+        texture = part.look.texture
+        try:
+            self._mesh_buffer(part.key)
+            if texture and texture not in self._textures:
+                self._textures[texture] = None
+                self._textures[texture] = self._make_texture(self._assets.texture(texture, name, self._widest))
+        except Exception as error:  # a mesh that is no mesh, no more memory: the rest is drawn all the same
+            self._assets.note(name, f"is not drawn as it should be: {one_line(error, 200).strip() or type(error).__name__}")
+        return part.key in self._mesh_buffers
 
     @property
     def visual_names(self) -> Tuple[str, ...]:
@@ -203,10 +219,8 @@ class Renderer:
 
     def _set_batches(self, parts) -> None:
         groups: "OrderedDict[tuple, List[int]]" = OrderedDict()
-        for row, (_, _, name, part) in enumerate(parts):
+        for row, (_, _, _, part) in enumerate(parts):
             texture = part.look.texture
-            if texture and texture not in self._textures:
-                self._textures[texture] = self._make_texture(self._assets.texture(texture, name))
             if texture and (self._textures[texture] is None or self._assets.meshes[part.key].uv is None):
                 texture = ""
             transparent = part.look.alpha < 1.0
@@ -291,7 +305,7 @@ class Renderer:
         link_poses = np.asarray(link_poses, float).reshape(-1, 7)
         if len(link_poses) < len(self._scene.links):
             raise ValueError(f"{len(link_poses)} link poses for a scene of {len(self._scene.links)} links")
-        with self._ctx:
+        with self._ctx, np.errstate(all="ignore"):  # what flew off the map is not seen
             lens = self._lens(camera)
             pictures = self._draw(camera, lens, pose_matrices(link_poses), outputs)
         return {name: lens.distort(picture, name) for name, picture in pictures.items()} if lens else pictures

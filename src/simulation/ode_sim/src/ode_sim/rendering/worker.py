@@ -6,15 +6,18 @@ from __future__ import annotations
 
 import mmap
 import signal
+from dataclasses import replace
 from multiprocessing.connection import Connection
 from typing import Dict, List, Tuple
 
 import cv2
 import numpy as np
 
+from ode_sim.description.model import one_line
 from ode_sim.rendering.image import add_noise, cloud, compress, encode
 from ode_sim.rendering.messages import AddCamera, Done, Draw, Failed, ForgetCamera, Problems, SetScene
 from ode_sim.rendering.renderer import Renderer
+from ode_sim.rendering.scene import SceneDescription
 
 
 class Worker:
@@ -32,7 +35,7 @@ class Worker:
         try:
             self._renderer = Renderer()
         except Exception as error:  # whatever GL says: every frame asked for is answered with it
-            self._no_renderer = str(error).strip() or type(error).__name__
+            self._no_renderer = one_line(error, 300).strip() or type(error).__name__
         while True:
             try:
                 request = self._connection.recv()
@@ -47,18 +50,27 @@ class Worker:
             except (EOFError, ConnectionError):
                 raise
             except Exception as error:  # one camera's trouble must not end the others
-                text = str(error).strip()
-                self._connection.send(Failed(request.frame, text.splitlines()[0] if text else type(error).__name__))
+                self._connection.send(Failed(request.frame, one_line(error, 200).strip() or type(error).__name__))
         elif isinstance(request, SetScene):
             if self._renderer is not None:
-                self._renderer.set_scene(request.scene)
-                problems = self._renderer.take_problems()
+                problems = self._set_scene(request.scene)
                 if problems:
                     self._connection.send(Problems(problems))
         elif isinstance(request, AddCamera):
             self._cameras[request.key] = request
         elif isinstance(request, ForgetCamera):
             self._cameras.pop(request.key, None)
+
+    def _set_scene(self, scene: SceneDescription) -> List[str]:
+        """Show ``scene``, or as much of it as can be shown; lines about what cannot."""
+        trouble: List[str] = []
+        for less in ({}, {"lights": ()}, {"visuals": ()}, {"lights": (), "visuals": ()}):
+            try:
+                self._renderer.set_scene(replace(scene, **less))
+                break
+            except Exception as error:  # the cameras go on without what it was
+                trouble = trouble or [f"cameras do not see all of the world: {one_line(error, 200) or type(error).__name__}"]
+        return trouble + self._renderer.take_problems()
 
     def _draw(self, request: Draw):
         if self._renderer is None:
@@ -110,5 +122,6 @@ class Worker:
 def main(connection_fd: int, memory_fd: int) -> None:
     """Entry point of the child process. Ctrl-C is for the simulator; when that goes, the socket closes."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    np.seterr(all="ignore")  # what flew off the map is not seen; that its numbers overflow is no news for the terminal
     cv2.setNumThreads(1)  # the other core is for the physics
     Worker(Connection(connection_fd), memory_fd).run()

@@ -1,0 +1,192 @@
+"""Collada files as parts. What their XML may hide is looked for before the library behind it reads them."""
+from __future__ import annotations
+
+import io
+import logging
+import os
+import zipfile
+from typing import Dict, List, Tuple
+from urllib.parse import unquote
+from xml.parsers import expat
+
+import numpy as np
+
+from ode_sim.description.model import DescriptionError, Material, quoted
+from ode_sim.description.xmlsource import DEEPEST, MOST_ELEMENTS
+from ode_sim.mesh_files import MeshPart, check_triangles
+
+logging.getLogger("collada").setLevel(logging.ERROR)
+_MOST_INSTANCES = 50_000  # of nodes and shapes in the scene
+
+
+def read_dae(path: str, data: bytes) -> List[MeshPart]:
+    """The shapes of the visual scene, in metres.
+
+    :raises DescriptionError: one line that names the file. A broken file may raise anything else.
+    """
+    import collada
+    from collada.common import DaeBrokenRefError, DaeUnsupportedError
+
+    _Check(path).run(data)
+    document = collada.Collada(io.BytesIO(data), ignore=[DaeUnsupportedError, DaeBrokenRefError])
+    unit = float(document.assetInfo.unitmeter or 1.0)
+    if document.scene is None:
+        raise DescriptionError(f"mesh {path}: the Collada file has no visual scene")
+    parts: List[MeshPart] = []
+    triangles = 0
+    for geometry in document.scene.objects("geometry"):
+        for primitive in geometry.primitives():
+            found = _parts(primitive, geometry.original, unit, path)
+            triangles += sum(len(part.triangles) for part in found)
+            check_triangles(triangles, path)
+            parts += found
+    return parts
+
+
+def _parts(primitive, geometry, unit: float, path: str) -> List[MeshPart]:
+    if hasattr(primitive, "triangleset"):
+        primitive = primitive.triangleset()
+    if not hasattr(primitive, "vertex_index") or primitive.vertex_index is None \
+            or np.ndim(primitive.vertex_index) != 2 or primitive.vertex_index.shape[1] != 3:
+        return []  # lines
+    material = _material(primitive.material, path)
+    columns = [primitive.vertex_index.ravel()]
+    has_normals = primitive.normal is not None and primitive.normal_index is not None
+    has_uv = bool(primitive.texcoordset) and bool(material.texture)
+    columns.append(primitive.normal_index.ravel() if has_normals else np.zeros_like(columns[0]))
+    columns.append(primitive.texcoord_indexset[0].ravel() if has_uv else np.zeros_like(columns[0]))
+    unique, inverse = np.unique(np.stack(columns, axis=1), axis=0, return_inverse=True)
+    normals = primitive.normal[unique[:, 1]] if has_normals else None
+    return [MeshPart(geometry.name or geometry.id, primitive.vertex[unique[:, 0]] * unit, inverse.reshape(-1, 3), normals,
+                     primitive.texcoordset[0][unique[:, 2], :2] if has_uv else None, material)]
+
+
+class _Check:
+    """Refuses what would take for ever: entities, deep nesting, nodes that stand for more and more of themselves."""
+
+    def __init__(self, path: str):
+        self._path = path
+        self._depth = self._elements = 0
+        self._open: List[str] = [""]  # ids of the nodes around; '' is the file itself
+        self._weights: Dict[str, int] = {"": 0}  # of a node: itself, what is written in it
+        self._refers: Dict[str, List[str]] = {"": []}  # and what it stands for
+
+    def run(self, data: bytes) -> None:
+        if zipfile.is_zipfile(io.BytesIO(data)):
+            raise self._error("is a zip archive; unpack it")
+        parser = expat.ParserCreate()
+        parser.StartElementHandler, parser.EndElementHandler = self._start, self._end
+        parser.EntityDeclHandler = self._entity
+        try:
+            parser.Parse(data, True)
+        except expat.ExpatError as error:
+            raise self._error(f"is broken, {error}") from None
+        finally:
+            parser.StartElementHandler = parser.EndElementHandler = parser.EntityDeclHandler = None
+        if self._instances() > _MOST_INSTANCES:
+            raise self._error(f"its nodes stand for each other more than {_MOST_INSTANCES} times")
+
+    def _error(self, reason: str) -> DescriptionError:
+        return DescriptionError(f"mesh {self._path}: {reason}")
+
+    def _entity(self, name: str, *_declaration) -> None:
+        raise self._error(f"declares the entity '{quoted(name)}'; entities are not read")
+
+    def _start(self, tag: str, attributes: Dict[str, str]) -> None:
+        self._depth += 1
+        self._elements += 1
+        if self._depth > DEEPEST:
+            raise self._error(f"nests more than {DEEPEST} elements deep")
+        if self._elements > MOST_ELEMENTS:
+            raise self._error(f"has more than {MOST_ELEMENTS} elements")
+        tag = tag.rpartition(":")[2]
+        if tag == "node":
+            name = attributes.get("id") or f"\0{self._elements}"
+            self._refers[self._open[-1]].append(name)
+            self._refers.setdefault(name, [])
+            self._weights[name] = self._weights.get(name, 0) + 1
+            self._open.append(name)
+        elif tag == "instance_node":
+            self._refers[self._open[-1]].append(attributes.get("url", "")[1:])
+        elif tag in ("instance_geometry", "instance_controller"):
+            self._weights[self._open[-1]] += 1
+
+    def _end(self, tag: str) -> None:
+        self._depth -= 1
+        if tag.rpartition(":")[2] == "node":
+            self._open.pop()
+
+    def _instances(self) -> int:
+        """How many nodes and shapes the file unfolds to, at most.
+
+        :raises DescriptionError: a node stands for itself.
+        """
+        known: Dict[str, int] = {}
+        path: Dict[str, None] = {}
+        todo: List[Tuple[str, bool]] = [("", False)]
+        while todo:
+            name, done = todo.pop()
+            if done:
+                del path[name]
+                total = self._weights.get(name, 0) + sum(known.get(other, 0) for other in self._refers.get(name, ()))
+                known[name] = min(total, _MOST_INSTANCES + 1)
+            elif name in path:
+                raise self._error(f"node '{quoted(name)}' stands for itself")
+            elif name not in known:
+                path[name] = None
+                todo.append((name, True))
+                todo += [(other, False) for other in self._refers.get(name, ()) if other not in known]
+        return known[""]
+
+
+def _material(material, path: str) -> Material:
+    effect = getattr(material, "effect", None)
+    if effect is None:
+        return Material()
+    texture = ""
+
+    def colour(value):
+        nonlocal texture
+        if isinstance(value, (tuple, list)):
+            return tuple(float(v) for v in (tuple(value) + (1.0,))[:4])
+        image = getattr(getattr(getattr(value, "sampler", None), "surface", None), "image", None)
+        if image is not None and not texture:
+            texture = _texture_file(image.path, path)
+        return None
+
+    diffuse = colour(effect.diffuse)
+    alpha = _alpha(effect)
+    if texture:
+        diffuse = (1.0, 1.0, 1.0, 1.0)
+    if diffuse is not None and alpha != 1.0:
+        diffuse = diffuse[:3] + (alpha,)
+    emissive = colour(effect.emission)
+    return Material(getattr(material, "name", "") or "", ambient=diffuse, diffuse=diffuse,
+                    specular=colour(effect.specular), emissive=emissive if emissive and any(emissive[:3]) else None,
+                    texture=texture)
+
+
+def _alpha(effect) -> float:
+    """Opacity by the file's own mode. A wholly transparent result is an exporter's mistake: it counts as opaque."""
+    amount = effect.transparency if isinstance(effect.transparency, (int, float)) else 1.0
+    colour = effect.transparent
+    if not isinstance(colour, (tuple, list)):
+        return 1.0
+    colour = tuple(colour) + (1.0,)
+    if str(getattr(effect, "opaque_mode", None) or "A_ONE").endswith("RGB_ZERO"):
+        alpha = 1.0 - amount * sum(colour[:3]) / 3.0
+    else:
+        alpha = amount * colour[3]
+    return float(alpha) if 0.0 < alpha < 1.0 else 1.0
+
+
+def _texture_file(name: str, mesh_path: str) -> str:
+    """An image that a mesh names: beside it, or in the ``materials/textures`` of its model."""
+    name = unquote(name[7:] if name.startswith("file://") else name).replace("\\", "/")
+    folder = os.path.dirname(mesh_path)
+    base = os.path.basename(name)
+    for candidate in (os.path.join(folder, name), os.path.join(folder, base),
+                      os.path.join(folder, "../materials/textures", base), os.path.join(folder, "textures", base)):
+        if os.path.isfile(candidate):
+            return os.path.abspath(candidate)
+    return ""
