@@ -1,0 +1,1 @@
+"""Hostile inputs for everything that reads or is told something; see docs/fuzzing.md."""

@@ -1,0 +1,65 @@
+"""The real inputs of the workspace that cases are made from."""
+from __future__ import annotations
+
+import contextlib
+import functools
+import io
+import os
+from pathlib import Path
+from typing import Dict, List, Optional
+
+from fuzzing.findings import ROOT
+
+_NOT_SEEDS = ("/test_launches/", "/.venv/")
+
+
+@functools.lru_cache(maxsize=None)
+def files(*suffixes: str) -> List[Path]:
+    """Below src/, by name."""
+    found = [path for path in sorted((ROOT / "src").rglob("*")) if path.suffix.lower() in suffixes and path.is_file()]
+    return [path for path in found if not any(part in str(path) for part in _NOT_SEEDS)]
+
+
+@functools.lru_cache(maxsize=None)
+def packages() -> Dict[str, str]:
+    """Folder of each package of the workspace."""
+    return {manifest.parent.name: str(manifest.parent) for manifest in sorted((ROOT / "src").rglob("package.xml"))}
+
+
+@functools.lru_cache(maxsize=None)
+def finder():
+    from ode_sim.description import ResourceFinder
+    simulator = packages()["gazebo_ros"]
+    return ResourceFinder([f"{simulator}/models"], [simulator], lambda name: packages().get(name))
+
+
+@functools.lru_cache(maxsize=None)
+def robots() -> Dict[str, bytes]:
+    """URDF by file name: plain files, and xacro files expanded where they expand without arguments."""
+    texts = {path.name: path.read_bytes() for path in files(".urdf")}
+    for path in files(".xacro"):
+        text = expanded(path)
+        if text is not None and b"<link" in text:
+            texts.setdefault(path.name.split(".")[0] + ".urdf", text)
+    return texts
+
+
+def expanded(path: Path) -> Optional[bytes]:
+    """A xacro file as URDF, None if it is only a part of one."""
+    import xacro
+    with contextlib.redirect_stderr(io.StringIO()), contextlib.redirect_stdout(io.StringIO()):
+        try:
+            return xacro.process_file(os.fspath(path)).toxml().encode()
+        except Exception:  # a macro file that needs arguments or others beside it: no seed
+            return None
+
+
+@functools.lru_cache(maxsize=None)
+def models() -> Dict[str, bytes]:
+    """SDF by file name; a model directory's by the directory's."""
+    return {(path.parent.name + ".sdf" if path.name == "model.sdf" else path.name): path.read_bytes() for path in files(".sdf")}
+
+
+@functools.lru_cache(maxsize=None)
+def worlds() -> Dict[str, bytes]:
+    return {path.name: path.read_bytes() for path in files(".world")}
