@@ -1,5 +1,7 @@
 #!/usr/bin/env python3
-"""Every plugin but the cameras against what the physics must give. Time passes only through the step service."""
+"""Every plugin but the cameras against what the physics must give. Time passes only through the step service.
+
+With ~after_reset all of it is tested on plugins that have run for a while and were then reset with the simulation."""
 import math
 import unittest
 
@@ -54,10 +56,15 @@ class Plugins(unittest.TestCase):
                            "get_link_state": GetLinkState, "get_joint_properties": GetJointProperties,
                            "set_model_state": SetModelState, "delete_model": DeleteModel}.items():
             setattr(cls, "_" + name, staticmethod(rospy.ServiceProxy("/gazebo/" + name, kind, persistent=True)))
+        cls._reset = staticmethod(rospy.ServiceProxy("/gazebo/reset_simulation", Empty))
+        cls._after_reset = rospy.get_param("~after_reset", False)
 
     def spawn(self, name, text, x, y, z=0.0):
         answer = self._spawn_sdf_model(name, text, "", Pose(Point(x, y, z), Quaternion(0, 0, 0, 1)), "")
         self.assertTrue(answer.success, answer.status_message)
+        if self._after_reset:
+            self.step(5.0)
+            self._reset()
 
     def step(self, seconds):
         self.assertTrue(self._step(round(seconds * 1000)).success)
@@ -99,6 +106,8 @@ class Plugins(unittest.TestCase):
             ray("fine", plugin("gazebo_ros_laser", **tags("fine")), samples=181, resolution=2, low=-0.5, high=0.5, far=10),
             ray("tall", plugin("gazebo_ros_laser", **tags("tall")), samples=5, low=-0.4, high=0.4, vertical=COVERS, far=10),
             ray("cloud", plugin("gazebo_ros_block_laser", **tags("cloud")), samples=91, low=-1, high=1, far=10),
+            ray("short", plugin("gazebo_ros_block_laser", gaussianNoise=0.01, **tags("short")), samples=91, low=-1, high=1,
+                near=2.45, far=2.6),
             ray("range", plugin("gazebo_ros_range", fov=0.3, radiation="infrared", **tags("range")), samples=5, low=-0.1,
                 high=0.1, far=5),
             ray("blind", plugin("gazebo_ros_range", **tags("blind")), samples=5, low=-0.1, high=0.1, far=1),
@@ -135,6 +144,12 @@ class Plugins(unittest.TestCase):
         np.testing.assert_allclose(np.hypot(*points[:, :2].T), to_wall(np.linspace(-1, 1, 91)), atol=1e-4)
         self.assertEqual(len(cloud.channels[0].values), 91)
         self.assertEqual(cloud.channels[0].values[45], 7.0)  # as bright as the east wall, whatever hokuyoMinIntensity says
+        short = np.linalg.norm([xyz(p) for p in self.measure("/short", PointCloud).points], axis=1)
+        there = to_wall(np.linspace(-1, 1, 91))
+        missed = there > 2.6
+        self.assertTrue(20 < np.count_nonzero(missed) < 80)
+        np.testing.assert_allclose(short[missed], 2.6, atol=1e-5)  # at max, without noise
+        self.assertGreater(np.abs(short - there)[~missed & (there > 2.45)].max(), 1e-3)
         near = self.measure("/range", Range)
         self.assertAlmostEqual(near.range, 2.5, places=4)
         self.assertEqual((near.radiation_type, round(near.field_of_view, 6), near.max_range), (Range.INFRARED, 0.3, 5.0))

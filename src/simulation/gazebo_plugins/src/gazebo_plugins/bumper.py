@@ -100,5 +100,8 @@ class Bumper(SensorPlugin):
         message.states, self.states, self.steps = self.states, [], 0
         self.publisher.publish(message)
 
+    def reset(self) -> None:
+        self.states, self.steps = [], 0  # contacts of a time that is no more
+
     def shutdown(self) -> None:
         self.topics.close()

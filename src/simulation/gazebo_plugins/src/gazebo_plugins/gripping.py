@@ -112,7 +112,7 @@ class GraspFix(ModelPlugin):
         self.next_ns = self.server.world.time_ns + self.period_ns
         if self.attachment is not None:
             if not self.attachment.active or self._gap() > self.finger_gap + self.release:
-                self.reset()
+                self._let_go()
             return
         gripped = self._gripped()
         for name in list(self.counts):
@@ -144,9 +144,14 @@ class GraspFix(ModelPlugin):
         self.attachment = self.server.world.attach(self.palm, link)
         self.counts.clear()
 
-    def reset(self) -> None:
+    def _let_go(self) -> None:
         if self.attachment is not None:
             self.attachment.detach()
             self.attachment = None
 
-    shutdown = reset
+    def reset(self) -> None:
+        self._let_go()
+        self.counts.clear()
+        self.next_ns = 0
+
+    shutdown = _let_go

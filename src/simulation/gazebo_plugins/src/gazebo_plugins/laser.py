@@ -74,10 +74,12 @@ class RayFan:
         self._rng = server.world.rng(sensor.scoped_name)
         self.directions_S = _directions(self.horizontal.rays(), self.vertical.rays())
 
-    def cast(self):
+    def cast(self, clipped: bool = False):
         """(ranges (V*H,) m, +inf beyond max and -inf up to min, REP-117; intensities (V*H,)), row by row from below.
 
         Within min the sensor sees other models only, not the robot it is built into.
+
+        :param clipped: max and min instead of the infinities
         """
         pose = math3.compose(self.sensor.link.pose, self.sensor.description.pose)
         rotation = np.array(math3.quat_to_matrix(pose.q))
@@ -91,12 +93,14 @@ class RayFan:
             too_close, _ = self.world.cast_rays(centres, directions, self.min, housing)
             ranges[np.isfinite(too_close)] = -np.inf
         retro = self._retro(hits)
-        ranges = self._resample(ranges)
+        ranges = self._resample(np.clip(ranges, self.min, self.max) if clipped else ranges)
         intensities = self._resample(retro, nearest=True)
-        ranges = np.where(ranges >= self.max, np.inf, np.where(ranges <= self.min, -np.inf, ranges))
+        far, near = ranges >= self.max, ranges <= self.min
         if self.sigma or self.mean:  # of what is in range, and it stays there
             noise = self.mean + self.sigma * self._rng.standard_normal(len(ranges))
-            ranges = np.where(np.isfinite(ranges), np.clip(ranges + noise, self.min, self.max), ranges)
+            ranges = np.where(far | near, ranges, np.clip(ranges + noise, self.min, self.max))
+        if not clipped:
+            ranges = np.where(far, np.inf, np.where(near, -np.inf, ranges))
         return ranges, intensities
 
     def _retro(self, hits: np.ndarray) -> np.ndarray:
@@ -150,7 +154,7 @@ class Laser(SensorPlugin):
 
 
 class BlockLaser(SensorPlugin):
-    """sensor_msgs/PointCloud of the hits in the sensor frame; what is out of range lies at infinity.
+    """sensor_msgs/PointCloud of the hits in the sensor frame; a ray that hits nothing ends at max, one too short at min.
     ``<hokuyoMinIntensity>`` has no effect, upstream neither."""
 
     def load(self, server, sensor, sdf) -> None:
@@ -164,12 +168,11 @@ class BlockLaser(SensorPlugin):
         sensor.connect(self.measure, subscribed(self.publisher))
 
     def measure(self, sensor) -> None:
-        ranges, intensities = self.fan.cast()
-        with np.errstate(invalid="ignore"):
-            points = self.directions_S * ranges[:, None]
-        points = np.nan_to_num(points, nan=0.0, posinf=np.inf, neginf=-np.inf)
-        if self.sigma:
-            points = points + self.sigma * self.rng.standard_normal(points.shape)
+        ranges, intensities = self.fan.cast(clipped=True)
+        points = self.directions_S * ranges[:, None]
+        if self.sigma:  # of what was hit, and of all intensities
+            noise = self.sigma * self.rng.standard_normal(points.shape)
+            points = points + np.where(ranges[:, None] < self.fan.max, noise, 0.0)
             intensities = intensities + self.sigma * self.rng.standard_normal(len(intensities))
         message = PointCloud()
         message.header.stamp, message.header.frame_id = sensor.measurement_time, self.frame
