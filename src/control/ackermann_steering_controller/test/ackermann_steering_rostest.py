@@ -100,7 +100,7 @@ class Ackermann(unittest.TestCase):
             self.assertTrue(math.isfinite(base.odometry.next().pose.pose.position.x))
 
     def test_wrong_parameters_are_refused(self):
-        for name in ("wrong_wheel", "wrong_steer", "ball_without_radius"):
+        for name in ("wrong_wheel", "wrong_steer", "ball_without_radius", "no_multiplier", "endless_multiplier"):
             with self.subTest(name):
                 self.assertFalse(client.loads(name))
                 self.assertFalse(client.published(f"/{name}/odom"))

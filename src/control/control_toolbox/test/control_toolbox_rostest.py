@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Gains as parameters, through dynamic_reconfigure, through the service; the state topic."""
+import math
 import time
 import unittest
 
@@ -45,6 +46,15 @@ class ControlToolboxTest(unittest.TestCase):
         with self.assertRaisesRegex(PidParameterError, "/pid/d must be a number, it is 'x'"):
             self.load(p=1.0, d="x")
 
+    def test_gains_that_are_not_finite(self):
+        for name, value in (("p", math.nan), ("i", math.inf), ("d", -math.inf), ("i_clamp", math.nan)):
+            with self.assertRaisesRegex(PidParameterError, f"/pid/{name} must be a number, it is {value}"):
+                self.load(**{"p": 1.0, name: value})
+        self.assertEqual(self.load(p=1.0, i_clamp=math.inf).gains.i_max, math.inf, "unbounded")
+
+    def test_a_flag_that_is_none_counts_as_not_set(self):
+        self.assertFalse(self.load(p=1.0, antiwindup="false").gains.antiwindup)
+
     def test_dynamic_reconfigure(self):
         pid = self.load(p=5.0, i=1.0, i_clamp=2.0)
         for name, value in (("p", 5.0), ("i", 1.0), ("d", 0.0), ("i_clamp_min", -2.0), ("i_clamp_max", 2.0),
@@ -85,6 +95,9 @@ class ControlToolboxTest(unittest.TestCase):
         rospy.ServiceProxy("/setter/set_gains", SetPidGains)(1.0, 2.0, 3.0, -4.0, True)
         for pid in pids:
             self.assertEqual(pid.gains, Gains(1.0, 2.0, 3.0, 4.0, -4.0, True))
+        with self.assertRaises(rospy.ServiceException):
+            rospy.ServiceProxy("/setter/set_gains", SetPidGains)(math.nan, 2.0, 3.0, -4.0, True)
+        self.assertEqual(pids[0].gains.p, 1.0)
         self.assertEqual(rospy.get_param("/setter"), {"p": 1.0, "i": 2.0, "d": 3.0, "i_clamp": -4.0, "antiwindup": True})
 
     def test_state_topic(self):

@@ -83,3 +83,11 @@ def test_gains_can_be_replaced_at_any_time():
     pid.compute_command(1.0, 1.0)
     pid.set_gains(3.0, 0.0, 0.0, 0.0, 0.0)
     assert pid.gains == Gains(3.0) and pid.compute_command(1.0, 1.0) == 3.0
+
+
+@pytest.mark.parametrize("gains", [{"p": 1.0}, {"i": 1.0, "i_max": 2.0, "i_min": -2.0},
+                                   {"p": 1.0, "i": 1.0, "i_max": 2.0, "i_min": -2.0, "antiwindup": True}])
+def test_huge_errors_leave_nothing_behind_that_is_no_number(gains):
+    pid = Pid(**gains)
+    outputs(pid, [1e308] * 20 + [-1e308] * 20)
+    assert math.isfinite(pid.compute_command(0.5, 0.01))

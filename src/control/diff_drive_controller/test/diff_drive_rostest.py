@@ -203,7 +203,7 @@ class DiffDrive(unittest.TestCase):
     def test_commands_that_are_not_numbers_are_ignored(self):
         with client.running("velocity_limits"), Base("velocity_limits") as base:
             out = base.topic("cmd_vel_out", TwistStamped)
-            for linear, angular in ((math.nan, 0.0), (0.0, math.nan), (math.inf, 0.0)):
+            for linear, angular in ((math.nan, 0.0), (0.0, math.nan), (math.inf, 0.0), (1e308, 1e308)):
                 base.send(linear, angular)
             client.sim_sleep(1.0)
             self.assertTrue(all(m.twist.linear.x == m.twist.angular.z == 0.0 for m in out.messages))
@@ -238,7 +238,8 @@ class DiffDrive(unittest.TestCase):
                 second.wait()
 
     def test_wrong_parameters_are_refused(self):
-        for name in ("wrong_joint", "square_wheels", "no_wheels", "uneven", "zero_radius", "short_covariance"):
+        for name in ("wrong_joint", "square_wheels", "no_wheels", "uneven", "zero_radius", "short_covariance",
+                     "nan_radius", "endless_separation", "no_multiplier", "nan_covariance"):
             with self.subTest(name):
                 self.assertFalse(client.loads(name))
                 self.assertFalse(client.published(f"/{name}/odom"))

@@ -84,3 +84,22 @@ def test_a_restarted_wheel_has_not_travelled():
 def test_rolling_mean():
     mean = RollingMean(2)
     assert [mean(value) for value in (1.0, 3.0, 5.0)] == [1.0, 2.0, 4.0]
+
+
+@pytest.mark.parametrize("distance, angle", [(math.inf, 0.0), (0.0, -math.inf), (math.nan, 0.0), (1e308, 1e308)])
+def test_a_jump_out_of_all_bounds_is_no_way_travelled(distance, angle):
+    odometry = PlanarOdometry(10)
+    odometry.travelled(1.0, 0.0, 0.1)
+    odometry.travelled(distance, angle, 0.2)
+    odometry.moved(distance, 0.0, angle, 0.3)
+    assert pose(odometry) == pytest.approx((1.0, 0.0, 0.0))
+    odometry.travelled(1.0, 0.0, 0.4)
+    assert pose(odometry) == pytest.approx((2.0, 0.0, 0.0))
+
+
+def test_rounds_without_number_keep_the_heading_finite():
+    odometry = PlanarOdometry(10)
+    for step in range(1, 10):
+        odometry.commanded(0.0, 1e308, float(step))
+    odometry.commanded(1.0, 0.0, 10.0)
+    assert all(map(math.isfinite, pose(odometry)))

@@ -1,4 +1,7 @@
+import math
+
 import pytest
+from controller_interface import ParameterError
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -10,6 +13,9 @@ class Parameters(dict):
 
     def param(self, name, default):
         return self.get(name, default)
+
+    def resolve(self, name):
+        return f"/base/{name}"
 
 
 def test_without_bounds_nothing_changes():
@@ -71,3 +77,13 @@ def test_flag_without_maximum_means_zero_and_maximum_without_flag_nothing():
     assert load_limiter(Parameters({"linear/x/max_velocity": 0.5}), "linear/x").limit(1.0, 0.1) == 1.0
     jerk = Parameters({"linear/x/has_jerk_limits": True})
     assert load_limiter(jerk, "linear/x", jerk=False).limit(1.0, 0.1) == 1.0
+
+
+def test_bounds_the_wrong_way_round_are_refused_and_infinite_ones_are_none():
+    wrong = {"linear/x/has_velocity_limits": True, "linear/x/max_velocity": -1.0}
+    with pytest.raises(ParameterError, match="min_velocity is 1, more than max_velocity, which is -1"):
+        load_limiter(Parameters(wrong), "linear/x")
+    free = load_limiter(Parameters({f"linear/x/has_{q}_limits": True for q in ("velocity", "acceleration", "jerk")} |
+                                   {f"linear/x/max_{q}": math.inf for q in ("velocity", "acceleration", "jerk")}),
+                        "linear/x")
+    assert (free.limit(3.0, 0.1), free.limit(2.0, 0.0)) == (3.0, 3.0)

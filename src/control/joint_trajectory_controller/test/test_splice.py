@@ -48,8 +48,11 @@ def test_names_in_another_order():
     ([(1.0, [0])], "1 positions for 2 joints"),
     ([(1.0, [0], [0], [0])], "1 positions for 2 joints"),
     ([(1.0, [0, 0]), (2.0, [0, 0, 0])], "Point 1 has 3 positions"),
+    ([(1.0, [0, 0, 0]), (2.0, [0, 0])], "Point 1 has 2 positions"),
+    ([(1.0, [0, 0, 0], [0, 0])], "2 velocities for 2 joints"),
     ([(1.0, [0, 0], [0])], "1 velocities for 2 joints"),
     ([(1.0, [0, 0], [0, 0], [1])], "1 accelerations for 2 joints"),
+    ([(1.0, [0, 1e308])], "positions beyond 1e"), ([(1.0, [0, 0], [-1e13, 0])], "velocities beyond 1e"),
     ([(1.0, [0, math.nan])], "not finite"), ([(1.0, [0, 0], [math.inf, 0])], "not finite"),
     ([(0.0, [0, 0])], "Dropping all 1 trajectory points"),
     ([(-2.0, [0, 0]), (-1.0, [0, 0])], r"Dropping all 2 trajectory points.* 1.000000s in the past")])
@@ -57,6 +60,12 @@ def test_points_that_cannot_be_executed(message, points, text):
     with pytest.raises(InvalidTrajectory, match=text) as error:
         Command(message(JOINTS, *points), [0, 1], 0.0)
     assert error.value.code == INVALID_GOAL
+
+
+def test_values_beyond_the_named_joints_are_left_out(message):
+    command = Command(message(["b"], (1.0, [1.0, math.nan], [0.5, 0.0]), (2.0, [2.0, 5.0])), [1], 0.0)
+    assert command.surplus == 1
+    assert [state.position for state in command.states[1]] == [1.0, 2.0] and list(command.states) == [1]
 
 
 def test_points_in_the_past_are_dropped_unread(message):

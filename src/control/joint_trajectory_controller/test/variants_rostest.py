@@ -27,6 +27,10 @@ class PartialGoals(TrajectoryCase):
         self.assertEqual(self.send((0.3, [0.5]), joints=["elbow"]).finish()[1], Result.INVALID_JOINTS)
         self.assertEqual(self.send((0.3, [0.5], [0.0]), joints=["p1", "p2"]).finish()[1], Result.INVALID_GOAL)
 
+    def test_values_of_joints_that_are_not_named_are_left_out(self):
+        self.assertEqual(self.send((0.3, [0.5, 0.9], REST), joints=["p2"]).finish()[0], GoalStatus.SUCCEEDED)
+        self.assertStates(self.state.next().actual.positions, [0.0, 0.5])
+
     def test_joint_left_out_goes_on_with_its_motion(self):
         self.publish((1.0, [1.0, 1.0], REST))
         self.wait_moved()
@@ -170,7 +174,8 @@ class Refused(TrajectoryCase):
     joints = ("p1", "p2")
 
     def test_wrong_parameters(self):
-        for name in ("no_joints", "unknown_joint", "not_in_hardware", "no_gains", "no_rate", "repeated"):
+        for name in ("no_joints", "unknown_joint", "not_in_hardware", "no_gains", "no_rate", "repeated",
+                     "endless_gain", "endless_feed_forward"):
             with self.subTest(name):
                 self.assertFalse(client.loads(name))
         self.assertEqual(self.send((0.3, [0.5, 0.1], REST)).finish()[0], GoalStatus.SUCCEEDED)

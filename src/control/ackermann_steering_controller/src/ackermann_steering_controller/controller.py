@@ -6,7 +6,7 @@ from typing import Optional, Tuple
 
 from controller_interface import MultiInterfaceController, NodeHandle
 from diff_drive_controller.odometry import WheelTravel
-from diff_drive_controller.wheeled_base import WheeledBase, length
+from diff_drive_controller.wheeled_base import WheeledBase, length, multiplier
 from hardware_interface import PositionJointInterface, VelocityJointInterface
 from urdf_geometry_parser import robot_geometry
 
@@ -31,9 +31,9 @@ class AckermannSteeringController(WheeledBase, MultiInterfaceController):
         self._radius = length(controller_nh, "wheel_radius", lambda: robot_geometry(
             root_nh, search=False).wheel_radius(rear_wheel, shapes=("cylinder",)))
         # for odometry only: the command is not corrected by multipliers
-        self._odometry_radius = self._radius * controller_nh.param("wheel_radius_multiplier", 1.0)
-        self._odometry_base = base * controller_nh.param("wheel_separation_h_multiplier", 1.0)
-        self._steer_multiplier = controller_nh.param("steer_pos_multiplier", 1.0)
+        self._odometry_radius = self._radius * multiplier(controller_nh, "wheel_radius_multiplier")
+        self._odometry_base = base * multiplier(controller_nh, "wheel_separation_h_multiplier")
+        self._steer_multiplier = multiplier(controller_nh, "steer_pos_multiplier")
         self._steer = hw.get(PositionJointInterface).get_handle(front_steer)
         self._wheel = hw.get(VelocityJointInterface).get_handle(rear_wheel)
         self.init_base(root_nh, controller_nh, (WheelTravel(),))

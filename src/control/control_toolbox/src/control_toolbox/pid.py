@@ -49,7 +49,7 @@ class Pid:
         :param error: target - measured.
         :param dt: s since the last step.
         :param error_dot: derivative of the error; by default the difference quotient.
-        :return: the command; 0.0, with nothing integrated, for dt 0 or an error that is not finite.
+        :return: the command; 0.0, with nothing integrated, for dt 0 or an error that is not finite. Always finite.
         """
         if not dt or not isfinite(error):
             self.p_error = error
@@ -78,5 +78,10 @@ class Pid:
         i_term = i * i_error
         if not antiwindup:
             i_term = i_min if i_term < i_min else i_max if i_term > i_max else i_term
-        self.command = p * error + i_term + d * error_dot
-        return self.command
+        command = p * error + i_term + d * error_dot
+        if command - command != 0.0:  # more than a float holds; an infinite integral would make it NaN for good
+            if not isfinite(self.i_error):
+                self.i_error = 0.0
+            command = 0.0
+        self.command = command
+        return command

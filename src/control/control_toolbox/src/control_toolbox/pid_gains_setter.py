@@ -1,8 +1,10 @@
 """Service to set the gains of one or several Pids in one call."""
 from __future__ import annotations
 
+import math
 from typing import Any, List
 
+import rospy
 from control_toolbox.srv import SetPidGains, SetPidGainsResponse
 
 from .pid import Pid
@@ -23,6 +25,8 @@ class PidGainsSetter:
         self._pids.append(pid)
 
     def _set(self, request: Any) -> SetPidGainsResponse:
+        if not all(map(math.isfinite, (request.p, request.i, request.d, request.i_clamp))):
+            raise rospy.ServiceException("the gains stay as they are: p, i, d and i_clamp must be finite numbers")
         clamp = abs(request.i_clamp)
         for pid in self._pids:
             pid.set_gains(request.p, request.i, request.d, clamp, -clamp, request.antiwindup)

@@ -1,6 +1,8 @@
 """A Pid with its gains on the parameter server, adjustable while it runs, and its state on a topic."""
 from __future__ import annotations
 
+import math
+import sys
 from typing import Any, Dict, Optional
 
 import rospy
@@ -89,13 +91,19 @@ def load_pid(nh: Any, dynamic: bool = True) -> RosPid:
     if not isinstance(values, dict) or "p" not in values:
         raise PidParameterError(f"No p gain specified for pid.  Namespace: {namespace}")
 
-    def number(name: str, default: float) -> float:
+    def number(name: str, default: float, largest: float = sys.float_info.max) -> float:
         value = values.get(name, default)
-        if isinstance(value, bool) or not isinstance(value, (int, float)):
+        if isinstance(value, bool) or not isinstance(value, (int, float)) or not abs(value) <= largest:
             raise PidParameterError(f"parameter {namespace}/{name} must be a number, it is {value!r}")
         return float(value)
 
-    clamp = abs(number("i_clamp", 0.0))
-    gains = Gains(number("p", 0.0), number("i", 0.0), number("d", 0.0), abs(number("i_clamp_max", clamp)),
-                  -abs(number("i_clamp_min", clamp)), bool(values.get("antiwindup", False)))
-    return RosPid(namespace, gains, nh, dynamic, bool(values.get("publish_state", False)))
+    def flag(name: str) -> bool:
+        value = values.get(name, False)
+        if not isinstance(value, bool):  # upstream takes it for not set, so it must not keep a robot from working
+            rospy.logwarn("parameter %s/%s must be true or false, it is %r; false is taken", namespace, name, value)
+        return value is True
+
+    clamp = abs(number("i_clamp", 0.0, math.inf))
+    gains = Gains(number("p", 0.0), number("i", 0.0), number("d", 0.0), abs(number("i_clamp_max", clamp, math.inf)),
+                  -abs(number("i_clamp_min", clamp, math.inf)), flag("antiwindup"))
+    return RosPid(namespace, gains, nh, dynamic, flag("publish_state"))

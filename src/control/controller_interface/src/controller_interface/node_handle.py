@@ -49,7 +49,7 @@ class NodeHandle:
         return rospy.has_param(self._join(name))
 
     def param(self, name: str, default: Any) -> Any:
-        """Value of a parameter, or ``default``. A float default accepts whole numbers.
+        """Value of a parameter, or ``default``. A float default accepts whole numbers, but not NaN.
 
         :raises ParameterError: the value is there and of another kind than the default.
         """
@@ -82,7 +82,7 @@ class NodeHandle:
             return value
         if kind is float and isinstance(value, int) and not isinstance(value, bool):
             return float(value)
-        if not isinstance(value, kind) or (kind is int and isinstance(value, bool)):
+        if not isinstance(value, kind) or (kind is int and isinstance(value, bool)) or value != value:  # NaN
             raise ParameterError(f"parameter {self._join(name)} must be {_KINDS.get(kind, kind.__name__)}, "
                                  f"it is {value!r}")
         return value

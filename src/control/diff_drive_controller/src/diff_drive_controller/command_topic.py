@@ -9,6 +9,10 @@ from controller_interface import NodeHandle
 from geometry_msgs.msg import Twist
 
 
+#: m/s, rad/s or rad; what is beyond is no command, and no odometry could follow it
+_LARGEST = 1e12
+
+
 class CommandTopic:
     """Keeps the last command of a topic and forgets it after parameter ``cmd_vel_timeout`` seconds.
 
@@ -64,8 +68,9 @@ class CommandTopic:
             rospy.logerr_throttle(1.0, f"{self._name}: Can't accept new commands. Controller is not running.")
         elif not self.accepts():
             return
-        elif not all(map(math.isfinite, values)):
-            rospy.logwarn_throttle(1.0, f"{self._name}: Received NaN in {self._what} command. Ignoring.")
+        elif not all(abs(value) <= _LARGEST for value in values):
+            rospy.logwarn_throttle(1.0, f"{self._name}: Received NaN in {self._what} command. Ignoring." if any(
+                map(math.isnan, values)) else f"{self._name}: {values} is no {self._what} command. Ignoring.")
         else:
             self._last = (values, self._now)
 

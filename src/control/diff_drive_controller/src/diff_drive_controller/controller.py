@@ -13,7 +13,7 @@ from hardware_interface import VelocityJointInterface
 from urdf_geometry_parser import robot_geometry
 
 from .odometry import WheelTravel, differential
-from .wheeled_base import WheeledBase, length
+from .wheeled_base import WheeledBase, length, multiplier
 
 _TABLE = [
     Parameter("left_wheel_radius_multiplier", float, 1.0, 0.5, 1.5, "Left wheel radius multiplier."),
@@ -38,9 +38,9 @@ class DiffDriveController(WheeledBase, Controller):
             root_nh, search=False).distance(left[0], right[0]))
         self._radius = length(controller_nh, "wheel_radius", lambda: robot_geometry(
             root_nh, search=False).wheel_radius(left[0]))
-        multipliers = [controller_nh.param(row.name, row.default) for row in _TABLE[:3]]
+        multipliers = [multiplier(controller_nh, row.name) for row in _TABLE[:3]]
         if controller_nh.has_param("wheel_radius_multiplier"):
-            multipliers[:2] = [controller_nh.param("wheel_radius_multiplier", 1.0)] * 2
+            multipliers[:2] = [multiplier(controller_nh, "wheel_radius_multiplier")] * 2
         self._multipliers = tuple(multipliers)
         self._left, self._right = ([hw.get_handle(name) for name in side] for side in (left, right))
         self.init_base(root_nh, controller_nh, (WheelTravel(), WheelTravel()))

@@ -8,6 +8,14 @@ from typing import Optional, Tuple
 MIN_INTERVAL = 1e-4  # s; shorter ones give no usable velocity
 
 
+#: m, rad or their derivatives; what is beyond is an encoder that jumped, and would make the pose NaN for good
+_LARGEST = 1e12
+
+
+def _bounded(*values: float) -> bool:
+    return all(-_LARGEST <= value <= _LARGEST for value in values)
+
+
 class RollingMean:
     """Mean of the last ``size`` values."""
 
@@ -71,6 +79,8 @@ class PlanarOdometry:
 
     def moved(self, linear: float, linear_y: float, angular: float, time: float) -> None:
         """Velocities of a base that also moves sideways, as measured at ``time``."""
+        if not _bounded(linear, linear_y, angular):
+            return
         self.linear, self.linear_y, self.angular = linear, linear_y, angular
         dt = time - self._time
         if dt < MIN_INTERVAL:
@@ -83,6 +93,8 @@ class PlanarOdometry:
         self.y += (linear * sine + linear_y * cosine) * dt
 
     def _advance(self, distance: float, angle: float) -> None:
+        if not _bounded(distance, angle):
+            return
         if abs(angle) < 1e-6:
             direction = self.heading + 0.5 * angle
             self.x += distance * math.cos(direction)

@@ -2,7 +2,12 @@
 from __future__ import annotations
 
 import math
+import sys
 from typing import NamedTuple
+
+from controller_interface import ParameterError
+
+_LARGEST = sys.float_info.max
 
 
 class Bounds(NamedTuple):
@@ -58,11 +63,16 @@ def load_limiter(nh, axis: str, jerk: bool = True) -> SpeedLimiter:
     """The limiter of ``axis`` ("linear/x", "angular/z").
 
     :param nh: controller_interface.NodeHandle of the controller
+    :raises ParameterError: a lower bound above the upper one
     """
     def bounds(quantity: str) -> Bounds:
         if not nh.param(f"{axis}/has_{quantity}_limits", False):
             return UNBOUNDED
         high = nh.param(f"{axis}/max_{quantity}", 0.0)
-        return Bounds(nh.param(f"{axis}/min_{quantity}", -high), high)
+        low = nh.param(f"{axis}/min_{quantity}", -high)
+        if low > high:
+            raise ParameterError(f"parameter {nh.resolve(f'{axis}/min_{quantity}')} is {low:g}, more than max_{quantity}, "
+                                 f"which is {high:g}")
+        return Bounds(max(low, -_LARGEST), min(high, _LARGEST))  # an infinite one, times a period of 0, would be NaN
 
     return SpeedLimiter(bounds("velocity"), bounds("acceleration"), bounds("jerk") if jerk else UNBOUNDED)

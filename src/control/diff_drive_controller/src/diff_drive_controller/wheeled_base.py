@@ -1,6 +1,7 @@
 """What all wheeled bases do alike."""
 from __future__ import annotations
 
+import math
 from typing import Callable, Optional, Tuple
 
 from controller_interface import ControllerBase, NodeHandle, ParameterError
@@ -94,6 +95,17 @@ def length(nh: NodeHandle, name: str, find: Callable[[], float]) -> float:
     :raises ParameterError: it is not positive
     """
     value = nh.param(name, 0.0) if nh.has_param(name) else find()
-    if not value > 0.0:
+    if not 0.0 < value < math.inf:
         raise ParameterError(f"{nh.namespace}: {name} must be greater than 0 m, it is {value:g}; set it by parameter")
+    return value
+
+
+def multiplier(nh: NodeHandle, name: str) -> float:
+    """A factor from parameter ``name``; 1 without it.
+
+    :raises ParameterError: it is 0 or infinite
+    """
+    value = nh.param(name, 1.0)
+    if value == 0.0 or math.isinf(value):
+        raise ParameterError(f"parameter {nh.resolve(name)} must be a finite factor other than 0, it is {value:g}")
     return value

@@ -272,6 +272,9 @@ class JointTrajectoryController(ActionController):
         if command is not None and command.first > (0 if stamp or command.times[0] != 0.0 else 1):
             rospy.logwarn("%s: Dropping first %d trajectory point(s) out of %d, as they occur before the current time.",
                           self._name, command.first, len(command.times))
+        if command is not None and command.surplus:
+            rospy.logwarn_throttle(5.0, f"{self._name}: points with {command.surplus} value(s) more than joints are named; "
+                                        "the last ones are left out")
 
     def _on_query(self, request) -> QueryTrajectoryStateResponse:
         with self._lock:

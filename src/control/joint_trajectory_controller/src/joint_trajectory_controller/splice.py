@@ -10,6 +10,8 @@ from .tolerances import JointTolerances
 # error codes of FollowJointTrajectoryResult that a message can earn
 INVALID_GOAL = -1
 INVALID_JOINTS = -2
+#: rad, m and their derivatives; beyond it the polynomials are no longer numbers
+LARGEST = 1e12
 
 
 class InvalidTrajectory(Exception):
@@ -54,6 +56,7 @@ class Command:
     :param message: JointTrajectory with at least one point
     :param columns: controller joint of each column of the message, as from map_joints
     :param elapsed: seconds from the start of the message to the earliest instant it can begin; older points are dropped
+    :ivar surplus: how many values a point has more than joints are named; they are left out, as upstream does
     """
 
     def __init__(self, message, columns: Sequence[int], elapsed: float):
@@ -62,8 +65,10 @@ class Command:
         check_times(self.times)
         self.first = self.first_after(elapsed)
         width = len(columns)
+        length = max(len(points[self.first].positions), width)
+        self.surplus = length - width
         for number, point in enumerate(points[self.first:], self.first):
-            _check_point(number, point, width)
+            _check_point(number, point, width, length)
         self.states: Dict[int, List[State]] = {}
         self.segments: Dict[int, List[Segment]] = {}
         for column, joint in enumerate(columns):
@@ -91,20 +96,23 @@ def check_times(times: Sequence[float]) -> None:
                 f"{index} at {times[index]:g} s follows {times[index - 1]:g} s")
 
 
-def _check_point(number: int, point, width: int) -> None:
-    if len(point.positions) != width:
+def _check_point(number: int, point, width: int, length: int) -> None:
+    """:param width: number of joints named; ``length``: number of values that every point has"""
+    if len(point.positions) != length:
         raise InvalidTrajectory(
-            INVALID_GOAL, f"Point {number} has {len(point.positions)} positions for {width} joints; every point needs "
-            "one position per joint")
+            INVALID_GOAL, f"Point {number} has {len(point.positions)} positions for {width} joints; every point needs one "
+            "position per joint")
     for name, values in (("velocities", point.velocities), ("accelerations", point.accelerations)):
-        if values and len(values) != width:
+        if values and len(values) != length:
             raise InvalidTrajectory(
                 INVALID_GOAL, f"Point {number} has {len(values)} {name} for {width} joints; give one per joint or none")
     for name, values in (("positions", point.positions), ("velocities", point.velocities),
                          ("accelerations", point.accelerations)):
-        if not all(map(math.isfinite, values)):
+        wrong = next((value for value in values[:width] if not abs(value) <= LARGEST), None)
+        if wrong is not None:
             raise InvalidTrajectory(
-                INVALID_GOAL, f"Point {number} has {name} that are not finite numbers: {list(values)}")
+                INVALID_GOAL, f"Point {number} has {name} that are not finite numbers: {wrong}" if not math.isfinite(wrong)
+                else f"Point {number} has {name} beyond {LARGEST:g}, which no joint can follow: {wrong:g}")
 
 
 def _state(point, column: int) -> State:

@@ -4,6 +4,7 @@ from __future__ import annotations
 import math
 
 from control_toolbox import load_pid
+from controller_interface import ParameterError
 from hardware_interface import (EffortJointInterface, PosVelAccJointInterface, PosVelJointInterface,
                                 PositionJointInterface, VelocityJointInterface)
 
@@ -58,7 +59,7 @@ class _FeedbackTrajectoryController(JointTrajectoryController):
 
     def init_output(self, handles, controller_nh):
         self._outputs = [(handle, load_pid(controller_nh.sub(f"gains/{handle.name}")),
-                          controller_nh.param(f"velocity_ff/{handle.name}", 0.0)) for handle in handles]
+                          _feed_forward(controller_nh, handle.name)) for handle in handles]
 
     def start_output(self):
         for handle, pid, _ in self._outputs:
@@ -80,3 +81,11 @@ class EffortTrajectoryController(_FeedbackTrajectoryController):
     """Torques or forces."""
 
     interface = EffortJointInterface
+
+
+def _feed_forward(nh, joint):
+    """Factor of the desired velocity, from parameter ``velocity_ff/JOINT``; 0 without it."""
+    factor = nh.param(f"velocity_ff/{joint}", 0.0)
+    if math.isinf(factor):
+        raise ParameterError(f"parameter {nh.resolve(f'velocity_ff/{joint}')} must be a finite number, it is {factor}")
+    return factor
