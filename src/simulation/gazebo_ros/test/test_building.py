@@ -204,3 +204,106 @@ def test_command_refuses_an_unknown_ending(tmp_path, capsys):
     (tmp_path / "plan.yaml").write_text(PLAN)
     assert building.main([str(tmp_path / "plan.yaml"), "-o", str(tmp_path / "a.txt")]) == 1
     assert ".world or .sdf" in capsys.readouterr().err
+
+
+# ---------------------------------------------------------------------------------------------- plans that nobody draws
+
+ROOM = {"from": [0, 0], "to": [4, 0]}
+LONG = 10 ** 400
+
+
+@pytest.mark.parametrize("plan, message", [
+    ({"walls": [{"path": [[LONG, 4.5], [0, 0]]}]}, r"walls\[0\].path\[0\]: \[1e400, 4.5\] is not 2 numbers"),
+    ({"walls": [ROOM], "wall": {"thickness": LONG}}, "wall.thickness: 1e400 is not a number"),
+    ({"walls": [ROOM], "wall": {"height": 2.5e300}}, "wall.height: 2.5e[+]300 is too much; at most 100000"),
+    ({"walls": [{"from": [0, 0], "to": [1e6, 0]}]}, r"walls\[0\].to: .* is too far away; at most 100000 m"),
+    ({"walls": [ROOM], "models": [{"model": "a", "at": [0, -1e308]}]}, r"models\[0\].at: .* is too far away"),
+    ({"walls": [dict(ROOM, thickness=1e-300)]}, r"walls\[0\].thickness: 1e-300 must be positive, at least 1e-06"),
+    ({"walls": [ROOM], "stairs": [{"at": [0, 0], "steps": 10 ** 9}]}, r"stairs\[0\].steps: 1000000000 is too much; at most 1000"),
+    ({"walls": [ROOM] * 5001}, "walls: 5001 entries; at most 5000 are built"),
+    ({"walls": [{"path": [[i % 2, i] for i in range(4000)]}] * 2}, r"walls\[1\]: more than 5000 pieces of wall on one floor"),
+    ({"walls": [ROOM], "levels": [{}] * 201}, "levels: 201 entries; at most 200 are built"),
+    ({"walls": [ROOM], "levels": [{"height": 9e4}, {"height": 9e4}, {}]}, r"levels\[2\]: its floor is .* m high"),
+    ({"walls": [ROOM], "name": [1]}, r"plan.name: \[1\] is no name"), ({"walls": [ROOM], "name": "a\0b"}, "plan.name: 'a b' is no|'a.b' is no"),
+    ({"walls": [ROOM], "name": LONG}, "plan.name: 1e400 is no name"), ({"walls": [ROOM], "name": "\ud800"}, "is no name"),
+    ({"walls": [dict(ROOM, material={"a": 1})]}, r"walls\[0\].material: {'a': 1} is no name"),
+    ({"walls": [dict(ROOM, **{"k" * 9999: 1})]}, r"walls\[0\]: there is no 'kkkk"),
+    ({"walls": ["w" * 9999]}, r"walls\[0\]: must be a mapping"), ({"walls": [ROOM], 7: 7}, "plan: there is no 7 here"),
+    ({"image": "x" * 9999, "resolution": 1}, "is no name"), ({"image": "x\0y", "resolution": 1}, "is no name"),
+    ({"image": "gone.png", "resolution": 1e4}, "plan.resolution: 10000.0 is too much"),
+], ids=range(22))
+def test_an_absurd_entry_is_named_in_one_short_line(plan, message):
+    with pytest.raises(building.PlanError, match=message) as caught:
+        building.building_of(plan, "/nowhere")
+    assert "\n" not in str(caught.value) and len(str(caught.value)) < 400
+
+
+def test_a_value_that_holds_itself_many_times_is_shown_short():
+    bomb = [1]
+    for _ in range(60):
+        bomb = [bomb, bomb]
+    for plan in ({"walls": bomb}, {"walls": [{"path": bomb}]}, {"walls": [ROOM], "name": bomb}, {"walls": [dict(ROOM, color=bomb)]}):
+        with pytest.raises(building.PlanError) as caught:
+            building.building_of(plan)
+        assert len(str(caught.value)) < 400
+
+
+MERGES = "a0: &a0 {k: 1}\n" + "".join(f"a{i}: &a{i} {{<<: [*a{i - 1}, *a{i - 1}], k{i}: 1}}\n" for i in range(1, 40))
+
+
+@pytest.mark.parametrize("text", [
+    b"[" * 5000, b"a: " + b"[" * 100 + b"]" * 100, MERGES.encode(), b"&a {<<: *a}", b"&a [*a]", b"walls: &a [*a]", b"", b"\0", b"\xff\xfe\0",
+    b"walls: !!python/object/apply:os.system ['true']", b"walls: !!timestamp x", b"walls: !!int ''", b"name: 2024-13-45",
+    b"name: " + b"9" * 5000, b"? [a]\n: b", b"{[]: 1}", b"walls: !!binary x", b"- " * 3000, b"walls: 0x" + b"f" * 5000, b"%YAML 9.9\n---\nx",
+    b"walls: !!bool x", b"!!set {a}", b"x" * 1_000_001,
+], ids=range(23))
+def test_any_text_is_a_plan_or_refused_at_once(tmp_path, text):
+    import time
+    path = tmp_path / "plan.yaml"
+    path.write_bytes(text)
+    begin = time.process_time()
+    with pytest.raises(building.PlanError) as caught:
+        building.read_plan(str(path))
+    line = str(caught.value)
+    assert line.startswith(str(path)) and "\n" not in line and len(line) < 500 and time.process_time() - begin < 5.0
+
+
+@pytest.mark.parametrize("content", [b"", b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0", b"%!PS-Adobe-3.0 EPSF-3.0\n"])
+def test_a_broken_picture_is_refused(tmp_path, content):
+    path = tmp_path / "plan.png"
+    path.write_bytes(content)
+    with pytest.raises(building.PlanError, match="plan.png"):
+        building.read_plan(str(path), 0.05)
+
+
+def test_a_picture_of_noise_is_refused_at_once(tmp_path):
+    path = tmp_path / "noise.png"
+    Image.fromarray((np.indices((3000, 3000)).sum(axis=0) % 2 * 255).astype(np.uint8)).save(path)
+    with pytest.raises(building.PlanError, match="more than 5000 pieces of wall"):
+        building.read_plan(str(path), 0.05)
+
+
+@pytest.mark.parametrize("plan", [
+    {"walls": [{"from": [-1e5, 0], "to": [1e5, 0]}]}, {"walls": [{"from": [0, -1e5], "to": [0, 1e5]}]},
+    {"walls": [ROOM], "models": [{"model": "a", "at": [0, 1e5]}]}, {"walls": [ROOM], "levels": [{"walls": [ROOM]}] * 200},
+    {"walls": [{"from": [0, 0], "to": [2e-6, 0]}], "wall": {"thickness": 1e-6, "height": 1e-6}}])
+def test_a_preview_has_a_size_that_can_be_looked_at(plan):
+    image = building_image.draw(building.building_of(plan))
+    assert 1 <= image.width <= 20000 and 1 <= image.height <= 12000
+
+
+def test_many_walls_are_joined_quickly():
+    import time
+    begin = time.process_time()
+    walls = building.building_of({"walls": [{"from": [i, 0], "to": [i, 1]} for i in range(3000)]
+                                  + [{"from": [-1, 0.5], "to": [3000, 0.5]}]}).levels[0].walls
+    assert not walls[-1].butts[0] and not any(walls[5].butts) and time.process_time() - begin < 20.0
+
+
+def test_command_names_a_preview_that_cannot_be_written(tmp_path, capsys):
+    (tmp_path / "plan.yaml").write_text(PLAN)
+    for preview, message in (("a.xyz", "give it the ending .png or .jpg"), ("none/a.png", "cannot write")):
+        arguments = [str(tmp_path / "plan.yaml"), "-o", str(tmp_path / "a.world"), "--preview", str(tmp_path / preview)]
+        assert building.main(arguments) == 1
+        error = capsys.readouterr().err
+        assert message in error and preview in error and error.count("\n") == 1

@@ -22,17 +22,31 @@ from __future__ import annotations
 import argparse
 import math
 import os
+import reprlib
 import sys
 from dataclasses import dataclass, replace
 from typing import Any, Dict, List, Optional, Sequence, Tuple
 
-import yaml
+import numpy as np
+from ode_sim.description.model import one_line, quoted
+
+from gazebo_ros.plan_file import load_plan
 
 Point = Tuple[float, float]
 
 
 class PlanError(ValueError):
     """The plan cannot be built. One line that names the entry."""
+
+    def __init__(self, message: object = "") -> None:
+        super().__init__(one_line(message))
+
+
+#: m: no wall lies farther out or is longer; what is smaller than the other one is nothing
+FARTHEST, SMALLEST = 1e5, 1e-6
+_MOST = 5000  # walls of a floor, models
+_MOST_LEVELS = 200
+_MOST_STAIRS, _MOST_STEPS = 200, 1000  # of a level; of stairs
 
 
 @dataclass(frozen=True)
@@ -128,32 +142,46 @@ class _Entry:
 
     def __init__(self, value: Any, place: str, known: Sequence[str]):
         if not isinstance(value, dict):
-            raise PlanError(f"{place}: must be a mapping such as {{{known[0]}: ...}}, not {value!r}")
+            raise PlanError(f"{place}: must be a mapping such as {{{known[0]}: ...}}, not {_shown(value)}")
         for key in value:
             if key not in known:
-                raise PlanError(f"{place}: there is no '{key}' here; known are {', '.join(known)}")
+                raise PlanError(f"{place}: there is no {_shown(key)} here; known are {', '.join(known)}")
         self.value, self.place = value, place
 
-    def number(self, key: str, default: Optional[float] = None, positive: bool = True) -> float:
+    def number(self, key: str, default: Optional[float] = None, positive: bool = True, most: float = FARTHEST) -> float:
+        """:param positive: it is a length, at least :data:`SMALLEST`. :param most: of either sign."""
         value = self.value.get(key, default)
         if value is None:
             raise PlanError(f"{self.place}: '{key}' is missing")
-        if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
-            raise PlanError(f"{self.place}.{key}: {value!r} is not a number")
-        if positive and value <= 0:
-            raise PlanError(f"{self.place}.{key}: {value:g} must be positive")
+        if not _is_number(value):
+            raise PlanError(f"{self.place}.{key}: {_shown(value)} is not a number")
+        if positive and value < SMALLEST:
+            raise PlanError(f"{self.place}.{key}: {value:g} must be positive" + (f", at least {SMALLEST:g}" if value > 0 else ""))
+        if abs(value) > most:
+            raise PlanError(f"{self.place}.{key}: {_shown(value)} is too much; at most {most:g}")
         return float(value)
+
+    def text(self, key: str, default: str, most: int = 200) -> str:
+        value = self.value.get(key)
+        if value is None or value == "":
+            return default
+        if not isinstance(value, (str, int, float)) or (isinstance(value, int) and abs(value) > 10 ** 18) \
+                or not str(value).isprintable() or len(str(value)) > most:
+            raise PlanError(f"{self.place}.{key}: {_shown(value)} is no name")
+        return str(value)
 
     def point(self, key: str, sizes: Tuple[int, ...] = (2,)) -> Tuple[float, ...]:
         if key not in self.value:
             raise PlanError(f"{self.place}: '{key}' is missing")
         return _point(self.value[key], f"{self.place}.{key}", sizes)
 
-    def entries(self, key: str) -> List[Tuple[Any, str]]:
+    def entries(self, key: str, most: int = _MOST) -> List[Tuple[Any, str]]:
         value = self.value.get(key) or []
-        if not isinstance(value, list):
-            raise PlanError(f"{self.place + '.' if self.place else ''}{key}: must be a list")
         prefix = self.place + "." if self.place != "plan" else ""
+        if not isinstance(value, list):
+            raise PlanError(f"{prefix}{key}: must be a list")
+        if len(value) > most:
+            raise PlanError(f"{prefix}{key}: {len(value)} entries; at most {most} are built")
         return [(item, f"{prefix}{key}[{i}]") for i, item in enumerate(value)]
 
     def look(self, default: Look) -> Look:
@@ -161,15 +189,35 @@ class _Entry:
         if color is not None:
             rgb = _point(color, self.place + ".color", (3,))
             if not all(0.0 <= c <= 1.0 for c in rgb):
-                raise PlanError(f"{self.place}.color: {color} must be three numbers from 0 to 1")
+                raise PlanError(f"{self.place}.color: {_shown(color)} must be three numbers from 0 to 1")
             return Look(color=rgb)
-        return Look(str(self.value["material"])) if "material" in self.value else default
+        return Look(self.text("material", default.material)) if "material" in self.value else default
+
+
+class _Short(reprlib.Repr):
+    maxlevel = 3
+
+    def repr_int(self, x: int, level: int) -> str:  # repr of one of thousands of digits is an error
+        return str(x) if abs(x) < 10 ** 18 else f"{'-' * (x < 0)}1e{int(x.bit_length() * math.log10(2.0))}"
+
+
+def _shown(value: Any) -> str:
+    """A value of the plan for a message: short, however much hangs on it."""
+    return f"'{quoted(value)}'" if isinstance(value, str) else quoted(_Short().repr(value))
+
+
+def _is_number(value: Any) -> bool:
+    try:
+        return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
+    except OverflowError:  # a whole number of hundreds of digits
+        return False
 
 
 def _point(value: Any, place: str, sizes: Tuple[int, ...]) -> Tuple[float, ...]:
-    if not isinstance(value, (list, tuple)) or len(value) not in sizes or not all(
-            isinstance(v, (int, float)) and not isinstance(v, bool) and math.isfinite(v) for v in value):
-        raise PlanError(f"{place}: {value!r} is not {' or '.join(str(size) for size in sizes)} numbers, [x, y]")
+    if not isinstance(value, (list, tuple)) or len(value) not in sizes or not all(map(_is_number, value)):
+        raise PlanError(f"{place}: {_shown(value)} is not {' or '.join(str(size) for size in sizes)} numbers, [x, y]")
+    if max(map(abs, value)) > FARTHEST:
+        raise PlanError(f"{place}: {_shown(value)} is too far away; at most {FARTHEST:g} m")
     return tuple(float(v) for v in value)
 
 
@@ -184,14 +232,9 @@ def read_plan(path: str, resolution: Optional[float] = None) -> Building:
     """
     if os.path.splitext(path)[1].lower() in (".yaml", ".yml"):
         try:
-            with open(path, encoding="utf-8") as stream:
-                plan = yaml.safe_load(stream)
-        except OSError as error:
-            raise PlanError(f"{path}: {error.strerror}") from None
-        except yaml.YAMLError as error:
-            mark = getattr(error, "problem_mark", None)
-            line = f":{mark.line + 1}" if mark else ""
-            raise PlanError(f"{path}{line}: is no YAML, {getattr(error, 'problem', None) or error}") from None
+            plan = load_plan(path)
+        except ValueError as error:
+            raise PlanError(error) from None
     else:
         plan = {"image": os.path.abspath(path), "name": os.path.splitext(os.path.basename(path))[0]}
     if isinstance(plan, dict) and "image" in plan:
@@ -217,15 +260,17 @@ def building_of(plan: Any, folder: str = ".") -> Building:
         walls = _walls(top, defaults, look)
     levels = [Level(0.0, tuple(walls), tuple(_stairs(top, look)))]
     base = top.number("height", max([wall.height for wall in walls], default=2.5))
-    for value, place in top.entries("levels"):
+    for value, place in top.entries("levels", _MOST_LEVELS):
         entry = _Entry(value, place, _LEVEL)
         floor = _Entry(entry.value.get("floor") or {}, place + ".floor", _LOOK).look(Look("Gazebo/Grey"))
         walls = _walls(entry, defaults, look)
         levels.append(Level(base, tuple(walls), tuple(_stairs(entry, look)), floor))
+        if base > FARTHEST:
+            raise PlanError(f"{place}: its floor is {base:g} m high; at most {FARTHEST:g} m")
         base += entry.number("height", max([wall.height for wall in walls], default=2.5))
     if not any(level.walls or level.stairs for level in levels):
         raise PlanError("walls: there are none; give at least one {from: [x, y], to: [x, y]}")
-    return Building(str(top.value.get("name") or "building"), tuple(levels), tuple(_models(top)))
+    return Building(top.text("name", "building"), tuple(levels), tuple(_models(top)))
 
 
 def _walls(parent: _Entry, defaults: _Entry, default_look: Look) -> List[Wall]:
@@ -259,17 +304,29 @@ def _walls(parent: _Entry, defaults: _Entry, default_look: Look) -> List[Wall]:
             if not 0.0 <= opening.at <= total:
                 raise PlanError(f"{at}: {opening.at:g} m is beyond the wall, which is {total:g} m long")
         walls += pieces
-    return [replace(wall, butts=tuple(any(_ends_inside(end, other) for other in walls if other is not wall)
-                                      for end in (wall.start, wall.end))) for wall in walls]
+        if len(walls) > _MOST:
+            raise PlanError(f"{place}: more than {_MOST} pieces of wall on one floor")
+    return _with_butts(walls)
 
 
-def _ends_inside(point: Point, wall: Wall) -> bool:
-    """Whether ``point`` lies in the body of ``wall``, away from its ends."""
-    dx, dy = point[0] - wall.start[0], point[1] - wall.start[1]
-    along = dx * math.cos(wall.yaw) + dy * math.sin(wall.yaw)
-    aside = abs(dy * math.cos(wall.yaw) - dx * math.sin(wall.yaw))
-    half = 0.5 * wall.thickness
-    return aside < half and half < along < wall.length - half
+def _with_butts(walls: List[Wall]) -> List[Wall]:
+    """The walls, each knowing whether its ends lie in the body of another one, away from that one's ends."""
+    if not walls:
+        return walls
+    starts, yaws = np.array([wall.start for wall in walls]), np.array([wall.yaw for wall in walls])
+    along_x, along_y = np.cos(yaws), np.sin(yaws)
+    halves = 0.5 * np.array([wall.thickness for wall in walls])
+    lengths = np.array([wall.length for wall in walls])
+
+    def inside(point: Point, own: int) -> bool:
+        dx, dy = (np.array(point) - starts).T
+        along = dx * along_x + dy * along_y
+        aside = np.abs(dy * along_x - dx * along_y)
+        hit = (aside < halves) & (halves < along) & (along < lengths - halves)
+        hit[own] = False
+        return bool(hit.any())
+
+    return [replace(wall, butts=(inside(wall.start, i), inside(wall.end, i))) for i, wall in enumerate(walls)]
 
 
 def _openings(wall: _Entry, wall_height: float) -> List[Tuple[Opening, str]]:
@@ -288,9 +345,9 @@ def _openings(wall: _Entry, wall_height: float) -> List[Tuple[Opening, str]]:
 
 def _stairs(parent: _Entry, default_look: Look) -> List[Stairs]:
     stairs = []
-    for value, place in parent.entries("stairs"):
+    for value, place in parent.entries("stairs", _MOST_STAIRS):
         entry = _Entry(value, place, ("at", "yaw", "width", "depth", "height", "steps") + _LOOK)
-        steps = entry.number("steps", 15)
+        steps = entry.number("steps", 15, most=_MOST_STEPS)
         if steps != int(steps):
             raise PlanError(f"{place}.steps: {steps:g} is no whole number")
         stairs.append(Stairs(entry.point("at"), entry.number("yaw", 0.0, positive=False), entry.number("width", 1.0),
@@ -305,10 +362,10 @@ def _models(top: _Entry) -> List[Placed]:
     for value, place in top.entries("models"):
         entry = _Entry(value, place, ("model", "at", "yaw", "name"))
         model = entry.value.get("model")
-        if not model or not isinstance(model, str):
+        if not model or not isinstance(model, str) or not model.isprintable():
             raise PlanError(f"{place}: 'model' is missing, the name of a model directory such as table")
         count = names[model] = names.get(model, -1) + 1
-        name = str(entry.value.get("name") or (f"{model}_{count}" if count else model))
+        name = entry.text("name", f"{model}_{count}" if count else model)
         x, y, *z = entry.point("at", (2, 3))
         models.append(Placed(model, name, (x, y, z[0] if z else 0.0), entry.number("yaw", 0.0, positive=False)))
     return models
@@ -319,11 +376,13 @@ def _walls_of_image(top: _Entry, defaults: _Entry, look: Look, folder: str) -> L
 
     if "walls" in top.value:
         raise PlanError("image: takes the place of 'walls'; give one of the two")
-    resolution = top.number("resolution", None)
+    resolution = top.number("resolution", None, most=100.0)
     origin = top.point("origin", (2, 3)) if "origin" in top.value else (0.0, 0.0)
     height = defaults.number("height", 2.5)
-    rectangles = wall_rectangles(os.path.join(folder, str(top.value["image"])), resolution, origin[:2],
+    rectangles = wall_rectangles(os.path.join(folder, top.text("image", "", most=4096)), resolution, origin[:2],
                                  top.number("occupied_thresh", 0.5), bool(top.value.get("negate", 0)))
+    if max(abs(value) for rectangle in rectangles for value in rectangle) > FARTHEST:
+        raise PlanError(f"resolution: with {resolution:g} m per pixel the picture reaches farther than {FARTHEST:g} m")
     walls = []
     for x0, y0, x1, y1 in rectangles:  # a wall reaches half its thickness beyond its ends
         half = 0.5 * min(x1 - x0, y1 - y0)
@@ -355,12 +414,12 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
         building = read_plan(arguments.plan, arguments.resolution)
         building_sdf.write(building, arguments.output)
         if arguments.preview:
-            building_image.draw(building).save(arguments.preview)
+            building_image.save(building, arguments.preview)
     except PlanError as error:
         print(f"build_world: {error}", file=sys.stderr)
         return 1
     except OSError as error:
-        print(f"build_world: cannot write {error.filename}: {error.strerror}", file=sys.stderr)
+        print(f"build_world: cannot write {error.filename or arguments.output}: {error.strerror or error}", file=sys.stderr)
         return 1
     walls = sum(len(level.walls) for level in building.levels)
     print(f"{arguments.output}: {building.name}, {walls} wall{'s' * (walls != 1)} on "

@@ -5,12 +5,16 @@ import math
 from typing import List, Tuple
 
 import numpy as np
+from ode_sim.description.model import DescriptionError
+from ode_sim.images import read_rgba
 from PIL import Image, ImageDraw
 
 from gazebo_ros.building import Building, PlanError, Wall
 
 Rectangle = Tuple[float, float, float, float]  # x0, y0, x1, y1
 _MOST_RECTANGLES = 5000
+_MOST_PIXELS = 16_000_000
+_WIDEST = 20_000  # pixels of a drawing
 
 
 def wall_rectangles(path: str, resolution: float, origin: Tuple[float, float], occupied: float = 0.5,
@@ -22,19 +26,18 @@ def wall_rectangles(path: str, resolution: float, origin: Tuple[float, float], o
     :raises PlanError: no image, nothing dark in it, or so many slanted edges that it is no floor plan.
     """
     try:
-        with Image.open(path) as image:
-            rgba = np.asarray(image.convert("RGBA"), dtype=float)
-    except (OSError, Image.DecompressionBombError) as error:
-        reason = getattr(error, "strerror", None) or "is no image that can be read"
-        raise PlanError(f"image {path}: {reason}") from None
+        rgba = read_rgba(path, _MOST_PIXELS)
+    except DescriptionError as error:
+        raise PlanError(error) from None
     alpha = rgba[..., 3] / 255.0
-    light = rgba[..., :3].mean(axis=-1) / 255.0 * alpha + (1.0 - alpha)  # what is transparent is white paper
+    # what is transparent is white paper
+    light = sum(rgba[..., channel].astype(float) for channel in range(3)) / 3.0 / 255.0 * alpha + (1.0 - alpha)
     dark = light if negate else 1.0 - light
     rectangles = _merged_runs(dark >= occupied)
     if not rectangles:
         raise PlanError(f"image {path}: nothing in it is dark enough to be a wall")
     if len(rectangles) > _MOST_RECTANGLES:
-        raise PlanError(f"image {path}: {len(rectangles)} pieces of wall; use a cleaner or coarser picture "
+        raise PlanError(f"image {path}: more than {_MOST_RECTANGLES} pieces of wall; use a cleaner or coarser picture "
                         "whose walls stand upright")
     height = dark.shape[0]
     return [(origin[0] + c0 * resolution, origin[1] + (height - r1) * resolution,
@@ -42,7 +45,10 @@ def wall_rectangles(path: str, resolution: float, origin: Tuple[float, float], o
 
 
 def _merged_runs(mask: np.ndarray) -> List[Tuple[int, int, int, int]]:
-    """Disjoint rectangles (row0, column0, row1, column1) that cover ``mask``: equal runs of rows joined."""
+    """Disjoint rectangles (row0, column0, row1, column1) that cover ``mask``: equal runs of rows joined.
+
+    No more than are too many.
+    """
     done: List[Tuple[int, int, int, int]] = []
     open_runs = {}  # (column0, column1) -> first row
     for row in range(mask.shape[0] + 1):
@@ -53,6 +59,8 @@ def _merged_runs(mask: np.ndarray) -> List[Tuple[int, int, int, int]]:
             done.append((open_runs.pop(run), run[0], row, run[1]))
         for run in runs:
             open_runs.setdefault(run, row)
+        if len(done) > _MOST_RECTANGLES:
+            break
     return sorted(done)
 
 
@@ -63,7 +71,11 @@ _PAPER, _GRID, _WALL, _DOOR, _WINDOW, _STEP, _MODEL = (
 
 
 def draw(building: Building, width: int = 1000) -> Image.Image:
-    """All levels from above, side by side, the lowest first: 1 m grid, walls dark, doors brown, windows blue."""
+    """All levels from above, side by side, the lowest first: walls dark, doors brown, windows blue, on a grid of 1 m
+    (10, 100 ... for what is larger than 200 m).
+
+    :param width: of one level, pixels; less where there are many.
+    """
     from gazebo_ros.building_sdf import outline
 
     x0, y0, x1, y1 = outline(building.levels)
@@ -71,7 +83,9 @@ def draw(building: Building, width: int = 1000) -> Image.Image:
     y0, y1 = (choose([y] + [placed.at[1] for placed in building.models]) for choose, y in ((min, y0), (max, y1)))
     margin = 0.05 * max(x1 - x0, y1 - y0) + 0.3
     x0, y0, x1, y1 = x0 - margin, y0 - margin, x1 + margin, y1 + margin
+    width = max(20, min(width, _WIDEST // len(building.levels)))
     scale = width / (x1 - x0)
+    grid = 10 ** max(0, math.ceil(math.log10(max(x1 - x0, y1 - y0) / 200.0)))
     page = (width, max(1, round((y1 - y0) * scale)))
     image = Image.new("RGB", (page[0] * len(building.levels), page[1]), _PAPER)
     pen = ImageDraw.Draw(image)
@@ -79,9 +93,9 @@ def draw(building: Building, width: int = 1000) -> Image.Image:
         def at(x: float, y: float) -> Tuple[float, float]:
             return (number * page[0] + (x - x0) * scale, (y1 - y) * scale)
 
-        for x in range(math.ceil(x0), math.floor(x1) + 1):
+        for x in range(math.ceil(x0 / grid) * grid, math.floor(x1) + 1, grid):
             pen.line([at(x, y0), at(x, y1)], fill=_GRID)
-        for y in range(math.ceil(y0), math.floor(y1) + 1):
+        for y in range(math.ceil(y0 / grid) * grid, math.floor(y1) + 1, grid):
             pen.line([at(x0, y), at(x1, y)], fill=_GRID)
         for stairs in level.stairs:
             for i in range(stairs.steps):
@@ -95,8 +109,19 @@ def draw(building: Building, width: int = 1000) -> Image.Image:
                 x, y = at(*placed.at[:2])
                 pen.ellipse([x - 5, y - 5, x + 5, y + 5], fill=_MODEL)
                 pen.text((x + 8, y - 6), placed.name, fill=_MODEL)
-        pen.text((number * page[0] + 8, 6), f"{building.name}, level {number}   grid 1 m", fill=_WALL)
+        pen.text((number * page[0] + 8, 6), f"{building.name}, level {number}   grid {grid} m", fill=_WALL)
     return image
+
+
+def save(building: Building, path: str) -> None:
+    """:func:`draw` to a file, in the format that its name ends with.
+
+    :raises PlanError: no such format. :raises OSError: the file cannot be written.
+    """
+    try:
+        draw(building).save(path)
+    except (ValueError, KeyError):
+        raise PlanError(f"preview '{path}': give it the ending .png or .jpg") from None
 
 
 def _draw_wall(pen: ImageDraw.ImageDraw, wall: Wall, at) -> None:
