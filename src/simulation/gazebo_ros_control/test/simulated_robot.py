@@ -72,7 +72,13 @@ class Server:
         self.world = world
 
     def before_step(self, f):
-        self.world.before_step.append(lambda world: f())
+        def call(world):
+            try:
+                f()
+            except Exception as error:  # as the simulator's server
+                rospy.logerr("%s", error)
+                world.before_step.remove(call)
+        self.world.before_step.append(call)
 
     def call(self, f):
         return f()

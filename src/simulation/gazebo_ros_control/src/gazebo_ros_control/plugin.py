@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import threading
+import traceback
 from typing import Optional
 
 import rosgraph
@@ -81,19 +82,49 @@ class GazeboRosControl(ModelPlugin):
         rospy.logwarn("gazebo_ros_control of model '%s' waits for the robot description in parameter %s (looked for in "
                       "%s and above) on the ROS param server; the world goes on, controllers can be loaded once it is "
                       "there", self._model.name, self._robot_param, self._namespace)
+        refused = None
         while not self._gone.wait(_POLL) and not rospy.core.is_shutdown_requested():
             try:
                 urdf = self._find_description()
             except (OSError, rosgraph.MasterException):  # the master restarts or goes; the next look tells
                 continue
-            if urdf is not None:
-                try:
-                    self._start(urdf)
-                except PluginError as error:
-                    rospy.logerr("gazebo_ros_control of model '%s': %s", self._model.name, error)
+            if urdf is None or urdf == refused:
+                continue
+            try:
+                self._start(urdf)
                 return
+            except PluginError as error:
+                refused = urdf
+                rospy.logerr("gazebo_ros_control of model '%s': %s. Waiting for another description", self._model.name, error)
 
     def _start(self, urdf: str) -> None:
+        """Begin to control the robot, or leave nothing behind.
+
+        :raises PluginError: one line; whatever the description or a third party's RobotHWSim did
+        """
+        nh = NodeHandle(self._namespace)
+        manager = None
+        try:
+            hw = self._make_hw(nh, urdf)
+            manager = ControllerManager(hw, self._namespace)
+            names = ", ".join(hw.interface_names())
+        except Exception as error:  # init_sim is third-party code
+            if manager is not None:
+                manager.shutdown()
+            nh.shutdown()
+            if isinstance(error, PluginError):
+                raise
+            raise PluginError(f"the robot hardware {_named(self._sim_class)} cannot start: {_reason(error)}") from error
+        if self._gone.is_set():
+            manager.shutdown()
+            nh.shutdown()
+            return
+        self._nh.own(nh)
+        self._hw, self._manager = hw, manager
+        self._server.before_step(self._step)
+        rospy.loginfo("Loaded gazebo_ros_control in %s: %s", self._namespace, names)
+
+    def _make_hw(self, nh: NodeHandle, urdf: str) -> RobotHWSim:
         try:
             transmissions, problems = parse_transmissions(urdf)
         except TransmissionError as error:
@@ -101,15 +132,9 @@ class GazeboRosControl(ModelPlugin):
         for problem in problems:
             rospy.logerr("model '%s': %s", self._model.name, problem)
         hw = self._sim_class()
-        if hw.init_sim(self._namespace, self._nh, self._model, urdf, transmissions) is False:
+        if hw.init_sim(self._namespace, nh, self._model, urdf, transmissions) is False:
             raise PluginError("Could not initialize robot simulation interface")
-        manager = ControllerManager(hw, self._namespace)
-        if self._gone.is_set():
-            manager.shutdown()
-            return
-        self._hw, self._manager = hw, manager
-        self._server.before_step(self._step)
-        rospy.loginfo("Loaded gazebo_ros_control in %s: %s", self._namespace, ", ".join(hw.interface_names()))
+        return hw
 
     # -- every step ----------------------------------------------------------------------------------------------------
 
@@ -121,19 +146,35 @@ class GazeboRosControl(ModelPlugin):
         hw, now_ns = self._hw, self._world.time_ns
         now = now_ns * 1e-9
         e_stop = self._e_stop
-        hw.e_stop_active(e_stop)
-        last = self._last_update_ns
-        elapsed_ns = max(self._period_ns, round(self._world.dt * 1e9)) if last is None else now_ns - last
-        if elapsed_ns >= self._period_ns:
-            self._last_update_ns = now_ns
-            period = elapsed_ns * 1e-9
-            hw.read_sim(now, period)
-            restart = self._was_stopped and not e_stop
-            self._was_stopped = e_stop
-            self._manager.update(now, period, restart)
-        last = self._last_write_ns
-        self._last_write_ns = now_ns
-        hw.write_sim(now, self._world.dt if last is None else (now_ns - last) * 1e-9)
+        try:
+            hw.e_stop_active(e_stop)
+            last = self._last_update_ns
+            elapsed_ns = max(self._period_ns, round(self._world.dt * 1e9)) if last is None else now_ns - last
+            if elapsed_ns >= self._period_ns:
+                self._last_update_ns = now_ns
+                period = elapsed_ns * 1e-9
+                hw.read_sim(now, period)
+                restart = self._was_stopped and not e_stop
+                self._was_stopped = e_stop
+                self._manager.update(now, period, restart)
+            last = self._last_write_ns
+            self._last_write_ns = now_ns
+            hw.write_sim(now, self._world.dt if last is None else (now_ns - last) * 1e-9)
+        except Exception as error:  # a RobotHWSim is third-party code
+            raise self._failed(error) from error
+
+    def _failed(self, error: Exception) -> PluginError:
+        """End the control of this robot, so that nobody waits for a loop that does not run any more."""
+        hw, manager = self._hw, self._manager
+        self._hw = self._manager = None
+
+        def end() -> None:  # waits for requests under way, which the world need not
+            manager.shutdown()
+            self._nh.shutdown()
+
+        threading.Thread(target=end, name="gazebo_ros_control end", daemon=True).start()
+        return PluginError(f"the robot hardware {_named(type(hw))} failed: {_reason(error)}. Its controllers are stopped and "
+                           "their controller manager is closed; delete and spawn the robot to begin again")
 
     def _receive_e_stop(self, message: Bool) -> None:
         self._e_stop = message.data
@@ -160,3 +201,13 @@ def _find_sim(name: str) -> type:
     if name not in types:
         raise PluginError(f"<robotSimType>{name}</robotSimType> does not exist; there are: {', '.join(sorted(types))}")
     return types[name].load()
+
+
+def _named(sim: type) -> str:
+    return f"{sim.__module__}.{sim.__qualname__}"
+
+
+def _reason(error: Exception) -> str:
+    """One line: what was raised, and where."""
+    place = traceback.extract_tb(error.__traceback__)[-1]
+    return f"{type(error).__name__}: {' '.join(str(error).split())} ({place.filename}:{place.lineno})"
