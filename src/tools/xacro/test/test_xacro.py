@@ -96,3 +96,35 @@ def test_words_without_prefix_are_understood_with_one_warning(write):
     assert '<link name="left_0.3"/>' in result.stdout and "never" not in result.stdout
     assert '<property name="kept" value="1"/>' in result.stdout
     assert result.stderr.count("is written without prefix") == 1 and f"{path}:2: <property>" in result.stderr
+
+
+BOMB = "".join(f'<!ENTITY a{i} "{f"&a{i - 1};" * 10 if i else "ha" * 50}">' for i in range(10))
+
+
+@pytest.mark.parametrize("entities, use", [
+    ('<!ENTITY a "b">', "&a;"), ('<!ENTITY a SYSTEM "file:///etc/hostname">', "&a;"),
+    ('<!ENTITY % a SYSTEM "file:///etc/hostname"> %a;', ""), (BOMB.replace("a0 ", "a ").replace("&a0;", "&a;"), "&a9;")],
+    ids=["internal", "external", "parameter", "bomb"])
+def test_entities_are_refused(write, entities, use):
+    path = write(f'<link name="l">{use}</link>', header=f"<!DOCTYPE robot [\n{entities}]>\n{HEADER}")
+    result = run(path)
+    assert result.returncode == 2 and f"{path}:2: declares the entity 'a'; entities are not read" in result.stderr
+    assert len(result.stderr.splitlines()) == 2 and "Traceback" not in result.stderr
+
+
+def test_a_document_type_alone_is_no_harm(write):
+    result = run(write('<link name="l"/>', header='<!DOCTYPE robot SYSTEM "http://nowhere/robot.dtd">\n' + HEADER))
+    assert result.returncode == 0 and '<link name="l"/>' in result.stdout
+
+
+@pytest.mark.parametrize("body", ['<xacro:macro name="m"><xacro:m/></xacro:macro><xacro:m/>', '<xacro:include filename="r.xacro"/>',
+                                  "<a>" * 3000 + "</a>" * 3000], ids=["macro", "include", "nested"])
+def test_what_calls_itself_is_a_short_message(write, body):
+    result = run(write(body))
+    assert result.returncode == 2 and "nests too deep; does a macro or a file include itself?" in result.stderr
+    assert len(result.stderr.splitlines()) <= 21 and "Traceback" not in result.stderr
+
+
+def test_a_message_quotes_a_shortened_line(write):
+    result = run(write(f'<link name="${{{"x" * 5000}}}"/>'))
+    assert result.returncode == 2 and max(map(len, result.stderr.splitlines())) < 400

@@ -19,6 +19,7 @@ from ament_index_python.packages import PackageNotFoundError
 from noetic_xacro.reserved import RESERVED
 
 _PLACE = "xacro_place"  # attribute set on DOM elements: "file:line"
+_LINES = 10  # of the files and macros around an error
 
 
 class _PlacedBuilder(xml.dom.expatbuilder.ExpatBuilderNS):
@@ -27,6 +28,19 @@ class _PlacedBuilder(xml.dom.expatbuilder.ExpatBuilderNS):
     def __init__(self, file_name: str):
         super().__init__()
         self._file_name = file_name
+
+    def install(self, parser):
+        super().install(parser)
+        parser.EntityDeclHandler = self._refuse_entity
+
+    def start_doctype_decl_handler(self, *declaration):
+        super().start_doctype_decl_handler(*declaration)
+        self.getParser().EntityDeclHandler = self._refuse_entity  # which minidom has just replaced
+
+    def _refuse_entity(self, name, *_declaration):
+        """An entity may hold another file, or gigabytes; robots have properties."""
+        raise xacro.XacroException(f"{self._file_name}:{self.getParser().CurrentLineNumber}: declares the entity "
+                                   f"'{_shortened(name, 60)}'; entities are not read, use a property")
 
     def start_element_handler(self, name, attributes):
         super().start_element_handler(name, attributes)
@@ -127,9 +141,16 @@ def _place_of(error: BaseException) -> str:
     return place
 
 
+def _shortened(text: str, most: int = 300) -> str:
+    return text if len(text) <= most else f"{text[:most - most // 3]} ... {text[-(most // 3):]}"
+
+
 def _fail(message: str, verbosity: int, error: BaseException) -> None:
-    print(f"xacro: error: {message}", file=sys.stderr)
+    lines = message.splitlines() or [""]
+    print("\n".join([f"xacro: error: {_shortened(lines[0])}"] + [_shortened(line) for line in lines[1:_LINES]]), file=sys.stderr)
     if verbosity > 0:
+        for stack in (xacro.macrostack, xacro.filestack):
+            del (stack or [])[:-_LINES]  # the outer ones of what calls itself
         xacro.print_location()
     if verbosity > 1:
         raise error
@@ -163,6 +184,8 @@ def main() -> None:
         os._exit(1)  # the reader went away (`xacro f | head`): nothing to report, nothing left to flush
     except Exception as error:  # noqa: BLE001  expressions in a xacro file may raise anything
         place = _place_of(error)
+        if isinstance(error, RecursionError) or isinstance(getattr(error, "exc", None), RecursionError):
+            _fail(f"{place or file_name}: nests too deep; does a macro or a file include itself?", options.verbosity, error)
         cause = getattr(error, "exc", None)
         message = str(cause if isinstance(cause, PackageNotFoundError) else error) or repr(error)
-        _fail(f"{place}: {message}" if place else message, options.verbosity, error)
+        _fail(f"{place}: {message}" if place and not message.startswith(place) else message, options.verbosity, error)
