@@ -1,0 +1,110 @@
+"""The platform as an installed tree: catkin's install space of everything but the labs, with the PyPI add-ons."""
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+from typing import Dict, List
+
+#: Stands in an installed prefix that scripts/package made.
+MARK = "share/noetic_environment/package.xml"
+
+
+class PackagingError(RuntimeError):
+    """Packaging cannot go on; one line, what came before is on the terminal."""
+
+
+def run(command: List[str], what: str, environment: Dict[str, str] = os.environ, cwd: Path = None) -> None:
+    """
+    :param what: of the error message, "... failed"
+    :raises PackagingError: the command ended with an error; its own output is on the terminal
+    """
+    try:
+        code = subprocess.run([str(word) for word in command], env=dict(environment), cwd=cwd).returncode
+    except OSError as error:
+        raise PackagingError(f"{what} failed: {command[0]}: {error.strerror} (has scripts/setup run?)") from None
+    if code:
+        raise PackagingError(f"{what} failed (its own message is above)")
+
+
+def refuse_foreign(prefix: Path) -> None:
+    """
+    :raises PackagingError: ``prefix`` holds something that was not installed there by this script
+    """
+    if prefix.is_symlink() or prefix.exists() and not prefix.is_dir():
+        raise PackagingError(f"{prefix} is there and is no folder; remove it or name another --prefix")
+    if not prefix.is_dir() or not any(prefix.iterdir()):
+        return
+    if not (prefix / MARK).is_file():
+        raise PackagingError(f"{prefix} holds another installation; name another --prefix")
+    owner = subprocess.run(["dpkg-query", "-S", str(prefix / MARK)], capture_output=True, text=True)
+    if owner.returncode == 0:
+        raise PackagingError(f"{prefix} belongs to the Debian package {owner.stdout.split(':')[0]}; remove that with apt first, "
+                             "or name another --prefix")
+
+
+def platform_packages(root: Path) -> List[Path]:
+    """Folders of the catkin packages that are installed: all rooms but the labs."""
+    return sorted(path.parent for path in (root / "src").glob("*/*/package.xml") if path.parts[-3] != "labs")
+
+
+def export_sources(root: Path, to: Path) -> None:
+    """src/ as of the last commit (of a folder without git: as it is), so that half an edit is never packaged."""
+    shutil.rmtree(to, ignore_errors=True)
+    to.mkdir(parents=True)
+    if (root / ".git").exists():
+        archive = to / "sources.tar"
+        run(["git", "-C", root, "archive", "-o", archive, "HEAD", "src", "scripts"], "git archive")
+        run(["tar", "-x", "-C", to, "-f", archive], "unpacking the last commit")
+        archive.unlink()
+    else:
+        for folder in ("src", "scripts"):
+            shutil.copytree(root / folder, to / folder, symlinks=True, ignore=shutil.ignore_patterns("__pycache__", "*.pyc"))
+
+
+def build(root: Path, prefix: Path) -> Path:
+    """Build and install for ``prefix``.
+
+    :param root: top of the clone
+    :param prefix: absolute path from which the tree will be used; it is not touched
+    :return: folder whose content belongs into ``prefix``
+    :raises PackagingError: a step failed
+    """
+    work = root / "build" / "platform"
+    sources, workspace, stage = work / "sources", work / "workspace", work / "stage"
+    export_sources(root, sources)
+    shutil.rmtree(stage, ignore_errors=True)
+    shutil.rmtree(workspace / "src", ignore_errors=True)
+    (workspace / "src").mkdir(parents=True)
+    (workspace / ".catkin_tools").mkdir(exist_ok=True)  # else catkin takes the clone around it for the workspace
+    for room in sorted({package.parent for package in platform_packages(sources)}):
+        (workspace / "src" / room.name).symlink_to(room)
+    environment = {key: value for key, value in os.environ.items()
+                   if key not in ("CMAKE_PREFIX_PATH", "ROS_PACKAGE_PATH", "PYTHONPATH", "CPLUS_INCLUDE_PATH")}
+    environment["PATH"] = f"{sources}/src/tools/noetic_environment/debian_python:/usr/sbin:/usr/bin:/sbin:/bin"
+    run(["catkin", "config", "--init", "--workspace", workspace, "--install", "--install-space", prefix, "--cmake-args",
+         "-DPYTHON_EXECUTABLE=/usr/bin/python3", "-DCMAKE_BUILD_TYPE=RelWithDebInfo", "-DCATKIN_ENABLE_TESTING=OFF"],
+        "catkin config", {**environment, "DESTDIR": str(stage)})
+    run(["catkin", "build", "--workspace", workspace, "--no-notify", "--no-status", "--summarize"], "catkin build",
+        {**environment, "DESTDIR": str(stage)})
+    tree = stage / prefix.relative_to("/")
+    run([sys.executable, "-m", "pip", "install", "-q", "--disable-pip-version-check", "--root-user-action=ignore", "--no-deps",
+         "--no-compile", "--target", tree / "share/noetic_environment/python", "-r", sources / "scripts/requirements.txt"],
+        "installing the PyPI add-ons", {**os.environ, "PYTHONPATH": ""})
+    clean(tree)
+    return tree
+
+
+def clean(tree: Path) -> None:
+    """Take out what a build leaves beside the product, and strip libraries."""
+    shutil.rmtree(tree / "share/catkin_tools_prebuild", ignore_errors=True)
+    shutil.rmtree(tree / "share/noetic_environment/python/bin", ignore_errors=True)
+    for path in list(tree.rglob("*")):
+        if path.name == "__pycache__":
+            shutil.rmtree(path)
+        elif path.suffix in (".pyc", ".egg-info") and path.is_file() or path.name.startswith("catkin_tools_prebuild"):
+            path.unlink()
+        elif path.suffix == ".so" and path.is_file() and not path.is_symlink():
+            run(["strip", "--strip-unneeded", path], f"stripping {path.name}")
