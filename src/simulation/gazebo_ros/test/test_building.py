@@ -224,7 +224,8 @@ LONG = 10 ** 400
     ({"walls": [{"path": [[i % 2, i] for i in range(4000)]}] * 2}, r"walls\[1\]: more than 5000 pieces of wall on one floor"),
     ({"walls": [ROOM], "levels": [{}] * 201}, "levels: 201 entries; at most 200 are built"),
     ({"walls": [ROOM], "levels": [{"height": 9e4}, {"height": 9e4}, {}]}, r"levels\[2\]: its floor is .* m high"),
-    ({"walls": [ROOM], "name": [1]}, r"plan.name: \[1\] is no name"), ({"walls": [ROOM], "name": "a\0b"}, "plan.name: 'a b' is no|'a.b' is no"),
+    ({"walls": [ROOM], "name": [1]}, r"plan.name: \[1\] is no name"),
+    ({"walls": [ROOM], "name": "a\0b"}, "plan.name: 'a b' is no|'a.b' is no"),
     ({"walls": [ROOM], "name": LONG}, "plan.name: 1e400 is no name"), ({"walls": [ROOM], "name": "\ud800"}, "is no name"),
     ({"walls": [dict(ROOM, material={"a": 1})]}, r"walls\[0\].material: {'a': 1} is no name"),
     ({"walls": [dict(ROOM, **{"k" * 9999: 1})]}, r"walls\[0\]: there is no 'kkkk"),
@@ -242,7 +243,8 @@ def test_a_value_that_holds_itself_many_times_is_shown_short():
     bomb = [1]
     for _ in range(60):
         bomb = [bomb, bomb]
-    for plan in ({"walls": bomb}, {"walls": [{"path": bomb}]}, {"walls": [ROOM], "name": bomb}, {"walls": [dict(ROOM, color=bomb)]}):
+    for plan in ({"walls": bomb}, {"walls": [{"path": bomb}]}, {"walls": [ROOM], "name": bomb},
+                 {"walls": [dict(ROOM, color=bomb)]}):
         with pytest.raises(building.PlanError) as caught:
             building.building_of(plan)
         assert len(str(caught.value)) < 400
@@ -252,9 +254,11 @@ MERGES = "a0: &a0 {k: 1}\n" + "".join(f"a{i}: &a{i} {{<<: [*a{i - 1}, *a{i - 1}]
 
 
 @pytest.mark.parametrize("text", [
-    b"[" * 5000, b"a: " + b"[" * 100 + b"]" * 100, MERGES.encode(), b"&a {<<: *a}", b"&a [*a]", b"walls: &a [*a]", b"", b"\0", b"\xff\xfe\0",
+    b"[" * 5000, b"a: " + b"[" * 100 + b"]" * 100, MERGES.encode(), b"&a {<<: *a}", b"&a [*a]", b"walls: &a [*a]", b"", b"\0",
+    b"\xff\xfe\0",
     b"walls: !!python/object/apply:os.system ['true']", b"walls: !!timestamp x", b"walls: !!int ''", b"name: 2024-13-45",
-    b"name: " + b"9" * 5000, b"? [a]\n: b", b"{[]: 1}", b"walls: !!binary x", b"- " * 3000, b"walls: 0x" + b"f" * 5000, b"%YAML 9.9\n---\nx",
+    b"name: " + b"9" * 5000, b"? [a]\n: b", b"{[]: 1}", b"walls: !!binary x", b"- " * 3000, b"walls: 0x" + b"f" * 5000,
+    b"%YAML 9.9\n---\nx",
     b"walls: !!bool x", b"!!set {a}", b"x" * 1_000_001,
 ], ids=range(23))
 def test_any_text_is_a_plan_or_refused_at_once(tmp_path, text):

@@ -28,3 +28,17 @@ def test_exports_and_environment(tmp_path, monkeypatch):
     assert finder.find("model://cup") == os.path.join(one, "models", "cup")
     assert finder.find("package://two/models") == os.path.join(tmp_path, "two", "models")
     assert finder.find("package://three/models") is None
+
+
+def test_uris_stay_in_the_packages_and_folders_they_name(tmp_path, monkeypatch):
+    monkeypatch.setenv("GAZEBO_MODEL_PATH", "")
+    monkeypatch.setenv("GAZEBO_RESOURCE_PATH", "")
+    one = package(tmp_path / "ws", "one", 'gazebo_model_path="${prefix}/models" gazebo_media_path="${prefix}"')
+    (tmp_path / "secret.txt").write_text("x")
+    finder = make_finder(rospkg.RosPack(ros_paths=[str(tmp_path / "ws")]))
+    assert finder.find("package://one/x/../models") == os.path.join(one, "models")
+    for uri in ("package://one/../../secret.txt", "package://../secret.txt", "package://..", "package:///secret.txt",
+                f"package://one/{tmp_path}/secret.txt", "package://one/%2e%2e/%2e%2e/secret.txt", "model://../../../secret.txt",
+                "model://cup/../../../../secret.txt", f"model://{tmp_path}/secret.txt", "file://../../secret.txt",
+                "file://models/../../../secret.txt"):
+        assert finder.find(uri) is None, uri

@@ -1,7 +1,11 @@
 """Where files are looked for, and in which order."""
+import time
+
 import pytest
 
+from ode_sim.description import DescriptionError
 from ode_sim.description.finder import ResourceFinder, find_ros_package
+from ode_sim.description.materials import script_material
 
 
 def touch(path):
@@ -85,3 +89,101 @@ def test_stock_directory_from_the_environment(home, monkeypatch):
     finder = ResourceFinder()
     assert finder.stock_worlds() == ["worlds/empty.world"] and finder.stock_models() == ["cone"]
     assert finder.find_world("worlds/empty.world") == str(home / "s/worlds/empty.world")
+
+
+@pytest.fixture
+def traps(home, monkeypatch):
+    """A finder, and a secret beside its folders."""
+    touch(home / "secret/a.txt")
+    touch(home / "secret/model.config")
+    touch(home / "secret/model.sdf")
+    touch(home / "models/m/a.txt")
+    touch(home / "ws/pkg/package.xml")
+    touch(home / "ws/pkg/a.txt")
+    touch(home / "r/media/a.txt")
+    monkeypatch.setenv("GAZEBO_RESOURCE_PATH", f"{home}/r")
+    monkeypatch.chdir(home / "r")
+    return ResourceFinder([home / "models"], stock="", package_path={
+        "pkg": f"{home}/ws/pkg", "..": f"{home}", ".": f"{home}", "": f"{home}"}.get)
+
+
+@pytest.mark.parametrize("uri", [
+    "model://../secret/a.txt", "model://m/../../secret/a.txt", "model:///../secret/a.txt", "model://%2e%2e/secret/a.txt",
+    "model://m/%2E%2E/..%2fsecret/a.txt", "model://..", "model://../models/../secret", "model:////../secret/a.txt",
+    "model://{home}/secret/a.txt",
+    "package://pkg/../../secret/a.txt", "package://../secret/a.txt", "package://./secret/a.txt", "package:///secret/a.txt",
+    "package://pkg/x/../../../secret/a.txt", "package://pkg/{home}/secret/a.txt", "package://pkg/%2e%2e/%2e%2e/secret/a.txt",
+    "file://media/../../secret/a.txt", "file://../secret/a.txt", "file://media/%2e%2e/%2e%2e/secret/a.txt",
+    "file://model/../../secret/a.txt",
+    "http://models/..", "https://models/../", "model://a\0b", "model://" + "x" * 9999, "\0", "package://pkg/\0", "ftp://x/a.txt"],
+                         ids=lambda uri: uri[:40])
+def test_no_uri_leads_out_of_its_folder(home, traps, uri):
+    assert traps.find(uri.format(home=home), base=str(home / "r")) is None
+    assert traps.find_model_sdf(uri.format(home=home)) is None
+
+
+def test_uris_that_go_up_and_down_inside_their_folder_and_links_are_followed(home, traps):
+    assert traps.find("model://m/x/../a.txt") == f"{home}/models/m/a.txt"
+    assert traps.find("model://n/../m/a.txt") == f"{home}/models/m/a.txt"
+    assert traps.find("package://pkg/x/../a.txt") == f"{home}/ws/pkg/a.txt"
+    assert traps.find("file://media/../media/a.txt") == f"{home}/r/media/a.txt"
+    (home / "models/linked").symlink_to(home / "secret")
+    assert traps.find("model://linked/a.txt") == f"{home}/models/linked/a.txt"
+    assert traps.find("model://linked/../m/a.txt") == f"{home}/models/m/a.txt"  # not what lies beside the secret
+    assert traps.find("../secret/a.txt") == traps.find(f"file://{home}/secret/a.txt") == f"{home}/secret/a.txt"  # said plainly
+
+
+@pytest.mark.parametrize("name", ["../../secret/model.sdf", "{home}/secret/model.sdf", "x/../../../secret/model.sdf", "\t",
+    "y" * 9999, ".."], ids=range(6))
+def test_a_model_config_names_a_file_of_its_model(home, traps, name):
+    (home / "models/m/model.config").write_text(f"<model><sdf version='1.6'>{name.format(home=home)}</sdf></model>")
+    with pytest.raises(ValueError, match="model.config: names '.*', which is not there") as error:
+        traps.find_model_sdf("model://m")
+    assert len(str(error.value)) < 400
+
+
+@pytest.mark.parametrize("text", ["", "<", "<model/>", "<model>" * 2000,
+    "<!DOCTYPE m [<!ENTITY a 'b'>]><model><sdf>&a;</sdf></model>",
+                                  f"<model><sdf version='{'9' * 5000}'>a</sdf></model>",
+                                      "<model><sdf version='x.y'>a</sdf></model>", "\0", "\udcff"], ids=range(9))
+def test_a_model_config_that_is_none_is_refused_in_one_line(home, traps, text):
+    (home / "models/m/model.config").write_text(text, errors="surrogateescape")
+    with pytest.raises(DescriptionError, match="model.config") as error:
+        traps.find_model_sdf("model://m")
+    assert "\n" not in str(error.value) and len(str(error.value)) < 400
+
+
+# ---------------------------------------------------------------------------------------------- material scripts
+
+def look(folder, text, name="A"):
+    (folder / "x.material").write_text(text)
+    return script_material(name, [str(folder)])
+
+
+def test_material_scripts_of_any_shape(tmp_path):
+    red = "{ technique { pass { ambient 1 0 0 } } }"
+    for text in (f"material A {red}", f"material A\n\n{red}", f"material \"A\"{red}", f"material A: B {red}", f"material A:B{red}",
+                 f"/* material A {{ */ material A /* x */ {red}", f"material B {red.replace('1', '0')} material A {red}",
+                 f"/* open\nmaterial A {red}", f"material A {red[:-6]}", f"}} material A {red}"):
+        assert look(tmp_path, text).ambient == (1.0, 0.0, 0.0, 1.0), text
+    for text in ("", "material A", f"// material A {red}", f"/* material A {red} */", f"material AB {red}", f"material B : A {red}",
+                 f"x {{ material A {red} }}"):
+        assert look(tmp_path, text) is None, text
+    assert look(tmp_path, f"material A B {red}", "A B").ambient
+    assert look(tmp_path, "material A { pass { ambient nan 0 0\n diffuse 1e300 0 0\n specular x\n emissive 1 } }").ambient is None
+    assert look(tmp_path, "material A { texture\ntexture a\0b\ntexture " + "x" * 9999 + "\n}").texture == ""
+
+
+@pytest.mark.parametrize("text", ["/*" * 400_000, "//" * 400_000, "\n" * 800_000, " " * 800_000, "{" * 800_000,
+    "material A {" + "}{" * 400_000,
+                                  "material A\n" * 80_000], ids=range(7))
+def test_material_scripts_take_linear_time(tmp_path, text):
+    begin = time.process_time()
+    look(tmp_path, text)
+    assert time.process_time() - begin < 5.0  # by the square of the length: minutes
+
+
+def test_what_is_no_script_has_no_materials(tmp_path):
+    (tmp_path / "folder.material").mkdir()
+    (tmp_path / "bytes.material").write_bytes(bytes(range(256)) * 100)
+    assert script_material("A", [str(tmp_path), str(tmp_path / "none"), str(tmp_path / "bytes.material"), ""]) is None

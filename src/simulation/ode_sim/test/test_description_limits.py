@@ -270,8 +270,8 @@ def cpu(function, *arguments):
 
 def urdf_star(count):
     return "<link name='root'>" + INERTIAL + "</link>" + "".join(
-        f'<link name="l{i}">{INERTIAL}<visual>{BOX.replace("<size>1 2 3</size>", "").replace("<box>", "<box size=%s>" % repr("1 1 1"))}'
-        f'</visual></link><joint name="j{i}" type="{"fixed" if i % 2 else "continuous"}"><parent link="root"/>'
+        f'<link name="l{i}">{INERTIAL}<visual><geometry><box size="1 1 1"/></geometry></visual></link>'
+        f'<joint name="j{i}" type="{"fixed" if i % 2 else "continuous"}"><parent link="root"/>'
         f'<child link="l{i}"/></joint><gazebo reference="l{i}"><mu1>{i}</mu1></gazebo>'
         f'<gazebo><plugin name="p{i}" filename="q"><bodyName>l{i}</bodyName></plugin></gazebo>' for i in range(count))
 

@@ -361,7 +361,8 @@ def png(width, height, body, kind=6):
 
 GOOD = png(2, 2, zlib.compress(b"\0" + b"\0\xff\0\xff" * 2 + b"\0" + b"\0\xff\0\xff" * 2))
 BAD_TEXTURES = {
-    "empty.png": b"", "text.png": b"not an image", "cut.png": GOOD[:42], "header.png": GOOD[:20], "crc.png": GOOD[:20] + b"xxxx" + GOOD[24:],
+    "empty.png": b"", "text.png": b"not an image", "cut.png": GOOD[:42], "header.png": GOOD[:20],
+    "crc.png": GOOD[:20] + b"xxxx" + GOOD[24:],
     "deflate.png": png(2, 2, b"rubbish"), "no_size.png": png(0, 0, b""), "huge.png": png(60000, 60000, zlib.compress(b"")),
     "bomb.png": png(9500, 9500, zlib.compress(b"")), "kind.png": png(2, 2, zlib.compress(b"x" * 99), kind=5),
     "page.png": b"%!PS-Adobe-3.0 EPSF-3.0\n%%BoundingBox: 0 0 9 9\nshowpage\n", "cut.jpg": b"\xff\xd8\xff\xe0\0\x10JFIF",
