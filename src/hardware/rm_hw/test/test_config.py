@@ -1,6 +1,8 @@
 """The node's parameters: defaults with a line, what is left out, what is refused."""
 import copy
+import math
 import os
+from dataclasses import fields, is_dataclass
 
 import pytest
 import yaml
@@ -78,6 +80,54 @@ def test_nonsense_is_refused_in_one_line(changes, remedy):
     with pytest.raises(ConfigError, match=remedy) as error:
         parse(changed(**changes), {})
     assert "\n" not in str(error.value)
+
+
+FULL = changed(
+    interface="slcan", channel="/dev/tty_{bus}", bitrate=1000000, thread_priority=95,
+    bus=[{"name": "can0", "interface": "virtual", "channel": "x", "bitrate": 500000}],
+    actuators={"motor": {"bus": "can0", "id": 0x201, "type": "rm_3508", "need_calibration": False,
+                         "lp_cutoff_frequency": 60.0, "timeout": 0.1}},
+    imus={"base": {"bus": "can0", "id": 0x300, "frame_id": "base_imu", "accel_coeff": 0.002, "angular_vel_coeff": 0.001,
+                   "temp_coeff": 0.125, "temp_offset": 23.0, "angular_vel_offset": [0.0, 0.0, 0.0],
+                   "orientation_covariance_diagonal": [0.1, 0.1, 0.1]}})
+STRANGE = [None, "", "text", "/", True, False, 0, -1, 3, 2 ** 40, 1e308, -1e308, math.nan, math.inf, -math.inf,
+           [], [1, 2], ["a"], [[]], [None], [math.nan] * 3, ["x"] * 3, {}, {"a": 1}, {"name": ["can0"]}]
+
+
+def places(tree, path=()):
+    """Paths to every value of a tree of parameters."""
+    for key, value in tree.items() if isinstance(tree, dict) else enumerate(tree):
+        yield path + (key,)
+        if isinstance(value, (dict, list)):
+            yield from places(value, path + (key,))
+
+
+def numbers(thing):
+    """All floats in a parsed configuration."""
+    if isinstance(thing, float):
+        yield thing
+    elif isinstance(thing, (list, tuple)):
+        for entry in thing:
+            yield from numbers(entry)
+    elif is_dataclass(thing):
+        yield from numbers([getattr(thing, field.name) for field in fields(thing)])
+
+
+@pytest.mark.parametrize("place", places(FULL), ids=lambda place: "/".join(map(str, place)))
+def test_whatever_stands_where_is_taken_or_refused_in_one_line(place):
+    for value in STRANGE:
+        params = copy.deepcopy(FULL)
+        node = params
+        for key in place[:-1]:
+            node = node[key]
+        node[place[-1]] = value
+        try:
+            config = parse(params, TABLE)
+        except ConfigError as error:
+            assert "\n" not in str(error) and len(str(error)) < 400
+        else:
+            assert all(map(math.isfinite, numbers([config.buses, config.actuators, config.imus, config.loop_frequency,
+                                                   config.cycle_time_error_threshold]))), (place, value)
 
 
 def test_imu_defaults_are_said():

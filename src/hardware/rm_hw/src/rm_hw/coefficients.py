@@ -1,12 +1,25 @@
 """Actuator types: factors between bus counts and SI units."""
 from __future__ import annotations
 
+import reprlib
+import sys
 from dataclasses import MISSING, dataclass, fields
 from typing import Any, Mapping
 
 
 class ConfigError(ValueError):
     """Something in the configuration is wrong; one line: which parameter, what, and what to write instead."""
+
+
+def number(value: Any, what: str) -> float:
+    """``value`` as a float.
+
+    :param what: name of the parameter, for the message.
+    :raises ConfigError: it is no number, or not finite.
+    """
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not abs(value) <= sys.float_info.max:
+        raise ConfigError(f"{what} is {reprlib.repr(value)}: write a number")
+    return float(value)
 
 
 @dataclass(frozen=True)
@@ -42,6 +55,8 @@ class Coefficients:
 
         :raises ConfigError: a required factor is missing or a value is no number.
         """
+        if not isinstance(params, Mapping):
+            raise ConfigError(f"actuator_coefficient/{type_name} is {reprlib.repr(params)}: write a mapping of factors")
         values = {}
         for field in fields(cls):
             if field.name not in params:
@@ -49,8 +64,5 @@ class Coefficients:
                     raise ConfigError(f"actuator_coefficient/{type_name} has no '{field.name}': add it, or load "
                                       "rm_hw/config/actuator_coefficient.yaml")
                 continue
-            value = params[field.name]
-            if isinstance(value, bool) or not isinstance(value, (int, float)):
-                raise ConfigError(f"actuator_coefficient/{type_name}/{field.name} is {value!r}: write a number")
-            values[field.name] = float(value)
+            values[field.name] = number(params[field.name], f"actuator_coefficient/{type_name}/{field.name}")
         return cls(**values)

@@ -2,12 +2,14 @@
 from __future__ import annotations
 
 import os
+import reprlib
+import sys
 from dataclasses import dataclass, field
 from typing import Any, Dict, List, Mapping, Tuple
 
 from rm_hw.actuator import SILENCE
 from rm_hw.can_bus import BITRATE
-from rm_hw.coefficients import Coefficients, ConfigError
+from rm_hw.coefficients import Coefficients, ConfigError, number
 from rm_hw.frames import command_slot
 
 BENCH_DIRECTORY = os.environ.get("RM_BENCH_DIR", "/tmp/rm_bench")
@@ -104,8 +106,8 @@ def parse(params: Mapping[str, Any], own_coefficients: Mapping[str, Any]) -> Con
 
 
 def _positive(value: Any, name: str) -> float:
-    if isinstance(value, bool) or not isinstance(value, (int, float)) or value <= 0:
-        raise ConfigError(f"parameter '{name}' is {value!r}: write a number above zero")
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not 0 < value <= sys.float_info.max:
+        raise ConfigError(f"parameter '{name}' is {reprlib.repr(value)}: write a number above zero")
     return float(value)
 
 
@@ -115,7 +117,7 @@ def _section(params: Mapping[str, Any], key: str, label: str, lines: List[Tuple[
         lines.append(("warn", f"No {label} specified"))
         return {}
     if not isinstance(section, dict):
-        raise ConfigError(f"parameter '{key}' is {section!r}: write a mapping of names")
+        raise ConfigError(f"parameter '{key}' is {reprlib.repr(section)}: write a mapping of names")
     return section
 
 
@@ -125,7 +127,7 @@ def _buses(params: Mapping[str, Any], lines: List[Tuple[str, str]]) -> List[BusC
         lines.append(("warn", "No bus specified"))
         return []
     if not isinstance(entries, list):
-        raise ConfigError(f"parameter 'bus' is {entries!r}: write a list, for example [can0]")
+        raise ConfigError(f"parameter 'bus' is {reprlib.repr(entries)}: write a list, for example [can0]")
     buses = []
     for entry in entries:
         entry = entry if isinstance(entry, dict) else {"name": entry}
@@ -139,7 +141,8 @@ def _buses(params: Mapping[str, Any], lines: List[Tuple[str, str]]) -> List[BusC
         if any(other.name == name or other.channel == channel for other in buses):
             raise ConfigError(f"bus {name} (channel {channel}) is listed twice: give each bus a channel of its own, "
                               "for example channel: /dev/tty_{bus}")
-        buses.append(BusConfig(name, interface, channel, int(entry.get("bitrate", params.get("bitrate", BITRATE)))))
+        bitrate = int(_positive(entry.get("bitrate", params.get("bitrate", BITRATE)), f"bitrate of {name}"))
+        buses.append(BusConfig(name, interface, channel, bitrate))
     return buses
 
 
@@ -168,7 +171,7 @@ def _add_actuator(config: Config, name: str, entry: Any, coefficients: Mapping[s
     type_name, identifier = str(entry["type"]), entry["id"]
     if type_name not in coefficients or not ("rm" in type_name or "cheetah" in type_name):
         raise ConfigError(f"Unknown actuator type '{type_name}' of actuator {name}; known types: "
-                          f"{', '.join(sorted(coefficients))}")
+                          f"{', '.join(sorted(map(str, coefficients)))}")
     for other in config.actuators:
         if other.bus == entry["bus"] and other.id == identifier:
             raise ConfigError(f"actuators {other.name} and {name} both have id 0x{identifier:X} on {other.bus}: set "
@@ -180,15 +183,14 @@ def _add_actuator(config: Config, name: str, entry: Any, coefficients: Mapping[s
             raise ConfigError(f"actuator {name}: {error}") from None
     config.actuators.append(ActuatorConfig(
         name, entry["bus"], identifier, type_name, Coefficients.from_params(type_name, coefficients[type_name]),
-        bool(entry.get("need_calibration", False)), float(entry.get("lp_cutoff_frequency", -1.0)),
+        bool(entry.get("need_calibration", False)), number(entry.get("lp_cutoff_frequency", -1.0), f"actuators/{name}/lp_cutoff_frequency"),
         _positive(entry.get("timeout", SILENCE), f"actuators/{name}/timeout")))
 
 
 def _triple(value: Any, what: str) -> Tuple[float, float, float]:
-    try:
-        x, y, z = (float(v) for v in value)
-    except (TypeError, ValueError):
-        raise ConfigError(f"{what} is {value!r}: write three numbers") from None
+    if not isinstance(value, (list, tuple)) or len(value) != 3:
+        raise ConfigError(f"{what} is {reprlib.repr(value)}: write three numbers")
+    x, y, z = (number(entry, what) for entry in value)
     return x, y, z
 
 
@@ -203,5 +205,5 @@ def _add_imu(config: Config, name: str, entry: Any) -> None:
             config.lines.append(("info", f"parameter 'imus/{name}/{key}' is not set: using {default}"))
         else:
             what = f"imus/{name}/{key}"
-            values[key] = _triple(given, what) if isinstance(default, tuple) else float(given)
+            values[key] = _triple(given, what) if isinstance(default, tuple) else number(given, what)
     config.imus.append(ImuConfig(name, entry["bus"], entry["id"], str(entry["frame_id"]), **values))
