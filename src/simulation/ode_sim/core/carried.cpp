@@ -20,10 +20,12 @@ void World::plan_carried() {
 // servo joints move the same cluster.
 Model* World::try_plan_carried() {
   carried_.clear();
-  struct Edge {
-    Link *a, *b;
+  // For each cluster: its links that something else hangs on, and what hangs there.
+  std::map<const Cluster*, std::vector<std::pair<Link*, Link*>>> edges;
+  auto add = [&](Link* a, Link* b) {
+    edges[&cluster_of(*a)].push_back({a, b});
+    edges[&cluster_of(*b)].push_back({b, a});
   };
-  std::vector<Edge> edges;
   bool any = false;
   for (auto& m : models_) {
     for (auto& c : m->clusters) {
@@ -31,12 +33,13 @@ Model* World::try_plan_carried() {
       c.carry_v = c.carry_w = {};
       any |= c.root && c.moving && !c.carriers;
     }
-    for (auto& j : m->joints)
-      if (j->joint && j->parent) edges.push_back({j->parent, j->child});
   }
   if (!any) return nullptr;
+  for (auto& m : models_)
+    for (auto& j : m->joints)
+      if (j->joint && j->parent) add(j->parent, j->child);
   for (auto& t : ties_)
-    if (t.parent) edges.push_back({t.parent, t.child});
+    if (t.parent) add(t.parent.get(), t.child.get());
 
   // The link whose motion, given by servo joints, carries what hangs on `l`; null if none does.
   std::map<const Cluster*, Link*> mover;
@@ -55,26 +58,28 @@ Model* World::try_plan_carried() {
   size_t next = 0;
   Model* looped = nullptr;
   auto grow = [&] {
-    for (; next < queue.size(); ++next)
-      for (auto& e : edges)
-        for (auto [by, at] : {std::make_pair(e.a, e.b), std::make_pair(e.b, e.a)}) {
-          Cluster &c = cluster_of(*at), &from = cluster_of(*by);
-          if (&from != queue[next] || &c == &from) continue;
-          Link* m = mover_of(by);
-          if (seen.count(&c)) {
-            if (!c.root || m == mover_of(at)) continue;
-            for (Model* model : {by->model, at->model})
-              if (!model->loop && model->has_servo) looped = model;
-            continue;
-          }
-          visit(c);
-          if (!c.root || c.carriers) continue;
-          mover[&c] = at->moving ? at : m;
-          if (!mover[&c]) continue;
-          c.by = by;
-          c.at = at;
-          carried_.push_back(&c);
+    for (; next < queue.size(); ++next) {
+      const auto found = edges.find(queue[next]);
+      if (found == edges.end()) continue;
+      for (auto [by, at] : found->second) {
+        Cluster& c = cluster_of(*at);
+        if (&c == queue[next]) continue;
+        Link* m = mover_of(by);
+        if (seen.count(&c)) {
+          if (!c.root || m == mover_of(at)) continue;
+          for (Model* model : {by->model, at->model})
+            if (!model->loop && model->has_servo) looped = model;
+          continue;
         }
+        visit(c);
+        if (!c.root || c.carriers) continue;
+        mover[&c] = at->moving ? at : m;
+        if (!mover[&c]) continue;
+        c.by = by;
+        c.at = at;
+        carried_.push_back(&c);
+      }
+    }
   };
   auto start = [&](auto wanted) {
     for (auto& m : models_)
@@ -277,13 +282,13 @@ void World::follow_servos() {
         any |= moving;
       }
   }
-  if (!any) return;
+  if (!any || 6 * carried_.size() > kMostExactRows) return;
 
   // Every body that the pass may touch stays as it is, but for the velocities of the carried ones.
   std::set<const Model*> touched;
   for (Cluster* c : carried_) touched.insert({c->root->model, c->by->model});
   for (auto& t : ties_)
-    for (Link* l : {t.parent, t.child})
+    for (Link* l : {t.parent.get(), t.child.get()})
       if (l) touched.insert(l->model);
   std::vector<Cluster*> all;
   for (auto& m : models_)

@@ -47,21 +47,22 @@ void World::recluster(Model& model) {
   }
   for (auto& j : model.joints) model.has_servo |= j->servo != ServoMode::Off;
 
+  auto join = [&](Cluster& c, Link* l) {
+    l->cluster = static_cast<int>(model.clusters.size());
+    c.members.push_back(l);
+  };
   auto grow = [&](Cluster& c) {
-    const int index = static_cast<int>(model.clusters.size());
-    for (size_t i = 0; i <= c.members.size(); ++i) {
-      if (i == c.members.size()) break;
+    for (size_t i = 0; i < c.members.size(); ++i) {
       Link* at = c.members[i];
-      at->cluster = index;
-      for (auto& j : model.joints) {
+      for (Joint* j : at->joints) {
         if (!j->merged()) continue;
-        Link* next = j->parent == at ? j->child : j->child == at ? j->parent : nullptr;
-        if (!next || next->cluster >= 0 || std::find(c.members.begin(), c.members.end(), next) != c.members.end()) continue;
-        next->up = j.get();
+        Link* next = j->parent == at ? j->child : j->parent;
+        if (!next || next->cluster >= 0) continue;
+        next->up = j;
         next->up_link = at;
         next->moving = at->moving || j->servo == ServoMode::Locked;
         c.moving |= next->moving;
-        c.members.push_back(next);
+        join(c, next);
       }
     }
   };
@@ -80,7 +81,7 @@ void World::recluster(Model& model) {
         j->child->up = j.get();
         j->child->moving = j->servo == ServoMode::Locked;
         anchored.moving |= j->child->moving;
-        anchored.members.push_back(j->child);
+        join(anchored, j->child);
       }
     grow(anchored);
   }
@@ -89,7 +90,7 @@ void World::recluster(Model& model) {
   auto start = [&](Link* root) {
     Cluster c;
     c.root = root;
-    c.members.push_back(root);
+    join(c, root);
     grow(c);
     model.clusters.push_back(c);
   };
@@ -97,7 +98,7 @@ void World::recluster(Model& model) {
   for (auto& l : model.links) {
     if (l->cluster >= 0) continue;
     bool held = false;
-    for (auto& j : model.joints) held |= j->merged() && j->child == l.get();
+    for (Joint* j : l->joints) held |= j->merged() && j->child == l.get();
     if (!held) start(l.get());
   }
   for (auto& l : model.links)
@@ -116,7 +117,7 @@ void World::recluster(Model& model) {
           carry(*l);
         }
   for (auto& t : ties_)
-    for (Link* l : {t.parent, t.child})
+    for (Link* l : {t.parent.get(), t.child.get()})
       if (l && l->model == &model) carry(*l);
 
   for (auto& l : model.links)
@@ -236,6 +237,12 @@ void World::spread_twists(Cluster& c, bool servos) {
 void World::place_shapes(Link& link) {
   for (auto& s : link.shapes) {
     const Pose X = link.X_WL * s->X_LC;
+    const bool within = std::abs(X.p.x) < kOutOfReach && std::abs(X.p.y) < kOutOfReach && std::abs(X.p.z) < kOutOfReach;
+    if (s->out_of_reach == within) {
+      s->out_of_reach = !within;
+      within ? dGeomEnable(s->geom) : dGeomDisable(s->geom);
+    }
+    if (!within) continue;
     if (s->infinite) {
       const Vec3 n = rotate(X.q, s->plane_normal);
       dGeomPlaneSetParams(s->geom, n.x, n.y, n.z, dot(n, X.p));

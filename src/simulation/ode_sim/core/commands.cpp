@@ -19,12 +19,17 @@ void World::wake(Model& model) {
 
 void World::set_model_pose(Model& model, const Pose& old, const Pose& wanted) {
   const Pose X = wanted * inverse(old);
-  for (auto& l : model.links) {
-    l->X_WL = normalized(X * l->X_WL);
-    if (model.is_static) l->X_RL = l->X_WL;
+  std::vector<Pose> poses;
+  for (auto& l : model.links) poses.push_back(checked(X * l->X_WL, "a link of the model, so placed,"));
+  std::vector<Pose> bolts;
+  for (auto& j : model.joints) bolts.push_back(j->parent ? j->X_PJ : checked(X * j->X_PJ, "a joint of the model, so placed,"));
+  for (size_t i = 0; i < poses.size(); ++i) {
+    Link& l = *model.links[i];
+    l.X_WL = poses[i];
+    if (model.is_static) l.X_RL = l.X_WL;
   }
-  for (auto& j : model.joints)
-    if (!j->parent) j->X_PJ = normalized(X * j->X_PJ);
+  for (size_t i = 0; i < bolts.size(); ++i)
+    if (!model.joints[i]->parent) model.joints[i]->X_PJ = bolts[i];
   model.dirty = true;
   refresh();
   read_back();
@@ -36,10 +41,12 @@ void World::set_link_pose(Link& link, const Pose& X_WL) {
   Cluster& c = model.clusters[link.cluster];
   if (!c.root && !model.is_static) return;  // bolted to the world
   const Pose X = normalized(X_WL) * inverse(link.X_WL);
-  if (c.root)
+  if (c.root) {
+    for (Link* l : c.members) checked_place(X * l->X_WL.p, "a link joined to it, so placed,");
     c.root->X_WL = normalized(X * c.root->X_WL);
-  else
+  } else {
     link.X_WL = normalized(X_WL);
+  }
   model.dirty = true;
   refresh();
   read_back();
@@ -65,7 +72,7 @@ void World::zero_velocities(Model& model) {
   for (auto& l : model.links) l->v = l->w = l->force = l->torque = {};
   for (auto& j : model.joints) {
     j->rate = j->previous_rate = 0;
-    for (auto& a : j->axes) a.qd = a.force = 0;
+    for (auto& a : j->axes) a.relax();
   }
   wake(model);
   for (auto& c : model.clusters) place_cluster(c);
@@ -90,6 +97,7 @@ bool World::set_joint_position(Joint& j, int axis, double q) {
   }
   const Pose X_WC = X_WJ * X_J * inverse(j.X_CJ);
   const Pose X = X_WC * inverse(j.child->X_WL);
+  for (Link* l : beyond) checked_place(X * l->X_WL.p, "a link beyond the joint, so placed,");
   for (Link* l : beyond) {
     l->X_WL = normalized(X * l->X_WL);
     l->v = l->w = {};
@@ -108,7 +116,7 @@ bool World::set_joint_position(Joint& j, int axis, double q) {
 void World::set_servo(Joint& j, double target) {
   if (j.type != JointType::Revolute && j.type != JointType::Prismatic) return;
   const Axis& a = j.axes[0];
-  j.target = std::min(std::max(target, a.lower), a.upper);
+  j.target = limited(std::min(std::max(target, a.lower), a.upper), kFarthest, "a position command");
   if (j.servo != ServoMode::Off) return;
   j.servo = ServoMode::Locked;
   j.previous_target = a.q;
@@ -121,7 +129,7 @@ void World::servo_off(Joint& j) {
   if (j.servo == ServoMode::Off) return;
   j.servo = ServoMode::Off;
   j.rate = 0;
-  j.leader = nullptr;
+  j.leader.reset();
   j.model->dirty = true;
 }
 
@@ -131,16 +139,30 @@ void World::set_inertial(Link& link, double mass, const Vec3& com, const Sym3& i
   link.com = com;
   link.inertia = inertia;
   link.model->dirty = true;
-  for (auto& j : link.model->joints) j->sane = sane_beyond(*j);
+  judge_sanity(*link.model);
+}
+
+// Position-commanded to `multiplier` times the position of the leader, plus `offset`. Without a leader it is let go.
+void World::follow(Joint& j, const std::shared_ptr<Joint>& leader, double multiplier, double offset) {
+  if (!leader) return servo_off(j);
+  if (!owns(leader->model)) throw std::invalid_argument("the joint to follow is not in this world");
+  j.leader = leader;
+  j.multiplier = limited(multiplier, kFarthest, "the multiplier of a mimic joint");
+  j.offset = limited(offset, kFarthest, "the offset of a mimic joint");
+  set_servo(j, j.multiplier * leader->axes[0].q + j.offset);
 }
 
 // ------------------------------------------------------------------------------------------------ ties
 
 // Holds the child where it is now relative to the parent (to the world if null). Returns the tie's number.
-int World::attach(Link* parent, Link& child) {
+int World::attach(std::shared_ptr<Link> parent, std::shared_ptr<Link> child) {
+  for (const Link* l : {parent.get(), child.get()})
+    if (l && !owns(l->model)) throw std::invalid_argument("a link to be attached is not in this world");
+  if (parent == child) throw std::invalid_argument("a link cannot be attached to itself");
   refresh();
-  ties_.push_back({next_tie_++, parent, &child, parent ? inverse(parent->X_WL) * child.X_WL : child.X_WL});
-  for (Link* l : {parent, &child})
+  const Pose X_PC = parent ? inverse(parent->X_WL) * child->X_WL : child->X_WL;
+  ties_.push_back({next_tie_++, std::move(parent), std::move(child), X_PC});
+  for (auto& l : {ties_.back().parent, ties_.back().child})
     if (l) wake(*l->model), l->model->dirty = true;
   return ties_.back().id;
 }
@@ -148,7 +170,7 @@ int World::attach(Link* parent, Link& child) {
 void World::detach(int id) {
   for (size_t i = 0; i < ties_.size(); ++i) {
     if (ties_[i].id != id) continue;
-    for (Link* l : {ties_[i].parent, ties_[i].child})
+    for (auto& l : {ties_[i].parent, ties_[i].child})
       if (l) wake(*l->model), l->model->dirty = true;
     ties_.erase(ties_.begin() + i);
     return;
@@ -165,26 +187,25 @@ Tie* World::find_tie(int id) {
   return nullptr;
 }
 
+std::vector<int> World::ties() const {
+  std::vector<int> out;
+  for (auto& t : ties_) out.push_back(t.id);
+  return out;
+}
+
 // Links that are tied do not collide, nor does what is rigidly joined to them.
 bool World::tied(const Link& a, const Link& b) const {
-  const auto same = [](const Link* l, const Link& m) { return l && l->model == m.model && l->cluster == m.cluster; };
+  const auto same = [](const std::shared_ptr<Link>& l, const Link& m) { return l && l->model == m.model && l->cluster == m.cluster; };
   for (auto& t : ties_)
     if ((same(t.parent, a) && same(t.child, b)) || (same(t.parent, b) && same(t.child, a))) return true;
   return false;
-}
-
-Link* World::find_link(int id) const {
-  for (auto& m : models_)
-    for (auto& l : m->links)
-      if (l->id == id) return l.get();
-  return nullptr;
 }
 
 // Made anew for each step: which bodies carry the links changes when servo joints lock and unlock.
 void World::make_tie_joints() {
   for (auto& t : ties_) {
     t.joint = nullptr;
-    const dBodyID child = body_of(t.child), parent = body_of(t.parent);
+    const dBodyID child = body_of(t.child.get()), parent = body_of(t.parent.get());
     if (child == parent || (!child && !parent)) continue;
     t.joint = dJointCreateFixed(world_, contact_group_);
     dJointSetFeedback(t.joint, &t.feedback);

@@ -51,8 +51,13 @@ void World::collide() {
       dGeomSetRotation(stand_in->faceted, dGeomGetRotation(stand_in->geom));
       (stand_in == a ? ga : gb) = stand_in->faceted;
     }
-    int n = dCollide(ga, gb, 250, found, sizeof found[0]);
-    n = std::min(n, 250);
+    int n = 0;
+    try {
+      n = std::min(dCollide(ga, gb, 250, found, sizeof found[0]), 250);
+    } catch (const OdeFailure& failure) {
+      report(std::string(failure.what()) + "; they do not touch in this step",
+             a->link->model == b->link->model ? a->link->model->name : a->link->model->name + " and " + b->link->model->name);
+    }
     const int most = std::min({max_contacts, a->max_contacts, b->max_contacts});
     if (n > most) {
       std::stable_sort(found, found + n, [](auto& p, auto& q) { return p.depth > q.depth; });
@@ -244,8 +249,9 @@ std::vector<ContactRecord> World::contact_records() {
     if (c.feedback >= 0 && c.feedback < static_cast<int>(feedback_.size())) {
       // ODE gives what acts on its first body about that body's CoM; here: on the first link, about its CoM.
       const dJointFeedback& f = feedback_[c.feedback];
-      const Vec3 force = c.swapped ? -vec(f.f1) : vec(f.f1);
-      const Vec3 torque = cross(c.pos - c.a->link->com_W(), force);
+      Vec3 force = c.swapped ? -vec(f.f1) : vec(f.f1);
+      Vec3 torque = cross(c.pos - c.a->link->com_W(), force);
+      if (!finite(force) || !finite(torque)) force = torque = {};  // the solver lost its way: nothing is known
       r.force[0] = force.x; r.force[1] = force.y; r.force[2] = force.z;
       r.torque[0] = torque.x; r.torque[1] = torque.y; r.torque[2] = torque.z;
     }

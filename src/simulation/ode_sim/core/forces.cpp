@@ -20,8 +20,8 @@ void World::set_rates(Model& model) {
   for (auto& j : model.joints) {
     if (j->servo == ServoMode::Off) continue;
     Axis& a = j->axes[0];
-    if (j->leader) {
-      const Joint& l = *j->leader;
+    if (const auto leader = j->leader.lock()) {
+      const Joint& l = *leader;
       const double q = l.servo == ServoMode::Locked ? l.target : l.axes[0].q + l.axes[0].qd * dt;
       j->target = std::min(std::max(j->multiplier * q + j->offset, a.lower), a.upper);
     }

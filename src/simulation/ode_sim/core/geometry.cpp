@@ -6,6 +6,14 @@ namespace ode_sim {
 
 MeshData::MeshData(std::vector<double> v, std::vector<dTriIndex> i) : vertices(std::move(v)), indices(std::move(i)) {
   initialise_ode();
+  if (vertices.empty() || indices.empty() || vertices.size() % 3 || indices.size() % 3)
+    throw std::invalid_argument("a mesh takes vertices and triangles of three numbers each, and at least one");
+  if (std::max(vertices.size(), indices.size()) > std::numeric_limits<int>::max())
+    throw std::invalid_argument("the mesh is too large");
+  for (double v : vertices)
+    if (!(std::abs(v) <= kFarthest)) throw std::invalid_argument("a corner of the mesh lies beyond " + shown(kFarthest) + " m");
+  for (dTriIndex i : indices)
+    if (i >= vertices.size() / 3) throw std::invalid_argument("a triangle of the mesh names a corner that there is not");
   data = dGeomTriMeshDataCreate();
   dGeomTriMeshDataBuildDouble(data, vertices.data(), 3 * sizeof(double), static_cast<int>(vertices.size() / 3),
                               indices.data(), static_cast<int>(indices.size()), 3 * sizeof(dTriIndex));
@@ -39,6 +47,11 @@ dGeomID make_cylinder(Shape& shape, double radius, double length) {
 }
 
 dGeomID make_heightmap(Shape& shape, std::vector<double> heights, int columns, int rows, double size_x, double size_y) {
+  if (columns < 2 || rows < 2) throw std::invalid_argument("a height map needs at least two rows and two columns");
+  checked_size(size_x, "the width of a height map");
+  checked_size(size_y, "the depth of a height map");
+  for (double h : heights)
+    if (!(std::abs(h) <= kFarthest)) throw std::invalid_argument("a height of the map is not a number within " + shown(kFarthest) + " m");
   // `heights`: row-major, first row at +y. ODE wants depth samples along its z, which the y-up turn makes our -y.
   shape.heights = std::move(heights);
   shape.field = dGeomHeightfieldDataCreate();

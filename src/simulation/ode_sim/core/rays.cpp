@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "world.hpp"
+#include "ode_access.hpp"
 
 namespace ode_sim {
 
@@ -23,25 +23,35 @@ double entry(const double* box, const double* origin, const double* inverse, dou
   }
   return from <= to ? from : kInf;
 }
+// One ray of ODE's, for as long as it lives.
+struct Ray {
+  explicit Ray(double length) : geom(dCreateRay(nullptr, length)) {
+    dGeomRaySetFirstContact(geom, 0);
+    dGeomRaySetClosestHit(geom, 1);
+  }
+  ~Ray() { dGeomDestroy(geom); }
+  Ray(const Ray&) = delete;
+  Ray& operator=(const Ray&) = delete;
+  const dGeomID geom;
+};
 }  // namespace
 
 // `origins`, `directions`: n x 3, world frame; directions are normalised here. `ranges`: metres, infinity = no hit within
 // `max_range`; `hits`: shape ids, -1 = none. Returns how many rays hit.
 int World::cast_rays(const double* origins, const double* directions, int n, double max_range,
                      const std::vector<int>& ignore, double* ranges, int32_t* hits) {
-  dAllocateODEDataForThread(dAllocateMaskAll);
+  initialise_ode();
   std::vector<Candidate> all;
   all.reserve(shapes_.size());
   for (auto& [id, shape] : shapes_) {
-    if (std::find(ignore.begin(), ignore.end(), id) != ignore.end()) continue;
+    if (shape->out_of_reach || std::find(ignore.begin(), ignore.end(), id) != ignore.end()) continue;
     Candidate c{shape, {-kInf, kInf, -kInf, kInf, -kInf, kInf}};
     if (!shape->infinite) dGeomGetAABB(shape->geom, c.box);
     all.push_back(c);
   }
   if (!std::isfinite(max_range)) max_range = 1e6;
-  const dGeomID ray = dCreateRay(nullptr, max_range);
-  dGeomRaySetFirstContact(ray, 0);
-  dGeomRaySetClosestHit(ray, 1);
+  max_range = std::min(std::max(max_range, 0.0), kOutOfReach);
+  const Ray ray(max_range);
   std::vector<std::pair<double, Shape*>> near;
   int count = 0;
   for (int i = 0; i < n; ++i) {
@@ -50,7 +60,7 @@ int World::cast_rays(const double* origins, const double* directions, int n, dou
     ranges[i] = kInf;
     hits[i] = -1;
     const double length = norm(d);
-    if (!(length > 0) || !std::isfinite(length) || !finite(Vec3{o[0], o[1], o[2]})) continue;
+    if (!(length > 0) || !std::isfinite(length) || !(norm(Vec3{o[0], o[1], o[2]}) < kOutOfReach)) continue;
     d = d * (1 / length);
     const double inverse[3] = {1 / d.x, 1 / d.y, 1 / d.z};
     near.clear();
@@ -60,12 +70,17 @@ int World::cast_rays(const double* origins, const double* directions, int n, dou
     }
     std::sort(near.begin(), near.end(),
               [](auto& a, auto& b) { return a.first != b.first ? a.first < b.first : a.second->id < b.second->id; });
-    dGeomRaySetLength(ray, max_range);
-    dGeomRaySet(ray, o[0], o[1], o[2], d.x, d.y, d.z);
+    dGeomRaySetLength(ray.geom, max_range);
+    dGeomRaySet(ray.geom, o[0], o[1], o[2], d.x, d.y, d.z);
     for (auto& [at, shape] : near) {
       if (at >= ranges[i]) break;
       dContactGeom g[8];
-      const int k = dCollide(ray, shape->geom, 8, g, sizeof g[0]);
+      int k = 0;
+      try {
+        k = dCollide(ray.geom, shape->geom, 8, g, sizeof g[0]);
+      } catch (const OdeFailure&) {
+        continue;  // nothing is hit
+      }
       for (int m = 0; m < k; ++m)
         if (g[m].depth < ranges[i]) {
           ranges[i] = g[m].depth;
@@ -74,7 +89,6 @@ int World::cast_rays(const double* origins, const double* directions, int n, dou
     }
     count += hits[i] >= 0;
   }
-  dGeomDestroy(ray);
   return count;
 }
 

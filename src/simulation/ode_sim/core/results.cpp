@@ -50,6 +50,7 @@ void World::read_feedback(Joint& j) {
   const Vec3 force = vec(f.f1) + j.carried_force;
   const Vec3 torque = vec(f.t1) + j.carried_torque - cross(at - vec(dBodyGetPosition(first)), force);
   j.carried_force = j.carried_torque = {};
+  if (!finite(force) || !finite(torque)) return;  // the solver lost its way: that of the step before
   j.feedback.child_force = child_first ? force : -force;
   j.feedback.child_torque = child_first ? torque : -torque;
   j.feedback.parent_force = -j.feedback.child_force;
@@ -105,19 +106,22 @@ void World::read_load(Joint& j) {
     torque += cross(c.pos - load.anchor, f);
   }
   for (auto& t : ties_) {
-    const bool child = beyond(t.child), parent = t.parent && beyond(t.parent);
+    const bool child = beyond(t.child.get()), parent = t.parent && beyond(t.parent.get());
     if (!t.joint || child == parent) continue;
-    const bool first = child == (body_of(t.child) != nullptr);  // whether ODE's first body is of the load
+    const bool first = child == (body_of(t.child.get()) != nullptr);  // whether ODE's first body is of the load
     const Vec3 f = vec(first ? t.feedback.f1 : t.feedback.f2), at = vec(dBodyGetPosition(dJointGetBody(t.joint, first ? 0 : 1)));
     force += f;
     torque += vec(first ? t.feedback.t1 : t.feedback.t2) + cross(at - load.anchor, f);
   }
-  j.feedback.child_force = -force;
-  j.feedback.child_torque = -torque;
+  force = -force;
+  torque = -torque;
   if (!j.model->jump) {
-    j.feedback.child_force += (linear - load.momentum) * (1 / dt);
-    j.feedback.child_torque += (spin - load.spin) * (1 / dt);
+    force += (linear - load.momentum) * (1 / dt);
+    torque += (spin - load.spin) * (1 / dt);
   }
+  if (!finite(force) || !finite(torque)) return;
+  j.feedback.child_force = force;
+  j.feedback.child_torque = torque;
   j.feedback.parent_force = -j.feedback.child_force;
   j.feedback.parent_torque = -j.feedback.child_torque;
 }
@@ -212,17 +216,22 @@ void World::plan_tree(Model& model) {
   std::vector<int> queue;
   size_t next = 0;
   auto grow = [&](int head) {
-    for (; next < queue.size(); ++next)
-      for (auto& j : model.joints) {
-        if (!j->joint || !j->parent) continue;
+    for (; next < queue.size(); ++next) {
+      std::vector<Joint*> joints;
+      for (Link* l : model.clusters[queue[next]].members)
+        for (Joint* j : l->joints)
+          if (j->joint && j->parent) joints.push_back(j);
+      std::sort(joints.begin(), joints.end(), [](Joint* a, Joint* b) { return a->index < b->index; });
+      for (Joint* j : joints) {
         const int child = j->child->cluster, parent = j->parent->cluster;
         const bool outward = parent == queue[next];
-        const int other = outward ? child : child == queue[next] ? parent : -1;
-        if (other < 0 || seen[other]) continue;
+        const int other = outward ? child : parent;
+        if (seen[other]) continue;
         seen[other] = true;
-        model.tree.push_back({j.get(), other, head, outward});
+        model.tree.push_back({j, other, head, outward});
         queue.push_back(other);
       }
+    }
   };
   auto visit = [&](int cluster) {
     seen[cluster] = true;
@@ -280,11 +289,12 @@ void World::pull(bool servos) {
 // Shapes, joint readings and shared arrays from the links.
 void World::publish() {
   for (auto& m : models_) {
+    if (!m->finished) continue;
     for (auto& l : m->links) {
       if (l->cluster < 0) continue;
       const Cluster& c = m->clusters[l->cluster];
       if (c.root ? !c.asleep : l->moving) place_shapes(*l);
-      double* row = &link_poses[7 * l->row];
+      double* row = link_poses->data() + 7 * l->row;
       const Pose& X = l->X_WL;
       row[0] = X.p.x; row[1] = X.p.y; row[2] = X.p.z;
       row[3] = X.q.x; row[4] = X.q.y; row[5] = X.q.z; row[6] = X.q.w;
@@ -293,8 +303,8 @@ void World::publish() {
       if (!j->merged() && !j->projected) read_joint(*j);
       j->projected = false;
       for (int i = 0; i < j->axis_count; ++i) {
-        joint_positions[j->row + i] = j->axes[i].q;
-        joint_velocities[j->row + i] = j->axes[i].qd;
+        (*joint_positions)[j->row + i] = j->axes[i].q;
+        (*joint_velocities)[j->row + i] = j->axes[i].qd;
       }
     }
   }

@@ -1,142 +1,290 @@
 // The whole state as bytes, and back.
-#include "ode_access.hpp"
-
+//
+// A snapshot is read twice: first into the void, checking, then into the world. What is refused has changed nothing.
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <stdexcept>
+
+#include "ode_access.hpp"
 
 namespace ode_sim {
 
 namespace {
+
+constexpr uint64_t kVersion = 0x326d69735f65646full;  // "ode_sim2"; counts up when what is written changes
+
+uint64_t digest(const char* data, size_t size) {  // FNV-1a
+  uint64_t h = 0xcbf29ce484222325ull;
+  for (size_t i = 0; i < size; ++i) h = (h ^ static_cast<unsigned char>(data[i])) * 0x100000001b3ull;
+  return h;
+}
+
+[[noreturn]] void refuse(const char* why) { throw std::invalid_argument(std::string("the snapshot cannot be restored: ") + why); }
+
+constexpr const char* kOtherModels = "it is of a world with other models";
+
+// A number is written as it is; a flag as one byte.
 struct Writer {
+  static constexpr bool reads = false;
   std::string out;
-  template <class T> void operator()(T& value) { out.append(reinterpret_cast<const char*>(&value), sizeof value); }
+  template <class T> void number(T& v) { out.append(reinterpret_cast<const char*>(&v), sizeof v); }
+  void flag(bool& v) { out.push_back(v ? 1 : 0); }
+  void same(int v, const char*) { number(v); }
 };
+
 struct Reader {
+  static constexpr bool reads = true;
   const std::string& in;
-  size_t at = 0;
-  template <class T> void operator()(T& value) {
-    if (at + sizeof value > in.size()) throw std::invalid_argument("the snapshot is of a world with other models");
-    std::memcpy(reinterpret_cast<char*>(&value), in.data() + at, sizeof value);
-    at += sizeof value;
+  const bool commit;  // else values are looked at and left alone
+  size_t at = 0, end = 0;
+  template <class T> T next() {
+    T v;
+    if (end - at < sizeof v) refuse("it is incomplete");
+    std::memcpy(&v, in.data() + at, sizeof v);
+    at += sizeof v;
+    return v;
+  }
+  template <class T> void number(T& v) {
+    const T read = next<T>();
+    if constexpr (std::is_floating_point_v<T>)
+      if (std::isnan(read)) refuse("it holds a number that is none");
+    if (commit) v = read;
+  }
+  void flag(bool& v) {
+    const auto read = next<unsigned char>();
+    if (read > 1) refuse("it is damaged");
+    if (commit) v = read;
+  }
+  void same(int v, const char* why) {
+    if (next<int>() != v) refuse(why);
   }
 };
 
+template <class F> void visit(F& f, Vec3& v) { f.number(v.x), f.number(v.y), f.number(v.z); }
+template <class F> void visit(F& f, Pose& X) {
+  visit(f, X.p);
+  f.number(X.q.x), f.number(X.q.y), f.number(X.q.z), f.number(X.q.w);
+}
+template <class F> void visit(F& f, Sym3& m) {
+  f.number(m.xx), f.number(m.yy), f.number(m.zz), f.number(m.xy), f.number(m.xz), f.number(m.yz);
+}
+template <class F> void visit(F& f, Surface& s) {
+  for (double* v : {&s.mu, &s.mu2, &s.slip1, &s.slip2, &s.kp, &s.kd, &s.max_vel, &s.min_depth, &s.restitution, &s.bounce_threshold})
+    f.number(*v);
+  visit(f, s.fdir1);
+  f.number(s.collide_bitmask);
+  f.flag(s.collide_without_contact);
+}
+template <class F> void visit(F& f, Axis& a) {
+  visit(f, a.xyz);
+  for (double* v : {&a.lower, &a.upper, &a.effort, &a.velocity, &a.damping, &a.friction, &a.spring_reference, &a.spring_stiffness,
+                    &a.q, &a.qd, &a.force, &a.applied, &a.motor_velocity, &a.motor_force})
+    f.number(*v);
+  f.flag(a.commanded);
+}
+template <class F> void visit(F& f, Feedback& b) {
+  for (Vec3* v : {&b.child_force, &b.child_torque, &b.parent_force, &b.parent_torque}) visit(f, *v);
+}
+template <class F> void visit(F& f, ServoMode& mode) {
+  int value = static_cast<int>(mode);
+  if constexpr (F::reads) {
+    value = f.template next<int>();
+    if (value < 0 || value > 2) refuse("it is damaged");
+    if (f.commit) mode = static_cast<ServoMode>(value);
+  } else {
+    f.number(value);
+  }
+}
 template <class F> void visit(F& f, Joint& j) {
-  f(j.X_PJ); f(j.stop_erp); f(j.stop_cfm); f(j.servo); f(j.target); f(j.previous_target); f(j.rate); f(j.released);
-  f(j.catching_up); f(j.multiplier); f(j.offset); f(j.watched); f(j.feedback);
-  for (auto& a : j.axes) f(a);
+  f.same(j.id, kOtherModels);
+  f.same(j.axis_count, kOtherModels);
+  visit(f, j.X_PJ);
+  visit(f, j.servo);
+  for (double* v : {&j.stop_erp, &j.stop_cfm, &j.target, &j.previous_target, &j.rate, &j.multiplier, &j.offset}) f.number(*v);
+  f.number(j.released);
+  f.flag(j.catching_up);
+  f.flag(j.watched);
+  visit(f, j.feedback);
+  for (auto& a : j.axes) visit(f, a);
 }
 template <class F> void visit(F& f, Link& l) {
-  f(l.mass); f(l.com); f(l.inertia); f(l.gravity); f(l.kinematic); f(l.linear_decay); f(l.angular_decay);
-  f(l.X_WL); f(l.v); f(l.w); f(l.force); f(l.torque); f(l.applied_force); f(l.applied_torque);
-  for (auto& s : l.shapes) f(s->surface);
+  f.same(l.id, kOtherModels);
+  f.same(static_cast<int>(l.shapes.size()), kOtherModels);
+  f.number(l.mass);
+  visit(f, l.com);
+  visit(f, l.inertia);
+  f.flag(l.gravity), f.flag(l.kinematic);
+  f.number(l.linear_decay), f.number(l.angular_decay);
+  visit(f, l.X_WL);
+  for (Vec3* v : {&l.v, &l.w, &l.force, &l.torque, &l.applied_force, &l.applied_torque}) visit(f, *v);
+  for (auto& s : l.shapes) {
+    f.same(s->id, kOtherModels);
+    visit(f, s->surface);
+  }
+  // Straight from the body: setting a quaternion normalises it, which would cost the last bit.
+  if (!l.body) return;
+  auto all = [&](const dReal* values, int n) {
+    for (int i = 0; i < n; ++i) f.number(const_cast<dReal*>(values)[i]);
+  };
+  all(dBodyGetPosition(l.body), 3);
+  all(dBodyGetQuaternion(l.body), 4);
+  all(dBodyGetRotation(l.body), 12);
+  all(dBodyGetLinearVel(l.body), 3);
+  all(dBodyGetAngularVel(l.body), 3);
 }
+
+}  // namespace
+
+// All that a snapshot holds, in its order, but for what depends on the plan of clusters: see restore.
+template <class F> void World::walk(F& f) {
+  for (double* v : {&dt, &gravity.x, &gravity.y, &gravity.z, &erp, &cfm, &sor, &contact_max_vel, &surface_layer}) f.number(*v);
+  f.number(iters), f.number(max_contacts), f.number(seed), f.number(iterations), f.number(time_ns);
+  f.same(static_cast<int>(models_.size()), kOtherModels);
+  for (auto& m : models_) {
+    f.same(m->id, kOtherModels);
+    f.same(static_cast<int>(m->joints.size()), kOtherModels);
+    f.same(static_cast<int>(m->links.size()), kOtherModels);
+    f.flag(m->take_exempt);
+    for (auto& j : m->joints) visit(f, *j);
+    for (auto& l : m->links) visit(f, *l);
+  }
+}
+
+namespace {
+
+// What refers from one thing to another, or belongs to a cluster; whole lists of it are replaced.
+struct Relations {
+  struct SavedTie {
+    int parent, child;
+    Pose X_PC;
+  };
+  struct Rest {
+    bool asleep = false;
+    int steps = 0;
+    double time = 0;
+  };
+  std::vector<SavedTie> ties;
+  std::vector<std::vector<std::pair<int, int>>> exempt;  // of each model
+  std::map<int, int> leaders;                             // joint -> joint
+  std::map<int, Rest> rest;                               // of the cluster with this root link
+};
+
+template <class F, class List> void visit_size(F& f, List& list, size_t least_bytes) {
+  uint64_t n = list.size();
+  if constexpr (F::reads) {
+    n = f.template next<uint64_t>();
+    if (n > (f.end - f.at) / least_bytes) refuse("it is incomplete");
+    list.resize(n);
+  } else {
+    f.number(n);
+  }
+}
+
+template <class F> void visit(F& f, Relations& r) {
+  visit_size(f, r.ties, sizeof(int));
+  for (auto& t : r.ties) f.number(t.parent), f.number(t.child), visit(f, t.X_PC);
+  visit_size(f, r.exempt, sizeof(uint64_t));
+  for (auto& pairs : r.exempt) {
+    visit_size(f, pairs, sizeof(int));
+    for (auto& p : pairs) f.number(p.first), f.number(p.second);
+  }
+  std::vector<std::pair<int, int>> leaders(r.leaders.begin(), r.leaders.end());
+  visit_size(f, leaders, sizeof(int));
+  for (auto& l : leaders) f.number(l.first), f.number(l.second);
+  std::vector<std::pair<int, Relations::Rest>> rest(r.rest.begin(), r.rest.end());
+  visit_size(f, rest, sizeof(int));
+  for (auto& c : rest) f.number(c.first), f.flag(c.second.asleep), f.number(c.second.steps), f.number(c.second.time);
+  if constexpr (F::reads) {
+    r.leaders = {leaders.begin(), leaders.end()};
+    r.rest = {rest.begin(), rest.end()};
+  }
+}
+
 }  // namespace
 
 std::string World::save() {
   refresh();
-  Writer f;
-  f(dt); f(gravity); f(erp); f(cfm); f(sor); f(contact_max_vel); f(surface_layer); f(iters); f(max_contacts);
-  f(seed); f(iterations); f(time_ns);
-  size_t count = ties_.size();
-  f(next_tie_), f(count);
-  for (auto& t : ties_) {
-    int parent = t.parent ? t.parent->id : -1;
-    f(t.id), f(parent), f(t.child->id), f(t.X_PC);
-  }
+  Relations r;
+  for (auto& t : ties_) r.ties.push_back({t.parent ? t.parent->id : -1, t.child->id, t.X_PC});
   for (auto& m : models_) {
-    f(m->id);
-    f(m->take_exempt);
-    size_t n = m->exempt.size();
-    f(n);
-    for (auto p : m->exempt) f(p.first), f(p.second);
-    for (auto& j : m->joints) {
-      visit(f, *j);
-      int leader = j->leader ? j->leader->id : -1;
-      f(leader);
-    }
-    for (auto& l : m->links) {
-      visit(f, *l);
-      if (!l->body) continue;
-      // Straight from the body: setting a quaternion normalises it, which would cost the last bit.
-      for (int i = 0; i < 3; ++i) f(dBodyGetPosition(l->body)[i]);
-      for (int i = 0; i < 4; ++i) f(dBodyGetQuaternion(l->body)[i]);
-      for (int i = 0; i < 12; ++i) f(dBodyGetRotation(l->body)[i]);
-      for (int i = 0; i < 3; ++i) f(dBodyGetLinearVel(l->body)[i]), f(dBodyGetAngularVel(l->body)[i]);
-    }
-    for (auto& c : m->clusters) f(c.asleep), f(c.idle_steps), f(c.idle_time);
+    r.exempt.emplace_back(m->exempt.begin(), m->exempt.end());
+    for (auto& j : m->joints)
+      if (const auto leader = j->leader.lock()) r.leaders[j->id] = leader->id;
+    for (auto& c : m->clusters)
+      if (c.root) r.rest[c.root->id] = {c.asleep, c.idle_steps, c.idle_time};
   }
+  Writer f;
+  uint64_t version = kVersion;
+  f.number(version);
+  walk(f);
+  visit(f, r);
+  uint64_t sum = digest(f.out.data(), f.out.size());
+  f.number(sum);
   return f.out;
 }
 
-void World::restore(const std::string& data) {
+// `tie_ids`: the numbers of the ties in the snapshot, as ties() gave them.
+void World::restore(const std::string& data, const std::vector<int>& tie_ids) {
+  uint64_t version = 0, sum = 0;
+  if (data.size() < sizeof version + sizeof sum) refuse("it is incomplete");
+  std::memcpy(&version, data.data(), sizeof version);
+  if (version != kVersion) refuse("another version of the simulator wrote it");
+  const size_t end = data.size() - sizeof sum;
+  std::memcpy(&sum, data.data() + end, sizeof sum);
+  if (sum != digest(data.data(), end)) refuse("it is damaged");
+
+  Relations r;
+  Reader look{data, false, sizeof version, end};
+  walk(look);
+  Reader look_on{data, true, look.at, end};
+  visit(look_on, r);
+  if (look_on.at != end) refuse("it is too long");
+  if (r.ties.size() != tie_ids.size()) refuse("it does not name its attachments");
+  if (r.exempt.size() != models_.size()) refuse(kOtherModels);
+  std::map<int, std::shared_ptr<Link>> links;
+  std::map<int, std::shared_ptr<Joint>> joints;
+  for (auto& m : models_) {
+    for (auto& l : m->links) links[l->id] = l;
+    for (auto& j : m->joints) joints[j->id] = j;
+  }
+  std::vector<Tie> ties;
+  for (size_t i = 0; i < r.ties.size(); ++i) {
+    const auto& t = r.ties[i];
+    if (!links.count(t.child) || (t.parent != -1 && !links.count(t.parent))) refuse(kOtherModels);
+    ties.push_back({tie_ids[i], t.parent == -1 ? nullptr : links[t.parent], links[t.child], t.X_PC});
+  }
+  for (auto& [follower, leader] : r.leaders)
+    if (!joints.count(follower) || !joints.count(leader)) refuse(kOtherModels);
+
+  // Nothing is refused from here on.
   refresh();
   hold_true_velocities();
-  Reader f{data};
-  f(dt); f(gravity); f(erp); f(cfm); f(sor); f(contact_max_vel); f(surface_layer); f(iters); f(max_contacts);
-  f(seed); f(iterations); f(time_ns);
-  size_t count;
-  f(next_tie_), f(count);
-  ties_.assign(count, {});
-  for (auto& t : ties_) {
-    int parent, child;
-    f(t.id), f(parent), f(child), f(t.X_PC);
-    t.parent = find_link(parent);
-    t.child = find_link(child);
-    if (!t.child) throw std::invalid_argument("the snapshot is of a world with other models");
+  Reader take{data, true, sizeof version, end};
+  walk(take);
+  ties_ = std::move(ties);
+  for (int id : tie_ids) next_tie_ = std::max(next_tie_, id + 1);
+  for (auto& [id, joint] : joints) {
+    const auto leader = r.leaders.find(id);
+    joint->leader = leader == r.leaders.end() ? std::weak_ptr<Joint>() : joints[leader->second];
   }
-  struct Raw {
-    Link* link;
-    dReal p[3], q[4], R[12], v[6];
-  };
-  std::vector<Raw> bodies;
-  for (auto& m : models_) {
-    int id;
-    f(id);
-    if (id != m->id) throw std::invalid_argument("the snapshot is of a world with other models");
-    f(m->take_exempt);
-    size_t n;
-    f(n);
-    m->exempt.clear();
-    for (size_t i = 0; i < n; ++i) {
-      std::pair<int, int> p;
-      f(p.first), f(p.second);
-      m->exempt.insert(p);
-    }
-    for (auto& j : m->joints) {
-      visit(f, *j);
-      int leader;
-      f(leader);
-      j->leader = nullptr;
-      for (auto& o : m->joints)
-        if (o->id == leader) j->leader = o.get();
-    }
-    for (auto& l : m->links) {
-      visit(f, *l);
-      if (!l->body) continue;
-      Raw r;
-      r.link = l.get();
-      for (auto& x : r.p) f(x);
-      for (auto& x : r.q) f(x);
-      for (auto& x : r.R) f(x);
-      for (auto& x : r.v) f(x);
-      bodies.push_back(r);
-    }
-    m->loop = false;
-    recluster(*m);
-    for (auto& c : m->clusters) f(c.asleep), f(c.idle_steps), f(c.idle_time);
+  // Putting clusters together places their bodies; where these truly were comes from the snapshot once more, afterwards.
+  for (size_t i = 0; i < models_.size(); ++i) {
+    Model& m = *models_[i];
+    m.exempt = {r.exempt[i].begin(), r.exempt[i].end()};
+    m.loop = false;
+    recluster(m);
+    for (auto& c : m.clusters)
+      if (const auto rest = c.root ? r.rest.find(c.root->id) : r.rest.end(); rest != r.rest.end()) {
+        c.asleep = rest->second.asleep;
+        c.idle_steps = rest->second.steps;
+        c.idle_time = rest->second.time;
+      }
   }
   contacts_.clear();
   plan_carried();
-  for (const Raw& r : bodies) {
-    const dBodyID body = r.link->body;
-    std::memcpy(const_cast<dReal*>(dBodyGetPosition(body)), r.p, sizeof r.p);
-    std::memcpy(const_cast<dReal*>(dBodyGetQuaternion(body)), r.q, sizeof r.q);
-    std::memcpy(const_cast<dReal*>(dBodyGetRotation(body)), r.R, sizeof r.R);
-    dBodySetLinearVel(body, r.v[0], r.v[2], r.v[4]);
-    dBodySetAngularVel(body, r.v[1], r.v[3], r.v[5]);
-  }
+  Reader again{data, true, sizeof version, end};
+  walk(again);
   for (auto& m : models_)
     for (auto& j : m->joints) j->projected = true;  // not to be read from the poses, which would cost the last bit
   read_back();

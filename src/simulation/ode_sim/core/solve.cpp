@@ -18,6 +18,12 @@ uint64_t mix(uint64_t x) {
   return x ^ (x >> 31);
 }
 
+// Whether the numbers of a body are still numbers, and its place one at which things can collide.
+bool on_the_map(dBodyID b) {
+  return finite(body_pose(b)) && finite(vec(dBodyGetLinearVel(b))) && finite(vec(dBodyGetAngularVel(b))) &&
+         norm(vec(dBodyGetPosition(b))) < kFarthest;
+}
+
 }  // namespace
 
 void World::remember_bodies(std::vector<BodyState>& out, const std::vector<Cluster*>& clusters) const {
@@ -112,7 +118,7 @@ void World::solve() {
     for (auto& j : m->joints)
       if (j->joint) merge(node(j->parent), node(j->child));
   for (auto& t : ties_)
-    if (t.joint) merge(node(t.parent), node(t.child));
+    if (t.joint) merge(node(t.parent.get()), node(t.child.get()));
   for (auto& c : contacts_)
     if (c.joint) merge(contact_node(c.a->link), contact_node(c.b->link));
 
@@ -136,7 +142,7 @@ void World::solve() {
         islands_[island_of[n]].rows += j->type == JointType::Ball ? 3 : j->type == JointType::Universal ? 6 : 6;
       }
   for (auto& t : ties_)
-    if (const int n = std::max(node(t.parent), node(t.child)); t.joint && n >= 0) {
+    if (const int n = std::max(node(t.parent.get()), node(t.child.get())); t.joint && n >= 0) {
       islands_[island_of[n]].joints = true;
       islands_[island_of[n]].rows += 6;
     }
@@ -181,7 +187,7 @@ void World::solve() {
       if (!island.awake) dBodySetForce(c->root->body, 0, 0, 0), dBodySetTorque(c->root->body, 0, 0, 0);
     }
     if (!island.awake) continue;
-    auto& kind = island.contact_rows == 0 ? exact : island.rows + island.contact_rows <= (island.joints ? direct_rows : heap_rows) ? touching : iterative;
+    auto& kind = island.contact_rows == 0 && island.rows <= kMostExactRows ? exact : island.rows + island.contact_rows <= (island.joints ? direct_rows : heap_rows) ? touching : iterative;
     kind.insert(kind.end(), island.clusters.begin(), island.clusters.end());
     if (&kind == &touching) touching_islands.push_back(&island);
   }
@@ -191,10 +197,14 @@ void World::solve() {
   };
   // Kinematic bodies move in exactly one pass.
   std::vector<dBodyID> kinematic;
+  std::vector<Pose> kinematic_start;
   for (auto& m : models_)
     for (auto& l : m->links)
       if (l->carrier || (l->kinematic && l->cluster >= 0 && m->clusters[l->cluster].root == l.get())) kinematic.push_back(l->body);
-  for (dBodyID b : kinematic) dBodyEnable(b);
+  for (dBodyID b : kinematic) {
+    kinematic_start.push_back(body_pose(b));
+    dBodyEnable(b);
+  }
 
   auto run_iterative = [&](const std::vector<Cluster*>& clusters, int times, std::vector<std::string>& said) {
     said.clear();
@@ -234,8 +244,14 @@ void World::solve() {
   }
   // ODE wakes them again with the islands that they touch: this is how far they have come in this step.
   std::vector<Pose> kinematic_poses;
-  for (dBodyID b : kinematic) {
+  for (size_t i = 0; i < kinematic.size(); ++i) {
+    const dBodyID b = kinematic[i];
     dBodyDisable(b);
+    if (!on_the_map(b)) {
+      set_body_pose(b, kinematic_start[i]);
+      set_body_twist(b, {}, {});
+      report("a kinematic link left the map; it was stopped where it was. Look at the speeds commanded", "");
+    }
     kinematic_poses.push_back(body_pose(b));
   }
   if (!touching.empty()) {
@@ -273,9 +289,7 @@ void World::solve() {
 // A body whose numbers are lost goes back to where it was, at rest.
 void World::guard_nan() {
   for (auto& s : before_) {
-    const bool good = finite(body_pose(s.body)) && finite(vec(dBodyGetLinearVel(s.body))) &&
-                      finite(vec(dBodyGetAngularVel(s.body))) && norm(vec(dBodyGetPosition(s.body))) < kFarthest;
-    if (good) continue;
+    if (on_the_map(s.body)) continue;
     for (auto& n : nodes_)
       if (n->root->body == s.body)
         report("its motion became infinite; it was stopped where it was. Look at its masses, inertias and commands",

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace ode_sim {
 
@@ -13,7 +14,10 @@ Pose Joint::motion(double q) const {
   }
 }
 
-World::World() {
+World::World()
+    : link_poses(std::make_shared<std::vector<double>>()),
+      joint_positions(std::make_shared<std::vector<double>>()),
+      joint_velocities(std::make_shared<std::vector<double>>()) {
   initialise_ode();
   world_ = dWorldCreate();
   space_ = dHashSpaceCreate(nullptr);
@@ -24,6 +28,8 @@ World::World() {
 }
 
 World::~World() {
+  initialise_ode();  // whichever thread it ends in
+  for (auto& m : models_) m->finished = false;  // nobody asks for the rest each time that one goes
   while (!models_.empty()) remove_model(*models_.back());
   dJointGroupDestroy(contact_group_);
   dSpaceDestroy(space_);
@@ -45,28 +51,41 @@ std::shared_ptr<Model> World::add_model(const std::string& name, bool is_static,
   return model;
 }
 
+void Shape::release() {
+  if (geom) dGeomDestroy(geom);
+  if (faceted) dGeomDestroy(faceted);
+  if (field) dGeomHeightfieldDataDestroy(field);
+  geom = faceted = nullptr;
+  field = nullptr;
+  mesh = faceted_mesh = nullptr;
+}
+
+// Also one that was never finished: nothing of it stays behind.
 void World::remove_model(Model& model) {
+  if (!owns(&model)) throw std::invalid_argument("this model is not in the world");
+  initialise_ode();
   hold_true_velocities();
+  for (size_t i = ties_.size(); i-- > 0;)
+    if ((ties_[i].parent && ties_[i].parent->model == &model) || ties_[i].child->model == &model) detach(ties_[i].id);
+  for (auto& m : models_)
+    for (auto& j : m->joints)
+      if (const auto leader = j->leader.lock(); leader && leader->model == &model) j->leader.reset();  // it holds its position
+  const auto gone = [&](const Contact& c) { return c.a->link->model == &model || c.b->link->model == &model; };
+  contacts_.erase(std::remove_if(contacts_.begin(), contacts_.end(), gone), contacts_.end());
+  pairs_.clear();
   for (auto& j : model.joints)
     if (j->joint) dJointDestroy(j->joint), j->joint = nullptr;
   for (auto& link : model.links) {
     for (auto& s : link->shapes) {
       shapes_.erase(s->id);
-      s->alive = false;
-      dGeomDestroy(s->geom);
-      if (s->faceted) dGeomDestroy(s->faceted);
-      s->mesh = s->faceted_mesh = nullptr;
-      if (s->field) dGeomHeightfieldDataDestroy(s->field);
-      s->geom = s->faceted = nullptr;
+      s->release();
     }
     if (link->body) dBodyDestroy(link->body), link->body = nullptr;
   }
-  contacts_.clear();
-  for (size_t i = ties_.size(); i-- > 0;)
-    if ((ties_[i].parent && ties_[i].parent->model == &model) || ties_[i].child->model == &model) detach(ties_[i].id);
   model.world = nullptr;
+  const bool was_finished = model.finished;
   models_.erase(std::find_if(models_.begin(), models_.end(), [&](auto& m) { return m.get() == &model; }));
-  renumber();
+  if (was_finished) renumber();
 }
 
 std::shared_ptr<Link> World::add_link(Model& model, const Pose& X_WL, double mass, const Vec3& com, const Sym3& inertia) {
@@ -99,7 +118,10 @@ std::shared_ptr<Joint> World::add_joint(Model& model, JointType type, Link* pare
   joint->axis_count = type == JointType::Universal ? 2 : type == JointType::Fixed || type == JointType::Ball ? 0 : 1;
   if (!child.parent_joint) child.parent_joint = joint.get();
   if (parent) model.jointed.insert(std::minmax(parent->id, child.id));
+  joint->index = static_cast<int>(model.joints.size());
   model.joints.push_back(joint);
+  child.joints.push_back(joint.get());
+  if (parent && parent != &child) parent->joints.push_back(joint.get());
   model.dirty = true;
   return joint;
 }
@@ -118,9 +140,9 @@ std::shared_ptr<Shape> World::add_shape(Link& link, const Pose& X_LC, dGeomID ge
 }
 
 void World::finish(Model& model) {
-  for (auto& link : model.links)
+  for (auto& link : model.links) {
+    place_shapes(*link);
     for (auto& shape : link->shapes) {
-      place_shapes(*link);
       if (shape->infinite) continue;
       dReal box[6];
       dGeomGetAABB(shape->geom, box);
@@ -129,7 +151,8 @@ void World::finish(Model& model) {
         link->size = std::max(link->size, norm(corner - link->X_WL.p));
       }
     }
-  for (auto& j : model.joints) j->sane = sane_beyond(*j);
+  }
+  judge_sanity(model);
   for (auto& link : model.links) model.mass += link->mass;
   for (auto& j : model.joints)
     if (j->type == JointType::Revolute)
@@ -139,22 +162,27 @@ void World::finish(Model& model) {
           const Vec3 from_axis = cross(shape->X_LC.p - j->X_CJ.p, axis);
           shape->wheel = std::abs(dot(axis, rotate(shape->X_LC.q, Vec3{0, 0, 1}))) > 0.9999 && norm(from_axis) < 1e-4;
         }
-  renumber();
+  model.finished = true;
+  renumber(&model);
   refresh();
 }
 
-void World::renumber() {
+// Places in the shared arrays. Who comes or goes does not touch the others: their joints are not read again from the poses,
+// which would cost the last bit.
+void World::renumber(const Model* fresh) {
   int links = 0, axes = 0;
   for (auto& m : models_) {
+    if (!m->finished) continue;
     for (auto& l : m->links) l->row = links++;
     for (auto& j : m->joints) {
+      j->projected = m.get() != fresh;
       j->row = axes;
       axes += j->axis_count;
     }
   }
-  link_poses.assign(7 * links, 0);
-  joint_positions.assign(axes, 0);
-  joint_velocities.assign(axes, 0);
+  link_poses = std::make_shared<std::vector<double>>(7 * links, 0.0);
+  joint_positions = std::make_shared<std::vector<double>>(axes, 0.0);
+  joint_velocities = std::make_shared<std::vector<double>>(axes, 0.0);
   read_back();
 }
 
@@ -164,38 +192,87 @@ Shape* World::find_shape(int id) const {
 }
 
 // Links beyond a joint: those reached from its child without crossing it. `loop` tells whether they lead back.
-std::vector<Link*> World::subtree(Joint& joint, bool* loop) const {
+std::vector<Link*> World::subtree(Joint& joint, bool* loop) {
+  const int visit = ++visit_;
   std::vector<Link*> out{joint.child};
+  joint.child->visit = visit;
   if (loop) *loop = false;
   for (size_t i = 0; i < out.size(); ++i)
-    for (auto& j : joint.model->joints) {
-      if (j.get() == &joint) continue;
-      Link* other = j->parent == out[i] ? j->child : j->child == out[i] ? j->parent : out[i];
-      if (j->child == out[i] && !j->parent && loop) *loop = true;  // held by the world as well
-      if (!other || other == out[i]) continue;
+    for (Joint* j : out[i]->joints) {
+      if (j == &joint) continue;
+      if (!j->parent && loop) *loop = true;  // held by the world as well
+      Link* other = j->parent == out[i] ? j->child : j->parent;
+      if (!other) continue;
       if (other == joint.parent && loop) *loop = true;
-      if (std::find(out.begin(), out.end(), other) == out.end()) out.push_back(other);
+      if (other->visit == visit) continue;
+      other->visit = visit;
+      out.push_back(other);
     }
   return out;
 }
 
-// Whether the links beyond a joint could be real bodies of their size: radius of gyration against reach.
-bool World::sane_beyond(Joint& joint) const {
-  for (Link* l : subtree(joint)) {
+// Whether the links beyond each joint could be real bodies of their size: radius of gyration against reach.
+void World::judge_sanity(Model& model) {
+  std::vector<Link*> odd;
+  for (auto& l : model.links) {
     const double gyration = std::sqrt(std::max({l->inertia.xx, l->inertia.yy, l->inertia.zz}) / l->mass);
-    if (gyration > 3 * l->size + 0.2 + norm(l->com)) return false;
+    if (gyration > 3 * l->size + 0.2 + norm(l->com)) odd.push_back(l.get());
   }
-  return true;
+  bool tree = true;
+  for (auto& j : model.joints) {
+    j->sane = true;
+    tree &= j->child->parent_joint == j.get();
+  }
+  if (odd.empty()) return;
+  if (tree) {
+    for (Link* l : odd)
+      for (Joint* j = l->parent_joint; j && j->sane; j = j->parent ? j->parent->parent_joint : nullptr) j->sane = false;
+    return;
+  }
+  const std::set<const Link*> all(odd.begin(), odd.end());
+  for (auto& j : model.joints)
+    for (Link* l : subtree(*j))
+      if (all.count(l)) j->sane = false;
 }
 
 // ------------------------------------------------------------------------------------------------ the step
 
 void World::step(int n) {
   initialise_ode();
-  for (int i = 0; i < n; ++i) step_once();
+  for (int i = 0; i < n; ++i) {
+    try {
+      step_once();
+    } catch (const OdeFailure& failure) {
+      report(std::string(failure.what()) + "; the step was given up", "");
+      abandon_step();
+    }
+    ++iterations;
+    time_ns += static_cast<int64_t>(std::llround(dt * 1e9));
+  }
+}
+
+// What a step that broke off has left in ODE goes; everything is put together anew for the next one.
+void World::abandon_step() {
+  dJointGroupEmpty(contact_group_);
+  contacts_.clear();
+  for (auto& t : ties_) t.joint = nullptr;
+  guard_nan();
+  carried_.clear();
+  replan_ = true;
+  for (auto& m : models_) {
+    m->dirty = true;
+    for (auto& l : m->links) {
+      l->force = l->torque = {};
+      if (l->body) dBodySetForce(l->body, 0, 0, 0), dBodySetTorque(l->body, 0, 0, 0), dBodyDisable(l->body);
+    }
+    for (auto& j : m->joints)
+      for (auto& a : j->axes) a.applied = a.force, a.force = 0, a.commanded = false;
+  }
 }
 
 void World::step_once() {
+  before_.clear();
+  nodes_.clear();
   refresh();
   for (auto& m : models_)
     if (m->has_servo) {
@@ -242,7 +319,7 @@ void World::step_once() {
   for (auto& m : models_) {
     for (auto& l : m->links) l->force = l->torque = {};
     for (auto& j : m->joints)
-      for (auto& a : j->axes) a.applied = a.force, a.force = 0;
+      for (auto& a : j->axes) a.applied = a.force, a.force = 0, a.commanded = false;
   }
   read_back();
   for (auto& m : models_)
@@ -251,8 +328,6 @@ void World::step_once() {
   dJointGroupEmpty(contact_group_);
   for (auto& c : contacts_) c.joint = nullptr;
   demote();
-  ++iterations;
-  time_ns += static_cast<int64_t>(std::llround(dt * 1e9));
 }
 
 }  // namespace ode_sim

@@ -23,6 +23,7 @@
 #include <utility>
 #include <vector>
 
+#include "limits.hpp"
 #include "math.hpp"
 
 namespace ode_sim {
@@ -35,7 +36,7 @@ struct Joint;
 void initialise_ode();  // for the calling thread
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
-constexpr double kFarthest = 1e8;   // m from the origin; beyond twice this the cells of ODE's collision space have no number
+constexpr int kMostExactRows = 1500;  // 250 joints; the direct solver's time grows with the third power, its memory with the second
 constexpr double kUnlimited = 1e8;  // limits of this size and more (1e9, 1e16) mean none
 
 struct Surface {
@@ -58,6 +59,12 @@ struct MeshData {
 };
 
 struct Shape {
+  Shape() = default;
+  ~Shape() { release(); }
+  Shape(const Shape&) = delete;
+  Shape& operator=(const Shape&) = delete;
+  void release();  // the geoms; the shape collides no more
+
   int id = 0;  // unique in the world, ascending in order of creation
   Link* link = nullptr;
   dGeomID geom = nullptr;
@@ -67,12 +74,12 @@ struct Shape {
   std::vector<double> heights;
   bool infinite = false;  // a plane
   bool wheel = false;     // a cylinder that turns on a hinge about its own axis
+  bool out_of_reach = false;  // beyond where ODE can collide
   Pose X_LC;
   Vec3 plane_normal{0, 0, 1};
   Surface surface;
   int max_contacts = 10;
   bool watched = false;
-  bool alive = true;
 };
 
 struct Link {
@@ -102,6 +109,8 @@ struct Link {
   Vec3 alpha, a;         // of the link origin, with all joint accelerations zero (see World::accelerations)
   Pose X_RL;             // in the root link's frame (in the world for anchored clusters)
   Joint* parent_joint = nullptr;  // the first joint whose child it is
+  std::vector<Joint*> joints;     // all that it has a part in, in order of creation
+  int visit = 0;                  // of the search that came by last
   double size = 0.05;  // m, reach of its shapes from its origin
 
   Vec3 com_W() const { return X_WL * com; }
@@ -116,9 +125,13 @@ struct Axis {
   double lower = -kInf, upper = kInf, effort = -1, velocity = -1, damping = 0, friction = 0, spring_reference = 0,
          spring_stiffness = 0;
   // State.
-  double q = 0, qd = 0, force = 0, applied = 0;
+  double q = 0, qd = 0, force = 0, applied = 0;  // applied: the force of the last step
+  bool commanded = false;                        // a force was added since the last step
   double motor_velocity = 0, motor_force = 0;
   double drive = 0;  // speed that ODE's motor row aims at in the step under way
+
+  double effort_now() const { return commanded ? force : applied; }
+  void relax() { qd = force = applied = 0, commanded = false; }
 };
 
 struct Feedback {
@@ -135,6 +148,7 @@ struct Load {
 
 struct Joint {
   int id = 0;
+  int index = 0;  // in the model
   int row = 0;  // in joint_positions (first axis)
   Model* model = nullptr;
   JointType type = JointType::Revolute;
@@ -152,7 +166,7 @@ struct Joint {
   double previous_rate = 0;                           // of the step before
   int released = 0;  // steps without contact beyond, in Motor mode
   double load = 0;   // N m or N held against gravity, in Motor mode
-  Joint* leader = nullptr;
+  std::weak_ptr<Joint> leader;  // of any model; gone when that is removed
   double multiplier = 1, offset = 0;
 
   dJointID joint = nullptr;
@@ -214,6 +228,7 @@ struct Model {
   double mass = 0;  // kg, of all links
   int contact_count = 0;  // of this step
   bool dirty = true;
+  bool finished = false;  // built, and part of the shared arrays
   bool has_servo = false;
   bool jump = false;  // a servo joint jumps in this step or did in the last: too fast for any inertia to be felt
   bool loop = false;  // a closed loop runs over carried bodies
@@ -230,8 +245,8 @@ struct Model {
 // Two links of any models held together while the world runs, or a link held where it is in the world.
 struct Tie {
   int id = 0;
-  Link* parent = nullptr;  // null = the world
-  Link* child = nullptr;
+  std::shared_ptr<Link> parent;  // null = the world
+  std::shared_ptr<Link> child;
   Pose X_PC;
   dJointID joint = nullptr;  // of the step under way
   dJointFeedback feedback{};
@@ -289,20 +304,23 @@ class World {
   void set_servo(Joint& joint, double target);
   void servo_off(Joint& joint);
   void set_inertial(Link& link, double mass, const Vec3& com, const Sym3& inertia);
-  int attach(Link* parent, Link& child);
+  void follow(Joint& joint, const std::shared_ptr<Joint>& leader, double multiplier, double offset);
+  int attach(std::shared_ptr<Link> parent, std::shared_ptr<Link> child);
   void detach(int tie);
   void detach_all();
   Tie* find_tie(int id);
-  const std::vector<Tie>& ties() const { return ties_; }
+  std::vector<int> ties() const;  // their numbers, which are never given twice
   void refresh();  // bring clusters up to date
   void zero_velocities(Model& model);
   std::string save();
-  void restore(const std::string& data);
+  void restore(const std::string& data, const std::vector<int>& ties);
 
   int cast_rays(const double* origins, const double* directions, int n, double max_range, const std::vector<int>& ignore,
                 double* ranges, int32_t* hits);
 
-  std::vector<double> link_poses, joint_positions, joint_velocities;
+  // Made anew when models come and go: who still looks at the old ones may go on doing so.
+  using Array = std::shared_ptr<std::vector<double>>;
+  Array link_poses, joint_positions, joint_velocities;
   std::vector<ContactRecord> contact_records();
   const std::vector<std::shared_ptr<Model>>& models() const { return models_; }
   std::vector<std::string> take_messages();
@@ -312,7 +330,6 @@ class World {
   } counters;
 
  private:
-  friend struct StepGuard;
   dWorldID world_;
   dSpaceID space_;
   dJointGroupID contact_group_;
@@ -326,16 +343,17 @@ class World {
   std::vector<std::pair<Shape*, Shape*>> pairs_;
   std::map<std::string, int> message_counts_;
   std::vector<std::string> messages_;
-  bool collected_ = false;
+  int visit_ = 0;
   std::vector<Cluster*> carried_;  // from the carrying to the carried
   bool replan_ = false;
 
   static void near_callback(void* data, dGeomID a, dGeomID b);
-  static void on_message(int number, const char* text, va_list args);
-  static void on_error(int number, const char* text, va_list args);
 
   void step_once();
-  void renumber();
+  void abandon_step();
+  bool owns(const Model* model) const { return model && model->world == this; }
+  template <class F> void walk(F& f);
+  void renumber(const Model* fresh = nullptr);
   void recluster(Model& model);
   void place_cluster(Cluster& cluster);
   void compose(Cluster& cluster);
@@ -373,7 +391,6 @@ class World {
   void make_contact_joints();
   void make_tie_joints();
   bool tied(const Link& a, const Link& b) const;
-  Link* find_link(int id) const;
   void solve();
   void run(bool direct, int iterations_wanted);
   void integrate_servos();
@@ -393,8 +410,8 @@ class World {
   double borne_by_contact(const Link& a, const Link& b) const;
   dBodyID body_of(const Link* link) const;
   Pose X_BL(const Link& link) const;
-  std::vector<Link*> subtree(Joint& joint, bool* loop = nullptr) const;
-  bool sane_beyond(Joint& joint) const;
+  std::vector<Link*> subtree(Joint& joint, bool* loop = nullptr);
+  void judge_sanity(Model& model);
   std::string island_names(const std::vector<Cluster*>& clusters) const;
 
   struct BodyState {

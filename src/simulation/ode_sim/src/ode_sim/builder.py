@@ -1,17 +1,22 @@
 """Puts a described model into the physics core."""
 from __future__ import annotations
 
+import math
 from dataclasses import replace
-from typing import List, Optional, Tuple
+from typing import Any, List, Optional, Tuple
 
 from ode_sim import collision_meshes
 from ode_sim.description import model as d
 from ode_sim.handles import CollisionHandle, JointHandle, LinkHandle, ModelHandle, flat, unlimited
 from ode_sim.inertia import usable_inertia, usable_mass
 from ode_sim.math3 import compose, cross, dot, norm, unit
+from ode_sim.physics import BOUNDS
 
 JOINT_TYPES = {"revolute": "revolute", "continuous": "revolute", "prismatic": "prismatic", "fixed": "fixed", "ball": "ball",
                "universal": "universal", "revolute2": "universal"}
+SURFACE = ("mu", "mu2", "fdir1", "slip1", "slip2", "kp", "kd", "max_vel", "min_depth", "restitution", "bounce_threshold",
+           "collide_without_contact")
+AXIS = ("lower", "upper", "effort", "velocity", "damping", "friction", "spring_reference", "spring_stiffness")
 
 
 class Builder:
@@ -22,21 +27,35 @@ class Builder:
         self.problems: List[d.Problem] = []
 
     def build(self, world, model: d.Model, name: str, pose: d.Pose) -> ModelHandle:
-        """The handle of the model put at X_WM ``pose``."""
+        """The handle of the model put at X_WM ``pose``.
+
+        :raises ValueError: a number that no world can hold; nothing of the model is left in the core then.
+        """
         sensors = any(link.sensors for link in model.links)
         may_sleep = model.allow_auto_disable and not model.joints and not sensors and not model.static
         core = self.core.add_model(name, model.static, model.self_collide, may_sleep)
-        handle = ModelHandle(world, name, model, pose, core)
-        for link in model.links:
-            self._link(handle, link, compose(pose, link.pose))
-        for joint in model.joints:
-            self._joint(handle, joint)
-        handle.bind()
-        core.finish()
+        try:
+            handle = ModelHandle(world, name, model, pose, core)
+            for link in model.links:
+                self._link(handle, link, compose(pose, link.pose))
+            for joint in model.joints:
+                self._joint(handle, joint)
+            handle.bind()
+            core.finish()
+        except BaseException:
+            self.core.remove_model(core)
+            raise
         return handle
 
     def _problem(self, severity: str, message: str, source: d.Source) -> None:
         self.problems.append(d.Problem(severity, message, source))
+
+    def _number(self, value: Any, default: float, what: str, source: d.Source, least: float = -math.inf) -> float:
+        """``value``, at least ``least``; the default, with a problem, where it is a NaN."""
+        if not math.isnan(value):
+            return max(float(value), least)
+        self._problem("warning", f"{what} is no number; {default:g} is used", source)
+        return default
 
     # ------------------------------------------------------------------------------------------ links
 
@@ -47,12 +66,17 @@ class Builder:
         for text in (problem, second):
             if text and not model.static:
                 self._problem("warning", text, link.source)
-        core = model.core.add_link(flat(pose, f"pose of {where}"), mass, link.inertial.pose.p, tensor)
+        try:
+            com = flat(link.inertial.pose, "centre of mass")[:3]
+        except ValueError as error:
+            com = (0.0, 0.0, 0.0)
+            self._problem("warning", f"{where}: {error}; the link's origin is used", link.source)
+        core = model.core.add_link(flat(pose, f"pose of {where}"), mass, com, tensor)
         core.gravity_flag = link.gravity
         core.kinematic = link.kinematic
         core.self_collide = model.description.self_collide if link.self_collide is None else link.self_collide
-        core.linear_decay = max(link.linear_decay, 0.0)
-        core.angular_decay = max(link.angular_decay, 0.0)
+        core.linear_decay = self._number(link.linear_decay, 0.0, f"{where}: linear velocity decay", link.source)
+        core.angular_decay = self._number(link.angular_decay, 0.0, f"{where}: angular velocity decay", link.source)
         handle = LinkHandle(model, link, core)
         model.links[link.name] = handle
         for collision in link.collisions:
@@ -64,24 +88,34 @@ class Builder:
         where = f"collision '{collision.name}' of link '{link.scoped_name}'"
         try:
             core = self._geometry(model.core, link.core, collision)
-        except d.DescriptionError as error:
+        except (ValueError, RuntimeError) as error:
             self._problem("warning", f"{where} is left out: {error}", collision.source)
             return None
         if core is None:
             return None
-        core.max_contacts = collision.max_contacts
+        core.max_contacts = self._max_contacts(collision, where)
         written, surface = collision.surface, core.surface
-        for field in ("mu", "mu2", "fdir1", "slip1", "slip2", "kp", "kd", "max_vel", "min_depth", "bounce_threshold",
-                      "collide_without_contact"):
-            setattr(surface, field, getattr(written, field))
-        surface.restitution = written.restitution
+        for field in SURFACE:
+            try:
+                setattr(surface, field, getattr(written, field))
+            except (ValueError, TypeError):
+                self._problem("warning", f"{where}: {field} is no number; {getattr(surface, field)} is used", collision.source)
         surface.collide_bitmask = int(written.collide_bitmask) & 0xFFFFFFFF
         return CollisionHandle(link, collision, core)
 
+    def _max_contacts(self, collision: d.Collision, where: str) -> int:
+        written, most = collision.max_contacts, int(BOUNDS["max_contacts"].most)
+        if not math.isnan(written) and 0 <= written <= most:
+            return int(written)
+        used = most if written > most else d.Collision.max_contacts
+        self._problem("warning", f"{where}: max_contacts {written:g} must be 0 to {most}; {used} is used", collision.source)
+        return used
+
     def _geometry(self, model, link, collision: d.Collision):
-        shape, pose = collision.geometry, flat(collision.pose)
+        shape = collision.geometry
         if shape is None:
             return None
+        pose = flat(collision.pose, "its pose")
         if isinstance(shape, d.Box):
             self._sizes(shape.size, "box size")
             return model.add_box(link, pose, shape.size)
@@ -94,27 +128,24 @@ class Builder:
             return add(link, pose, shape.radius, shape.length)
         if isinstance(shape, d.Plane):
             normal = unit(shape.normal)
-            if norm(normal) == 0.0:
-                raise d.DescriptionError("the normal of a plane must not be zero")
+            if not 0.0 < norm(normal) < math.inf:
+                raise d.DescriptionError("the normal of a plane must have a direction")
             return model.add_plane(link, pose, normal)
         if isinstance(shape, d.Mesh):
             if not shape.path:
                 return None  # the reader of the description has said so
-            return model.add_mesh(link, pose, collision_meshes.load(shape))
+            return model.add_mesh(link, pose, collision_meshes.ready(shape))
         if isinstance(shape, d.Heightmap):
-            from ode_sim.heightmap import load_heights
-            heights = load_heights(shape)
-            pose = flat(compose(collision.pose, d.Pose(shape.pos)))
-            return model.add_heightmap(link, pose, heights, shape.size[0], shape.size[1])
+            pose = flat(compose(collision.pose, d.Pose(shape.pos)), "its pose")
+            return model.add_heightmap(link, pose, collision_meshes.ready(shape), shape.size[0], shape.size[1])
         if isinstance(shape, d.Polyline):
-            from ode_sim.polyline import extrude
-            return model.add_mesh(link, pose, collision_meshes.mesh_data(*extrude(shape)))
+            return model.add_mesh(link, pose, collision_meshes.ready(shape))
         raise d.DescriptionError(f"shape {type(shape).__name__} cannot collide")
 
     @staticmethod
     def _sizes(values: Tuple[float, ...], what: str) -> None:
-        if not all(0.0 < v < 1e9 for v in values):
-            raise d.DescriptionError(f"{what} must be positive and below 1e9 m, not {' '.join(f'{v:g}' for v in values)}")
+        if not all(0.0 < v <= d.FARTHEST for v in values):
+            raise d.DescriptionError(f"{what} must be positive and at most {d.FARTHEST:g} m, not {' '.join(f'{v:g}' for v in values)}")
 
     # ------------------------------------------------------------------------------------------ joints
 
@@ -138,20 +169,31 @@ class Builder:
             return
         axes = self._axes(joint, kind, where)
         core = model.core.add_joint(kind, parent.core if parent else None, child.core, flat(joint.pose, f"pose of {where}"))
-        core.stop_erp = joint.limit_erp
-        core.stop_cfm = joint.limit_cfm
+        core.stop_erp = self._number(joint.limit_erp, d.Joint.limit_erp, f"{where}: limit erp", joint.source)
+        core.stop_cfm = self._number(joint.limit_cfm, d.Joint.limit_cfm, f"{where}: limit cfm", joint.source)
         core.implicit_spring_damper = joint.implicit_spring_damper
         for i, axis in enumerate(axes):
+            axis = self._numbers_of(axis, where, joint)
             lower, upper = unlimited(axis.lower), unlimited(axis.upper)
+            if lower == math.inf or upper == -math.inf:
+                self._problem("warning", f"{where}: no position is between the limits {axis.lower:g} and {axis.upper:g}; it has none", joint.source)
+                lower, upper = -math.inf, math.inf
             if lower > upper:
                 self._problem("warning", f"{where}: lower limit {lower:g} is above upper limit {upper:g}; they are swapped", joint.source)
                 lower, upper = upper, lower
-            core.set_axis(i, axis.xyz, lower, upper, axis.effort, axis.velocity, max(axis.damping, 0.0),
-                          max(axis.friction, 0.0), axis.spring_reference, max(axis.spring_stiffness, 0.0))
+            core.set_axis(i, axis.xyz, lower, upper, axis.effort, axis.velocity, axis.damping, axis.friction, axis.spring_reference,
+                          axis.spring_stiffness)
         if joint.provide_feedback:
             core.watch()
         written = joint if tuple(axes) == joint.axes else replace(joint, axes=tuple(axes))
         model.joints[joint.name] = JointHandle(model, written, parent, child, core)
+
+    def _numbers_of(self, axis: d.Axis, where: str, joint: d.Joint) -> d.Axis:
+        """The axis without a NaN."""
+        wrong = [name for name in AXIS if math.isnan(getattr(axis, name))]
+        for name in wrong:
+            self._problem("warning", f"{where}: {name} is no number; it is left out", joint.source)
+        return replace(axis, **{name: getattr(d.Axis, name) for name in wrong}) if wrong else axis
 
     def _axes(self, joint: d.Joint, kind: str, where: str) -> List[d.Axis]:
         count = {"revolute": 1, "prismatic": 1, "universal": 2}.get(kind, 0)
@@ -166,7 +208,7 @@ class Builder:
         return axes
 
     def _unit_axis(self, axis: d.Axis, where: str, joint: d.Joint) -> d.Axis:
-        if norm(axis.xyz) == 0.0:
-            self._problem("warning", f"{where}: axis is zero; 0 0 1 is used", joint.source)
+        if not 0.0 < norm(axis.xyz) < math.inf:
+            self._problem("warning", f"{where}: axis {' '.join(f'{v:g}' for v in axis.xyz)} has no direction; 0 0 1 is used", joint.source)
             return replace(axis, xyz=(0.0, 0.0, 1.0))
         return replace(axis, xyz=unit(axis.xyz))

@@ -11,7 +11,7 @@ from typing import Dict, NamedTuple, Optional, Tuple
 import numpy as np
 
 from ode_sim.description import model as description
-from ode_sim.description.model import Pose, Vec3
+from ode_sim.description.model import FARTHEST, Pose, Vec3
 from ode_sim.inertia import usable_inertia, usable_mass
 from ode_sim.math3 import compose, inverse
 
@@ -42,9 +42,15 @@ def finite(values, what: str) -> None:
 
 
 def flat(pose: Pose, what: str = "pose") -> Tuple[float, ...]:
-    """Seven floats for the core."""
+    """Seven floats for the core.
+
+    :raises ValueError: not finite, or further than :data:`FARTHEST` from the origin of its frame.
+    """
     values = (*pose.p, *pose.q)
     finite(values, what)
+    far = max(map(abs, values[:3]))
+    if far > FARTHEST:
+        raise ValueError(f"{what} lies {far:g} m away; stay within {FARTHEST:g} m")
     return values
 
 
@@ -70,7 +76,10 @@ class CollisionHandle:
 
     @property
     def surface(self):
-        """Mutable: mu, mu2, slip1, slip2, kp, kd, max_vel, min_depth, restitution, bounce_threshold, fdir1 ..."""
+        """Mutable: mu, mu2, slip1, slip2, kp, kd, max_vel, min_depth, restitution, bounce_threshold, fdir1 ...
+
+        NaN is refused (ValueError); infinities and negative numbers are cut to the largest and least that can be simulated.
+        """
         return self.core.surface
 
     @property
@@ -140,7 +149,7 @@ class LinkHandle:
         self.core.set_twist(tuple(np.add(linear, np.cross(angular, arm))), tuple(angular))
 
     def add_force(self, f_W: Vec3, p_W: Optional[Vec3] = None) -> None:
-        """Force in N at the point ``p_W``, at the centre of mass if None."""
+        """Force in N at the point ``p_W``, at the centre of mass if None. Forces beyond 1e12 N are cut to it."""
         finite(f_W, f"force on link {self.scoped_name}")
         if p_W is None:
             self.core.add_force(tuple(f_W))
@@ -197,13 +206,17 @@ class LinkHandle:
         self.core.changed()
 
     def set_inertial(self, inertial: description.Inertial) -> None:
-        """New mass, centre of mass and tensor."""
+        """New mass, centre of mass and tensor.
+
+        :raises ValueError: one that no body can have; nothing is changed.
+        """
         where = f"link {self.scoped_name}"
         mass, problem = usable_mass(inertial.mass, where)
         tensor, second = usable_inertia(inertial, mass, where)
         if problem or second:
             raise ValueError(problem or second)
-        self.core.set_inertial(mass, inertial.pose.p, tensor)
+        pose = flat(inertial.pose, f"centre of mass of {where}")
+        self.core.set_inertial(mass, pose[:3], tensor)
 
 
 class JointHandle:
@@ -221,6 +234,7 @@ class JointHandle:
         # The calls of every controller cycle go straight to the core.
         self.position = core.position
         self.velocity = core.velocity
+        self.effort = core.effort  # N m or N: the sum of the forces added since the last step, after truncation; that of the step if none were
         self.motor = core.motor
         self._servo = core.servo
 
@@ -232,10 +246,6 @@ class JointHandle:
     @property
     def axis_count(self) -> int:
         return self.core.axis_count
-
-    def effort(self, axis: int = 0) -> float:
-        """Sum of the forces added since the last step, after truncation; just after a step, that of the step."""
-        return self.core.effort(axis) or self.core.applied_effort(axis)
 
     def add_force(self, force: float, axis: int = 0) -> None:
         """N m or N, for the next step; cut to the effort limit, and to 0 in the direction of motion above the velocity limit."""
@@ -251,7 +261,7 @@ class JointHandle:
         self.core.set_motor(velocity, max(max_force, 0.0), axis)
 
     def servo(self, position: float) -> None:
-        """Be at ``position`` (clamped to the limits) after the next step, whatever the masses, without recoil.
+        """Be at ``position`` (clamped to the limits, and to 1e7) after the next step, whatever the masses, without recoil.
 
         The link beyond becomes rigidly joined and is moved exactly. While it, or something beyond it, touches another
         model, the joint is a motor with the effort limit instead, so that it pushes, grips and stalls.
@@ -275,7 +285,10 @@ class JointHandle:
         return self.core.servo_mode == 2
 
     def follow(self, leader: Optional["JointHandle"], multiplier: float = 1.0, offset: float = 0.0) -> None:
-        """Mimic: keep at ``multiplier * leader + offset`` by :meth:`servo`. ``None`` ends it."""
+        """Mimic: keep at ``multiplier * leader + offset`` by :meth:`servo`. ``None`` ends it.
+
+        The leader may be of another model; when that is removed, the joint stays where it was commanded last.
+        """
         finite((multiplier, offset), f"mimic of joint {self.scoped_name}")
         self.core.follow(leader.core if leader else None, multiplier, offset)
 
@@ -283,6 +296,7 @@ class JointHandle:
         """Teleport: what is beyond moves along, its velocities become zero; ``q`` is clamped to the limits.
 
         :returns: False for a joint in a closed loop, which stays as it is.
+        :raises ValueError: no number, or a place beyond what can be simulated.
         """
         finite((q,), f"position of joint {self.scoped_name}")
         return self.core.set_position(q, axis)
@@ -294,6 +308,8 @@ class JointHandle:
     def set_limits(self, lower: float, upper: float, axis: int = 0) -> None:
         if not lower <= upper:
             raise ValueError(f"joint {self.scoped_name}: lower limit {lower} is above upper limit {upper}")
+        if unlimited(lower) == math.inf or unlimited(upper) == -math.inf:
+            raise ValueError(f"joint {self.scoped_name}: no position is between {lower:g} and {upper:g}")
         self._set(axis, 0, unlimited(lower), unlimited(upper))
 
     @property
@@ -325,10 +341,9 @@ class JointHandle:
         return self.core.get(0)[3]
 
     def _set(self, axis: int, first: int, *values: float) -> None:
-        finite_or_unlimited = [v for v in values if math.isnan(v)]
-        if finite_or_unlimited:
+        if any(math.isnan(v) for v in values):
             raise ValueError(f"joint {self.scoped_name}: a parameter must not be NaN")
-        if axis >= self.axis_count:
+        if not 0 <= axis < self.axis_count:
             raise ValueError(f"joint {self.scoped_name} has {self.axis_count} axes, there is no axis {axis}")
         numbers = list(self.core.get(axis))
         numbers[first:first + len(values)] = values
@@ -353,7 +368,10 @@ class JointHandle:
         return compose(Pose(q=from_parent.q), Pose(p=self.description.axes[axis].xyz)).p
 
     def set_param(self, name: str, value: float) -> None:
-        """By ODE's and Gazebo's name: fmax, vel, hi_stop, lo_stop, stop_erp, stop_cfm, friction, damping."""
+        """By ODE's and Gazebo's name: fmax, vel, hi_stop, lo_stop, stop_erp, stop_cfm, friction, damping.
+
+        :raises ValueError: there is no such parameter, or the value is none for it.
+        """
         velocity, force = self.core.motor(0) if self.axis_count else (0.0, 0.0)
         setters = {
             "fmax": lambda: self.set_motor(velocity, value),
@@ -377,7 +395,7 @@ class Attachment:
         self.parent = parent  # None: the world
         self.child = child
         self._core = core
-        self._id = core.attach(parent.core if parent else None, child.core)
+        self._id = core.attach(parent.core if parent else None, child.core)  # no other attachment ever has this number
 
     @property
     def active(self) -> bool:

@@ -11,12 +11,16 @@ from ode_sim.math3 import quat_to_matrix
 
 SMALLEST_MASS = 1e-6  # kg
 SMALLEST_GYRATION = 1e-4  # m, radius of gyration below which a body spins up without bound
+LARGEST_MASS = 1e15  # kg; the sums and products of larger ones would overflow
+LARGEST_MOMENT = 1e40  # kg m^2
 
 
 def usable_mass(mass: float, where: str) -> Tuple[float, Optional[str]]:
     """The mass in kg, and what was wrong with it."""
-    if math.isfinite(mass) and mass >= SMALLEST_MASS:
-        return mass, None
+    if SMALLEST_MASS <= mass <= LARGEST_MASS:
+        return float(mass), None
+    if math.isfinite(mass) and mass > LARGEST_MASS:
+        return LARGEST_MASS, f"{where}: mass {mass:g} kg is too large to simulate; {LARGEST_MASS:g} is used"
     if math.isfinite(mass) and mass > 0.0:
         return SMALLEST_MASS, f"{where}: mass {mass} kg is too small to simulate; {SMALLEST_MASS} is used"
     return 1.0, f"{where}: mass {mass} is no positive number; 1 kg is used. Write <mass value=\"...\"/> in kg"
@@ -25,16 +29,17 @@ def usable_mass(mass: float, where: str) -> Tuple[float, Optional[str]]:
 def usable_inertia(inertial: Inertial, mass: float, where: str) -> Tuple[Tuple[float, ...], Optional[str]]:
     """ixx, iyy, izz, ixy, ixz, iyz in link axes about the centre of mass (kg m^2), positive definite, and a problem if any.
 
-    A tensor however large is taken as it is; one that is not positive definite keeps its axes, and its moments are
+    A tensor up to :data:`LARGEST_MOMENT` is taken as it is; one that is not positive definite keeps its axes, and its moments are
     raised to the smallest that a body of this mass may have.
     """
     tensor = np.array([[inertial.ixx, inertial.ixy, inertial.ixz],
                        [inertial.ixy, inertial.iyy, inertial.iyz],
                        [inertial.ixz, inertial.iyz, inertial.izz]], dtype=float)
     problem = None
-    if not np.isfinite(tensor).all():
+    if not (np.abs(tensor) <= LARGEST_MOMENT).all():
+        what = f"a moment beyond {LARGEST_MOMENT:g} kg m^2" if np.isfinite(tensor).all() else "a NaN or an infinity"
         tensor = np.eye(3) * mass * 0.01
-        problem = f"{where}: inertia holds a NaN or an infinity; {mass * 0.01:g} kg m^2 is used"
+        problem = f"{where}: inertia holds {what}; {mass * 0.01:g} kg m^2 is used"
     moments, axes = np.linalg.eigh(tensor)
     least = max(mass * SMALLEST_GYRATION ** 2, moments[-1] * 1e-9)
     if moments[0] < least:

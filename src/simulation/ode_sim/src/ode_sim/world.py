@@ -2,8 +2,8 @@
 from __future__ import annotations
 
 import hashlib
-import pickle
-from dataclasses import dataclass, replace
+import json
+from dataclasses import dataclass, field, replace
 from typing import Callable, Dict, Iterable, List, Optional, Tuple, Union
 
 import numpy as np
@@ -16,6 +16,8 @@ from ode_sim.math3 import compose
 from ode_sim.physics import PhysicsSettings, check_gravity, check_physics, usable_physics
 
 Entity = Union[ModelHandle, LinkHandle, CollisionHandle]
+_MOST_STEPS = 1_000_000  # in one call into the core
+_LONGEST_TIME = 9e9  # s that the clock's nanoseconds can hold
 
 
 @dataclass(frozen=True)
@@ -24,7 +26,8 @@ class Snapshot:
 
     models: Tuple[str, ...]
     state: bytes
-    generators: bytes  # of World.rng, pickled
+    generators: bytes  # seed and state of World.rng, JSON
+    ties: Tuple[int, ...] = field(default=(), compare=False)  # by which Attachment objects find theirs; no part of the state
 
     def __bytes__(self) -> bytes:
         return b"".join((repr(self.models).encode(), self.state, self.generators))
@@ -67,7 +70,10 @@ class World:
             if model.name in self.models:
                 self.problems.append(d.Problem("warning", f"a second model '{model.name}' is left out; names must differ", model.source))
             elif model.name not in deleted:
-                self.spawn(model)
+                try:
+                    self.spawn(model)
+                except d.DescriptionError as error:
+                    self.problems.append(d.Problem("error", f"model '{model.name}' is left out: {error}", model.source))
         if description.state:
             self._apply_state(description.state)
 
@@ -154,22 +160,33 @@ class World:
 
         :param name: takes the place of the model's own.
         :param pose: X_WM, takes the place of the model's own.
+        What fails leaves nothing behind, in the world or in the core.
+
         :raises DescriptionError: the name is taken, or nothing of the model can be simulated.
         """
         name = name or model.name
         if name in self.models:
             raise d.DescriptionError(f"a model named '{name}' is in the world already; choose another name or remove it first")
         pose = model.pose if pose is None else pose
-        flat(pose, f"pose of model '{name}'")
         builder = Builder(self.core)
-        handle = builder.build(self, model, name, pose)
-        self.problems += builder.problems
+        try:
+            flat(pose, f"pose of model '{name}'")
+            handle = builder.build(self, model, name, pose)
+        except d.DescriptionError:
+            raise
+        except (ValueError, TypeError, OverflowError, RuntimeError) as error:  # a number that no world can hold
+            raise d.DescriptionError(f"model '{name}' cannot be simulated: {error}") from error
         self.models[name] = handle
         for link in handle.links.values():
             for collision in link.collisions.values():
                 self._collisions[collision.id] = collision
-        for callback in list(self.on_spawn):
-            callback(handle)
+        try:
+            for callback in list(self.on_spawn):
+                callback(handle)
+        except BaseException:
+            self.remove(name)
+            raise
+        self.problems += builder.problems
         return handle
 
     def spawn_urdf(self, text: str, name: Optional[str] = None, pose: Optional[d.Pose] = None) -> ModelHandle:
@@ -193,18 +210,22 @@ class World:
         if name not in self.models:
             raise KeyError(f"there is no model '{name}' in the world")
         handle = self.models[name]
-        for callback in list(self.on_remove):
-            callback(handle)
-        del self.models[name]
-        for link in handle.links.values():
-            for collision in link.collisions.values():
-                self._collisions.pop(collision.id, None)
-        self.core.remove_model(handle.core)
+        try:
+            for callback in list(self.on_remove):
+                callback(handle)
+        finally:
+            del self.models[name]
+            for link in handle.links.values():
+                for collision in link.collisions.values():
+                    self._collisions.pop(collision.id, None)
+            self.core.remove_model(handle.core)
 
     def attach(self, parent: Optional[LinkHandle], child: LinkHandle) -> Attachment:
         """Hold ``child`` where it is now relative to ``parent``, a link of any model (None: the world).
 
         They do not collide until :meth:`Attachment.detach`. Ends when either model is removed and at every reset.
+
+        :raises ValueError: neither can move, or one is not in this world.
         """
         if parent is child or (parent or child).model.static and child.model.static:
             raise ValueError(f"{child.scoped_name} cannot be attached to {parent.scoped_name if parent else 'the world'}: "
@@ -249,8 +270,9 @@ class World:
         done = 0
         while done < n:
             if not self.before_step and not self.after_step:
-                self.core.step(n - done)
-                done = n
+                many = min(n - done, _MOST_STEPS)
+                self.core.step(many)
+                done += many
             else:
                 # Sim time is advanced first: a controller sees the time of the state that it produces.
                 self._time_ns = self.core.time_ns + round(self.core.dt * 1e9)
@@ -290,36 +312,46 @@ class World:
     def save(self) -> Snapshot:
         """The whole state: continuing from it gives the same bits as going on without saving."""
         states = [(name, generator.bit_generator.state) for name, generator in sorted(self._generators.items())]
-        return Snapshot(tuple(self.models), self.core.save(), pickle.dumps(states, protocol=4))
+        return Snapshot(tuple(self.models), self.core.save(), json.dumps({"seed": self._seed, "streams": states}).encode(),
+                        tuple(self.core.ties()))
 
     def restore(self, snapshot: Snapshot) -> None:
         """Back to a saved state of a world with the same models.
 
-        :raises ValueError: models were added or removed since.
+        :raises ValueError: models were added or removed since, or the snapshot is damaged; nothing is changed.
         """
         if snapshot.models != tuple(self.models):
             raise ValueError(f"the snapshot holds the models {', '.join(snapshot.models) or 'none'}; "
                              f"the world has {', '.join(self.models) or 'none'}")
-        self.core.restore(snapshot.state)
-        self._generators.clear()
-        for name, state in pickle.loads(snapshot.generators):
-            self.rng(name).bit_generator.state = state
+        try:
+            saved = json.loads(snapshot.generators)
+            seed, generators = int(saved["seed"]), {}
+            for stream, state in saved["streams"]:
+                generators[stream] = np.random.Generator(np.random.PCG64())
+                generators[stream].bit_generator.state = state
+        except (ValueError, TypeError, KeyError) as error:
+            raise ValueError(f"the snapshot cannot be restored: its random numbers are damaged ({error})") from None
+        self.core.restore(snapshot.state, snapshot.ties)
+        self._seed, self._generators = seed, generators
 
     # ------------------------------------------------------------------------------------------ state, contacts, rays
 
     @property
     def joint_positions(self) -> np.ndarray:
-        """(J,) rad or m, a view of the core's memory: take it anew after each spawn or remove."""
+        """(J,) rad or m, a view of the core's memory, read-only.
+
+        Take it anew after each spawn or remove: one taken before goes on showing what was then.
+        """
         return self.core.joint_positions
 
     @property
     def joint_velocities(self) -> np.ndarray:
-        """(J,) rad/s or m/s, a view of the core's memory."""
+        """(J,) rad/s or m/s, a view as :attr:`joint_positions`."""
         return self.core.joint_velocities
 
     @property
     def link_poses(self) -> np.ndarray:
-        """(L, 7) x y z qx qy qz qw of each link in the world, a view of the core's memory."""
+        """(L, 7) x y z qx qy qz qw of each link in the world, a view as :attr:`joint_positions`."""
         return self.core.link_poses
 
     def contacts(self) -> np.ndarray:
@@ -361,8 +393,11 @@ class World:
 
     def _apply_state(self, state: d.WorldState) -> None:
         """What a saved world says about time, poses and velocities, in the place of the models' own."""
-        self.core.time_ns = round(state.sim_time * 1e9)
-        self.core.iterations = state.iterations
+        if 0.0 <= state.sim_time <= _LONGEST_TIME and 0 <= state.iterations < 2 ** 63:
+            self.core.time_ns = round(state.sim_time * 1e9)
+            self.core.iterations = int(state.iterations)
+        else:
+            self._state_problem(f"no clock shows {state.sim_time:g} s after {state.iterations} steps; it starts from 0")
         for name, pose in state.light_poses:
             if name in self.lights:
                 self.lights[name] = replace(self.lights[name], pose=pose)
@@ -370,12 +405,22 @@ class World:
             model = self.models.get(saved.name)
             if model is None:
                 continue
-            if saved.pose is not None:
-                model.pose = saved.pose
-                model.initial_pose = saved.pose
-            for link_state in saved.links:
-                link = model.links.get(link_state.name)
-                if link is not None:
-                    link.pose = link_state.pose
-                    link.set_twist(link_state.linear, link_state.angular)
+            try:
+                self._apply_model_state(model, saved)
+            except ValueError as error:
+                self._state_problem(f"model '{saved.name}' stays where the simulator has put it: {error}")
+
+    @staticmethod
+    def _apply_model_state(model: ModelHandle, saved: d.ModelState) -> None:
+        if saved.pose is not None:
+            model.pose = saved.pose
+            model.initial_pose = saved.pose
+        for link_state in saved.links:
+            link = model.links.get(link_state.name)
+            if link is not None:
+                link.pose = link_state.pose
+                link.set_twist(link_state.linear, link_state.angular)
+
+    def _state_problem(self, message: str) -> None:
+        self.problems.append(d.Problem("warning", f"<state>: {message}", self.description.source))
 
