@@ -1,6 +1,7 @@
 """Upstream's package names: which this platform covers, which Debian has under its own names."""
 from __future__ import annotations
 
+import functools
 import re
 import subprocess
 from pathlib import Path
@@ -29,19 +30,22 @@ def debian_name(name: str) -> str:
 
 
 def sections(root: Path, *wanted: str) -> List[str]:
-    """Debian packages of these sections of scripts/debian-packages.txt, in the order of the file."""
-    packages, section = [], ""
+    """Debian packages of these sections of scripts/debian-packages.txt, in its order; those with ? if this release has them."""
+    packages, section, known = [], "", known_to_apt()
     for line in (root / "scripts/debian-packages.txt").read_text().splitlines():
         if line.startswith("# section: "):
             section = line.split()[2]
         elif line.strip() and not line.startswith("#") and section in wanted:
-            packages.append(line.split("#")[0].strip())
+            name = line.strip()
+            if not name.endswith("?") or name[:-1] in known:
+                packages.append(name.rstrip("?"))
     return packages
 
 
-def known_to_apt() -> set:
+@functools.lru_cache(maxsize=None)
+def known_to_apt() -> frozenset:
     """All package names in this machine's package lists."""
-    return set(subprocess.run(["apt-cache", "pkgnames"], capture_output=True, text=True, check=True).stdout.split())
+    return frozenset(subprocess.run(["apt-cache", "pkgnames"], capture_output=True, text=True, check=True).stdout.split())
 
 
 def covered(root: Path) -> Dict[str, Tuple[List[str], str]]:
