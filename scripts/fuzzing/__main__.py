@@ -87,19 +87,19 @@ class Run:
         with Pool(kind, self._options.seed, self._scratch, self._options.jobs) as pool:
             pool.run(iter(range(first, first + self._options.cases)), report)
         rate, seconds = clock.rate, clock.seconds
-        for job, finding in new:
-            self._save(kind, job, finding)
+        with Pool(kind, self._options.seed, self._scratch, 1) as pool:
+            for job, finding in new:
+                self._save(kind, pool, job, finding)
         print(f"{kind.name}: {clock.cases} cases in {seconds:.0f} s ({rate:.1f} a second), {len(new)} new findings", flush=True)
 
-    def _save(self, kind: Kind, job: Job, finding: Finding) -> None:
+    def _save(self, kind: Kind, pool: Pool, job: Job, finding: Finding) -> None:
         case = case_of(kind, self._options.seed, job) if isinstance(job, int) else job
-        with Pool(kind, self._options.seed, self._scratch, 1) as pool:
-            again = pool.one(case)
-            if again is None or again.key != finding.key:
-                remark = "not found again alone"
-            else:
-                case = minimised(kind, pool, case, finding, self._options.patience)
-                remark = f"{len(case)} bytes"
+        again = pool.one(case)
+        if again is None or again.key != finding.key:
+            remark = "not found again alone"
+        else:
+            case = minimised(kind, pool, case, finding, self._options.patience)
+            remark = f"{len(case)} bytes"
         self._options.output.mkdir(parents=True, exist_ok=True)
         path = self._options.output / f"{kind.name}_{finding.slug}_{zlib.crc32(repr(finding.key).encode()):08x}{kind.suffix}"
         path.write_bytes(case)

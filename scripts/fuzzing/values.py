@@ -13,8 +13,8 @@ EXTREMES = ["0", "-0.0", "1", "-1", "2", "1e-3", "1e-6", "1e-9", "1e-12", "1e-30
             "-2147483649", "4294967295", "4294967296", "9223372036854775807", "9223372036854775808", "18446744073709551616", "0.5",
             "3.141592653589793", "1000", "1000000"]
 ODDITIES = ["", " ", "true", "false", "x", "0x10", "1,5", "1 2 3", "1e", "--1", "1_000", "\u0663", "\u221e", "None", "${1/0}", "$(arg x)", "%s",
-            "1 " * 50, "\u00e4", "world", "__default__", "::", "a::b", "/", "..", "~", "a" * 5000]
-NAMES = ["", " ", "world", "__model__", "base_link", "link", "a::b", "::", "/abs", "../up", "\u00fc", "link\n2", "a" * 300, "0", "nan", "%n%s",
+            "1 " * 50, "\u00e4", "world", "__default__", "::", "a::b", "/", "..", "~", "a" * 400]
+NAMES = ["", " ", "world", "__model__", "base_link", "link", "a::b", "::", "/abs", "../up", "\u00fc", "a" * 300, "0", "nan", "%n%s",
          "__root__", "default"]
 URIS = ["", "model://", "model://sun", "model://ground_plane", "model://no_such", "model://../../etc", "model://coke_can",
         "file:///etc/passwd", "file:///dev/zero", "package://arm_description/meshes/base_link.stl", "package://../x", "/dev/null", "/proc/self/mem",

@@ -10,6 +10,7 @@ import resource
 import shutil
 import signal
 import time
+import traceback
 import warnings
 from multiprocessing import Pipe
 from pathlib import Path
@@ -22,6 +23,7 @@ from fuzzing.kinds import Kind
 
 Job = Union[int, bytes]  # the number of a case to make, or a case
 _START_LIMIT = 120.0  # s until a new worker is ready
+_LIBC = ctypes.CDLL(None)
 _TICKS = os.sysconf("SC_CLK_TCK")
 
 
@@ -49,6 +51,8 @@ class Worker:
                 self.connection.close()
                 _serve(kind, seed, number, other, folder, self._output, parent)
                 code = 0
+            except Exception:
+                traceback.print_exc()
             finally:
                 os._exit(code)
         other.close()
@@ -77,7 +81,7 @@ class Worker:
         except ProcessLookupError:
             pass
         self.end()
-        return findings.of_stack("hang" if self.ready else "worker does not start", self._said())
+        return findings.of_stack("hang" if self.ready else "worker does not start", self.said())
 
     def died(self) -> Finding:
         """Say how it ended."""
@@ -86,9 +90,10 @@ class Worker:
             how = signal.Signals(os.WTERMSIG(status)).name
         else:
             how = f"exit code {os.waitstatus_to_exitcode(status)}"
-        return findings.of_stack(f"process ended by {how}", self._said())
+        return findings.of_stack(f"process ended by {how}", self.said())
 
-    def _said(self) -> str:
+    def said(self) -> str:
+        """What its process has written since it got its job."""
         with open(self._output, errors="replace") as stream:
             stream.seek(self._mark)
             return stream.read(1 << 20)
@@ -162,9 +167,14 @@ def examine(kind: Kind, case: bytes, said) -> Optional[Finding]:
     return findings.of_output(text) if text.strip() else None
 
 
+def end_with_parent() -> None:
+    """Be killed when the process that started this one ends, however it ends."""
+    _LIBC.prctl(1, signal.SIGKILL)  # PR_SET_PDEATHSIG
+
+
 def _become_worker(kind: Kind, folder: Path, output: Path, parent: int) -> None:
     os.setpgid(0, 0)
-    ctypes.CDLL(None).prctl(1, signal.SIGKILL)  # PR_SET_PDEATHSIG: end with the parent
+    end_with_parent()
     if os.getppid() != parent:
         os._exit(1)
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the parent ends the run
