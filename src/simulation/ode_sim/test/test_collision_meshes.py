@@ -1,13 +1,16 @@
 """Search trees of collision meshes: built once, beforehand if wanted, shared."""
+import gc
 import math
 import threading
+from dataclasses import replace
 
 import numpy as np
 import pytest
+from PIL import Image
 
 import ode_sim
 from ode_sim import collision_meshes
-from ode_sim.description.model import Box, Collision, Inertial, Link, Mesh, Model, Pose
+from ode_sim.description.model import Box, Collision, Heightmap, Inertial, Link, Mesh, Model, Polyline, Pose
 from physics_models import ground
 
 
@@ -81,3 +84,47 @@ def test_what_cannot_be_loaded_is_left_to_spawning():
     world = ode_sim.World()
     assert list(world.spawn(model).links["link"].collisions) == ["box"]
     assert "nowhere.stl" in world.problems[0].message
+
+
+def many_meshes(tmp_path, count):
+    """A model of as many different meshes, one height map and one polyline."""
+    links = []
+    for i in range(count):
+        path = tmp_path / f"ball{i}.obj"
+        path.write_text(dome(4, 0.05 + 0.001 * i))
+        links.append(Link(f"l{i}", Pose((i, 0, 1)), collisions=(Collision("c", Pose(), Mesh(uri=path.name, path=str(path))),)))
+    image = tmp_path / "hills.png"
+    Image.fromarray(np.linspace(0, 255, 33 * 33).reshape(33, 33).astype(np.uint8)).save(image)
+    hills, prism = Heightmap(str(image), size=(10.0, 10.0, 1.0)), Polyline(((0, 0), (1, 0), (0, 1)), 1.0)
+    links.append(Link("ground", Pose((0, 50, 0)), collisions=(Collision("h", Pose(), hills), Collision("p", Pose((0, 9, 0)), prism))))
+    return Model("many", Pose(), tuple(links), static=True)
+
+
+def test_what_is_prepared_is_what_a_spawn_uses_however_much_it_is(tmp_path, monkeypatch):
+    model = many_meshes(tmp_path, 150)
+    ode_sim.prepare(model)
+    ode_sim.prepare(many_meshes(tmp_path, 70))  # another robot comes between
+    collision_meshes._load.cache_clear()
+
+    def made_now(*args):
+        raise AssertionError("read or built while the world stands still")
+
+    for name in ("load_surface", "file_stamp", "mesh_data", "load_heights", "extrude"):
+        monkeypatch.setattr(collision_meshes, name, made_now)
+    world = ode_sim.World()
+    spawned = world.spawn(replace(model, name="placed", pose=Pose((0, 0, 1))))  # as the simulator's services do
+    assert world.problems == [] and sum(len(link.collisions) for link in spawned.links.values()) == 152
+    ranges, _ = world.cast_rays(np.array([[100.0, 0, 5.0]]), np.array([[0, 0, -1.0]]), 10.0)
+    assert ranges[0] == pytest.approx(5.0 - 2.0 - 0.15, abs=1e-6)
+
+
+def test_what_was_prepared_goes_with_the_description(tmp_path):
+    gc.collect()
+    before = len(collision_meshes._ready)
+    model = many_meshes(tmp_path, 3)
+    ode_sim.prepare(model)
+    ode_sim.prepare(model)
+    assert len(collision_meshes._ready) == before + 5
+    del model
+    gc.collect()
+    assert len(collision_meshes._ready) == before
