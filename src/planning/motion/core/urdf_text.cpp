@@ -1,0 +1,55 @@
+#include <console_bridge/console.h>
+#include <urdf_parser/urdf_parser.h>
+
+#include <mutex>
+
+#include "model_builder.hpp"
+
+namespace motion
+{
+namespace
+{
+// urdfdom says what is wrong on the console only: hold its mouth and keep the first error.
+class Listener : public console_bridge::OutputHandler
+{
+public:
+  void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override
+  {
+    if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR && first.empty())
+      first = text.substr(0, 200);
+  }
+  std::string first;
+};
+}  // namespace
+
+urdf::ModelInterfaceSharedPtr parseUrdf(const std::string& text)
+{
+  static std::mutex one_at_a_time;
+  std::lock_guard<std::mutex> lock(one_at_a_time);
+  Listener listener;
+  console_bridge::OutputHandler* before = console_bridge::getOutputHandler();
+  console_bridge::useOutputHandler(&listener);
+  urdf::ModelInterfaceSharedPtr urdf;
+  std::string thrown;
+  try
+  {
+    urdf = urdf::parseURDF(text);
+  }
+  catch (const std::exception& error)
+  {
+    thrown = error.what();
+  }
+  console_bridge::useOutputHandler(before);
+  if (!urdf)
+  {
+    std::string why = !thrown.empty() ? thrown : !listener.first.empty() ? listener.first : "it is not a robot description";
+    for (char& c : why)
+      if (c == '\n')
+        c = ' ';
+    throw ModelError("the URDF cannot be read: " + why);
+  }
+  if (!urdf->getRoot())
+    throw ModelError("the URDF '" + urdf->getName() + "' has no root link");
+  return urdf;
+}
+}  // namespace motion

@@ -1,0 +1,27 @@
+"""From URDF and SRDF text to a RobotModel."""
+from __future__ import annotations
+
+from typing import Any, Mapping, Optional
+
+from motion import _core
+from motion.files import FindPackage, find_package as below_ros_package_path, resolve
+
+
+def load_model(urdf: str, srdf: Optional[str] = None, *, joint_limits: Optional[Mapping[str, Any]] = None,
+               find_package: Optional[FindPackage] = None, meshes: bool = True) -> _core.RobotModel:
+    """The robot that the texts describe.
+
+    :param urdf: XML text of the URDF.
+    :param srdf: XML text of the SRDF; without it the robot has no groups.
+    :param joint_limits: the mapping of joint_limits.yaml, whole or what is below its key ``joint_limits``; wins over the URDF.
+    :param find_package: ``f(package name) -> directory or None``; by default a search below ROS_PACKAGE_PATH.
+    :param meshes: load collision meshes.
+    :raises ModelError: the texts cannot be made into a robot. What is only left out is in ``warnings``.
+    :raises InvalidInputError: the joint limits are not what they should be.
+    """
+    limits = dict(joint_limits or {})
+    if isinstance(limits.get("joint_limits"), Mapping):
+        limits = dict(limits["joint_limits"])
+    limits = {name: dict(values) for name, values in limits.items() if isinstance(values, Mapping)}
+    package = find_package or below_ros_package_path
+    return _core._load_model(urdf, srdf or "", limits, lambda uri: resolve(uri, package), meshes)
