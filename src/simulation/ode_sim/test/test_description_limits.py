@@ -185,6 +185,15 @@ def test_numbers_of_shapes_that_make_no_sense_are_replaced():
         assert word in text(problems)
 
 
+def test_offsets_of_a_plugin_that_make_no_sense_are_left_out():
+    m, problems = robot(f'<link name="a">{INERTIAL}</link><link name="b"/><joint name="j" type="fixed"><parent link="a"/>'
+                        '<child link="b"/></joint><gazebo><plugin name="p" filename="q"><bodyName>b</bodyName>'
+                        '<xyzOffset>0 1e300 0</xyzOffset><rpyOffset>0 inf 0</rpyOffset></plugin></gazebo>')
+    plugin, = m.plugins
+    assert plugin.element.findtext("bodyName") == "a" and plugin.element.findtext("xyzOffset") == "0.0 0.0 0.0"
+    assert "<xyzOffset>: '0 1e300 0' is beyond" in text(problems) and "<rpyOffset>" in text(problems)
+
+
 def test_a_scale_that_makes_a_saved_model_too_large_is_ignored():
     w, problems = world(f"<model name='m'><link name='l'><collision name='c'>{BOX}</collision></link></model>"
                         "<state><model name='m'><scale>1 1e7 1</scale></model></state>")

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from typing import Dict, List, Optional, Tuple
 
 from ode_sim import math3
-from ode_sim.description.model import Pose, quoted
+from ode_sim.description.model import FARTHEST, Pose, quoted
 from ode_sim.description.xmlsource import Element, child, clone, is_true, text_of
 
 LUMP = "_fixed_joint_lump__"
@@ -130,7 +130,7 @@ class Extensions:
         for tag in ("xyzOffset", "rpyOffset"):
             old = plugin.find(tag)
             if old is not None:
-                values = self._reader.numbers(old, (0.0, 0.0, 0.0))
+                values = self._reader.numbers(old, (0.0, 0.0, 0.0), most=FARTHEST)
                 xyz, rpy = (values, rpy) if tag == "xyzOffset" else (xyz, values)
                 plugin.remove(old)
         pose = math3.compose(x_pl, math3.from_rpy(*xyz, *rpy))
