@@ -1,10 +1,12 @@
 """The platform as an installed tree: catkin's install space of everything but the labs, with the PyPI add-ons."""
 from __future__ import annotations
 
+import filecmp
 import os
 import shutil
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 from typing import Dict, List
 
@@ -51,17 +53,37 @@ def platform_packages(root: Path) -> List[Path]:
 
 
 def export_sources(root: Path, to: Path) -> None:
-    """src/ as of the last commit (of a folder without git: as it is), so that half an edit is never packaged."""
-    shutil.rmtree(to, ignore_errors=True)
-    to.mkdir(parents=True)
-    if (root / ".git").exists():
-        archive = to / "sources.tar"
-        run(["git", "-C", root, "archive", "-o", archive, "HEAD", "src", "scripts"], "git archive")
-        run(["tar", "-x", "-C", to, "-f", archive], "unpacking the last commit")
-        archive.unlink()
-    else:
-        for folder in ("src", "scripts"):
-            shutil.copytree(root / folder, to / folder, symlinks=True, ignore=shutil.ignore_patterns("__pycache__", "*.pyc"))
+    """src/ and scripts/ as of the last commit (of a folder without git: as they are), so that half an edit is never packaged.
+
+    What has not changed since the last time is not touched, so that it is not compiled again.
+    """
+    with tempfile.TemporaryDirectory(dir=to.parent) as name:
+        new = Path(name)
+        if (root / ".git").exists():
+            run(["git", "-C", root, "archive", "-o", new / "sources.tar", "HEAD", "src", "scripts"], "git archive")
+            run(["tar", "-x", "-C", new, "-f", new / "sources.tar"], "unpacking the last commit")
+            (new / "sources.tar").unlink()
+        else:
+            for folder in ("src", "scripts"):
+                shutil.copytree(root / folder, new / folder, symlinks=True, ignore=shutil.ignore_patterns("__pycache__", "*.pyc"))
+        wanted = {path.relative_to(new) for path in new.rglob("*")}
+        for path in sorted((path for path in to.rglob("*") if path.relative_to(to) not in wanted), reverse=True):
+            path.rmdir() if path.is_dir() and not path.is_symlink() else path.unlink()
+        for path in sorted(wanted):
+            source, target = new / path, to / path
+            if source.is_dir() and not source.is_symlink():
+                target.mkdir(parents=True, exist_ok=True)
+            elif not _same(source, target):
+                target.unlink(missing_ok=True)
+                shutil.copy2(source, target, follow_symlinks=False)
+                if not target.is_symlink():
+                    os.utime(target)
+
+
+def _same(one: Path, other: Path) -> bool:
+    if one.is_symlink() or other.is_symlink() or not other.exists():
+        return one.is_symlink() and other.is_symlink() and os.readlink(one) == os.readlink(other)
+    return one.stat().st_mode == other.stat().st_mode and filecmp.cmp(one, other, shallow=False)
 
 
 def build(root: Path, prefix: Path) -> Path:
@@ -74,6 +96,7 @@ def build(root: Path, prefix: Path) -> Path:
     """
     work = root / "build" / "platform"
     sources, workspace, stage = work / "sources", work / "workspace", work / "stage"
+    sources.mkdir(parents=True, exist_ok=True)
     export_sources(root, sources)
     shutil.rmtree(stage, ignore_errors=True)
     shutil.rmtree(workspace / "src", ignore_errors=True)
