@@ -69,6 +69,18 @@ class FaultsTest(unittest.TestCase):
     def test_type_that_is_no_text(self):
         self.refused("number_as_type", "/number_as_type/type must be a text, it is 5")
 
+    def test_long_and_broken_names_are_quoted_short_and_on_one_line(self):
+        self.refused_name("x" * 100000, "type was not specified")
+        self.refused_name("a\nb", "'a b': this is no valid name")
+        rospy.set_param("/long_type", {"type": "y" * 100000})
+        self.refused_name("long_type", "yyy' does not exist")
+
+    def refused_name(self, name, part):
+        del self.lines[:]
+        self.assertFalse(self.cm.load(name))
+        self.says(part)
+        self.assertLess(len(self.lines[0]), 2000)
+
     def test_unknown_joint(self):
         self.refused("unknown_joint", "no_such_joint", "hiDOF_joint1, hiDOF_joint2")
 

@@ -144,3 +144,9 @@ def test_continuous_joint_takes_the_short_way_and_keeps_the_turns_inside_the_mes
 def test_point_times_are_kept_for_feedback(message):
     result = splice_now(holding(0.0, 0.0), message(JOINTS, (1.0, [1, 1]), (2.0, [2, 2]), (4.0, [3, 3])))[0]
     assert [segment.point_time for segment in result] == [0.0, 0.0, 1.0, 2.0]
+
+
+def test_messages_stay_short(message):
+    with pytest.raises(InvalidTrajectory, match="^Joints on incoming goal don't match .* unknown: x0, x1,") as error:
+        map_joints([f"x{number}" for number in range(10000)], JOINTS, False)
+    assert len(str(error.value)) <= 400

@@ -20,7 +20,7 @@ A controller in full::
 from realtime_tools import RateGate, RealtimePublisher
 
 from .controller import Controller, ControllerBase, ControllerState, InitError, MultiInterfaceController
-from .node_handle import NodeHandle, ParameterError, to_stamp
+from .node_handle import NodeHandle, ParameterError, one_line, to_stamp
 
 __all__ = ["Controller", "ControllerBase", "ControllerState", "InitError", "MultiInterfaceController", "NodeHandle",
-           "ParameterError", "RateGate", "RealtimePublisher", "to_stamp"]
+           "ParameterError", "RateGate", "RealtimePublisher", "one_line", "to_stamp"]

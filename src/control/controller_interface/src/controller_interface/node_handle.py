@@ -14,6 +14,12 @@ class ParameterError(Exception):
     """A parameter is missing or of the wrong kind; the line says where it was looked up and what was there."""
 
 
+def one_line(text: object, longest: int = 400) -> str:
+    """``text`` for a message: on one line, without its middle if it is longer than ``longest``."""
+    line = " ".join(str(text).split())
+    return line if len(line) <= longest else f"{line[:longest - 85]} ... {line[-80:]}"
+
+
 def to_stamp(time: float) -> rospy.Time:
     """``time`` (s) of the control loop as a message stamp, rounded to the nanosecond."""
     secs, nsecs = divmod(round(time * 1e9), 1000000000)
@@ -93,8 +99,8 @@ class NodeHandle:
         if value is None:
             return f"there are no parameters in {self.namespace}"
         if not isinstance(value, dict):
-            return f"{self.namespace} is not a namespace but the value {value!r}"
-        return f"{self.namespace} has: {', '.join(sorted(value)) or 'nothing'}"
+            return f"{self.namespace} is not a namespace but the value {one_line(repr(value))}"
+        return f"{self.namespace} has: {one_line(', '.join(sorted(value))) or 'nothing'}"
 
     def set_param(self, name: str, value: Any) -> None:
         rospy.set_param(self._join(name), value)

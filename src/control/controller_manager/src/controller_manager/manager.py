@@ -14,7 +14,7 @@ from typing import Callable, List, Optional, Sequence, Tuple
 
 import rosgraph.names
 import rospy
-from controller_interface import ControllerBase, ControllerState, NodeHandle
+from controller_interface import ControllerBase, ControllerState, NodeHandle, one_line
 from controller_manager_msgs.msg import ControllerState as ControllerStateMsg
 from controller_manager_msgs.msg import HardwareInterfaceResources
 from controller_manager_msgs.srv import (ListControllers, ListControllersResponse, ListControllerTypes,
@@ -42,10 +42,10 @@ _STUCK = (f"a cycle of the control loop has not ended for {_LONGEST_CYCLE:g} s; 
 def _reason(error: BaseException) -> str:
     """One line for the log: the text of an error that a package defines for its users, else the type and the place."""
     if type(error).__module__ != "builtins":
-        return str(error).replace("\n", " ")
+        return one_line(error)
     frames = traceback.extract_tb(error.__traceback__)
     place = f" ({frames[-1].filename}:{frames[-1].lineno})" if frames else ""
-    return f"{type(error).__name__}: {' '.join(str(error).split())}{place}"
+    return f"{type(error).__name__}: {one_line(error)}{place}"
 
 
 class LoadedController:
@@ -212,15 +212,17 @@ class ControllerManager:
                 rospy.logerr("A controller named '%s' was already loaded inside the controller manager", name)
                 return False
             if not rosgraph.names.is_legal_name(name):
-                rospy.logerr("Could not load controller '%s': this is no valid name for a namespace", name)
+                rospy.logerr("Could not load controller '%s': this is no valid name for a namespace",
+                             one_line(name))
                 return False
             nh = NodeHandle(self._root.namespace)
             try:
                 loaded = self._create(name, nh)
             except Exception as error:  # constructor and init are third-party code
                 nh.shutdown()
-                rospy.logerr("Could not load controller '%s'%s", name, error if isinstance(error, _TypeProblem)
-                             else f". Initializing controller '{name}' failed: {_reason(error)}")
+                why = error if isinstance(error, _TypeProblem) else (
+                    f". Initializing controller '{one_line(name)}' failed: {_reason(error)}")
+                rospy.logerr("%s", one_line(f"Could not load controller '{one_line(name)}'{why}", 1200))
                 return False
             if self._closing or not self._exchange(self._controllers + (loaded,)):
                 loaded.nh.shutdown()
@@ -236,7 +238,7 @@ class ControllerManager:
         plugin = self._types.find(type_name)
         if plugin is None:
             raise _TypeProblem(
-                f" because controller type '{type_name}' does not exist{self._types.suggestion(type_name)}. Use "
+                f" because controller type '{one_line(type_name)}' does not exist{self._types.suggestion(type_name)}. Use "
                 f"'rosservice call {self._root.resolve('controller_manager/list_controller_types')}' to get the "
                 f"available types.")
         try:
@@ -251,7 +253,7 @@ class ControllerManager:
         if isinstance(type_name, str):
             return type_name
         if type_name is not None:
-            raise _TypeProblem(f": parameter {nh.resolve('type')} must be a text, it is {type_name!r}")
+            raise _TypeProblem(f": parameter {nh.resolve('type')} must be a text, it is {one_line(repr(type_name))}")
         ending = f"/{name.strip('/').split('/')[-1]}/type"
         elsewhere = [parameter for parameter in rospy.get_param_names() if parameter.endswith(ending)]
         raise _TypeProblem(
@@ -268,7 +270,7 @@ class ControllerManager:
         loaded = self._find(name)
         if loaded is None:
             rospy.logerr("Could not unload controller with name '%s' because no controller with this name exists; "
-                         "loaded: %s", name, self._names())
+                         "loaded: %s", one_line(name), self._names())
             return False
         if loaded.running:
             rospy.logerr("Could not unload controller with name '%s' because it is still running", name)
@@ -320,7 +322,7 @@ class ControllerManager:
         try:
             starting, stopping = plan(self._controllers, start, stop, strictness == STRICT)
         except Refused as refusal:
-            rospy.logerr("%s", refusal)
+            rospy.logerr("%s", one_line(refusal))
             return None
         running = [loaded.info for loaded in self._controllers
                    if (loaded.running and loaded not in stopping) or loaded in starting]

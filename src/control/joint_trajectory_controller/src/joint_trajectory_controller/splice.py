@@ -4,6 +4,8 @@ from __future__ import annotations
 import math
 from typing import Dict, List, Optional, Sequence
 
+from controller_interface import one_line
+
 from .segment import Segment, State, active_index, point_segments, wraparound_offset
 from .tolerances import JointTolerances
 
@@ -21,7 +23,7 @@ class InvalidTrajectory(Exception):
     """
 
     def __init__(self, code: int, text: str):
-        super().__init__(text)
+        super().__init__(one_line(text))
         self.code = code
 
 
