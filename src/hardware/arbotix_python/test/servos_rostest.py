@@ -93,7 +93,10 @@ class Servos(unittest.TestCase):
         self.assertLessEqual(most, 0.4 + PAN_TICK)
 
     def test_bad_goals_are_refused(self):
-        for goal in (self.goal((1.0, (0.1,)), joints=("pan",)), self.goal(), self.goal((1.0, (0.1,)))):
+        nan, far = float("nan"), 1e308
+        for goal in (self.goal((1.0, (0.1,)), joints=("pan",)), self.goal(), self.goal((1.0, (0.1,))),
+                     self.goal((1.0, (nan, 0.1))), self.goal((1.0, (0.1, far))), self.goal((-1e9, (0.1, 0.1))),
+                     self.goal((1.0, (0.1, 0.1)), (0.5, (0.2, 0.2)))):
             self.assertEqual(self.client.send_goal_and_wait(goal, rospy.Duration(300)), GoalStatus.ABORTED)
 
     def test_cancel(self):

@@ -49,6 +49,20 @@ class SimulatedBase(unittest.TestCase):
         self.assertEqual((transform.header.frame_id, transform.child_frame_id), ("odom", "base_footprint"))
         self.assertAlmostEqual(transform.transform.translation.y, last.y, places=12)
 
+    def test_no_number_is_ignored(self):
+        odometry = Collector("/odom", Odometry)
+        commands = rospy.Publisher("/cmd_vel", Twist, queue_size=10)
+        twist = Twist()
+        for value in (math.nan, math.inf, 1e308, 0.25):  # until the last one has come, which is a command
+            twist.linear.x = twist.angular.z = value
+            odometry.wait_for(lambda m: commands.get_num_connections() > 0, "the driver to listen")
+            commands.publish(twist)
+        odometry.wait_for(lambda m: m.twist.twist.linear.x == 0.25, "odometry of the command")
+        for message in odometry.messages:
+            self.assertTrue(math.isfinite(message.pose.pose.position.x + heading(message)))
+        twist.linear.x = twist.angular.z = 0.0
+        commands.publish(twist)
+
     def test_joint_states(self):
         state = Collector("/joint_states", JointState).wait_for(lambda m: True, "joint states")
         self.assertEqual(state.name, ["base_l_wheel_joint", "base_r_wheel_joint"])
@@ -62,7 +76,11 @@ class SimulatedBase(unittest.TestCase):
     def test_bad_configuration_is_named_and_left_out(self):
         rospy.set_param("/broken", {"sim": True, "controllers": {
             "wings": {"type": "flapping_controller"}, "narrow": {"type": "diff_controller", "ticks_meter": 4100},
-            "head": {"type": "follow_controller", "joints": ["neck"], "action_name": "nod"}}})
+            "head": {"type": "follow_controller", "joints": ["neck"], "action_name": "nod"},
+            "still": {"type": "diff_controller", "ticks_meter": 4100, "base_width": 0.2, "rate": 0},
+            "wordy": {"type": "diff_controller", "ticks_meter": "many", "base_width": 0.2},
+            "tail": {"type": "follow_controller", "joints": "neck"}},
+            "joints": {"endless": {"id": 1, "range": math.inf}}})
         driver = subprocess.Popen(["rosrun", "arbotix_python", "arbotix_driver", "__name:=broken"],
                                   stderr=subprocess.PIPE, text=True)
         try:
@@ -74,7 +92,20 @@ class SimulatedBase(unittest.TestCase):
         self.assertRegex(errors, "wings has type flapping_controller")
         self.assertRegex(errors, "/broken/controllers/narrow/base_width is not set")
         self.assertRegex(errors, "joint neck of /broken/controllers/head/joints")
+        self.assertRegex(errors, "/broken/controllers/still/rate must be a number above 0, it is 0")
+        self.assertRegex(errors, "/broken/controllers/wordy/ticks_meter must be a number above 0, it is 'many'")
+        self.assertRegex(errors, "/broken/controllers/tail/joints must be a list of names, it is 'neck'")
+        self.assertRegex(errors, "/broken/joints/endless/range must be a number above 0, it is inf")
         self.assertNotIn("Traceback", errors)
+
+    def test_a_driver_that_cannot_start_says_why(self):
+        rospy.set_param("/halted", {"sim": True, "read_rate": "often"})
+        driver = subprocess.run(["rosrun", "arbotix_python", "arbotix_driver", "__name:=halted"], stderr=subprocess.PIPE,
+                                text=True, timeout=60)
+        self.assertEqual(driver.returncode, 1)
+        self.assertRegex(driver.stderr, "arbotix cannot start: parameter /halted/read_rate must be a number above 0, it is "
+                                        "'often'")
+        self.assertNotIn("Traceback", driver.stderr)
 
 
 if __name__ == "__main__":

@@ -7,7 +7,7 @@ from geometry_msgs.msg import Quaternion, TransformStamped, Twist
 from nav_msgs.msg import Odometry
 
 from .controllers import Controller, status
-from .parameters import Every, require
+from .parameters import Every, number, usable
 
 FRAMES = 30.0  # 1/s, rate of the board's own speed loop
 
@@ -28,16 +28,16 @@ class DiffController(Controller):
     def __init__(self, device, name):
         super().__init__(device, name)
         prefix = "~controllers/%s/" % name
-        rate = rospy.get_param(prefix + "rate", 10.0)
+        rate = number(prefix + "rate", 10.0, above=0)
         self._every = Every(rate)
-        self._timeout = rospy.Duration(rospy.get_param(prefix + "timeout", 1.0))
-        self._ticks_meter = float(require(prefix + "ticks_meter"))
-        self._base_width = float(require(prefix + "base_width"))
+        self._timeout = rospy.Duration(number(prefix + "timeout", 1.0))
+        self._ticks_meter = float(number(prefix + "ticks_meter", above=0))
+        self._base_width = float(number(prefix + "base_width", above=0))
         self._base_frame = rospy.get_param(prefix + "base_frame_id", "base_link")
         self._odom_frame = rospy.get_param(prefix + "odom_frame_id", "odom")
-        self._gains = [rospy.get_param(prefix + key, default)
+        self._gains = [number(prefix + key, default)
                        for key, default in (("Kp", 5), ("Kd", 1), ("Ki", 0), ("Ko", 50))]
-        self._ramp = max(1, int(rospy.get_param(prefix + "accel_limit", 0.1) * self._ticks_meter / rate))
+        self._ramp = max(1, int(number(prefix + "accel_limit", 0.1) * self._ticks_meter / rate))
 
         self.joint_names = ["base_l_wheel_joint", "base_r_wheel_joint"]
         self.joint_positions = [0.0, 0.0]
@@ -61,6 +61,10 @@ class DiffController(Controller):
             self.device.board.setupBase(*self._gains)
 
     def _command(self, twist):
+        if not usable(twist.linear.x, twist.angular.z):
+            rospy.logwarn_throttle(1.0, "%s: %s m/s and %s rad/s are no command; ignored." % (
+                self.name, twist.linear.x, twist.angular.z))
+            return
         self._last_command = rospy.Time.now()
         if self.device.fake:
             self._forwards, self._turn = twist.linear.x, twist.angular.z

@@ -1,4 +1,6 @@
 """The node arbotix: joints, controllers and pins of one board."""
+import sys
+
 import node_signals
 import rospy
 from arbotix_msgs.srv import SetupChannel, SetupChannelResponse
@@ -10,7 +12,7 @@ from .arbotix import ArbotiX, ArbotiXException
 from .diff_controller import DiffController
 from .follow_controller import FollowController
 from .linear_controller import LinearControllerAbsolute, LinearControllerIncremental, LinearJoint
-from .parameters import ConfigurationError, Every
+from .parameters import ConfigurationError, Every, number
 from .servo_controller import ServoController
 from .servos import DynamixelServo, HobbyServo
 
@@ -26,13 +28,14 @@ class Driver:
         if self.fake:
             rospy.loginfo("ArbotiX being simulated.")
         else:
-            self.board = ArbotiX(rospy.get_param("~port", "/dev/ttyUSB0"), int(rospy.get_param("~baud", 115200)),
-                                 float(rospy.get_param("~timeout", 0.1)), open_port=False)
+            self.board = ArbotiX(rospy.get_param("~port", "/dev/ttyUSB0"), int(number("~baud", 115200, above=0)),
+                                 float(number("~timeout", 0.1, above=0)), open_port=False)
             self._connect()
+        self._rate = number("~rate", 100.0, above=0)
         self._joint_states = rospy.Publisher("joint_states", JointState, queue_size=5)
-        self._joint_states_every = Every(rospy.get_param("~read_rate", 10.0))
+        self._joint_states_every = Every(number("~read_rate", 10.0, above=0))
         self._diagnostics = rospy.Publisher("diagnostics", DiagnosticArray, queue_size=5)
-        self._diagnostics_every = Every(rospy.get_param("~diagnostic_rate", 1.0))
+        self._diagnostics_every = Every(number("~diagnostic_rate", 1.0, above=0))
         self.joints = {}
         self._make(self.joints, "joint", JOINT_TYPES, "dynamixel")
         self.controllers = {"servos": ServoController(self, "servos")}
@@ -54,7 +57,10 @@ class Driver:
 
     def _make(self, made, kind, types, default=None):
         """Makes what the parameters ~<kind>s name; what cannot be made is one error, and the rest goes on."""
-        for name, parameters in rospy.get_param("~%ss" % kind, {}).items():
+        named = rospy.get_param("~%ss" % kind, {})
+        if not isinstance(named, dict):
+            raise ConfigurationError("parameter %s must be a map of names" % rospy.resolve_name("~%ss" % kind))
+        for name, parameters in named.items():
             type_name = parameters.get("type", default) if isinstance(parameters, dict) else default
             if type_name not in types:
                 rospy.logerr("Unrecognized %s: %s has type %s, known are %s.", kind, name, type_name, sorted(types))
@@ -76,9 +82,14 @@ class Driver:
         if self.fake:
             return
         for group, kind in channels.PARAMETERS.items():
-            for name, given in rospy.get_param("~" + group, {}).items():
-                self._channels[name] = kind(self.board, name, given.get("pin", 1), given.get("value", 0),
-                                            given.get("rate", 10), given.get("length", 1))
+            for name in rospy.get_param("~" + group, {}):
+                prefix = "~%s/%s/" % (group, name)
+                try:
+                    pin, value, length = (int(number(prefix + key, default))
+                                          for key, default in (("pin", 1), ("value", 0), ("length", 1)))
+                    self._channels[name] = kind(self.board, name, pin, value, number(prefix + "rate", 10, above=0), length)
+                except ConfigurationError as error:
+                    rospy.logerr("Pin %s left out: %s.", name, error)
 
     def _setup_channel(self, kind, request):
         if not self.fake:
@@ -93,7 +104,7 @@ class Driver:
         for controller in self.controllers.values():
             controller.startup()
         self._start_channels()
-        rate = rospy.Rate(rospy.get_param("~rate", 100.0))
+        rate = rospy.Rate(self._rate)
         while not rospy.is_shutdown():
             try:
                 self._turn(rospy.Time.now())
@@ -140,7 +151,11 @@ class Driver:
 
 def main():
     node_signals.init_node("arbotix")
-    driver = Driver()
+    try:
+        driver = Driver()
+    except ConfigurationError as error:
+        rospy.logfatal("arbotix cannot start: %s.", error)
+        sys.exit(1)
     try:
         driver.run()
     except rospy.ROSException:

@@ -5,7 +5,7 @@ from control_msgs.msg import FollowJointTrajectoryAction
 from trajectory_msgs.msg import JointTrajectory
 
 from .controllers import Controller, status
-from .parameters import ConfigurationError, require
+from .parameters import ConfigurationError, number, texts, usable
 
 SUCCEEDED, PREEMPTED = "succeeded", "preempted"
 
@@ -14,8 +14,8 @@ class FollowController(Controller):
     def __init__(self, device, name):
         super().__init__(device, name)
         prefix = "~controllers/%s/" % name
-        self._rate = rospy.get_param(prefix + "rate", 50.0)
-        self._joints = require(prefix + "joints")
+        self._rate = number(prefix + "rate", 50.0, above=0)
+        self._joints = texts(prefix + "joints")
         for joint in self._joints:
             if joint not in device.joints:
                 raise ConfigurationError("joint %s of %s is not among the joints %s" % (
@@ -47,6 +47,11 @@ class FollowController(Controller):
             return "the trajectory has no points"
         if any(len(point.positions) != len(trajectory.joint_names) for point in trajectory.points):
             return "a point of the trajectory does not have one position per joint"
+        if not all(usable(*point.positions) for point in trajectory.points):
+            return "a position of the trajectory is no number"
+        times = [rospy.Duration(), *(point.time_from_start for point in trajectory.points)]
+        if any(later < earlier for earlier, later in zip(times, times[1:])):
+            return "the points of the trajectory are not in the order of their times"
         return ""
 
     def _goal(self, goal):

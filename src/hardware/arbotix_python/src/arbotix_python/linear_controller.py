@@ -9,7 +9,7 @@ from std_srvs.srv import Empty, EmptyResponse
 
 from .arbotix import BOARD, word
 from .controllers import Controller, status
-from .parameters import ConfigurationError, Every, require
+from .parameters import ConfigurationError, Every, number, require
 
 NEAR = 0.01  # m, close enough to stop the motor
 
@@ -22,10 +22,14 @@ class LinearJoint:
         self.name = name
         self.controller = None
         prefix = "~joints/%s/" % name
-        self._low = rospy.get_param(prefix + "min_position", 0.0)
-        self._high = rospy.get_param(prefix + "max_position", 0.5)
+        self._low = number(prefix + "min_position", 0.0)
+        self._high = number(prefix + "max_position", 0.5)
         table = rospy.get_param(prefix + "calibration_data", {-1: -1, 1: 1})
-        self._table = sorted((int(reading), float(position)) for reading, position in table.items())
+        try:
+            self._table = sorted((int(reading), float(position)) for reading, position in table.items())
+        except (AttributeError, TypeError, ValueError):
+            raise ConfigurationError("%scalibration_data must map readings, whole numbers, to positions in m"
+                                     % rospy.resolve_name(prefix)) from None
         if len(self._table) < 2:
             raise ConfigurationError("%scalibration_data needs two readings at least" % rospy.resolve_name(prefix))
         self.position = self.velocity = 0.0
@@ -75,10 +79,10 @@ class LinearControllerAbsolute(Controller):
     def __init__(self, device, name):
         super().__init__(device, name)
         prefix = "~controllers/%s/" % name
-        self._motor = [rospy.get_param(prefix + key, default)
+        self._motor = [int(number(prefix + key, default))
                        for key, default in (("motor_a", 29), ("motor_b", 30), ("motor_pwm", 31))]
-        self._analog = rospy.get_param(prefix + "feedback", 0)
-        self._every = Every(rospy.get_param(prefix + "rate", 10.0))
+        self._analog = int(number(prefix + "feedback", 0))
+        self._every = Every(number(prefix + "rate", 10.0, above=0))
         joint = require(prefix + "joint")
         if joint not in device.joints or not isinstance(device.joints[joint], LinearJoint):
             raise ConfigurationError("joint %s is not among the joints of type calibrated_linear" % joint)

@@ -5,7 +5,7 @@ from arbotix_msgs.srv import Enable, EnableResponse, Relax, RelaxResponse
 from .arbotix import word
 from .ax12 import P_GOAL_POSITION_L, P_PRESENT_POSITION_L, P_PRESENT_VOLTAGE
 from .controllers import Controller
-from .parameters import Every
+from .parameters import Every, number
 from .servos import DynamixelServo, HobbyServo
 
 HEALTH_EVERY = 5  # diagnostics between two readings of voltage and temperature
@@ -18,10 +18,10 @@ class ServoController(Controller):
         self._hobby = [joint for joint in device.joints.values() if isinstance(joint, HobbyServo)]
         self._sync_read = rospy.get_param("~sync_read", True)
         self._sync_write = rospy.get_param("~sync_write", True)
-        write_rate = rospy.get_param("~write_rate", 10.0)
+        write_rate = number("~write_rate", 10.0, above=0)
         self._write_period = 1.0 / write_rate
         self._write = Every(write_rate)
-        self._read = Every(rospy.get_param("~read_rate", 10.0))
+        self._read = Every(number("~read_rate", 10.0, above=0))
         self._reports = 0
         rospy.Service(name + "/relax_all", Relax, self._relax_all)
         rospy.Service(name + "/enable_all", Enable, self._enable_all)

@@ -7,7 +7,7 @@ from diagnostic_msgs.msg import DiagnosticStatus
 from std_msgs.msg import Float64
 
 from .controllers import status
-from .parameters import require
+from .parameters import number, usable
 
 WARM, HOT = 50, 60  # degrees C
 
@@ -22,12 +22,12 @@ class Servo:
         self.name = name
         self.controller = None  # whose actions keep single commands out
         prefix = "~joints/%s/" % name
-        self.id = int(require(prefix + "id"))
-        self.ticks = rospy.get_param(prefix + "ticks", self.TICKS)
-        self.neutral = rospy.get_param(prefix + "neutral", self.default_neutral())
-        span = math.radians(rospy.get_param(prefix + "range", self.default_range()))
+        self.id = int(number(prefix + "id"))
+        self.ticks = number(prefix + "ticks", self.TICKS, above=0)
+        self.neutral = number(prefix + "neutral", self.default_neutral())
+        span = math.radians(number(prefix + "range", self.default_range(), above=0))
         self.rad_per_tick = span / self.ticks
-        self.max_speed = math.radians(rospy.get_param(prefix + "max_speed", self.MAX_SPEED))
+        self.max_speed = math.radians(number(prefix + "max_speed", self.MAX_SPEED, above=0))
         self.sign = -1 if rospy.get_param(prefix + "invert", False) else 1
         self.position = 0.0  # as far as is known, rad
         self.velocity = 0.0  # rad/s
@@ -51,7 +51,7 @@ class Servo:
         return self.sign * (ticks - self.neutral) * self.rad_per_tick
 
     def _command(self, message):
-        if not math.isfinite(message.data):
+        if not usable(message.data):
             rospy.logerr("%s/command: %s is no angle; ignored.", self.name, message.data)
         elif not (self.controller and self.controller.active()):
             self.go_to(message.data)
@@ -145,6 +145,8 @@ class DynamixelServo(Servo):
         return EnableResponse(self._enabled)
 
     def _set_speed(self, request):
+        if not usable(request.speed):
+            raise rospy.ServiceException("%s is no speed" % request.speed)
         if not self.device.fake:
             ticks = int(self.ticks * request.speed / self.max_speed)
             self.device.board.setSpeed(self.id, min(max(ticks, 1), self.ticks - 1))  # 0 would mean: no limit
