@@ -261,6 +261,16 @@ def test_normals_that_are_no_use_are_computed(tmp_path):
     assert np.allclose(part.normals, [0, 0, 1]) and part.uv is None
 
 
+@pytest.mark.parametrize("scale", [(1e-300, 1, 1), (0, 0, 0), (1e7, 1e7, 1e7), (-1, 1e3, 1e-1)])
+def test_no_scale_is_worth_a_warning(tmp_path, scale):
+    path = obj(tmp_path / "a.obj")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", RuntimeWarning)
+        part, = mesh.load_visual(path, scale)
+        if 0 not in scale and 1e-300 not in scale:
+            assert np.isfinite(part.normals).all() and len(mesh.load_surface(path, scale).triangles) == 12
+
+
 def test_files_that_are_too_large_are_refused(tmp_path, monkeypatch):
     from ode_sim import mesh_files
     path = tmp_path / "a.stl"

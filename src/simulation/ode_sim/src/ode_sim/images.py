@@ -1,12 +1,15 @@
 """Pictures from files that nobody has checked: textures, height maps, floor plans."""
 from __future__ import annotations
 
+import logging
 import os
 import warnings
 
 import numpy as np
 
 from ode_sim.description.model import DescriptionError, one_line
+
+logging.getLogger("PIL").setLevel(logging.CRITICAL)  # what it logs, it raises as well
 
 MOST_PIXELS = 64_000_000
 #: Those that Gazebo's graphics read. Left to itself, Pillow would start Ghostscript for a PostScript file.

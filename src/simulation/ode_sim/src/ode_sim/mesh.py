@@ -121,7 +121,8 @@ def _surface(path: str, scale: Vec3, submesh: str, center: bool, stamp) -> Surfa
 
 @functools.lru_cache(maxsize=256)
 def _visual(path: str, scale: Vec3, submesh: str, center: bool, stamp) -> Tuple[VisualPart, ...]:
-    return tuple(_drawn(part, np.asarray(scale)) for part in _selected(path, submesh, center, stamp))
+    with np.errstate(over="ignore", invalid="ignore"):  # what is scaled to nothing has no normals worth a warning
+        return tuple(_drawn(part, np.asarray(scale)) for part in _selected(path, submesh, center, stamp))
 
 
 def _selected(path: str, submesh: str, center: bool, stamp) -> List[MeshPart]:
