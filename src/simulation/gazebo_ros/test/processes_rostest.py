@@ -16,47 +16,11 @@ import rostest
 from gazebo_msgs import srv
 from rosgraph_msgs.msg import Clock
 
+from processes import BENCH, Server
 from simulator import Simulator, box, pose, urdf
 
 PHYSICS = """{time_step: 0.001, max_update_rate: 1000.0, gravity: {z: -1.5}, ode_config: {sor_pgs_iters: 50, sor_pgs_w: 1.3,
 contact_surface_layer: 0.001, contact_max_correcting_vel: 100.0, erp: 0.2, max_contacts: 20}}"""
-BENCH = os.path.join(os.path.dirname(os.path.abspath(__file__)), "worlds", "bench.world")
-
-
-class Server:
-    """A gzserver in a namespace of its own, ended at the end of the block.
-
-    :param master: URI; that of the test unless given
-    """
-
-    def __init__(self, name, *arguments, master=None):
-        self.name = name
-        self.environment = {**os.environ, "ROS_MASTER_URI": master or rosgraph.get_master_uri()}
-        self.process = subprocess.Popen(["rosrun", "gazebo_ros", "gzserver", *arguments, f"__ns:=/{name}"], text=True,
-                                        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True,
-                                        env=self.environment)
-
-    def __enter__(self):
-        return self
-
-    def simulator(self):
-        return Simulator(f"/{self.name}/gazebo")
-
-    def node_pid(self):
-        uri = rosgraph.Master("/test").lookupNode(f"/{self.name}/gazebo")
-        return xmlrpc.client.ServerProxy(uri).getPid("/test")[2]
-
-    def end(self, number=signal.SIGINT):
-        """(exit code, all it printed)."""
-        if self.process.poll() is None:
-            os.killpg(self.process.pid, number)
-        text, _ = self.process.communicate(timeout=60)
-        return self.process.returncode, text
-
-    def __exit__(self, *_):
-        if self.process.poll() is None:
-            os.killpg(self.process.pid, signal.SIGKILL)
-            self.process.communicate()
 
 
 def bits(message):

@@ -13,6 +13,7 @@ import traceback
 import xmlrpc.client
 from typing import List, Optional, Tuple
 
+import node_signals
 import ode_sim
 import rosgraph
 import rospkg
@@ -60,6 +61,7 @@ def _run() -> int:
     if _runs_already():
         return _TAKEN
     _use_sim_time(True)
+    node_signals.end_when_starved_at_start()
     # rospy's clock would come back from the /clock that this node publishes: the server sets it without that detour
     rospy.init_node("gazebo", disable_rostime=True, disable_signals=True,
                     log_level=rospy.DEBUG if options.verbose else rospy.INFO)
@@ -115,11 +117,14 @@ class _Ending:
         if self.requested:
             return
         self.requested = True
-        timer = threading.Timer(_LAST_RESORT, os._exit, (0,))
-        timer.daemon = True
-        timer.start()
         if self._server is None:
             os._exit(0)  # nothing has been started yet
+        timer = threading.Timer(_LAST_RESORT, os._exit, (0,))
+        timer.daemon = True
+        try:
+            timer.start()
+        except RuntimeError:  # no thread to be had
+            os._exit(0)
         self._server.stop()
 
 

@@ -13,9 +13,12 @@ A node script::
         from my_package.node import main  # calls node_signals.init_node, waits in node_signals.spin
         node_signals.leave(main())
 
-A script that handles ``KeyboardInterrupt`` itself has only its imports in that block.
+A script that handles ``KeyboardInterrupt`` itself has only its imports in that block. From there on a process that gets no
+memory, threads or files from the system any more says so in one line and ends with 1: rospy's threads die of that one by
+one, and what is left of the node waits for ever.
 """
 import contextlib
+import errno
 import logging
 import os
 import signal
@@ -36,6 +39,7 @@ def silent():
     Costs no import of rospy, so that it can stand before all others. Main thread only.
     """
     before = {number: signal.signal(number, signal.SIG_DFL) for number in _SIGNALS}
+    _watch_for_starvation()
     try:
         yield
     finally:
@@ -53,6 +57,7 @@ def init_node(name: str, **options) -> None:
     """
     import rospy
 
+    end_when_starved_at_start()
     rospy.init_node(name, disable_signals=True, **options)
     rospy.core.add_shutdown_hook(lambda reason: _shut_down.set())  # the last one, after those of rospy itself
     for number in _SIGNALS:
@@ -79,8 +84,48 @@ def leave(code: Optional[int] = 0) -> None:
     _exit(code or 0)
 
 
+def end_when_starved_at_start() -> None:
+    """For nodes that call ``rospy.init_node`` themselves, before they do: rospy takes it for a shutdown when the thread of
+    its server cannot start."""
+    import rospy
+
+    rospy.core.add_preshutdown_hook(lambda reason: _starved(RuntimeError(reason)) and _end_starved(reason))
+
+
+def _starved(error: Optional[BaseException]) -> bool:
+    """Whether the system has refused memory, a thread or a file."""
+    text = str(error)
+    return (isinstance(error, MemoryError)
+            or isinstance(error, OSError) and error.errno in (errno.ENOMEM, errno.EMFILE, errno.ENFILE)
+            or isinstance(error, RuntimeError) and "can't start new thread" in text
+            or isinstance(error, ImportError) and ("failed to map segment" in text or "cannot allocate memory" in text))
+
+
+def _end_starved(error) -> None:
+    name, lines = os.path.basename(sys.argv[0]), str(error).split("\n")
+    reason = next((line for line in reversed(lines) if line.strip(" )")), "out of memory")
+    os.write(2, f"{name}: the system gives this process no more memory, threads or open files ({reason}); "
+                "raise its limits (ulimit -v, -u, -n) or close other programs\n".encode())
+    os._exit(1)  # an orderly end needs what there is not
+
+
+def _watch_for_starvation() -> None:
+    main, thread = sys.excepthook, threading.excepthook
+
+    def in_main(kind, error, trace) -> None:
+        _end_starved(error) if _starved(error) else main(kind, error, trace)
+
+    def in_thread(args) -> None:
+        _end_starved(args.exc_value) if _starved(args.exc_value) else thread(args)
+
+    sys.excepthook, threading.excepthook = in_main, in_thread
+
+
 def _on_signal(number, _frame) -> None:
-    threading.Thread(target=_end, args=(number,), name="shutdown", daemon=True).start()
+    try:
+        threading.Thread(target=_end, args=(number,), name="shutdown", daemon=True).start()
+    except RuntimeError:  # no thread to be had
+        os._exit(128 + number)
 
 
 def _end(number: int) -> None:
