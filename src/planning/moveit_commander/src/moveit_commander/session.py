@@ -1,0 +1,127 @@
+"""What the clients of one process share: the robot and its current state, per description and namespace."""
+from __future__ import annotations
+
+import threading
+import time
+from typing import Dict, Optional, Tuple
+
+import actionlib
+import rospy
+from actionlib_msgs.msg import GoalStatus
+from rosgraph.names import ns_join
+
+import motion
+from moveit_ros_planning import robot_model
+from moveit_ros_planning.state_monitor import CurrentStateMonitor
+
+from .roscpp_initializer import ensure_node
+
+_sessions: Dict[Tuple[str, str], "Session"] = {}
+_lock = threading.Lock()
+
+
+class Session:
+    """The robot of one description, and where its move_group is."""
+
+    def __init__(self, description: str, ns: str):
+        self.ns = ns
+        try:
+            self.description = robot_model.load(description, meshes=False, own_namespace=None)
+        except robot_model.DescriptionError as error:
+            raise RuntimeError(str(error)) from error
+        self.model: motion.RobotModel = self.description.model
+        self._monitor: Optional[CurrentStateMonitor] = None
+
+    def name(self, relative: str) -> str:
+        """``relative`` in the namespace of the move_group."""
+        return ns_join(self.ns, relative) if self.ns else relative
+
+    @property
+    def monitor(self) -> CurrentStateMonitor:
+        """Listens from the first use on."""
+        with _lock:
+            if self._monitor is None:
+                self._monitor = CurrentStateMonitor(self.model, None, self.name("joint_states"))
+            return self._monitor
+
+    def state(self, timeout: float = 1.0) -> Optional[motion.RobotState]:
+        """The state now; None (and an error line saying why) when none newer than this call comes within ``timeout``
+        wall s."""
+        monitor, now = self.monitor, rospy.Time.now()
+        if not monitor.wait_for_current(now, timeout):
+            rospy.logerr("Failed to fetch current robot state. %s", monitor.explain(timeout, now))
+            return None
+        return monitor.state()
+
+
+def session(description: str, ns: str = "") -> Session:
+    """The session of a description and namespace, made at the first call.
+
+    :raises RuntimeError: the robot cannot be loaded.
+    """
+    ensure_node()
+    key = (robot_model.resolve(description), ns)
+    with _lock:
+        found = _sessions.get(key)
+    if found is None:
+        found = Session(description, ns)
+        with _lock:
+            found = _sessions.setdefault(key, found)
+    return found
+
+
+class Action:
+    """A client of one action: waits in wall time, so that a stopped simulation cannot make it wait for ever."""
+
+    def __init__(self, name: str, kind: type):
+        self.name = name
+        self._client = actionlib.ActionClient(name, kind)
+        self._goal: Optional[actionlib.ClientGoalHandle] = None
+
+    def connected(self) -> bool:
+        """Whether a server is there."""
+        status = self._client.last_status_msg
+        if status is None:
+            return False
+        server = status._connection_header["callerid"]
+        goals, cancels = self._client.pub_goal.impl, self._client.pub_cancel.impl
+        return goals is not None and goals.has_connection(server) and cancels.has_connection(server) and \
+            self._client.result_sub.get_num_connections() > 0
+
+    def wait(self, timeout: float) -> bool:
+        """Wait (wall seconds; 0: for ever) for the server."""
+        end = time.monotonic() + timeout if timeout > 0 else float("inf")
+        while not self.connected():
+            if time.monotonic() > end or rospy.is_shutdown():
+                return False
+            time.sleep(0.01)
+        return True
+
+    def send(self, goal) -> threading.Event:
+        """Send a goal and return; the event is set at its end."""
+        done = threading.Event()
+
+        def changed(handle: actionlib.ClientGoalHandle) -> None:
+            if handle.get_comm_state() == actionlib.CommState.DONE:
+                done.set()
+
+        self._goal = self._client.send_goal(goal, changed)
+        return done
+
+    def call(self, goal):
+        """Send a goal and wait for its result; None when the server is gone or the program ends."""
+        done, gone = self.send(goal), 0.0
+        while not done.wait(0.05):
+            if rospy.is_shutdown():
+                return None
+            gone = gone + 0.05 if not self.connected() else 0.0
+            if gone > 2.0:
+                rospy.logerr("the action server %s has gone away", rospy.resolve_name(self.name))
+                return None
+        return self._goal.get_result()
+
+    def text(self) -> str:
+        """What the server said about the last goal, unless it succeeded."""
+        if self._goal is None or self._goal.get_goal_status() == GoalStatus.SUCCEEDED:
+            return ""
+        return " ".join(self._goal.get_goal_status_text().split())

@@ -1,0 +1,1 @@
+"""Controllers without a robot: see :mod:`moveit_fake_controller_manager.manager`."""

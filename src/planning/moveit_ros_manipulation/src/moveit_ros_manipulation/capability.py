@@ -1,0 +1,238 @@
+"""The actions ``pickup`` and ``place``."""
+from __future__ import annotations
+
+import sys
+from typing import List, Tuple
+
+import motion
+import rospy
+from moveit_msgs.msg import (AttachedCollisionObject, CollisionObject, Constraints, Grasp, JointConstraint,
+                             MotionPlanRequest,
+                             MoveItErrorCodes, PickupAction, PlaceAction, PlaceLocation, RobotState)
+from trajectory_msgs.msg import JointTrajectoryPoint
+
+from moveit_core import states
+from moveit_core.errors import PlanningError
+from moveit_ros_move_group.capability import ActionCapability, Capability, result_text
+from moveit_ros_planning.plan_execution import Plan, Stop
+from moveit_ros_planning.robot_model import scaling_factors
+
+from .planner import Manipulation, Outcome, Task, allowing, hand_pose
+
+
+class PickPlace(Capability):
+    """Both actions."""
+
+    title = "PickPlaceAction"
+
+    def __init__(self, context):
+        super().__init__(context)
+        self._actions = [Pickup(context), Place(context)]
+
+    def shutdown(self) -> None:
+        for action in self._actions:
+            action.preempt()
+
+
+class _Manipulate(ActionCapability):
+    """What picking and placing have in common."""
+
+    def __init__(self, context):
+        self._stop = Stop()
+        super().__init__(context)
+
+    def preempt(self) -> None:
+        self._stop.set()
+
+    def serve(self, goal, result) -> str:
+        self._stop = Stop()
+        self.feedback("PLANNING")
+        self.context.monitor.wait_for_state()
+        options = goal.planning_options
+        plan_only = options.plan_only or self.context.execution is None
+        if plan_only:
+            plan = self.plan(self.context.monitor.copy(options.planning_scene_diff), goal, result)
+        else:
+            plan = self.context.plan_execution.plan_and_execute(
+                lambda scene: self.plan(scene, goal, result), options.planning_scene_diff, self._stop, options.replan,
+                options.replan_attempts, options.replan_delay, before=lambda: self.feedback("MONITOR"))
+        result.error_code.val, result.planning_time = plan.code, plan.planning_time
+        trajectories = [segment.trajectory for segment in plan.segments]
+        if trajectories:
+            result.trajectory_start = states.robot_state_message(trajectories[0].start)
+        result.trajectory_stages = [states.trajectory_message(trajectory) for trajectory in trajectories]
+        result.trajectory_descriptions = [segment.description for segment in plan.segments]
+        return result_text(plan.code, plan.message, not trajectories, options.plan_only)
+
+    def plan(self, scene, goal, result) -> Plan:
+        """Plan the goal in ``scene``."""
+        raise NotImplementedError
+
+    def effector(self, name: str, group: str) -> Tuple[str, str, str]:
+        """(group of the arm, group of the hand, link) of an end effector, by its name or the arm that carries it.
+
+        :raises PlanningError: there is none, or several.
+        """
+        model = self.context.model
+        found = [eef for eef in model.end_effectors if (name and name in (eef.name, eef.group)) or (
+            not name
+            and group and (eef.parent_group == group or eef.name in model.group(group).attached_end_effectors))]
+        if len(found) != 1:
+            known = ", ".join(f"{eef.name} (on {eef.parent_group})" for eef in model.end_effectors) or "none"
+            raise PlanningError(MoveItErrorCodes.INVALID_GROUP_NAME, f"which hand is meant by end effector '{name}' "
+                                f"and group '{group}' is not "
+                                f"clear; the SRDF has the end effectors: {known}")
+        eef = found[0]
+        return (group or eef.parent_group), eef.group, eef.parent_link
+
+    def manipulation(self, goal) -> Manipulation:
+        """A planner for the time that the goal allows."""
+        seconds = goal.allowed_planning_time if goal.allowed_planning_time > 0 else 5.0
+        return Manipulation(lambda scene, group, values, left: self._free(scene, goal, group, values, left), seconds,
+                            self._stop.is_set)
+
+    def _free(self, scene, goal, group: str, values, seconds: float) -> motion.PlanResult:
+        request = MotionPlanRequest(group_name=group, planner_id=goal.planner_id, allowed_planning_time=seconds,
+                                    num_planning_attempts=1,
+                                    path_constraints=goal.path_constraints, start_state=RobotState(is_diff=True))
+        velocity, acceleration = scaling_factors(self.context.description)
+        request.max_velocity_scaling_factor, request.max_acceleration_scaling_factor = velocity, acceleration
+        names = list(self.context.model.group(group).variables)
+        request.goal_constraints = [Constraints(joint_constraints=[JointConstraint(name, float(value), 1e-4, 1e-4, 1.0)
+                                                                   for name, value in zip(names, values)])]
+        return self.context.pipelines.find("").generate(scene, request, self._stop.token)
+
+    def first_that_works(self, scene, goal, tasks, result, field: str) -> Plan:
+        """Try tasks (entry, Task) in order; the entry that works goes into ``field`` of the result."""
+        planner, last = self.manipulation(goal), Outcome(message="no way to do it was given")
+        started = planner.left
+        for entry, task in tasks:
+            last = planner.plan(scene, task)
+            if last.segments:
+                setattr(result, field, entry)
+                return Plan(MoveItErrorCodes.SUCCESS, "", last.segments, started - planner.left)
+            rospy.loginfo("%s: %s", entry.id or "one way", last.message)
+            if planner.left <= 0 or self._stop.is_set():
+                break
+        return Plan(last.code, f"none of the {len(tasks)} ways can be planned; the last one: {last.message}", [],
+                    started - planner.left)
+
+
+class Pickup(_Manipulate):
+    """Picks up an object of the scene."""
+
+    action_name = "pickup"
+    action = PickupAction
+
+    def plan(self, scene, goal, result) -> Plan:
+        if goal.target_name not in scene.objects:
+            raise PlanningError(MoveItErrorCodes.INVALID_OBJECT_NAME, f"the scene has no object '{goal.target_name}' "
+                                f"to pick; it has: "
+                                + (", ".join(scene.objects) or "none"))
+        arm, hand, link = self.effector(goal.end_effector, goal.group_name)
+        grasps = sorted(goal.possible_grasps or [self._default(scene, goal.target_name, hand)],
+                        key=lambda grasp: -grasp.grasp_quality)
+        tasks = [(grasp, self._task(scene, goal, grasp, arm, hand, link)) for grasp in grasps]
+        return self.first_that_works(scene, goal, tasks, result, "grasp")
+
+    def _task(self, scene, goal, grasp: Grasp, arm: str, hand: str, link: str) -> Task:
+        links = sorted({*self.context.model.group(hand).links, link})
+        touch = sorted({*goal.attached_object_touch_links, *links})
+        free = [goal.target_name, *goal.allowed_touch_objects, *grasp.allowed_touch_objects]
+        support = [goal.support_surface_name] if goal.support_surface_name else []
+        gripper = allowing(links, free + (support if goal.allow_gripper_support_collision else []))
+        lifting = allowing([goal.target_name], support)
+
+        def approach(matrix) -> None:
+            gripper(matrix)
+
+        def retreat(matrix) -> None:
+            gripper(matrix)
+            lifting(matrix)
+
+        return Task(arm, link, hand, hand_pose(scene, grasp.grasp_pose), grasp.pre_grasp_approach,
+                    grasp.post_grasp_retreat,
+                    grasp.pre_grasp_posture, grasp.grasp_posture, approach, retreat,
+                    lambda other: other.attach_object(goal.target_name, link, touch),
+                    lambda: self._attach(goal.target_name, link, touch, grasp), ("pre_grasp", "grasp"))
+
+    def _attach(self, name: str, link: str, touch: List[str], grasp: Grasp) -> bool:
+        message = AttachedCollisionObject(link_name=link, touch_links=touch, detach_posture=grasp.pre_grasp_posture)
+        message.object.id, message.object.operation = name, CollisionObject.ADD
+        return self.context.monitor.process_attached(message)
+
+    def _default(self, scene, target: str, hand: str) -> Grasp:
+        """One grasp along x, when none is given."""
+        grasp = Grasp(id="default")
+        grasp.grasp_pose.header.frame_id = target
+        grasp.grasp_pose.pose.position.x, grasp.grasp_pose.pose.orientation.w = -0.2, 1.0
+        for move, axis in ((grasp.pre_grasp_approach, "x"), (grasp.post_grasp_retreat, "z")):
+            move.direction.header.frame_id = scene.frame
+            setattr(move.direction.vector, axis, 1.0)
+            move.min_distance, move.desired_distance = 0.1, 0.2
+        joints = list(self.context.model.group(hand).active_joints)
+        for posture, sign in ((grasp.pre_grasp_posture, 1.0), (grasp.grasp_posture, -1.0)):
+            posture.joint_names = joints
+            posture.points = [JointTrajectoryPoint(positions=[sign * sys.float_info.max] * len(joints))]
+        return grasp
+
+
+class Place(_Manipulate):
+    """Puts an attached object down."""
+
+    action_name = "place"
+    action = PlaceAction
+
+    def plan(self, scene, goal, result) -> Plan:
+        held = {body.id: body for body in scene.state.attached}
+        name = goal.attached_object_name or (next(iter(held)) if len(held) == 1 else "")
+        if name not in held:
+            raise PlanningError(MoveItErrorCodes.INVALID_OBJECT_NAME, f"no object '{name}' is held; held are: "
+                                f"{', '.join(held) or 'none'}")
+        body = held[name]
+        if not goal.place_locations:
+            raise PlanningError(MoveItErrorCodes.INVALID_GOAL_CONSTRAINTS, f"no place for '{name}' was given")
+        arm, hand, link = self._hand(goal, body)
+        locations = sorted(goal.place_locations, key=lambda location: -location.quality)
+        tasks = [(location, self._task(scene, goal, location, body, arm, hand, link)) for location in locations]
+        return self.first_that_works(scene, goal, tasks, result, "place_location")
+
+    def _hand(self, goal, body) -> Tuple[str, str, str]:
+        """The hand that holds the body."""
+        model, group = self.context.model, goal.group_name
+        for eef in model.end_effectors:
+            if body.link == eef.parent_link or body.link in model.group(eef.group).links:
+                arm = group if model.has_group(group) and group != eef.group else eef.parent_group
+                return arm, eef.group, eef.parent_link
+        if not model.has_group(group):
+            raise PlanningError(MoveItErrorCodes.INVALID_GROUP_NAME, f"no end effector holds '{body.id}' (it hangs on "
+                                f"'{body.link}')")
+        return group, "", body.link
+
+    def _task(self, scene, goal, location: PlaceLocation, body, arm: str, hand: str, link: str) -> Task:
+        state = scene.state
+        target = hand_pose(scene, location.place_pose)
+        if not goal.place_eef:  # the pose is where the object goes; the hand is where it holds it
+            target = target * state.pose(body.id).inverse() * state.pose(link)
+        links = sorted({*(self.context.model.group(hand).links if hand else ()), link})
+        support = [goal.support_surface_name] if goal.support_surface_name else []
+        others = [*goal.allowed_touch_objects, *location.allowed_touch_objects]
+        gripper = allowing(links, [body.id, *others, *(support if goal.allow_gripper_support_collision else [])])
+        standing = allowing([body.id], support + others)
+
+        def both(matrix) -> None:
+            gripper(matrix)
+            standing(matrix)
+
+        posture = location.post_place_posture
+        if not posture.points and body.detach_posture is not None:
+            posture = body.detach_posture
+        return Task(arm, link, hand, target, location.pre_place_approach, location.post_place_retreat, type(posture)(),
+                    posture, both, both,
+                    lambda other: other.detach_object(body.id), lambda: self._detach(body.id, body.link), ("approach",
+                                                                                                           "release"))
+
+    def _detach(self, name: str, link: str) -> bool:
+        message = AttachedCollisionObject(link_name=link)
+        message.object.id, message.object.operation = name, CollisionObject.REMOVE
+        return self.context.monitor.process_attached(message)

@@ -1,0 +1,228 @@
+"""Plans how an object is picked up and put down: free motion, straight approach, gripper, straight retreat."""
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass, field
+from typing import Callable, Dict, List, Optional, Sequence, Tuple
+
+import motion
+import numpy as np
+from geometry_msgs.msg import PoseStamped
+from moveit_msgs.msg import GripperTranslation, MoveItErrorCodes
+from trajectory_msgs.msg import JointTrajectory
+
+from moveit_core import convert
+from moveit_core.errors import PlanningError
+from moveit_ros_planning.plan_execution import Segment
+
+_TRIES = 5  # joint configurations per pose
+_GRIPPER_TIME = 1.0  # s that a gripper gets when its posture has no times
+Allow = Callable[[motion.AllowedCollisionMatrix], None]
+
+
+@dataclass
+class Task:
+    """One way to pick or place. Poses are of ``link``, the parent link of the end effector.
+
+    ``approach`` and ``retreat``: straight motions before and after; ``close`` the posture of the gripper between them,
+    ``open``
+    that before them. ``allow``: what may touch during approach and retreat.
+    """
+
+    group: str
+    link: str
+    hand: str
+    target: motion.Pose
+    approach: GripperTranslation
+    retreat: GripperTranslation
+    open: JointTrajectory
+    close: JointTrajectory
+    allow_approach: Allow
+    allow_retreat: Allow
+    #: changes a scene as gripping (or letting go) does
+    change: Callable[[motion.PlanningScene], None]
+    effect: Callable[[], bool]
+    names: Tuple[str, str] = ("pre_grasp", "grasp")
+
+
+@dataclass
+class Outcome:
+    """Segments, or why there are none."""
+
+    segments: List[Segment] = field(default_factory=list)
+    code: int = MoveItErrorCodes.PLANNING_FAILED
+    message: str = ""
+
+
+class Manipulation:
+    """Plans tasks.
+
+    :param free_motion: plans a motion to joint values: ``(scene, group, values, seconds) -> PlanResult``.
+    """
+
+    def __init__(self, free_motion: Callable, time_limit: float, cancelled: Callable[[], bool] = lambda: False):
+        self._free_motion = free_motion
+        self._end = time.monotonic() + time_limit
+        self._cancelled = cancelled
+
+    @property
+    def left(self) -> float:
+        """Wall seconds left."""
+        return self._end - time.monotonic()
+
+    def plan(self, scene: motion.PlanningScene, task: Task) -> Outcome:
+        """Plan one task from the scene's state."""
+        outcome = Outcome(message=f"'{task.link}' cannot get to where the object is to be gripped or put")
+        for values in self._configurations(scene, task):
+            if self.left <= 0 or self._cancelled():
+                outcome.message = "the time for planning is over" if not self._cancelled() else "stopped"
+                return outcome
+            found = self._with_configuration(scene, task, values)
+            if found.segments:
+                return found
+            outcome = found
+        return outcome
+
+    def _configurations(self, scene, task: Task) -> Sequence[np.ndarray]:
+        loose = self._loosened(scene, task.allow_approach)
+        self._set_posture(loose, task.open)
+        found = motion.ik(loose, task.group, task.target, link=task.link, seed=loose.state, avoid_collisions=True,
+                          timeout=min(0.5, max(0.05, self.left)), solutions=_TRIES)
+        return list(found.solutions) if found else []
+
+    @staticmethod
+    def _loosened(scene, allow: Allow) -> motion.PlanningScene:
+        copy = scene.copy()
+        matrix = copy.acm
+        allow(matrix)
+        copy.set_acm(matrix)
+        return copy
+
+    @staticmethod
+    def _set_posture(scene, posture: JointTrajectory) -> None:
+        if posture.points:
+            state = scene.state
+            state.set(clamped(scene.model, posture, -1))
+            scene.set_state(state)
+
+    def _with_configuration(self, scene, task: Task, values) -> Outcome:
+        near = self._loosened(scene, task.allow_approach)
+        self._set_posture(near, task.open)
+        state = near.state
+        state.set_group(task.group, values)
+        approach = self._straight(near, task, state, task.approach, -1.0)
+        if approach is None:
+            return Outcome(message=f"the straight approach cannot be made for {task.approach.min_distance:.3f} m")
+        approach = approach.reversed()
+        after = self._loosened(scene, task.allow_retreat)
+        after.set_state(state)
+        task.change(after)
+        self._set_posture(after, task.close)
+        held = after.state
+        held.set_group(task.group, values)
+        retreat = self._straight(after, task, held, task.retreat, 1.0)
+        if retreat is None:
+            return Outcome(message=f"the straight retreat cannot be made for {task.retreat.min_distance:.3f} m")
+        free = self._free_motion(scene, task.group, approach.positions[0], max(0.1, self.left))
+        if not free:
+            return Outcome(code=free.code, message=free.message)
+        return Outcome(self._segments(scene, task, free.trajectory, approach, retreat), MoveItErrorCodes.SUCCESS)
+
+    def _straight(self, scene, task: Task, state, move: GripperTranslation, sign: float) -> Optional[motion.Trajectory]:
+        """A straight motion of the hand from ``state``; None if not even the least distance can be gone."""
+        direction = move.direction.vector
+        vector = np.array((direction.x, direction.y, direction.z), dtype=float)
+        length, distance = np.linalg.norm(vector), max(move.desired_distance, move.min_distance)
+        if not np.isfinite(length) or length < 1e-9 or distance <= 0:
+            return motion.Trajectory(scene.model, task.group, state, np.array([state.get_group(task.group)]))
+        here = state.pose(task.link)
+        frame = convert.strip(move.direction.header.frame_id)
+        rotation = here if frame == task.link else scene.frame_pose(frame,
+                                                                    state) if frame else motion.Pose(*convert.IDENTITY)
+        step = motion.Pose(np.zeros(3), rotation.quaternion) * motion.Pose(vector / length * distance * sign,
+                                                                           convert.IDENTITY[1])
+        goal = motion.Pose(np.asarray(here.position) + np.asarray(step.position), here.quaternion)
+        found = motion.cartesian_path(scene, task.group, [goal], link=task.link, start=state, max_step=0.02,
+                                      jump_threshold=2.0,
+                                      avoid_collisions=True)
+        if found.trajectory is None or found.fraction * distance < move.min_distance - 1e-6:
+            return None
+        return found.trajectory
+
+    @staticmethod
+    def _segments(scene, task: Task, free, approach, retreat) -> List[Segment]:
+        first, second = task.names
+        segments = [Segment(free, "plan")]
+        opening = gripper_motion(scene, task.hand, task.open)
+        if opening is not None:
+            segments.append(Segment(opening, first, monitor=False))
+        segments.append(Segment(timed(scene.model, approach), "approach", allowed=task.allow_approach))
+        closing = gripper_motion(scene, task.hand, task.close)
+        if closing is not None:
+            segments.append(Segment(closing, second, monitor=False, effect=task.effect))
+        else:
+            segments[-1].effect = task.effect
+        segments.append(Segment(timed(scene.model, retreat), "retreat", allowed=task.allow_retreat))
+        return segments
+
+
+def timed(model, trajectory: motion.Trajectory) -> motion.Trajectory:
+    """With times, at a fifth of the robot's speed: the hand is close to things."""
+    if len(trajectory) < 2:
+        return trajectory
+    return motion.time_parameterize(model, trajectory, "iterative_parabolic", velocity_scaling=0.2,
+                                    acceleration_scaling=0.2)
+
+
+def clamped(model, posture: JointTrajectory, point: int) -> Dict[str, float]:
+    """Joint values of a posture's point, inside the limits: grippers are told to open or close as far as they can."""
+    values = {}
+    for name, value in zip(posture.joint_names, posture.points[point].positions):
+        if not model.has_joint(name) or model.joint(name).mimic is not None or len(model.joint(name).variables) != 1:
+            continue
+        limit = model.joint(name).limits[0]
+        values[name] = min(max(value, limit.min_position), limit.max_position) if limit.has_position else value
+    return values
+
+
+def gripper_motion(scene, hand: str, posture: JointTrajectory) -> Optional[motion.Trajectory]:
+    """The trajectory of a posture; None when it moves nothing."""
+    if not posture.points or not hand:
+        return None
+    model, group = scene.model, scene.model.group(hand)
+    variables = list(group.variables)
+    rows, times, state = [], [], scene.state
+    for number, point in enumerate(posture.points):
+        state.set({name: value for name, value in clamped(model, posture, number).items() if name in variables})
+        rows.append(state.get_group(hand))
+        times.append(point.time_from_start.to_sec())
+    if times[-1] <= 0.0:
+        times = [_GRIPPER_TIME * (number + 1) / len(rows) for number in range(len(rows))]
+    if not any(name in variables for name in posture.joint_names):
+        return None
+    return motion.Trajectory(model, hand, scene.state, np.array(rows), times=np.array(times))
+
+
+def hand_pose(scene, stamped: PoseStamped) -> motion.Pose:
+    """A stamped pose in the model frame.
+
+    :raises PlanningError: unknown frame or no orientation.
+    """
+    try:
+        pose = convert.pose(stamped.pose, "a grasp or place", empty_is_identity=False)
+        return convert.in_model_frame(scene, stamped.header.frame_id, pose)
+    except motion.UnknownNameError as error:
+        raise PlanningError(MoveItErrorCodes.FRAME_TRANSFORM_FAILURE,
+                            f"frame '{stamped.header.frame_id}': {error}") from error
+    except ValueError as error:
+        raise PlanningError(MoveItErrorCodes.INVALID_GOAL_CONSTRAINTS, str(error)) from error
+
+
+def allowing(firsts: Sequence[str], seconds: Sequence[str]) -> Allow:
+    """A change of a collision matrix: each of ``firsts`` may touch each of ``seconds``."""
+    def change(matrix: motion.AllowedCollisionMatrix) -> None:
+        for first in firsts:
+            for second in seconds:
+                if first != second:
+                    matrix.set(first, second, True)
+    return change

@@ -1,0 +1,1 @@
+"""The node move_group and its capabilities."""

@@ -1,0 +1,51 @@
+"""The action ``execute_trajectory``."""
+from __future__ import annotations
+
+import rospy
+from moveit_msgs.msg import ExecuteTrajectoryAction, MoveItErrorCodes
+
+from moveit_core.errors import code_name
+from moveit_ros_planning.trajectory_execution import ExecutionError, error_code
+
+from ..capability import ActionCapability
+
+
+class ExecuteTrajectory(ActionCapability):
+    """Executes a trajectory as it is, without a look at the scene."""
+
+    title = "ExecuteTrajectoryAction"
+    action_name = "execute_trajectory"
+    action = ExecuteTrajectoryAction
+
+    def __init__(self, context):
+        self._execution = None
+        super().__init__(context)
+
+    def preempt(self) -> None:
+        running = self._execution
+        if running is not None:
+            running.stop()
+
+    def serve(self, goal, result) -> str:
+        if self.context.execution is None:
+            return self.failed(result, MoveItErrorCodes.CONTROL_FAILED,
+                               "Cannot execute trajectory since ~allow_trajectory_execution was set to false")
+        rospy.loginfo("Execution request received")
+        self.feedback("MONITOR")
+        try:
+            self._execution = self.context.execution.start([goal.trajectory])
+        except ExecutionError as error:
+            rospy.logerr("%s", error)
+            return self.failed(result, MoveItErrorCodes.CONTROL_FAILED, str(error))
+        if self._server.is_preempt_requested():
+            self._execution.stop()
+        while not self._execution.wait(0.2) and not rospy.is_shutdown():
+            pass
+        execution, self._execution = self._execution, None
+        result.error_code.val = error_code(execution.status)
+        if result.error_code.val == MoveItErrorCodes.SUCCESS:
+            return "Trajectory was successfully executed."
+        if result.error_code.val == MoveItErrorCodes.PREEMPTED:
+            return "Execution was stopped."
+        rospy.loginfo("Execution completed: %s", execution.status.value)
+        return execution.reason or code_name(result.error_code.val)

@@ -1,0 +1,106 @@
+"""Sequences of industrial motions with blending: the action ``sequence_move_group``, the service
+``plan_sequence_path``."""
+from __future__ import annotations
+
+from typing import List, Optional
+
+import motion
+from moveit_msgs.msg import MotionSequenceRequest, MoveGroupSequenceAction, MoveItErrorCodes
+from moveit_msgs.srv import GetMotionSequence
+
+from moveit_core import states
+from moveit_core.errors import PlanningError
+from moveit_ros_planning.plan_execution import Plan, Segment, Stop
+from moveit_ros_planning.planning_pipeline import Pipeline
+
+from ..capability import ActionCapability, Capability, result_text, serve
+from .move_action import current_state_only, without_robot_state
+
+
+def plan_sequence(context, scene, request: MotionSequenceRequest, cancel: Optional[motion.CancelToken] = None):
+    """Plan a MotionSequenceRequest.
+
+    :raises PlanningError: empty, or there is no pipeline of industrial motions.
+    """
+    if not request.items:
+        raise PlanningError(MoveItErrorCodes.SUCCESS, "the sequence is empty: nothing is planned")
+    return _pipeline(context, request.items[0].req.pipeline_id).sequence(
+        scene, [(item.req, item.blend_radius) for item in request.items], cancel)
+
+
+def _pipeline(context, name: str) -> Pipeline:
+    if name:
+        return context.pipelines.find(name)
+    found = next((pipeline for pipeline in context.pipelines.pipelines.values() if pipeline.is_pilz), None)
+    if found is None:
+        raise PlanningError(MoveItErrorCodes.FAILURE, "no pipeline plans with "
+                            "pilz_industrial_motion_planner::CommandPlanner")
+    return found
+
+
+def _fill(response, trajectories: List[motion.Trajectory]) -> None:
+    if trajectories:
+        response.sequence_start = states.robot_state_message(trajectories[0].start)
+        response.planned_trajectories = [states.trajectory_message(trajectory) for trajectory in trajectories]
+
+
+class SequenceService(Capability):
+    """Plans a sequence."""
+
+    title = "SequenceService"
+
+    def __init__(self, context):
+        super().__init__(context)
+        self._service = serve("plan_sequence_path", GetMotionSequence, self._plan)
+
+    def _plan(self, request, response) -> None:
+        found = plan_sequence(self.context, self.context.monitor.copy(), request.request)
+        response.response.error_code.val, response.response.planning_time = found.code, found.planning_time
+        _fill(response.response, list(found.trajectories or ()))
+
+
+class SequenceAction(ActionCapability):
+    """Plans a sequence, and executes it unless ``plan_only``."""
+
+    title = "SequenceAction"
+    action_name = "sequence_move_group"
+    action = MoveGroupSequenceAction
+
+    def __init__(self, context):
+        self._stop = Stop()
+        super().__init__(context)
+
+    def preempt(self) -> None:
+        self._stop.set()
+
+    def code(self, result) -> int:
+        return result.response.error_code.val
+
+    def failed(self, result, code: int, message: str) -> str:
+        result.response.error_code.val = code
+        return message
+
+    def serve(self, goal, result) -> str:
+        self._stop = Stop()
+        self.feedback("PLANNING")
+        if not goal.request.items:
+            return self.failed(result, MoveItErrorCodes.SUCCESS, "The sequence is empty.")
+        self.context.monitor.wait_for_state()
+        options = goal.planning_options
+        if options.plan_only or self.context.execution is None:
+            plan = self._plan(self.context.monitor.copy(options.planning_scene_diff), goal.request)
+        else:
+            for item in goal.request.items[:1]:
+                current_state_only(item.req)
+            plan = self.context.plan_execution.plan_and_execute(
+                lambda scene: self._plan(scene, goal.request), without_robot_state(options.planning_scene_diff),
+                self._stop,
+                options.replan, options.replan_attempts, options.replan_delay, before=lambda: self.feedback("MONITOR"))
+        result.response.error_code.val, result.response.planning_time = plan.code, plan.planning_time
+        _fill(result.response, [segment.trajectory for segment in plan.segments])
+        return result_text(plan.code, plan.message, not plan.segments, options.plan_only)
+
+    def _plan(self, scene, request: MotionSequenceRequest) -> Plan:
+        found = plan_sequence(self.context, scene, request, self._stop.token)
+        return Plan(found.code, found.message, [Segment(trajectory, f"sequence {number}") for number, trajectory in
+                                                enumerate(found.trajectories or ())], found.planning_time)

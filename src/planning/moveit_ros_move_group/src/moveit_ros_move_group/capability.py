@@ -1,0 +1,133 @@
+"""The base of capabilities, and what keeps a bad request from harming the node."""
+from __future__ import annotations
+
+import functools
+import threading
+from typing import Any, Callable
+
+import actionlib
+import motion
+import rospy
+from moveit_msgs.msg import MoveItErrorCodes
+
+from moveit_core.errors import PlanningError, code_name, one_line
+
+from .context import Context
+
+
+class Capability:
+    """One thing that move_group can do. ``title`` is printed in the list of capabilities at start."""
+
+    title = ""
+
+    def __init__(self, context: Context):
+        self.context = context
+
+    def shutdown(self) -> None:
+        """End what the capability is doing."""
+
+
+def serve(name: str, kind: type, handler: Callable[[Any, Any], None]) -> rospy.Service:
+    """Offer a service: ``handler(request, response)`` fills the response.
+
+    PlanningError puts its code into ``response.error_code`` (or that of ``motion_plan_response``), if there is one,
+    and is
+    logged as one line; so is any other exception, with FAILURE.
+    """
+    @functools.wraps(handler)
+    def answer(request):
+        response = kind._response_class()
+        try:
+            handler(request, response)
+        except PlanningError as error:
+            rospy.logerr("%s: %s (%s)", name, error, code_name(error.code))
+            _set_code(response, error.code)
+        except (motion.MotionError, ValueError) as error:
+            rospy.logerr("%s: %s", name, one_line(error))
+            _set_code(response, MoveItErrorCodes.FAILURE)
+        except Exception as error:  # whatever a request does to the planner, the node lives on
+            rospy.logerr("%s failed: %s: %s", name, type(error).__name__, one_line(error))
+            _set_code(response, MoveItErrorCodes.FAILURE)
+        return response
+
+    return rospy.Service(name, kind, answer)
+
+
+def _set_code(response, code: int) -> None:
+    for holder in (response, getattr(response, "motion_plan_response", None), getattr(response, "response", None)):
+        if hasattr(holder, "error_code"):
+            holder.error_code.val = code
+
+
+class ActionCapability(Capability):
+    """A capability behind an action with one goal at a time; a new goal stops the running one."""
+
+    #: name of the action and its type
+    action_name = ""
+    action: Any = None
+
+    def __init__(self, context: Context):
+        super().__init__(context)
+        self._server = actionlib.SimpleActionServer(self.action_name, self.action, execute_cb=self._execute,
+                                                    auto_start=False)
+        self._server.register_preempt_callback(self.preempt)
+        self._busy = threading.Lock()
+        self._server.start()
+
+    def preempt(self) -> None:
+        """A cancel, or a new goal: stop the running one."""
+
+    def serve(self, goal, result) -> str:
+        """Do what ``goal`` says and fill ``result`` (its error_code above all); the text of the goal's status."""
+        raise NotImplementedError
+
+    def feedback(self, state: str) -> None:
+        """Publish the state: IDLE, PLANNING, MONITOR or LOOK."""
+        self._server.publish_feedback(type(self.action().action_feedback.feedback)(state))
+
+    def _execute(self, goal) -> None:
+        result = type(self.action().action_result.result)()
+        try:
+            text = self.serve(goal, result)
+        except PlanningError as error:
+            rospy.logerr("%s: %s (%s)", self.action_name, error, code_name(error.code))
+            text = self.failed(result, error.code, str(error))
+        except Exception as error:  # whatever a goal does to the planner, the node lives on
+            rospy.logerr("%s failed: %s: %s", self.action_name, type(error).__name__, one_line(error))
+            text = self.failed(result, MoveItErrorCodes.FAILURE, one_line(error))
+        code = self.code(result)
+        if code == MoveItErrorCodes.SUCCESS:
+            self._server.set_succeeded(result, text)
+        elif code == MoveItErrorCodes.PREEMPTED:
+            self._server.set_preempted(result, text)
+        else:
+            self._server.set_aborted(result, text)
+        self.feedback("IDLE")
+
+    def code(self, result) -> int:
+        return result.error_code.val
+
+    def failed(self, result, code: int, message: str) -> str:
+        """Write a code into the result; the text of the status."""
+        result.error_code.val = code
+        return message
+
+
+def result_text(code: int, message: str, empty: bool, plan_only: bool) -> str:
+    """The text of a goal's status, as upstream words it, with the reason of a failure."""
+    codes = MoveItErrorCodes
+    if code == codes.SUCCESS:
+        if empty:
+            return "Requested path and goal constraints are already met."
+        return "Motion plan was computed succesfully." if plan_only else "Solution was found and executed."
+    texts = {codes.INVALID_GROUP_NAME: "Invalid group in motion plan request",
+             codes.UNABLE_TO_AQUIRE_SENSOR_DATA: "Motion plan was found but it seems to be too costly and looking "
+             "around did not help.",
+             codes.MOTION_PLAN_INVALIDATED_BY_ENVIRONMENT_CHANGE:
+                 "Solution found but the environment changed during execution and the path was aborted"}
+    if code in (codes.PLANNING_FAILED, codes.INVALID_MOTION_PLAN):
+        text = ("No motion plan found. No execution attempted." if empty else
+                "Motion plan was found but it seems to be invalid (possibly due to postprocessing). Not executing.")
+    else:
+        text = texts.get(code, code_name(code))
+    return f"{text}: {message}" if message else text

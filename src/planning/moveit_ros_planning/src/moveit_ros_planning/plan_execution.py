@@ -1,0 +1,265 @@
+"""Plan, execute while watching the scene, and plan again where that was asked for."""
+from __future__ import annotations
+
+import threading
+import time
+from dataclasses import dataclass, field
+from typing import Callable, List, Optional
+
+import motion
+import rospy
+from moveit_msgs.msg import MoveItErrorCodes, PlanningScene, RobotTrajectory
+from trajectory_msgs.msg import JointTrajectoryPoint
+
+from dynamic_parameters import Parameter, Server
+from moveit_core import states
+from moveit_core.controller_manager import ExecutionStatus
+from moveit_core.errors import PlanningError
+
+from .scene_monitor import GEOMETRY, TRANSFORMS, SceneMonitor
+from .trajectory_execution import ExecutionError, TrajectoryExecution
+
+_PARAMETERS = [
+    Parameter("max_replan_attempts", int, 5, 0, 1000, "Set the maximum number of times a motion is planned again", 1),
+    Parameter("record_trajectory_state_frequency", float, 0.0, 0.0, 1000.0,
+              "The frequency at which to record states when monitoring trajectories", 6),
+]
+#: outcomes after which planning again may help
+_AGAIN = (MoveItErrorCodes.PLANNING_FAILED, MoveItErrorCodes.INVALID_MOTION_PLAN,
+          MoveItErrorCodes.UNABLE_TO_AQUIRE_SENSOR_DATA, MoveItErrorCodes.MOTION_PLAN_INVALIDATED_BY_ENVIRONMENT_CHANGE)
+
+
+@dataclass
+class Segment:
+    """One trajectory of a plan. ``allowed`` are the collisions it may make (an AllowedCollisionMatrix; None: the
+    scene's);
+    ``effect`` is called when it has ended well, and returns False to stop; ``monitor``: stop when the scene gets in
+    the way."""
+
+    trajectory: Optional[motion.Trajectory]
+    description: str = "plan"
+    effect: Optional[Callable[[], bool]] = None
+    allowed: Optional[Callable[[motion.AllowedCollisionMatrix], None]] = None
+    monitor: bool = True
+
+
+@dataclass
+class Plan:
+    """What planning gave: segments, or a code and a line saying why there are none."""
+
+    code: int = 0
+    message: str = ""
+    segments: List[Segment] = field(default_factory=list)
+    planning_time: float = 0.0
+    executed: Optional[RobotTrajectory] = None
+
+
+class Stop(threading.Event):
+    """A request to stop, which planning (``token``) and execution obey."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.token = motion.CancelToken()
+
+    def set(self) -> None:
+        super().set()
+        self.token.cancel()
+
+
+class PlanExecution:
+    """Runs plans on the robot."""
+
+    def __init__(self, monitor: SceneMonitor, execution: TrajectoryExecution, namespace: str = "~"):
+        self._monitor = monitor
+        self._execution = execution
+        self.config = {}
+        self._server = Server(namespace + "plan_execution", _PARAMETERS, self._reconfigure)
+
+    def _reconfigure(self, config, _level) -> None:
+        self.config = config
+
+    def plan_and_execute(self, make: Callable[[motion.PlanningScene], Plan], diff: PlanningScene, stop: Stop,
+                         replan: bool = False,
+                         attempts: int = 0, delay: float = 0.0, before: Callable[[], None] = lambda: None) -> Plan:
+        """Plan with ``make(scene)`` and execute; with ``replan``, again after failures that planning again may mend.
+
+        :param delay: wall seconds between attempts.
+        :param before: called before each execution.
+        """
+        left = (attempts or int(self.config["max_replan_attempts"])) if replan else 1
+        while True:
+            left -= 1
+            plan = self._plan(make, diff)
+            if stop.is_set():
+                plan.code, plan.message = MoveItErrorCodes.PREEMPTED, "stopped before the execution"
+                return plan
+            if plan.code == MoveItErrorCodes.SUCCESS:
+                before()
+                self.execute(plan, diff, stop)
+            if plan.code not in _AGAIN or left <= 0 or stop.is_set():
+                return plan
+            rospy.loginfo("Planning attempt failed (%s); %d of them are left", plan.message, left)
+            if delay > 0:
+                rospy.loginfo("Waiting for a %f seconds before attempting a new plan ...", delay)
+                stop.wait(delay)
+
+    def _plan(self, make: Callable[[motion.PlanningScene], Plan], diff: PlanningScene) -> Plan:
+        try:
+            return make(self._monitor.copy(diff))
+        except PlanningError as error:
+            rospy.logerr("%s", error)
+            return Plan(error.code, str(error))
+        except motion.MotionError as error:
+            rospy.logerr("Planning failed: %s", error)
+            return Plan(MoveItErrorCodes.FAILURE, str(error))
+
+    def execute(self, plan: Plan, diff: Optional[PlanningScene], stop: Stop) -> None:
+        """Execute the segments of ``plan`` and write the outcome into it."""
+        run = _Run(self._monitor, self._execution, plan, diff, stop)
+        recorder = _Recorder(self._monitor, float(self.config["record_trajectory_state_frequency"]))
+        try:
+            run.go()
+        except ExecutionError as error:
+            rospy.logerr("%s", error)
+            plan.code, plan.message = MoveItErrorCodes.CONTROL_FAILED, str(error)
+        plan.executed = recorder.end()
+
+
+class _Run:
+    """One execution of a plan, watched."""
+
+    def __init__(self, monitor: SceneMonitor, execution: TrajectoryExecution, plan: Plan, diff, stop: Stop):
+        self._monitor = monitor
+        self._execution = execution
+        self._plan = plan
+        self._diff = diff
+        self._stop = stop
+        self._changed = threading.Event()
+        self._bad: Optional[str] = None
+        self._effect_failed = False
+
+    def go(self) -> None:
+        reference = self._monitor.states.state()
+        messages = []
+        for segment in self._plan.segments:
+            if segment.trajectory is not None and len(segment.trajectory):
+                segment.trajectory.unwind(reference)
+                reference = segment.trajectory.state(len(segment.trajectory) - 1)
+            messages.append(states.trajectory_message(segment.trajectory))
+        self._monitor.on_change(self._scene_changed)
+        try:
+            execution = self._execution.start(messages, self._segment_done)
+            self._watch(execution)
+        finally:
+            self._monitor.off_change(self._scene_changed)
+
+    def _scene_changed(self, kinds: int) -> None:
+        if kinds & (GEOMETRY | TRANSFORMS):
+            self._changed.set()
+
+    def _watch(self, execution) -> None:
+        while not execution.wait(0.01):
+            if self._stop.is_set() or rospy.is_shutdown():
+                rospy.loginfo("Stopping execution due to preempt request")
+                execution.stop()
+                break
+            if self._changed.is_set():
+                self._changed.clear()
+                index, point = execution.expected_index()
+                if index >= 0 and self._invalid(index, max(point - 1, 0)):
+                    execution.stop()
+                    break
+        self._judge(execution)
+
+    def _judge(self, execution) -> None:
+        plan, codes = self._plan, MoveItErrorCodes
+        if self._bad is not None:
+            plan.code, plan.message = codes.MOTION_PLAN_INVALIDATED_BY_ENVIRONMENT_CHANGE, self._bad
+        elif self._stop.is_set() or self._effect_failed:
+            plan.code, plan.message = codes.PREEMPTED, "stopped while executing"
+        elif execution.status is ExecutionStatus.SUCCEEDED:
+            plan.code, plan.message = codes.SUCCESS, ""
+        elif execution.status is ExecutionStatus.TIMED_OUT:
+            plan.code, plan.message = codes.TIMED_OUT, execution.reason
+        else:
+            plan.code = codes.CONTROL_FAILED
+            plan.message = execution.reason or f"the execution ended {execution.status.value}"
+
+    def _segment_done(self, index: int) -> bool:
+        segment = self._plan.segments[index]
+        if segment.effect is not None and not segment.effect():
+            rospy.logerr("Execution of path-completion side-effect failed. Preempting.")
+            self._effect_failed = True
+            return False
+        following = index + 1
+        return following >= len(self._plan.segments) or not self._invalid(following, 0)
+
+    def _invalid(self, index: int, first: int) -> bool:
+        """Whether the rest of the plan collides in the present scene; says where."""
+        segment = self._plan.segments[index]
+        trajectory = segment.trajectory
+        if trajectory is None or len(trajectory) == 0 or not segment.monitor:
+            return False
+        scene = self._monitor.copy(self._diff)
+        matrix = scene.acm
+        if segment.allowed is not None:
+            segment.allowed(matrix)
+            scene.set_acm(matrix)
+        for number in range(min(first, len(trajectory) - 1), len(trajectory)):
+            state = self._monitor.with_attached(scene, self._plain(trajectory.state(number)))
+            found = scene.check(state, trajectory.group, contacts=1, padded=False)
+            if found.collision:
+                self._bad = self._describe(segment, number, len(trajectory), found)
+                rospy.logwarn("%s", self._bad)
+                return True
+        return False
+
+    @staticmethod
+    def _plain(state: motion.RobotState) -> motion.RobotState:
+        """Bodies that are attached now count, not those that were when the plan was made."""
+        state.clear_attached()
+        return state
+
+    @staticmethod
+    def _describe(segment: Segment, number: int, count: int, found) -> str:
+        between = f" ('{found.contacts[0].body_1}' meets '{found.contacts[0].body_2}')" if found.contacts else ""
+        return (f"Trajectory component '{segment.description}' is invalid after scene update: way point {number} of "
+                f"{count} is in "
+                f"collision{between}. Stopping the execution")
+
+
+class _Recorder:
+    """States during an execution, at a given rate (Hz; 0: none)."""
+
+    def __init__(self, monitor: SceneMonitor, rate: float):
+        self._monitor = monitor
+        self._rows: list = []
+        self._end = threading.Event()
+        self._thread = None
+        if rate > 0:
+            self._thread = threading.Thread(target=self._run, args=(rate,), daemon=True)
+            self._thread.start()
+
+    def _run(self, rate: float) -> None:
+        start, due = rospy.Time.now(), 0.0
+        while not self._end.is_set() and not rospy.is_shutdown():
+            now = (rospy.Time.now() - start).to_sec()
+            if now >= due:
+                self._rows.append((now, self._monitor.states.state()))
+                due = now + 1.0 / rate
+            time.sleep(0.002)
+
+    def end(self) -> Optional[RobotTrajectory]:
+        """The recorded trajectory of all joints; None if nothing was recorded."""
+        self._end.set()
+        if self._thread is None:
+            return None
+        self._thread.join(1.0)
+        message = RobotTrajectory()
+        names = states.one_variable_joints(self._monitor.model)
+        message.joint_trajectory.header.frame_id = self._monitor.model.frame
+        message.joint_trajectory.joint_names = names
+        for seconds, state in self._rows:
+            message.joint_trajectory.points.append(JointTrajectoryPoint(
+                positions=[state.get(name) for name in names], time_from_start=rospy.Duration.from_sec(seconds)))
+        return message

@@ -1,0 +1,316 @@
+"""Planning pipelines: a planner and the adapters around it, configured from parameters, for MotionPlanRequest
+messages."""
+from __future__ import annotations
+
+import time
+from typing import Any, Callable, Dict, List, Optional
+
+import motion
+import rospy
+from moveit_msgs.msg import Constraints, MotionPlanRequest, MoveItErrorCodes
+
+from dynamic_parameters import Parameter, Server
+from moveit_core import convert, states
+from moveit_core.errors import PlanningError, code_name, one_line
+from moveit_core.scene_messages import attach_to_state
+
+from .planner_configs import PlannerConfigs
+from .robot_model import RobotDescription
+
+_OMPL = "ompl_interface/OMPLPlanner"
+_PILZ = ("pilz_industrial_motion_planner::CommandPlanner", "pilz_industrial_motion_planner/CommandPlanner")
+_PARAMETERS = [
+    Parameter("simplify_solutions", bool, True, description="Flag indicating whether computed motion plans are also "
+              "simplified"),
+    Parameter("minimum_waypoint_count", int, 2, 2, 10000, "Set the minimum number of waypoints to include in a motion "
+              "plan"),
+    Parameter("maximum_waypoint_distance", float, 0.0, 0.0, 50.0,
+              "The maximum distance between consecutive waypoints along the solution path (0.0 means 'ignore')"),
+    Parameter("link_for_exploration_tree", str, "", description="Show the exploration tree for a particular link"),
+    Parameter("display_random_valid_states", bool, False,
+              description="Flag indicating whether random valid states are to be published"),
+]
+
+
+class PipelineError(Exception):
+    """A pipeline cannot be made; one line."""
+
+
+class Pipeline:
+    """One pipeline. ``name`` is its pipeline_id, ``namespace`` where its parameters are, ending in "/"."""
+
+    def __init__(self, name: str, namespace: str, description: RobotDescription):
+        self.name = name
+        self.namespace = namespace
+        self._description = description
+        self.model = description.model
+        plugin = rospy.get_param(namespace + "planning_plugin", "")
+        self.plugin = str(plugin)
+        self.is_pilz = self.plugin in _PILZ
+        if self.plugin != _OMPL and not self.is_pilz:
+            raise PipelineError(_refusal(self.plugin, rospy.resolve_name(namespace + "planning_plugin")))
+        self.configs = PlannerConfigs(self.model, namespace)
+        parameters = rospy.get_param(namespace.rstrip("/"), {})
+        parameters = parameters if isinstance(parameters, dict) else {}
+        adapters = str(parameters.get("request_adapters", "")).split()
+        self._settings = {key: value for key, value in parameters.items() if not isinstance(value, (dict, list))}
+        self._adapters = motion.Pipeline(adapters, self._settings)
+        for warning in self._adapters.warnings:
+            rospy.logwarn("%s", warning)
+        self.config: Dict[str, Any] = {}
+        self._server = None
+        if self.is_pilz:
+            self._limits = _cartesian_limits(description)
+        else:
+            self._server = Server(namespace + "ompl", _PARAMETERS, self._reconfigure)
+        rospy.loginfo("Using planning interface '%s'", self.title)
+        for adapter in adapters:
+            rospy.loginfo("Using planning request adapter '%s'", adapter.split("/")[-1])
+
+    @property
+    def title(self) -> str:
+        return "Pilz Industrial Motion Planner" if self.is_pilz else "OMPL"
+
+    def _reconfigure(self, config, _level) -> None:
+        self.config = config
+
+    def planner_ids(self) -> List[str]:
+        """What query_planner_interface lists."""
+        return ["CIRC", "LIN", "PTP"] if self.is_pilz else self.configs.names()
+
+    def generate(self, scene: motion.PlanningScene, message: MotionPlanRequest,
+                 cancel: Optional[motion.CancelToken] = None) -> motion.PlanResult:
+        """Plan, with all adapters; the result's trajectory is timed.
+
+        :param scene: the caller's own; its state is where the robot is.
+        :raises PlanningError: the request cannot be understood.
+        """
+        started = time.monotonic()
+        request = self.request(scene, message)
+        planner: Callable = self._pilz if self.is_pilz else motion.plan
+        result = self._adapters.generate(scene, request, cancel, planner)
+        took = time.monotonic() - started
+        if result:
+            rospy.loginfo("Planned a motion of %.2f s with %d way points for group '%s' in %.3f s (%s)",
+                          result.trajectory.duration,
+                          len(result.trajectory), message.group_name, took, result.planner or self.title)
+        else:
+            rospy.logerr("No motion plan for group '%s': %s (%s, after %.3f s)", message.group_name, result.message,
+                         code_name(result.code), took)
+        return result
+
+    def _pilz(self, scene, request, cancel=None):
+        return motion.pilz_plan(scene, request, cancel, self._limits)
+
+    def sequence(self, scene, items, cancel=None) -> "motion.SequenceResult":
+        """Plan a sequence of (MotionPlanRequest, blend radius) with the pilz planners, blended."""
+        requests = [(self.request(scene, message), float(radius)) for message, radius in items]
+        return motion.pilz_sequence(scene, requests, cancel,
+                                    self._limits if self.is_pilz else _cartesian_limits(self._description))
+
+    # --- requests ---
+
+    def request(self, scene: motion.PlanningScene, message: MotionPlanRequest) -> motion.MotionRequest:
+        """A MotionPlanRequest message as the library takes it.
+
+        :raises PlanningError: with the code and one line.
+        """
+        group = message.group_name
+        if not group:
+            raise PlanningError(MoveItErrorCodes.INVALID_GROUP_NAME, "the request names no group")
+        if not self.model.has_group(group):
+            raise PlanningError(MoveItErrorCodes.FAILURE, f"the robot '{self.model.name}' has no group '{group}'; it "
+                                f"has: "
+                                + (", ".join(self.model.groups) or "none"))
+        start = self._start(scene, message)
+        goals = self._goals(scene, message)
+        path = self._constraints(scene, message.path_constraints, MoveItErrorCodes.INVALID_GOAL_CONSTRAINTS)
+        name, settings = (message.planner_id, {}) if self.is_pilz else self.configs.find(group, message.planner_id)
+        fields: Dict[str, Any] = {}
+        if not self.is_pilz:
+            fields = self._planner_fields(settings)
+        return motion.MotionRequest(
+            group, goals=goals, start=start, path_constraints=None if path.empty() else path,
+            planner=name if self.is_pilz else settings.pop("type"), planner_params=settings,
+            planning_time=self._planning_time(message), attempts=max(1, message.num_planning_attempts),
+            velocity_scaling=self._scaling(message.max_velocity_scaling_factor, "max_velocity_scaling_factor"),
+            acceleration_scaling=self._scaling(message.max_acceleration_scaling_factor,
+                                               "max_acceleration_scaling_factor"),
+            workspace=_workspace(message), cartesian_link=message.cartesian_speed_limited_link,
+            cartesian_speed=message.max_cartesian_speed, **fields)
+
+    def _planner_fields(self, settings: Dict[str, str]) -> Dict[str, Any]:
+        fields: Dict[str, Any] = {"simplify": self.config["simplify_solutions"],
+                                  "maximum_waypoint_distance": self.config["maximum_waypoint_distance"],
+                                  "minimum_waypoint_count": self.config["minimum_waypoint_count"]}
+        for key, name, make in (("longest_valid_segment_fraction", "longest_valid_segment_fraction", float),
+                                ("projection_evaluator", "projection", str), ("interpolate", "interpolate", _truth),
+                                ("simplify_solutions", "simplify", _truth), ("hybridize", "hybridize", _truth),
+                                ("maximum_waypoint_distance", "maximum_waypoint_distance", float),
+                                ("minimum_waypoint_count", "minimum_waypoint_count", int),
+                                ("enforce_joint_model_state_space", "enforce_joint_space", _truth)):
+            if key not in settings:
+                continue
+            text = settings.pop(key)
+            try:
+                fields[name] = make(text)
+            except ValueError:
+                rospy.logwarn("planner setting %s is '%s', which is not understood: ignored", key, one_line(text, 40))
+        settings.pop("enforce_constrained_state_space", None)
+        return fields
+
+    @staticmethod
+    def _planning_time(message: MotionPlanRequest) -> float:
+        if message.allowed_planning_time > 0:
+            return message.allowed_planning_time
+        rospy.loginfo("The timeout for planning must be positive (%g specified). Assuming one second instead.",
+                      message.allowed_planning_time)
+        return 1.0
+
+    @staticmethod
+    def _scaling(value: float, name: str) -> float:
+        if 0.0 < value <= 1.0:
+            return value
+        if value != 0.0:
+            rospy.logwarn("Invalid %s = %g specified, it must be in (0, 1]; 1.0 is used", name, value)
+        return 1.0
+
+    def _start(self, scene, message: MotionPlanRequest) -> motion.RobotState:
+        state = scene.state
+        if states.is_empty(message.start_state):
+            return state
+        try:
+            states.apply_robot_state(scene, state, message.start_state, attach_to_state(scene))
+        except (ValueError, motion.MotionError) as error:
+            raise PlanningError(MoveItErrorCodes.INVALID_ROBOT_STATE, f"start state: {error}") from error
+        return state
+
+    def _goals(self, scene, message: MotionPlanRequest) -> List[motion.Constraints]:
+        goals = [self._constraints(scene, goal,
+                                   MoveItErrorCodes.INVALID_GOAL_CONSTRAINTS) for goal in message.goal_constraints]
+        goals = [goal for goal in goals if not goal.empty()]
+        if not goals:
+            raise PlanningError(MoveItErrorCodes.INVALID_GOAL_CONSTRAINTS,
+                                "the request has no goal: set a pose, joint or named target first (a target that was "
+                                "cleared is none)")
+        group = self.model.group(message.group_name)
+        for goal in goals:
+            full = {constraint.joint for constraint in goal.joint} >= set(group.active_joints)
+            if (goal.position or goal.orientation) and not full and not self.has_kinematics(message.group_name):
+                raise PlanningError(MoveItErrorCodes.FAILURE, _no_kinematics(message.group_name, self._description))
+        return goals
+
+    def has_kinematics(self, group: str) -> bool:
+        """Whether kinematics.yaml gives the group, or groups in it, a solver."""
+        known = self._description.kinematics
+        return group in known or any(name in known for name in self.model.group(group).subgroups)
+
+    @staticmethod
+    def _constraints(scene, message: Constraints, code: int) -> motion.Constraints:
+        try:
+            return convert.constraints(message, scene)
+        except (ValueError, motion.MotionError) as error:
+            raise PlanningError(code, str(error)) from error
+
+
+def _no_kinematics(group: str, description: RobotDescription) -> str:
+    return (f"group '{group}' has no kinematics solver, so a pose cannot be its goal: kinematics.yaml "
+            f"({description.name}_kinematics/{group}/kinematics_solver) names none. Give it "
+            f"kinematics_solver: kdl_kinematics_plugin/KDLKinematicsPlugin, or set joint values as the goal")
+
+
+def _truth(text: str) -> bool:
+    return str(text).strip().lower() in ("1", "true", "yes", "on")
+
+
+def _workspace(message: MotionPlanRequest):
+    low, high = message.workspace_parameters.min_corner, message.workspace_parameters.max_corner
+    corners = (low.x, low.y, low.z), (high.x, high.y, high.z)
+    return corners if any(any(corner) for corner in corners) else None
+
+
+def _cartesian_limits(description: RobotDescription) -> motion.CartesianLimits:
+    given = description.planning("cartesian_limits", {})
+    given = given if isinstance(given, dict) else {}
+    names = ("max_trans_vel", "max_trans_acc", "max_trans_dec", "max_rot_vel")
+    return motion.CartesianLimits(**{key: float(given[key]) for key in names if isinstance(given.get(key), (int,
+                                                                                                            float))})
+
+
+def _refusal(plugin: str, parameter: str) -> str:
+    if not plugin:
+        return f"{parameter} is not set: this pipeline has no planner"
+    return (f"Exception while loading planner '{plugin}': it does not exist here; {_OMPL} and {_PILZ[0]} do. Requests "
+            f"for this "
+            f"pipeline fail; use pipeline:=ompl ({parameter})")
+
+
+class Pipelines:
+    """All pipelines of a node, from ``~planning_pipelines`` (Noetic) or directly below ``~`` (Melodic)."""
+
+    def __init__(self, description: RobotDescription, namespace: str = "~"):
+        self.default = ""
+        self.pipelines: Dict[str, Pipeline] = {}
+        self.refused: Dict[str, str] = {}
+        names = self._configured(namespace)
+        wanted = rospy.get_param(namespace + "default_planning_pipeline", None)
+        self.default = self._default(wanted, names)
+        for name in names or [""]:
+            where = f"{namespace}planning_pipelines/{name}/" if names else namespace
+            try:
+                self.pipelines[name] = Pipeline(name, where, description)
+            except PipelineError as error:
+                self.refused[name] = str(error)
+                rospy.logerr("%s", error)
+        if not self.pipelines:
+            raise PipelineError("Failed to load any planning pipelines: " + "; ".join(self.refused.values()))
+        if self.default not in self.pipelines:
+            self.default = next(iter(self.pipelines))
+            rospy.logwarn("Using default pipeline '%s'", self.default)
+        if wanted != self.default:
+            rospy.set_param(namespace + "default_planning_pipeline", self.default)
+
+    @staticmethod
+    def _configured(namespace: str) -> List[str]:
+        entries = rospy.get_param(namespace + "planning_pipelines", {})
+        if not isinstance(entries, dict):
+            rospy.logerr("Parameter '%splanning_pipelines' is expected to be a dictionary of pipeline configurations.",
+                         rospy.resolve_name(namespace))
+            return []
+        names = []
+        for name, entry in sorted(entries.items()):
+            if isinstance(entry, dict) and "planning_plugin" in entry:
+                names.append(name)
+            else:
+                rospy.logerr("Planning pipeline parameter '~planning_pipelines/%s/planning_plugin' doesn't exist", name)
+        return names
+
+    @staticmethod
+    def _default(wanted: Optional[str], names: List[str]) -> str:
+        if wanted in names:
+            return wanted
+        if wanted:
+            rospy.logwarn("MoveGroup launched with ~default_planning_pipeline '%s' not configured in "
+                          "~planning_pipelines", wanted)
+        elif len(names) > 1:
+            rospy.logwarn("MoveGroup launched without ~default_planning_pipeline specifying the namespace for the "
+                          "default planning "
+                          "pipeline configuration")
+        if not names:
+            rospy.logwarn("Falling back to using the move_group node's namespace (deprecated Melodic behavior).")
+            return ""
+        return names[0]
+
+    def find(self, name: str) -> Pipeline:
+        """The pipeline of a request; "" is the default one.
+
+        :raises PlanningError: there is no such pipeline.
+        """
+        if not name:
+            return self.pipelines[self.default]
+        if name in self.pipelines:
+            return self.pipelines[name]
+        known = ", ".join(f"'{known}'" for known in self.pipelines)
+        why = self.refused.get(name, "")
+        raise PlanningError(MoveItErrorCodes.FAILURE,
+                            why or f"Couldn't find requested planning pipeline '{name}'; there are: {known}")

@@ -1,0 +1,194 @@
+"""The robot from the parameter server: description, semantics, limits, kinematics, padding."""
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any, Dict, List, Optional, Tuple
+
+import motion
+import rospkg
+import rospy
+
+from moveit_core.errors import one_line
+
+
+class DescriptionError(Exception):
+    """The robot cannot be loaded; one line saying which parameter, why and what to do."""
+
+
+@dataclass
+class Kinematics:
+    """What kinematics.yaml says about one group. Seconds, metres, radians."""
+
+    solver: str
+    timeout: float = 0.5
+    joint_tolerance: float = 1e-4
+    position_tolerance: float = 1e-4
+    orientation_tolerance: float = 1e-3
+    position_only: bool = False
+    epsilon: float = 1e-5
+    links: List[str] = field(default_factory=list)
+
+
+@dataclass
+class RobotDescription:
+    """A robot as the parameters describe it. ``name`` is the resolved parameter of the URDF."""
+
+    name: str
+    model: motion.RobotModel
+    kinematics: Dict[str, Kinematics]
+    urdf: str
+    srdf: str
+
+    def planning(self, key: str, default: Any) -> Any:
+        """Parameter ``key`` below ``<name>_planning``."""
+        return rospy.get_param(f"{self.name}_planning/{key}", default)
+
+
+def resolve(name: str) -> str:
+    """The full name of a description parameter: searched upward from the node's private namespace, as upstream does."""
+    if name.startswith("/"):
+        return name
+    found = None if rospy.get_name() in ("", "/unnamed") else rospy.search_param(name)
+    return found or rospy.resolve_name(name)
+
+
+def load(name: str = "robot_description", meshes: bool = True, own_namespace: Optional[str] = "~") -> RobotDescription:
+    """Read a robot from the parameter server.
+
+    :param own_namespace: where ``<group>/kinematics_solver`` is looked up first.
+    :raises DescriptionError: no or an unusable description.
+    """
+    where = resolve(name)
+    urdf = rospy.get_param(where, None)
+    if not urdf or not isinstance(urdf, str):
+        raise DescriptionError(f"Robot model parameter not found! Did you remap '{name}'? '{where}' is "
+                               f"{'empty' if urdf is not None else 'not set'}: load the robot first "
+                               f"(planning_context.launch "
+                               f"with load_robot_description:=true, or the launch file that starts the robot)")
+    srdf = rospy.get_param(f"{where}_semantic", None)
+    if not srdf:
+        rospy.logerr("Could not find parameter '%s_semantic': the robot has no planning groups. Load the SRDF there, "
+                     "as "
+                     "planning_context.launch does", where)
+    limits = _dictionary(f"{where}_planning/joint_limits")
+    try:
+        model = motion.load_model(urdf, srdf or None, joint_limits=limits, find_package=Packages().directory,
+                                  meshes=meshes)
+    except (motion.MotionError, ValueError, LookupError) as error:
+        raise DescriptionError(f"the robot description in {where} cannot be used: {one_line(error, 400)}") from error
+    for warning in model.warnings:
+        rospy.logwarn("%s", warning)
+    return RobotDescription(where, model, _kinematics(where, model, own_namespace), urdf, srdf or "")
+
+
+class Packages:
+    """Package directories, looked up once."""
+
+    def __init__(self) -> None:
+        self._rospack = rospkg.RosPack()
+
+    def directory(self, name: str) -> Optional[str]:
+        try:
+            return self._rospack.get_path(name)
+        except rospkg.ResourceNotFound:
+            return None
+
+
+def _dictionary(name: str) -> Dict[str, Any]:
+    value = rospy.get_param(name, {})
+    if isinstance(value, dict):
+        return value
+    rospy.logerr("parameter %s is %s, where a table is expected: it is ignored", name, one_line(repr(value), 60))
+    return {}
+
+
+def _kinematics(where: str, model: motion.RobotModel, own_namespace: Optional[str]) -> Dict[str, Kinematics]:
+    shared = _dictionary(f"{where}_kinematics")
+    result = {}
+    for group in model.groups:
+        entry = shared.get(group, {})
+        if own_namespace is not None and rospy.has_param(f"{own_namespace}{group}/kinematics_solver"):
+            entry = rospy.get_param(f"{own_namespace}{group}")
+        if not isinstance(entry, dict):
+            rospy.logerr("parameter %s_kinematics/%s is %s, where a table with kinematics_solver is expected: group "
+                         "'%s' has no "
+                         "kinematics", where, group, one_line(repr(entry), 60), group)
+            continue
+        if entry.get("kinematics_solver"):
+            result[group] = _group_kinematics(f"{where}_kinematics/{group}", entry)
+    unknown = [name for name in shared if name not in model.groups]
+    if unknown:
+        rospy.logwarn("kinematics.yaml (%s_kinematics) names %s, which the robot '%s' has no group for; its groups: %s",
+                      where,
+                      ", ".join(f"'{name}'" for name in unknown), model.name, ", ".join(model.groups) or "none")
+    if model.groups and not result:
+        rospy.logwarn("No kinematics plugins defined. Fill and load kinematics.yaml! Goals given as poses will fail "
+                      "(%s_kinematics "
+                      "names no group of '%s')", where, model.name)
+    return result
+
+
+def _group_kinematics(where: str, entry: Dict[str, Any]) -> Kinematics:
+    def number(key: str, default: float) -> float:
+        value = entry.get(key, default)
+        if isinstance(value, bool) or not isinstance(value, (int, float)):
+            rospy.logerr("parameter %s/%s is %s, where a number is expected: %g is used", where, key,
+                         one_line(repr(value), 40),
+                         default)
+            return default
+        return float(value)
+
+    links = entry.get("kinematics_solver_ik_links", [])
+    return Kinematics(solver=str(entry["kinematics_solver"]), timeout=number("kinematics_solver_timeout", 0.5),
+                      joint_tolerance=number("goal_joint_tolerance", 1e-4),
+                      position_tolerance=number("goal_position_tolerance", 1e-4),
+                      orientation_tolerance=number("goal_orientation_tolerance", 1e-3),
+                      position_only=bool(entry.get("position_only_ik", False)), epsilon=number("epsilon", 1e-5),
+                      links=[str(link) for link in links] if isinstance(links, list) else [])
+
+
+def prepare_scene(description: RobotDescription) -> motion.PlanningScene:
+    """An empty scene with the paddings and collision operations of the parameters."""
+    scene = motion.PlanningScene(description.model)
+    scene.name = "(noname)"
+    model = description.model
+    padding = float(description.planning("default_robot_padding", 0.0))
+    scale = float(description.planning("default_robot_scale", 1.0))
+    links = {name: padding for name in model.links}
+    links.update(_numbers(description, "default_robot_link_padding", model))
+    scales = {name: scale for name in model.links}
+    scales.update(_numbers(description, "default_robot_link_scale", model))
+    scene.set_padding({name: value for name, value in links.items() if model.link(name).has_geometry})
+    scene.set_scale({name: value for name, value in scales.items() if model.link(name).has_geometry})
+    scene.set_attached_padding(float(description.planning("default_attached_padding", 0.0)))
+    scene.set_object_padding(float(description.planning("default_object_padding", 0.0)))
+    _collision_operations(description, scene)
+    return scene
+
+
+def _numbers(description: RobotDescription, key: str, model) -> Dict[str, float]:
+    values = description.planning(key, {})
+    return {name: float(value) for name, value in values.items() if model.has_link(name)} if isinstance(values,
+                                                                                                        dict) else {}
+
+
+def _collision_operations(description: RobotDescription, scene) -> None:
+    operations = description.planning("default_collision_operations", [])
+    if not isinstance(operations, list):
+        rospy.logwarn("default_collision_operations is not an array")
+        return
+    matrix = scene.acm
+    for entry in operations:
+        try:
+            matrix.set(entry["object1"], entry["object2"], entry["operation"] == "disable")
+        except (KeyError, TypeError):
+            rospy.logwarn("All collision operations must have two objects and an operation, not %s",
+                          one_line(repr(entry), 80))
+    if operations:
+        scene.set_acm(matrix)
+
+
+def scaling_factors(description: RobotDescription) -> Tuple[float, float]:
+    """Default velocity and acceleration scaling of clients."""
+    return (float(description.planning("default_velocity_scaling_factor", 0.1)),
+            float(description.planning("default_acceleration_scaling_factor", 0.1)))

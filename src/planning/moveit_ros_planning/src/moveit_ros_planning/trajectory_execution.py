@@ -1,0 +1,376 @@
+"""Executes trajectories through controllers, watches that they take the time they should, and stops them."""
+from __future__ import annotations
+
+import bisect
+import threading
+import time
+from dataclasses import dataclass
+from typing import Callable, Dict, List, Optional, Sequence, Tuple
+
+import rospy
+from moveit_msgs.msg import MoveItErrorCodes, RobotTrajectory
+from std_msgs.msg import String
+
+from dynamic_parameters import Parameter, Server
+from moveit_core import states
+from moveit_core.controller_manager import ControllerHandle, ControllerManager, ExecutionStatus
+
+from .controllers import ControllerChoice, load_manager, share
+from .state_monitor import CurrentStateMonitor
+
+_PARAMETERS = [
+    Parameter("execution_duration_monitoring", bool, True, description="Monitor the execution duration of a "
+              "trajectory. If expected "
+              "duration is exceeded, the trajectory is canceled.", level=1),
+    Parameter("allowed_execution_duration_scaling", float, 1.1, 1.0, 10.0,
+              "Accept durations that take a little more time than specified", 2),
+    Parameter("allowed_goal_duration_margin", float, 0.5, 0.1, 30.0,
+              "Allow more than the expected execution time before triggering a trajectory cancel (applied after "
+              "scaling)", 3),
+    Parameter("execution_velocity_scaling", float, 1.0, 0.1, 10.0, "Multiplicative factor for execution speed", 4),
+    Parameter("allowed_start_tolerance", float, 0.01, 0.0, None,
+              "Allowed joint-value tolerance for validation of trajectory's start point against current robot state",
+              5),
+    Parameter("wait_for_trajectory_completion", bool, True, description="Wait for trajectory completion. If set to "
+              "false, do not "
+              "wait for controllers to converge to last way point, before reporting success.", level=6),
+]
+#: a line about the remaining time is printed this often (s)
+_REPORT = 5.0
+
+
+class ExecutionError(Exception):
+    """A trajectory cannot be executed; one line saying why and what to do."""
+
+
+@dataclass
+class _Step:
+    """One trajectory of an execution: its controllers and their shares."""
+
+    controllers: List[str]
+    parts: List[RobotTrajectory]
+    times: List[float]
+
+
+class TrajectoryExecution:
+    """The one place through which this process moves the robot.
+
+    :param namespace: where the parameters are.
+    :param states_monitor: the robot's current state.
+    """
+
+    def __init__(self, model, state_monitor: CurrentStateMonitor, namespace: str = "~"):
+        self.model = model
+        self.monitor = state_monitor
+        self.namespace = namespace
+        self._lock = threading.Lock()
+        self._running: Optional[Execution] = None
+        self.config: Dict[str, object] = {}
+        self._server = Server(namespace + "trajectory_execution", _PARAMETERS, self._reconfigure)
+        manage = bool(rospy.get_param(namespace + "moveit_manage_controllers", False))
+        rospy.loginfo("MoveIt %s allowed to manage controllers", "is" if manage else "is not")
+        self.manager: Optional[ControllerManager] = load_manager(model, namespace)
+        self.choice = ControllerChoice(model, self.manager, manage) if self.manager else None
+        self._subscriber = rospy.Subscriber("trajectory_execution_event", String, self._on_event, queue_size=100)
+        if self.manager:
+            rospy.loginfo("Trajectory execution is managing controllers")
+
+    def _reconfigure(self, config, _level) -> None:
+        self.config = config
+
+    def shutdown(self) -> None:
+        """Stop what moves."""
+        self.stop()
+        self._subscriber.unregister()
+
+    def _on_event(self, message: String) -> None:
+        if message.data == "stop":
+            self.stop()
+        else:
+            rospy.logwarn("Unknown event type: '%s'; the only one is 'stop'", message.data[:40])
+
+    @property
+    def busy(self) -> bool:
+        """True while a trajectory is being executed."""
+        running = self._running
+        return running is not None and not running.done
+
+    def stop(self) -> None:
+        """Stop what is being executed, if anything is."""
+        running = self._running
+        if running is not None:
+            running.stop()
+
+    def start(self, trajectories: Sequence[RobotTrajectory],
+              on_segment: Optional[Callable[[int], bool]] = None) -> "Execution":
+        """Start to execute trajectories one after the other.
+
+        :param on_segment: called with the index of each that has ended well; False stops.
+        :raises ExecutionError: nothing can execute them, they do not start where the robot is, or another is running.
+        """
+        steps = [self._step(trajectory) for trajectory in trajectories]
+        first = next((step for step in steps if step.parts), None)
+        with self._lock:
+            if self.busy:
+                raise ExecutionError("Cannot push a new trajectory while another is being executed: wait for it, or "
+                                     "stop it")
+            if first is not None:
+                self._check_start(first)
+            execution = Execution(self, steps, on_segment)
+            self._running = execution
+        execution.begin()
+        return execution
+
+    def _step(self, trajectory: RobotTrajectory) -> _Step:
+        if states.is_empty_trajectory(trajectory) or self._takes_no_time(trajectory):
+            return _Step([], [], [])
+        if self.manager is None:
+            raise ExecutionError(f"no controller manager is loaded: "
+                                 f"{rospy.resolve_name(self.namespace + 'moveit_controller_manager')} "
+                                 "names none that could be used, so nothing can be executed")
+        wanted = self.choice.actuated(trajectory)
+        if not wanted:
+            raise ExecutionError("The trajectory to execute specifies no joints that a controller could move")
+        chosen = self.choice.choose(wanted)
+        if not chosen:
+            self.manager.reload()
+            chosen = self.choice.choose(wanted)
+        if not chosen:
+            raise ExecutionError("Unable to identify any set of controllers that can actuate the specified joints: "
+                                 f"[ {' '.join(sorted(wanted))} ]. Known controllers and their joints: "
+                                 f"{self.manager.describe()}")
+        scaling = float(self.config["execution_velocity_scaling"])
+        parts = [share(trajectory, self.manager.joints(name), scaling) for name in chosen]
+        points = trajectory.joint_trajectory.points or trajectory.multi_dof_joint_trajectory.points
+        return _Step(chosen, parts, [point.time_from_start.to_sec() for point in points])
+
+    @staticmethod
+    def _takes_no_time(trajectory: RobotTrajectory) -> bool:
+        return trajectory.joint_trajectory.header.stamp.is_zero() and states.duration(trajectory) == 0.0
+
+    def tolerance(self, joint: str, table: Optional[dict] = None) -> float:
+        """Allowed distance of ``joint`` from a trajectory's first point; 0 switches the check off."""
+        table = self._tolerances() if table is None else table
+        return table.get(joint, float(self.config["allowed_start_tolerance"]))
+
+    def _tolerances(self) -> Dict[str, float]:
+        table = rospy.get_param(self.namespace + "trajectory_execution/joints_allowed_start_tolerance", {})
+        result = {}
+        for name, value in (table.items() if isinstance(table, dict) else ()):
+            if not isinstance(value, (int, float)) or value < 0:
+                rospy.logwarn("joints_allowed_start_tolerance/%s is %r: ignored, a number of 0 or more is expected",
+                              name, value)
+            else:
+                result[name] = float(value)
+        return result
+
+    @property
+    def checks_start(self) -> bool:
+        return bool(self.config["allowed_start_tolerance"]) or bool(self._tolerances())
+
+    def _check_start(self, step: _Step) -> None:
+        table = self._tolerances()
+        if not self.config["allowed_start_tolerance"] and not table:
+            return
+        now = rospy.Time.now()
+        joints = [name for part in step.parts for name in part.joint_trajectory.joint_names]
+        if not self._heard_of(joints, now):
+            raise ExecutionError("Failed to validate trajectory: couldn't receive full current joint state within 1s. "
+                                 + self.monitor.explain(1.0, now))
+        state = self.monitor.state()
+        for part in step.parts:
+            first = part.joint_trajectory.points[0] if part.joint_trajectory.points else None
+            for name, value in zip(part.joint_trajectory.joint_names, first.positions if first else ()):
+                allowed = self.tolerance(name, table)
+                off = self._distance(name, value, state.get(name))
+                if allowed and not off <= allowed:
+                    raise ExecutionError(f"Invalid Trajectory: start point deviates from current robot state more than "
+                                         f"{allowed:g}: "
+                                         f"joint '{name}' is {off:.4f} off (expected: {value:g}, current: "
+                                         f"{state.get(name):g}). "
+                                         f"Plan again from where the robot is now")
+
+    def _heard_of(self, joints: Sequence[str], since: rospy.Time) -> bool:
+        if self.monitor.wait_for_current(since, 1.0):
+            return True
+        late = set(self.monitor.missing(since))
+        return not late & set(joints)
+
+    def _distance(self, name: str, a: float, b: float) -> float:
+        joint = self.model.joint(name)
+        difference = abs(a - b)
+        if joint.type == "continuous":
+            difference %= 6.283185307179586
+            return min(difference, 6.283185307179586 - difference)
+        return difference
+
+
+class Execution:
+    """One run of trajectories, in a thread of its own. ``status``, ``reason`` (one line), :meth:`wait`,
+    :meth:`stop`."""
+
+    def __init__(self, owner: TrajectoryExecution, steps: List[_Step], on_segment: Optional[Callable[[int], bool]]):
+        self._owner = owner
+        self._steps = steps
+        self._on_segment = on_segment
+        self._lock = threading.Lock()
+        self._stopped = threading.Event()
+        self._finished = threading.Event()
+        self._handles: List[ControllerHandle] = []
+        self._where: Tuple[int, Optional[rospy.Time]] = (-1, None)
+        self.status = ExecutionStatus.RUNNING
+        self.reason = ""
+
+    def begin(self) -> None:
+        threading.Thread(target=self._run, name="trajectory execution", daemon=True).start()
+
+    @property
+    def done(self) -> bool:
+        return self._finished.is_set()
+
+    def wait(self, timeout: Optional[float] = None) -> bool:
+        """Wait for the end; ``timeout`` in wall seconds."""
+        return self._finished.wait(timeout)
+
+    def stop(self) -> None:
+        """Cancel, and wait (2 s at most) until the run has ended. A run that is stopped is PREEMPTED."""
+        with self._lock:
+            if self.done:
+                return
+            self._stopped.set()
+            self.status = ExecutionStatus.PREEMPTED
+            self._cancel()
+        rospy.loginfo("Stopped trajectory execution.")
+        self._finished.wait(2.0)
+
+    def _cancel(self) -> None:
+        for handle in self._handles:
+            handle.cancel()
+
+    def expected_index(self) -> Tuple[int, int]:
+        """(trajectory, way point) where the robot should be now; (-1, -1) before the start."""
+        step, since = self._where
+        if step < 0 or since is None:
+            return step, -1
+        return step, bisect.bisect_left(self._steps[step].times, (rospy.Time.now() - since).to_sec())
+
+    def _run(self) -> None:
+        status = ExecutionStatus.SUCCEEDED
+        last: Optional[_Step] = None
+        try:
+            for index, step in enumerate(self._steps):
+                status, last = self._execute(index, step), step
+                if not status or self._stopped.is_set():
+                    break
+                if self._on_segment is not None and not self._on_segment(index):
+                    status = ExecutionStatus.FAILED
+                    break
+            if status and last is not None and not self._stopped.is_set():
+                self._wait_for_rest(last)
+        except Exception as error:  # a controller manager of a third party; the node must live on
+            self.reason, status = f"{type(error).__name__}: {error}", ExecutionStatus.FAILED
+            self._cancel()
+        with self._lock:
+            if not self._stopped.is_set():
+                self.status = status
+            self._where = (-1, None)
+            self._handles = []
+            self._finished.set()
+        rospy.loginfo("Completed trajectory execution with status %s ...", self.status.value)
+
+    def _execute(self, index: int, step: _Step) -> ExecutionStatus:
+        if not step.parts:
+            return ExecutionStatus.SUCCEEDED
+        owner = self._owner
+        if not owner.choice.activate(step.controllers):
+            return self._fail(f"controllers {', '.join(step.controllers)} are not active, and could not be activated")
+        started = rospy.Time.now()
+        with self._lock:
+            if self._stopped.is_set():
+                return ExecutionStatus.PREEMPTED
+            problem = self._send(step)
+            if problem:
+                return self._fail(problem)
+            self._where = (index, started)
+        return self._watch(step, started)
+
+    def _fail(self, reason: str, status: ExecutionStatus = ExecutionStatus.ABORTED) -> ExecutionStatus:
+        self.reason = reason
+        rospy.logerr("%s", reason)
+        return status
+
+    def _send(self, step: _Step) -> str:
+        self._handles = []
+        for number, (name, part) in enumerate(zip(step.controllers, step.parts), 1):
+            handle = self._owner.manager.handle(name)
+            if handle is None:
+                self._cancel()
+                return f"No controller handle for controller '{name}'. Aborting. {self._owner.manager.describe()}"
+            if not handle.send(part):
+                self._cancel()
+                return (f"Failed to send trajectory part {number} of {len(step.parts)} to controller {name}: "
+                        f"{handle.reason}")
+            self._handles.append(handle)
+        return ""
+
+    def _allowed(self, step: _Step) -> float:
+        longest = 0.0
+        for name, part in zip(step.controllers, step.parts):
+            own = self._owner.manager.limits(name)
+            scaling = own.get("scaling", float(self._owner.config["allowed_execution_duration_scaling"]))
+            margin = own.get("margin", float(self._owner.config["allowed_goal_duration_margin"]))
+            delay = max(0.0, (part.joint_trajectory.header.stamp - rospy.Time.now()).to_sec())
+            longest = max(longest, (delay + states.duration(part)) * scaling + margin)
+        return longest
+
+    def _watch(self, step: _Step, started: rospy.Time) -> ExecutionStatus:
+        allowed, planned = self._allowed(step), max(states.duration(part) for part in step.parts)
+        if planned > _REPORT:
+            rospy.loginfo("Executing a trajectory of %.1f s", planned)
+        told = 0.0
+        for handle in list(self._handles):
+            while not handle.wait(0.02):
+                if self._stopped.is_set():
+                    return ExecutionStatus.PREEMPTED
+                gone = (rospy.Time.now() - started).to_sec()
+                if planned - gone > 1.0 and gone - told > _REPORT:
+                    told = gone
+                    rospy.loginfo("Executing: %.1f s of %.1f s remain", planned - gone, planned)
+                if gone > allowed and self._owner.config["execution_duration_monitoring"]:
+                    self._cancel()
+                    return self._fail("Controller is taking too long to execute trajectory (the expected upper bound "
+                                      "for the "
+                                      f"trajectory execution was {allowed:f} seconds). Stopping trajectory. Controller "
+                                      f"{handle.name} "
+                                      "has not said that it is done; parameter "
+                                      "trajectory_execution/allowed_execution_duration_scaling "
+                                      "gives it more time", ExecutionStatus.TIMED_OUT)
+            if self._stopped.is_set():
+                return ExecutionStatus.PREEMPTED
+            if handle.status is not ExecutionStatus.SUCCEEDED:
+                self._cancel()
+                self.reason = f"Controller handle {handle.name} reports status {handle.status.value}" + (
+                    f": {handle.reason}" if handle.reason else "")
+                rospy.logwarn("%s", self.reason)
+                return handle.status
+        return ExecutionStatus.SUCCEEDED
+
+    def _wait_for_rest(self, step: _Step) -> None:
+        """Success is told when the robot has come to rest: three states in a row without motion, one second at most."""
+        owner = self._owner
+        if not owner.checks_start or not owner.config["wait_for_trajectory_completion"]:
+            return
+        joints = [name for part in step.parts for name in part.joint_trajectory.joint_names]
+        end, still, before = time.monotonic() + 1.0, 0, owner.monitor.state()
+        while still < 3 and time.monotonic() < end and not self._stopped.is_set():
+            if not owner.monitor.wait_for_current(rospy.Time.now(), end - time.monotonic()):
+                return
+            now = owner.monitor.state()
+            moved = any(abs(now.get(name) - before.get(name)) > owner.tolerance(name, {}) for name in joints)
+            still, before = (0 if moved else still + 1), now
+
+
+def error_code(status: ExecutionStatus) -> int:
+    """The MoveItErrorCodes value of an execution that ended with ``status``."""
+    return {ExecutionStatus.SUCCEEDED: MoveItErrorCodes.SUCCESS, ExecutionStatus.PREEMPTED: MoveItErrorCodes.PREEMPTED,
+            ExecutionStatus.TIMED_OUT: MoveItErrorCodes.TIMED_OUT}.get(status, MoveItErrorCodes.CONTROL_FAILED)

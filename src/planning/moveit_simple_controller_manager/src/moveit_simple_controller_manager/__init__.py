@@ -1,0 +1,1 @@
+"""Controllers behind actions: see :mod:`moveit_simple_controller_manager.manager`."""

@@ -1,0 +1,224 @@
+"""Controllers that are reached through actions. An action server that comes late is found when it comes."""
+from __future__ import annotations
+
+import threading
+import time
+from typing import Any, Dict, Optional
+
+import actionlib
+import rospy
+from actionlib_msgs.msg import GoalStatus
+from control_msgs.msg import (FollowJointTrajectoryAction, FollowJointTrajectoryGoal, FollowJointTrajectoryResult,
+                              GripperCommandAction, GripperCommandGoal, JointTolerance)
+from moveit_msgs.msg import RobotTrajectory
+
+from moveit_core.controller_manager import Completion, ControllerHandle, ExecutionStatus
+
+#: a server whose connection is lost for this long (wall s) during a motion is taken for dead
+_GONE = 1.0
+_RESULTS = {value: name for name, value in vars(FollowJointTrajectoryResult).items()
+            if name.isupper() and isinstance(value, int)}
+_ENDS = {GoalStatus.SUCCEEDED: ExecutionStatus.SUCCEEDED, GoalStatus.ABORTED: ExecutionStatus.ABORTED,
+         GoalStatus.PREEMPTED: ExecutionStatus.PREEMPTED}
+
+
+def is_connected(inner: actionlib.ActionClient) -> bool:
+    """Whether all topics of the action are connected to one server now. Does not wait."""
+    status = inner.last_status_msg
+    if status is None:
+        return False
+    server = status._connection_header["callerid"]
+    return (inner.pub_goal.impl is not None and inner.pub_goal.impl.has_connection(server)
+            and inner.pub_cancel.impl.has_connection(server)
+            and inner.result_sub.get_num_connections() > 0 and inner.feedback_sub.get_num_connections() > 0)
+
+
+class ActionHandle(ControllerHandle):
+    """A controller behind an action. ``entry`` is its table in controller_list."""
+
+    action: Any = None
+    kind = ""
+
+    def __init__(self, name: str, topic: str, entry: Dict[str, Any]):
+        super().__init__(name)
+        self.topic = topic
+        self._entry = entry
+        self._completion = Completion()
+        self._goal: Optional[actionlib.ClientGoalHandle] = None
+        self._client = actionlib.ActionClient(topic, self.action)
+        threading.Thread(target=self._announce, name=f"waiting for {topic}", daemon=True).start()
+
+    def _announce(self) -> None:
+        end, told = time.monotonic() + 5.0, False
+        while not rospy.is_shutdown():
+            if self.connected:
+                rospy.loginfo("Added %s controller for %s", self.kind, self.name)
+                return
+            if not told and time.monotonic() > end:
+                told = True
+                rospy.logwarn("Waiting for %s to come up: controller '%s' has no action server yet (it is used as soon "
+                              "as it is "
+                              "there)", rospy.resolve_name(self.topic), self.name)
+            time.sleep(0.05)
+
+    @property
+    def connected(self) -> bool:
+        return is_connected(self._client)
+
+    def wait_for_server(self, timeout: float) -> bool:
+        """Wait (wall seconds) for the action server."""
+        end = time.monotonic() + timeout
+        while not self.connected:
+            if time.monotonic() > end or rospy.is_shutdown():
+                return False
+            time.sleep(0.01)
+        return True
+
+    def send(self, trajectory: RobotTrajectory) -> bool:
+        if not self.wait_for_server(2.0):
+            self.reason = (f"Action client not connected to action server: {rospy.resolve_name(self.topic)}. Start the "
+                           f"controller "
+                           f"'{self.name}' (rosservice call /controller_manager/list_controllers shows those that run)")
+            return False
+        goal = self._make_goal(trajectory)
+        if goal is None:
+            return False
+        self.reason = ""
+        self._completion = completion = Completion()
+        completion.begin()
+        self._goal = self._client.send_goal(goal, lambda handle: self._changed(completion, handle))
+        return True
+
+    def _make_goal(self, trajectory: RobotTrajectory):
+        """The action's goal; None, with ``reason``, when the trajectory cannot be one."""
+        raise NotImplementedError
+
+    def _changed(self, completion: Completion, handle: actionlib.ClientGoalHandle) -> None:
+        if handle.get_comm_state() != actionlib.CommState.DONE:
+            return
+        state = handle.get_goal_status()
+        if completion is self._completion:
+            self.reason = self._explain(handle, state, handle.get_result()) or self.reason
+        completion.finish(self._status(state))
+
+    def _status(self, state: int) -> ExecutionStatus:
+        return _ENDS.get(state, ExecutionStatus.FAILED)
+
+    def _explain(self, handle: actionlib.ClientGoalHandle, state: int, result) -> str:
+        text = handle.get_goal_status_text() if state != GoalStatus.SUCCEEDED else ""
+        return " ".join(text.split())
+
+    def cancel(self) -> bool:
+        if self._completion.finish(ExecutionStatus.PREEMPTED):
+            rospy.loginfo("Cancelling execution for %s", self.name)
+            self._goal.cancel()
+        return True
+
+    def wait(self, timeout: Optional[float] = None) -> bool:
+        completion = self._completion
+        if completion.wait(timeout):
+            return True
+        if not self.connected and not self._comes_back(completion):
+            self.reason = (f"the action server {rospy.resolve_name(self.topic)} has gone away during the motion; the "
+                           f"controller "
+                           f"'{self.name}' was stopped, or its node has ended")
+            return completion.finish(ExecutionStatus.ABORTED) or True
+        return False
+
+    def _comes_back(self, completion: Completion) -> bool:
+        end = time.monotonic() + _GONE
+        while time.monotonic() < end:
+            if completion.wait(0.05) or self.connected:
+                return True
+        return False
+
+    @property
+    def status(self) -> ExecutionStatus:
+        return self._completion.status
+
+
+class FollowJointTrajectoryHandle(ActionHandle):
+    """A trajectory controller."""
+
+    action = FollowJointTrajectoryAction
+    kind = "FollowJointTrajectory"
+
+    def _make_goal(self, trajectory: RobotTrajectory):
+        if trajectory.multi_dof_joint_trajectory.points:
+            rospy.logwarn("%s cannot execute multi-dof trajectories.", self.name)
+        if not trajectory.joint_trajectory.points:
+            self.reason = f"the trajectory for '{self.name}' has no points"
+            return None
+        goal = FollowJointTrajectoryGoal(trajectory=trajectory.joint_trajectory)
+        goal.path_tolerance = _tolerances(self._entry.get("path_tolerance"), trajectory.joint_trajectory.joint_names)
+        goal.goal_tolerance = _tolerances(self._entry.get("goal_tolerance"), trajectory.joint_trajectory.joint_names)
+        goal.goal_time_tolerance = rospy.Duration.from_sec(float(self._entry.get("goal_time_tolerance", 0.0)))
+        rospy.logdebug("sending trajectory to %s", self.name)
+        return goal
+
+    def _explain(self, handle: actionlib.ClientGoalHandle, state: int, result) -> str:
+        text = super()._explain(handle, state, result)
+        if result is None or result.error_code == FollowJointTrajectoryResult.SUCCESSFUL:
+            return text
+        said = " ".join(result.error_string.split()) or text
+        return f"{_RESULTS.get(result.error_code, result.error_code)}{': ' + said if said else ''}"
+
+
+class GripperCommandHandle(ActionHandle):
+    """A gripper: the last point of a trajectory is where it goes."""
+
+    action = GripperCommandAction
+    kind = "GripperCommand"
+
+    def _make_goal(self, trajectory: RobotTrajectory):
+        points, names = trajectory.joint_trajectory.points, trajectory.joint_trajectory.joint_names
+        if trajectory.multi_dof_joint_trajectory.points:
+            self.reason = f"{self.name} cannot execute multi-dof trajectories"
+            return None
+        if not points:
+            self.reason = f"{self.name} requires at least one joint trajectory point, but none is given"
+            return None
+        commanded = self._commanded(names)
+        if not commanded:
+            self.reason = f"{self.name} found no joint of its own in the trajectory, which moves {', '.join(names)}"
+            return None
+        goal, last = GripperCommandGoal(), points[-1]
+        for index in commanded:
+            if index >= len(last.positions):
+                self.reason = f"{self.name}: the last point has no position of joint '{names[index]}'"
+                return None
+            goal.command.position += last.positions[index]
+        goal.command.max_effort = (last.effort[commanded[0]] if len(last.effort) > commanded[0]
+                                   else float(self._entry.get("max_effort", 0.0)))
+        return goal
+
+    def _commanded(self, names) -> list:
+        joints = self._entry["joints"]
+        if self._entry.get("parallel") and len(joints) == 2:
+            return [names.index(name) for name in joints if name in names]
+        command = self._entry.get("command_joint", joints[0] if joints else "")
+        return [names.index(command)] if command in names else []
+
+    def _status(self, state: int) -> ExecutionStatus:
+        if state == GoalStatus.ABORTED and self._entry.get("allow_failure"):
+            return ExecutionStatus.SUCCEEDED  # it stalled on what it holds
+        return super()._status(state)
+
+
+def _tolerances(given, names) -> list:
+    """Tolerances from controller_list: a list of {name, position, ...}, or a table of numbers or lists."""
+    if isinstance(given, list):
+        return [JointTolerance(str(entry.get("name", "")), *(float(entry.get(key, 0.0)) for key in
+                                                             ("position", "velocity", "acceleration")))
+                for entry in given if isinstance(entry, dict)]
+    if not isinstance(given, dict):
+        return []
+    rows = []
+    for index, name in enumerate(names):
+        values = []
+        for key in ("position", "velocity", "acceleration"):
+            value = given.get(key, 0.0)
+            values.append(float(value[index]) if isinstance(value, list) and index < len(value) else
+                          0.0 if isinstance(value, list) else float(value))
+        rows.append(JointTolerance(name, *values))
+    return rows

@@ -1,0 +1,1 @@
+"""Semantic robot descriptions: :mod:`srdfdom.srdf`."""

@@ -1,0 +1,317 @@
+"""An SRDF document as objects: groups, states, end effectors, virtual joints, collisions that are never checked.
+
+    robot = SRDF.from_xml_string(text)
+    robot.group_map["arm"].chains[0].tip_link
+    robot.to_xml_string()
+"""
+from __future__ import annotations
+
+import xml.etree.ElementTree as ET
+from typing import Any, Dict, List, Optional, Tuple
+
+
+class ParseError(ValueError):
+    """A document that is no SRDF; one line naming the element."""
+
+
+class Element:
+    """Base of all elements. ``_attributes``: (name, required, field); ``_children``: (tag, class, field of a list)."""
+
+    _tag = ""
+    _attributes: Tuple[Tuple[str, bool, str], ...] = ()
+    _children: Tuple[Tuple[str, type, str], ...] = ()
+
+    @classmethod
+    def from_xml(cls, node: ET.Element):
+        """Read an element; unknown children and attributes are passed over.
+
+        :raises ParseError: a required attribute is missing.
+        """
+        made = cls()
+        for name, required, field in cls._attributes:
+            value = node.get(name)
+            if value is None and required:
+                raise ParseError(f"<{node.tag}{' name=' + repr(node.get('name')) if node.get('name') else ''}> has no "
+                                 f"attribute '{name}'")
+            if value is not None:
+                setattr(made, field, made._read(field, value))
+        for tag, kind, field in cls._children:
+            getattr(made, field).extend(kind.from_xml(child) for child in node.findall(tag))
+        made._loaded()
+        return made
+
+    def _read(self, _field: str, value: str) -> Any:
+        return value
+
+    def _write(self, _field: str, value: Any) -> str:
+        return str(value)
+
+    def _loaded(self) -> None:
+        """After the element was read."""
+
+    def to_xml(self, tag: Optional[str] = None) -> ET.Element:
+        """The element as XML."""
+        node = ET.Element(tag or self._tag)
+        for name, _, field in self._attributes:
+            value = getattr(self, field)
+            if value is not None:
+                node.set(name, self._write(field, value))
+        for child_tag, _, field in self._children:
+            node.extend(child.to_xml(child_tag) for child in getattr(self, field))
+        return node
+
+    def to_xml_string(self) -> str:
+        """The element as indented text."""
+        node = self.to_xml()
+        ET.indent(node)
+        return '<?xml version="1.0"?>\n' + ET.tostring(node, encoding="unicode") + "\n"
+
+    def __repr__(self) -> str:
+        fields = ", ".join(f"{key}={value!r}" for key, value in vars(self).items())
+        return f"{type(self).__name__}({fields})"
+
+
+class Link(Element):
+    """A link of a group."""
+
+    _tag, _attributes = "link", (("name", True, "name"),)
+
+    def __init__(self, name: Optional[str] = None):
+        self.name = name
+
+
+class Joint(Link):
+    """A joint of a group."""
+
+    _tag = "joint"
+
+
+class PassiveJoint(Link):
+    """A joint without an actuator."""
+
+    _tag = "passive_joint"
+
+
+class JointVal(Element):
+    """The value of a joint in a group state: a list, as a joint may have several variables."""
+
+    _tag, _attributes = "joint", (("name", True, "name"), ("value", True, "value"))
+
+    def __init__(self, name: Optional[str] = None, value: Any = None):
+        self.name = name
+        self.value: List[float] = [] if value is None else value
+
+    def _read(self, field: str, value: str) -> Any:
+        if field != "value":
+            return value
+        try:
+            return [float(part) for part in value.split()]
+        except ValueError as error:
+            raise ParseError(f"a joint of a group_state has the value '{value[:40]}', which is no number") from error
+
+    def _write(self, field: str, value: Any) -> str:
+        return " ".join(f"{number:g}" for number in value) if field == "value" else str(value)
+
+
+class Sphere(Element):
+    """One sphere of a link's approximation: centre as text "x y z" and radius, metres in the link frame."""
+
+    _tag, _attributes = "sphere", (("center", True, "center"), ("radius", True, "radius"))
+
+    def __init__(self, center: Optional[str] = None, radius: float = 0.0):
+        self.center = center
+        self.radius = radius
+
+    def _read(self, field: str, value: str) -> Any:
+        return float(value) if field == "radius" else value
+
+
+class VirtualJoint(Element):
+    """A joint between the robot and the world."""
+
+    TYPES = ["unknown", "fixed", "floating", "planar"]
+    _tag = "virtual_joint"
+    _attributes = (("name", True, "name"), ("child_link", True, "child_link"), ("parent_frame", True, "parent_frame"),
+                   ("type", True, "type"))
+
+    def __init__(self, name: Optional[str] = None, child_link: Optional[str] = None, parent_frame: Optional[str] = None,
+                 joint_type: Optional[str] = None):
+        self.name = name
+        self.child_link = child_link
+        self.parent_frame = parent_frame
+        self.type = joint_type
+
+    @property
+    def joint_type(self) -> Optional[str]:
+        return self.type
+
+    @joint_type.setter
+    def joint_type(self, value: Optional[str]) -> None:
+        self.type = value
+
+    def check_valid(self) -> None:
+        """:raises AssertionError: unknown type."""
+        assert self.type in self.TYPES, f"Invalid joint type: {self.type}"
+
+    def _loaded(self) -> None:
+        if self.type not in self.TYPES:
+            raise ParseError(f"virtual_joint '{self.name}' has the type '{self.type}'; there are: "
+                             f"{', '.join(self.TYPES[1:])}")
+
+
+class Chain(Element):
+    """All joints between two links."""
+
+    _tag, _attributes = "chain", (("base_link", True, "base_link"), ("tip_link", True, "tip_link"))
+
+    def __init__(self, base_link: Optional[str] = None, tip_link: Optional[str] = None):
+        self.base_link = base_link
+        self.tip_link = tip_link
+
+
+class EndEffector(Element):
+    """A group that hangs on a link of another."""
+
+    _tag = "end_effector"
+    _attributes = (("name", True, "name"), ("group", True, "group"), ("parent_link", True, "parent_link"),
+                   ("parent_group", False, "parent_group"))
+
+    def __init__(self, name: Optional[str] = None, group: Optional[str] = None, parent_link: Optional[str] = None,
+                 parent_group: Optional[str] = None):
+        self.name = name
+        self.group = group
+        self.parent_link = parent_link
+        self.parent_group = parent_group
+
+
+class DisableCollisions(Element):
+    """Two links that are never checked against each other."""
+
+    _tag = "disable_collisions"
+    _attributes = (("link1", True, "link1"), ("link2", True, "link2"), ("reason", False, "reason"))
+
+    def __init__(self, link1: Optional[str] = None, link2: Optional[str] = None, reason: Optional[str] = None):
+        self.link1 = link1
+        self.link2 = link2
+        self.reason = reason
+
+
+class Group(Element):
+    """Joints that are planned for together; ``subgroups`` is another name of ``groups``."""
+
+    _tag, _attributes = "group", (("name", True, "name"),)
+
+    def __init__(self, name: Optional[str] = None):
+        self.name = name
+        self.links: List[Link] = []
+        self.joints: List[Joint] = []
+        self.chains: List[Chain] = []
+        self.groups: List[Group] = []
+        self.subgroups = self.groups
+
+
+Group._children = (("link", Link, "links"), ("joint", Joint, "joints"), ("chain", Chain, "chains"), ("group", Group,
+                                                                                                     "groups"))
+
+
+class GroupState(Element):
+    """A named state of a group."""
+
+    _tag, _attributes = "group_state", (("name", True, "name"), ("group", True, "group"))
+    _children = (("joint", JointVal, "joints"),)
+
+    def __init__(self, name: Optional[str] = None, group: Optional[str] = None):
+        self.name = name
+        self.joints: List[JointVal] = []
+        self.group = group
+
+
+class LinkSphereApproximation(Element):
+    """A link as spheres."""
+
+    _tag, _attributes = "link_sphere_approximation", (("link", True, "link"),)
+    _children = (("sphere", Sphere, "spheres"),)
+
+    def __init__(self, link: Optional[str] = None):
+        self.link = link
+        self.spheres: List[Sphere] = []
+
+
+class Robot(Element):
+    """The whole document. The list of disabled collisions is called ``disable_collisionss``, as in urdfdom's Python."""
+
+    _tag, _attributes = "robot", (("name", False, "name"),)
+    _children = (("group", Group, "groups"), ("group_state", GroupState, "group_states"), ("end_effector", EndEffector,
+                                                                                           "end_effectors"),
+                 ("virtual_joint", VirtualJoint, "virtual_joints"), ("passive_joint", PassiveJoint, "passive_joints"),
+                 ("disable_collisions", DisableCollisions, "disable_collisionss"),
+                 ("link_sphere_approximation", LinkSphereApproximation, "link_sphere_approximations"))
+
+    def __init__(self, name: Optional[str] = None):
+        self.name = name
+        self.groups: List[Group] = []
+        self.group_states: List[GroupState] = []
+        self.end_effectors: List[EndEffector] = []
+        self.virtual_joints: List[VirtualJoint] = []
+        self.disable_collisionss: List[DisableCollisions] = []
+        self.passive_joints: List[PassiveJoint] = []
+        self.link_sphere_approximations: List[LinkSphereApproximation] = []
+        self.group_map: Dict[str, Group] = {}
+        self.group_state_map: Dict[str, GroupState] = {}
+
+    def _loaded(self) -> None:
+        self.group_map = {group.name: group for group in self.groups}
+        self.group_state_map = {state.name: state for state in self.group_states}
+
+    def add_aggregate(self, type_name: str, element: Element) -> None:
+        """Append an element by its tag."""
+        for tag, _, field in self._children:
+            if tag == type_name:
+                getattr(self, field).append(element)
+                self._loaded()
+                return
+        raise ParseError(f"a robot has no element <{type_name}>")
+
+    def add_group(self, group: Group) -> None:
+        self.add_aggregate("group", group)
+
+    def add_group_state(self, state: GroupState) -> None:
+        self.add_aggregate("group_state", state)
+
+    def add_passive_joint(self, joint: PassiveJoint) -> None:
+        self.add_aggregate("passive_joint", joint)
+
+    def add_disable_collisions(self, pair: DisableCollisions) -> None:
+        self.add_aggregate("disable_collisions", pair)
+
+    def add_link_sphere_approximation(self, link: LinkSphereApproximation) -> None:
+        self.add_aggregate("link_sphere_approximation", link)
+
+    @classmethod
+    def from_xml_string(cls, text) -> "Robot":
+        """Read a document.
+
+        :raises ParseError: not XML, not a robot, or an attribute is missing.
+        """
+        try:
+            root = ET.fromstring(text)
+        except ET.ParseError as error:
+            raise ParseError(f"the SRDF is not XML: {error}") from error
+        if root.tag != "robot":
+            raise ParseError(f"the SRDF's root is <{root.tag}>, not <robot>")
+        return cls.from_xml(root)
+
+    @classmethod
+    def from_xml_file(cls, path: str) -> "Robot":
+        """Read a file."""
+        with open(path, encoding="utf-8") as file:
+            return cls.from_xml_string(file.read())
+
+    @classmethod
+    def from_parameter_server(cls, key: str = "robot_description_semantic") -> "Robot":
+        """Read the document that a parameter holds."""
+        import rospy
+        return cls.from_xml_string(rospy.get_param(key))
+
+
+SRDF = Robot
