@@ -59,7 +59,7 @@ def find_jobs(packages: List[str], kind: str) -> List[Job]:
         if kind in ("pytest", "all") and any(test.rglob("test_*.py")):
             jobs.append(Job(package, "pytest", test))
     if not packages and kind in ("pytest", "all"):
-        jobs.append(Job(ROOT, "pytest", ROOT / "scripts" / "test_workspace.py"))
+        jobs += [Job(ROOT, "pytest", path) for path in sorted((ROOT / "scripts").glob("test_*.py"))]
     return sorted(jobs, key=lambda job: job.kind != "rostest")
 
 

@@ -23,11 +23,13 @@ def main() -> int:
     """:return: 0 nothing found, 1 something found, 2 wrong options."""
     kinds = all_kinds()
     options = _options(list(kinds))
+    here = os.getcwd()
     scratch = Path(tempfile.mkdtemp(prefix="noetic_labs_fuzz_", dir=_FAST if os.access(_FAST, os.W_OK) else None))
+    os.chdir(scratch)  # kinds write files where they are
     try:
         if options.files:
             return _replay(kinds, options, scratch)
-        run = Run(options, scratch)
+        run = Run(options, scratch, here)
         for name in options.kind or kinds:
             run.kind(kinds[name])
         return run.close()
@@ -64,8 +66,8 @@ def _options(kinds: List[str]) -> argparse.Namespace:
 class Run:
     """Cases of kind after kind; findings at equal places are one."""
 
-    def __init__(self, options: argparse.Namespace, scratch: Path):
-        self._options, self._scratch = options, scratch
+    def __init__(self, options: argparse.Namespace, scratch: Path, here: str):
+        self._options, self._scratch, self._here = options, scratch, here
         self._found: Dict[Tuple[str, str], Tuple[Finding, int]] = {}
 
     def kind(self, kind: Kind) -> None:
@@ -103,7 +105,7 @@ class Run:
         self._options.output.mkdir(parents=True, exist_ok=True)
         path = self._options.output / f"{kind.name}_{finding.slug}_{zlib.crc32(repr(finding.key).encode()):08x}{kind.suffix}"
         path.write_bytes(case)
-        shown = os.path.relpath(path)
+        shown = os.path.relpath(path, self._here)
         print(f"  {finding}\n    {remark}: scripts/fuzz {shown if len(shown) < len(str(path)) else path}", flush=True)
 
     def close(self) -> int:

@@ -36,12 +36,19 @@ def finder():
 @functools.lru_cache(maxsize=None)
 def robots() -> Dict[str, bytes]:
     """URDF by file name: plain files, and xacro files expanded where they expand without arguments."""
-    texts = {path.name: path.read_bytes() for path in files(".urdf")}
+    texts: Dict[str, bytes] = {}
+    for path in sorted(files(".urdf"), key=lambda path: "/labs/" not in str(path)):  # the labs' keep their plain names
+        _add(texts, path, path.name, path.read_bytes())
     for path in files(".xacro"):
         text = expanded(path)
-        if text is not None and b"<link" in text:
-            texts.setdefault(path.name.split(".")[0] + ".urdf", text)
+        if text is not None and b"<link" in text and path.name.split(".")[0] + ".urdf" not in texts:
+            texts[path.name.split(".")[0] + ".urdf"] = text
     return texts
+
+
+def _add(texts: Dict[str, bytes], path: Path, name: str, text: bytes) -> None:
+    """By its name, or by one that says where it is when there are two."""
+    texts[name if name not in texts else f"{path.parents[1].name}_{name}"] = text
 
 
 def expanded(path: Path) -> Optional[bytes]:
@@ -57,9 +64,15 @@ def expanded(path: Path) -> Optional[bytes]:
 @functools.lru_cache(maxsize=None)
 def models() -> Dict[str, bytes]:
     """SDF by file name; a model directory's by the directory's."""
-    return {(path.parent.name + ".sdf" if path.name == "model.sdf" else path.name): path.read_bytes() for path in files(".sdf")}
+    texts: Dict[str, bytes] = {}
+    for path in files(".sdf"):
+        _add(texts, path, path.parent.name + ".sdf" if path.name == "model.sdf" else path.name, path.read_bytes())
+    return texts
 
 
 @functools.lru_cache(maxsize=None)
 def worlds() -> Dict[str, bytes]:
-    return {path.name: path.read_bytes() for path in files(".world")}
+    texts: Dict[str, bytes] = {}
+    for path in files(".world"):
+        _add(texts, path, path.name, path.read_bytes())
+    return texts

@@ -53,10 +53,12 @@ def all_kinds() -> Dict[str, Kind]:
     from fuzzing.kinds.api_calls import ApiKind
     from fuzzing.kinds.controllers import ControllerKind
     from fuzzing.kinds.descriptions import SdfKind, UrdfKind, WorldKind
+    from fuzzing.kinds.launches import LaunchKind
     from fuzzing.kinds.meshes import MeshKind
     from fuzzing.kinds.messages import MessageKind
     from fuzzing.kinds.plans import PlanKind
-    kinds: List[Kind] = [UrdfKind(), SdfKind(), WorldKind(), PlanKind(), MeshKind(), ApiKind(), ControllerKind(), MessageKind()]
+    kinds: List[Kind] = [UrdfKind(), SdfKind(), WorldKind(), PlanKind(), MeshKind(), ApiKind(), ControllerKind(), LaunchKind(),
+                         MessageKind()]
     return {kind.name: kind for kind in kinds}
 
 

@@ -105,6 +105,11 @@ def _attach(s: Scene, a: int, v: List[float], b: int) -> None:
     s.held.append(s.world.attach(None if a % 4 == 0 else s.link(a), s.link(b)))
 
 
+def _hold(s: Scene, a: int, v: List[float], b: int) -> None:
+    if s.held:  # RuntimeError: what has let go cannot be held elsewhere
+        refused(lambda: setattr(s.held[a % len(s.held)], "pose", s.pose(v)), RuntimeError, *_DECLARED)
+
+
 def _restore(s: Scene, a: int, v: List[float], b: int) -> None:
     if s.snapshots:
         s.world.restore(s.snapshots[a % len(s.snapshots)])
@@ -163,7 +168,7 @@ CALLS: Dict[str, Callable[[Scene, int, List[float], int], object]] = {
     "watch": lambda s, a, v, b: s.world.watch_contacts(s.collision(b), bool(a % 3)),
     "save": lambda s, a, v, b: s.snapshots.append(s.world.save()),
     "reset": lambda s, a, v, b: s.world.reset() if a % 2 else s.world.reset_poses(),
-    "hold": lambda s, a, v, b: setattr(s.held[a % len(s.held)], "pose", s.pose(v)) if s.held else None,
+    "hold": _hold,
     "detach": lambda s, a, v, b: s.held[a % len(s.held)].detach() if s.held else None,
     "step": lambda s, a, v, b: s.world.step(b % 40),
 }

@@ -171,17 +171,24 @@ class ControllerKind(Kind):
         plugin = GazeboRosControl()
         try:
             _, error = refused(lambda: plugin.load(_Server(world), model, SdfElement(elements)), PluginError)
-            world.step(_CYCLES)
-            if plugin._manager is not None and plugin._manager.load_controller("fuzzed"):
-                request = threading.Thread(target=lambda: plugin._manager.switch_controller(["fuzzed"], []), daemon=True)
-                request.start()
-                while request.is_alive():
-                    world.step(1)
-                    request.join(0.001)
-            world.step(_CYCLES)
+            if error is None:
+                _, error = refused(lambda: self._go_on(plugin, world), PluginError)
+            if error is not None:
+                ros.check_line(str(error))
             worlds.check_state(world)
         finally:
             plugin.shutdown()
+
+    @staticmethod
+    def _go_on(plugin, world) -> None:
+        world.step(_CYCLES)
+        if plugin._manager is not None and plugin._manager.load_controller("fuzzed"):
+            request = threading.Thread(target=lambda: plugin._manager.switch_controller(["fuzzed"], []), daemon=True)
+            request.start()
+            while request.is_alive():
+                world.step(1)
+                request.join(0.001)
+        world.step(_CYCLES)
 
 
 class _Server:
