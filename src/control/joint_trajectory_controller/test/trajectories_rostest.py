@@ -238,6 +238,16 @@ class Behaviour:
         self.assertHoldsWhereItIs(below=0.52)
         self.assertEqual(self.send((0.5, [0.2, -0.1], REST), **tolerances).finish(), (GoalStatus.SUCCEEDED, 0, ""))
 
+    def test_a_goal_right_after_an_abort_begins_at_rest(self):
+        """Not with the speed that the joints were to have, which would carry them far off on a long way."""
+        client.set_faults(**{self.joints[0]: {"upper_bound": 0.3}})
+        tolerances = dict(path=[(name, 0.05, 0, 0) for name in self.joints])
+        status = self.send((0.5, [3.0, 3.0], REST), **tolerances).finish()[1]
+        self.assertEqual(status, Result.PATH_TOLERANCE_VIOLATED)
+        self.state.clear()
+        self.assertEqual(self.send((4.0, [0.2, 0.1], REST), **tolerances).finish(), (GoalStatus.SUCCEEDED, 0, ""))
+        self.assertLess(max(state.desired.positions[1] for state in self.state.messages), 0.6)
+
     def test_goal_tolerance_violation_names_joint_error_and_tolerance(self):
         for joint in self.joints:
             with self.subTest(joint):

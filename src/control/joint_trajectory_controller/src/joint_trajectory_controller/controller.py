@@ -178,7 +178,8 @@ class JointTrajectoryController(ActionController):
             if self._goal is not goal:  # a thread of rospy was quicker
                 return
             self._goal = None
-            self._stop_measured()
+            if not self._hold_measured(None):  # what was desired proved out of reach; a ramp would go on from there
+                self._hold(None)
         text = f"{self._joints[joint]} {phase} error {error:.6f}: {broken}"
         goal.abort(Result(error_code=code, error_string=text), text)
 
@@ -201,22 +202,10 @@ class JointTrajectoryController(ActionController):
     def _hold(self, goal: Optional[RealtimeGoal]) -> None:
         if self._stop_duration == 0.0 and self._hold_measured(goal):
             return
-        self._stop([state[:2] for state in self._desired()], goal)
-
-    def _stop_measured(self) -> None:
-        """Stop from where the joints are, not from where they should be: what was desired proved out of reach."""
-        measured = [(state.position, state.velocity) for state in self._states]
-        self._stop([state if all(map(math.isfinite, state)) else desired[:2]
-                    for state, desired in zip(measured, self._desired())], None)
-
-    def _desired(self) -> List[Tuple[float, float, float]]:
-        return [segments[max(active_index(segments, self._uptime), 0)].sample(self._uptime)
-                for segments in self._trajectory]
-
-    def _stop(self, states: List[Tuple[float, float]], goal: Optional[RealtimeGoal]) -> None:
-        """Come to rest from (position, velocity) of each joint."""
+        states = [segments[max(active_index(segments, self._uptime), 0)].sample(self._uptime)
+                  for segments in self._trajectory]
         self._follow([[stop_segment(self._uptime, position, velocity, self._stop_duration, goal, default)]
-                      for (position, velocity), default in zip(states, self._tolerances)])
+                      for (position, velocity, _), default in zip(states, self._tolerances)])
 
     # -- commands, in threads of rospy ---------------------------------------------------------------------------------
 
