@@ -43,13 +43,14 @@ class DiffDriveController(WheeledBase, Controller):
             multipliers[:2] = [multiplier(controller_nh, "wheel_radius_multiplier")] * 2
         self._multipliers = tuple(multipliers)
         self._left, self._right = ([hw.get_handle(name) for name in side] for side in (left, right))
-        self.init_base(root_nh, controller_nh, (WheelTravel(), WheelTravel()))
+        # before odom and cmd_vel, as who sees these takes the controller to be complete
         self._command_publisher = self._wheel_publisher = None
         if controller_nh.param("publish_cmd", False):
             self._command_publisher = RealtimePublisher(controller_nh, "cmd_vel_out", TwistStamped, queue_size=100)
         if controller_nh.param("publish_wheel_joint_controller_state", False):
             self._wheel_publisher = RealtimePublisher(controller_nh, "wheel_joint_controller_state",
                                                       JointTrajectoryControllerState, queue_size=100)
+        self.init_base(root_nh, controller_nh, (WheelTravel(), WheelTravel()))
         self._desired = [0.0] * (2 * len(self._left))  # wheel positions as commanded, rad
         self._last_velocities = ([0.0] * len(self._desired), [0.0] * len(self._desired))
         controller_nh.own(Server(controller_nh.namespace, _TABLE, self._reconfigure, initial=dict(
