@@ -271,6 +271,14 @@ def test_no_scale_is_worth_a_warning(tmp_path, scale):
             assert np.isfinite(part.normals).all() and len(mesh.load_surface(path, scale).triangles) == 12
 
 
+@pytest.mark.parametrize("scale", [(1, 1, float("inf")), (float("nan"), 1, 1), (-1e300, 1, 1)])
+def test_a_scale_that_is_none_is_refused(tmp_path, scale):
+    path = obj(tmp_path / "a.obj")
+    for load in (mesh.load_surface, mesh.load_visual):
+        with pytest.raises(DescriptionError, match="a.obj: scale .* makes sense"):
+            load(path, scale)
+
+
 def test_files_that_are_too_large_are_refused(tmp_path, monkeypatch):
     from ode_sim import mesh_files
     path = tmp_path / "a.stl"

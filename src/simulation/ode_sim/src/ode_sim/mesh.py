@@ -13,7 +13,7 @@ from typing import List, Optional, Tuple
 
 import numpy as np
 
-from ode_sim.description.model import DescriptionError, Material, Mesh, Vec3
+from ode_sim.description.model import FARTHEST, DescriptionError, Material, Mesh, Vec3
 from ode_sim.mesh_files import MeshPart, read_parts, weld
 
 UNIT_SCALE: Vec3 = (1.0, 1.0, 1.0)
@@ -62,7 +62,7 @@ def load(mesh: Mesh) -> Surface:
 
 def load_surface(path: str, scale: Vec3 = UNIT_SCALE, submesh: str = "", center: bool = False) -> Surface:
     """As :func:`load`. The arrays are shared between callers and read-only."""
-    return _surface(path, tuple(float(s) for s in scale), submesh, center, file_stamp(path))
+    return _surface(path, _usable_scale(scale, path), submesh, center, file_stamp(path))
 
 
 def load_visual(path: str, scale: Vec3 = UNIT_SCALE, submesh: str = "", center: bool = False) -> List[VisualPart]:
@@ -72,7 +72,7 @@ def load_visual(path: str, scale: Vec3 = UNIT_SCALE, submesh: str = "", center: 
 
     :raises DescriptionError: one line that names the file.
     """
-    return list(_visual(path, tuple(float(s) for s in scale), submesh, center, file_stamp(path)))
+    return list(_visual(path, _usable_scale(scale, path), submesh, center, file_stamp(path)))
 
 
 def mass_properties(surface: Surface) -> MassProperties:
@@ -103,6 +103,13 @@ def file_stamp(path: str) -> Tuple[int, int]:
     except OSError as error:
         raise DescriptionError(f"mesh {path or '(no file)'}: {error.strerror}") from None
     return status.st_size, status.st_mtime_ns
+
+
+def _usable_scale(scale: Vec3, path: str) -> Vec3:
+    scale = tuple(float(s) for s in scale)
+    if not all(abs(s) <= FARTHEST for s in scale):
+        raise DescriptionError(f"mesh {path}: scale {' '.join(f'{s:g}' for s in scale)}; at most {FARTHEST:g} makes sense")
+    return scale
 
 
 @functools.lru_cache(maxsize=256)
