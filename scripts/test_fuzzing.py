@@ -100,7 +100,7 @@ def test_a_finding_is_made_smaller_and_stays_the_same(pool):
 
 
 def test_the_same_seed_makes_the_same_cases():
-    mutator = xml_cases.XmlMutator([b"<sdf><model name='a'><pose>1 2 3 0 0 0</pose><link name='l'/></model></sdf>"], {})
+    mutator = xml_cases.XmlMutator([b"<sdf><model name='a'><pose>1 2 3 0 0 0</pose><link name='l'/></model></sdf>"])
 
     class Xml(Trap):
         def generate(self, random):

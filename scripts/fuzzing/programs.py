@@ -15,11 +15,12 @@ from fuzzing import ros
 from fuzzing.worker import end_with_parent
 
 _RUNS = 1.5  # wall s after which a program that goes on is ended by SIGINT
-_ENDS = 12.0  # wall s that it then has
-SIMULATOR_SERVICES = {"spawn_urdf_model": "SpawnModel", "spawn_sdf_model": "SpawnModel", "delete_model": "DeleteModel",
-                      "get_world_properties": "GetWorldProperties", "get_model_state": "GetModelState", "get_model_properties": "GetModelProperties",
-                      "set_model_state": "SetModelState", "set_model_configuration": "SetModelConfiguration",
-                      "get_physics_properties": "GetPhysicsProperties", "set_physics_properties": "SetPhysicsProperties"}
+_ENDS = 45.0  # wall s that it then has
+_SERVICES = {"spawn_urdf_model": "SpawnModel", "spawn_sdf_model": "SpawnModel", "delete_model": "DeleteModel",
+             "get_world_properties": "GetWorldProperties", "get_model_state": "GetModelState",
+             "get_model_properties": "GetModelProperties", "set_model_state": "SetModelState",
+             "set_model_configuration": "SetModelConfiguration", "get_physics_properties": "GetPhysicsProperties",
+             "set_physics_properties": "SetPhysicsProperties"}
 
 
 class Ended(NamedTuple):
@@ -123,7 +124,7 @@ def _serve(ports: Tuple[int, int]) -> None:
         master.start()
         ros.master_of_this_process.append(master)
     rospy.init_node("double", disable_signals=True)
-    for name, kind in SIMULATOR_SERVICES.items():
+    for name, kind in _SERVICES.items():
         service = getattr(gazebo_msgs.srv, kind)
         rospy.Service(f"/gazebo/{name}", service, lambda request, service=service: _answer(service))
     for name in ("pause_physics", "unpause_physics", "reset_world", "reset_simulation"):

@@ -11,8 +11,8 @@ from typing import List
 from fuzzing.findings import Found, check_message
 
 _FIRST_PORT = 11850
-_BUILTIN_ERROR = re.compile(r"\b(TypeError|ValueError|KeyError|IndexError|AttributeError|OverflowError|ZeroDivisionError|RecursionError|AssertionError"
-                            r"|RuntimeError|struct\.error|UnicodeEncodeError|UnicodeDecodeError|MemoryError|NameError|FloatingPointError): ")
+_BUILTIN_ERROR = re.compile(r"\b((?:Type|Value|Key|Index|Attribute|Overflow|ZeroDivision|Recursion|Assertion|Runtime|struct\.e|"
+                            r"UnicodeEncode|UnicodeDecode|Memory|Name|FloatingPoint)(?:Error|rror)): ")
 
 
 def free_port(number: int) -> int:

@@ -25,7 +25,7 @@ _ROBOTS = {"arm": ("arm/arm_description/urdf/arm.urdf.xacro", "/arm", 0.0),
            "mbot": ("mbot/mbot_description/urdf/xacro/gazebo/mbot_with_laser_gazebo.xacro", "/", 2.0),
            "ur5": ("universal_robot/ur_description/urdf/ur5_robot.urdf.xacro", "/", -2.0)}
 _PARAMETERS = {"/arm": ["arm/arm_control/config/arm_control.yaml"],
-               "": ["universal_robot/ur_gazebo/controller/arm_controller_ur5.yaml", "universal_robot/ur_gazebo/controller/joint_state_controller.yaml"]}
+               "": [f"universal_robot/ur_gazebo/controller/{name}.yaml" for name in ("arm_controller_ur5", "joint_state_controller")]}
 _SOLVER = dict(sor_pgs_iters=50, sor_pgs_w=1.3, contact_surface_layer=0.001, contact_max_correcting_vel=100.0, erp=0.2, max_contacts=20)
 
 
@@ -84,8 +84,9 @@ class Simulation:
         self._log_path = self._folder / "gzserver.log"
         self._log = open(self._log_path, "wb")
         self._read = 0
-        self._process = subprocess.Popen(["rosrun", "gazebo_ros", "gzserver", "worlds/empty.world"], stdout=self._log, stderr=subprocess.STDOUT,
-                                         stdin=subprocess.DEVNULL, env=dict(os.environ, PYTHONUNBUFFERED="1"), preexec_fn=end_with_parent)
+        self._process = subprocess.Popen(
+            ["rosrun", "gazebo_ros", "gzserver", "worlds/empty.world"], stdout=self._log, stderr=subprocess.STDOUT,
+            stdin=subprocess.DEVNULL, env=dict(os.environ, PYTHONUNBUFFERED="1"), preexec_fn=end_with_parent)
         for publisher in self._publishers.values():
             publisher.unregister()
         self._publishers.clear()
@@ -133,8 +134,8 @@ class Simulation:
 
     def _physics_as_it_was(self) -> bool:
         now, wanted = self.call("/gazebo/get_physics_properties"), self._physics
-        return not now.pause and (now.time_step, now.max_update_rate, now.gravity) == (wanted.time_step, wanted.max_update_rate, wanted.gravity) \
-            and all(getattr(now.ode_config, field) == value for field, value in _SOLVER.items())
+        return not now.pause and now.gravity == wanted.gravity and now.time_step == wanted.time_step \
+            and now.max_update_rate == wanted.max_update_rate and all(getattr(now.ode_config, field) == value for field, value in _SOLVER.items())
 
     def _spawn(self, name: str, text: str) -> None:
         from geometry_msgs.msg import Pose, Point, Quaternion
@@ -222,7 +223,8 @@ class Simulation:
             return
         tail = self._log_path.read_text(errors="replace")[-2000:]
         frames = re.findall(r'File "[^"]*?([^/"]+/[^/"]+)", line (\d+),? in (\S+)', tail)
-        raise Found(f"gzserver ended with code {code}", f"{frames[-1][0]}:{frames[-1][1]} {frames[-1][2]}" if frames else f"after {after}", tail[-300:])
+        place = f"{frames[-1][0]}:{frames[-1][1]} {frames[-1][2]}" if frames else f"after {after}"
+        raise Found(f"gzserver ended with code {code}", place, tail[-300:])
 
     def _check_clock(self, where: str) -> None:
         before, end = self._clocks, time.monotonic() + _PATIENCE
@@ -262,7 +264,8 @@ class Simulation:
         import rostopic
         publishers, subscribers, services = self._rospy.get_master().getSystemState()[2]
         found = [("service", name, rosservice.get_service_type(name)) for name, nodes in services if "/gazebo" in nodes]
-        found += [("topic", name, rostopic.get_topic_type(name)[0]) for name, nodes in subscribers if "/gazebo" in nodes and name != "/clock"]
+        found += [("topic", name, rostopic.get_topic_type(name)[0]) for name, nodes in subscribers
+                  if "/gazebo" in nodes and name != "/clock"]
         return sorted(target for target in found if target[2])
 
 

@@ -18,11 +18,11 @@ _BOMB = (b'<!DOCTYPE x [<!ENTITY a "aaaaaaaaaa"><!ENTITY b "&a;&a;&a;&a;&a;&a;&a
 
 
 class XmlMutator:
-    """:param seeds: real documents. :param snippets: elements worth putting anywhere, as text, by the tag of their parent."""
+    """:param seeds: real documents. :param snippets: elements worth putting anywhere, in ``<in tag="parent">`` elements."""
 
-    def __init__(self, seeds: Sequence[bytes], snippets: Dict[str, Sequence[str]]):
+    def __init__(self, seeds: Sequence[bytes], snippets: bytes = b"<snippets/>"):
         self._roots = [ET.fromstring(seed) for seed in seeds]
-        self._snippets = {tag: [ET.fromstring(text) for text in texts] for tag, texts in snippets.items()}
+        self._snippets = {holder.get("tag"): list(holder) for holder in ET.fromstring(snippets)}
         self._pool: Dict[str, List[ET.Element]] = {}
         for root in self._roots:
             for element in root.iter():
@@ -30,8 +30,9 @@ class XmlMutator:
                     self._pool.setdefault(element.tag, []).append(element)
         self._tags = sorted(self._pool)
         self._changes: List[Tuple[int, Callable[[Random, ET.Element], None]]] = [
-            (10, self._number), (3, self._tokens), (2, self._text), (4, self._delete), (3, self._double), (3, self._graft), (3, self._snippet),
-            (2, self._rename), (2, self._attribute), (2, self._move), (1, self._many), (1, self._raw), (2, self._name), (1, self._swap)]
+            (10, self._number), (3, self._tokens), (2, self._text), (4, self._delete), (3, self._double), (3, self._graft),
+            (3, self._snippet), (2, self._rename), (2, self._attribute), (2, self._move), (1, self._many), (1, self._raw),
+            (2, self._name), (1, self._swap)]
 
     def case(self, random: Random) -> bytes:
         root = self._seed(random)
@@ -110,7 +111,8 @@ class XmlMutator:
 
     def _name(self, random: Random, root: ET.Element) -> None:
         """A name or a reference by name: another's, or none that is there."""
-        named = [(element, key) for element in root.iter() for key in ("name", "link", "joint", "filename", "type") if key in element.attrib]
+        keys = ("name", "link", "joint", "filename", "type")
+        named = [(element, key) for element in root.iter() for key in keys if key in element.attrib]
         named += [(element, None) for element in root.iter() if element.tag in ("parent", "child", "uri", "type", "filename")]
         if not named:
             return
@@ -157,7 +159,8 @@ class XmlMutator:
             del element.attrib[random.choice(sorted(element.attrib))]
         elif element.attrib:
             key = random.choice(sorted(element.attrib))
-            element.set(random.choice(("name", "type", "value", "xyz", "rpy", "filename", "relative_to", key + "x")), element.attrib.pop(key))
+            value = element.attrib.pop(key)
+            element.set(random.choice(("name", "type", "value", "xyz", "rpy", "filename", "relative_to", key + "x")), value)
         else:
             element.set(random.choice(("name", "type", "relative_to", "delay", "version")), values.number_text(random))
 

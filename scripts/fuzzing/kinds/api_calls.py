@@ -133,7 +133,8 @@ def _gone(s: Scene, a: int, v: List[float], b: int) -> None:
     """A handle of a removed model raises RuntimeError where it would act, and nothing worse."""
     if s.gone:
         model = s.gone[a % len(s.gone)]
-        actions: List[Callable[[], object]] = [lambda: model.pose, lambda: setattr(model, "pose", s.pose(v)), lambda: model.set_twist(v[:3], v[3:6])]
+        actions: List[Callable[[], object]] = [
+            lambda: model.pose, lambda: setattr(model, "pose", s.pose(v)), lambda: model.set_twist(v[:3], v[3:6])]
         actions += [lambda link=link: link.add_force(v[:3]) for link in model.links.values()]
         actions += [lambda joint=joint: joint.position() if joint.axis_count else 0 for joint in model.joints.values()]
         refused(actions[b % len(actions)], RuntimeError, *_DECLARED)
@@ -172,8 +173,8 @@ CALLS: Dict[str, Callable[[Scene, int, List[float], int], object]] = {
     "detach": lambda s, a, v, b: s.held[a % len(s.held)].detach() if s.held else None,
     "step": lambda s, a, v, b: s.world.step(b % 40),
 }
-_NEEDS = {"joint": "joint", "feedback": "joint", "link": "link", "attach": "link", "surface": "collision", "watch": "collision", "rays": "collision",
-          "model": "model", "remove": "model"}
+_NEEDS = {"joint": "joint", "feedback": "joint", "link": "link", "attach": "link", "surface": "collision", "watch": "collision",
+          "rays": "collision", "model": "model", "remove": "model"}
 
 
 class ApiKind(Kind):
@@ -226,7 +227,8 @@ class ApiKind(Kind):
                 if joint.axis_count:
                     numbers += [joint.effort(), *joint.anchor()]
             if not np.isfinite(numbers).all():
-                raise Found("silent NaN", "what the handles of a model say", f"{model.name}; world says: {(world.messages or ['nothing'])[0][:200]}")
+                raise Found("silent NaN", "what the handles of a model say",
+                            f"{model.name}; world says: {(world.messages or ['nothing'])[0][:200]}")
 
     def smaller(self, case: bytes) -> Iterator[bytes]:
         told = json.loads(case)

@@ -16,7 +16,7 @@ from fuzzing.kinds.plans import readable
 
 _CYCLES = 20
 _MODES = ["position", "velocity", "effort", "pos_vel", "pos_vel_acc"]
-_ROBOTS = ("diff_drive_robot.urdf", "ackermann_robot.urdf", "four_wheel_robot.urdf", "trajectory_robot.urdf", "gripper_robot.urdf", "arm.urdf")
+_ROBOTS = [f"{name}.urdf" for name in ("diff_drive_robot", "ackermann_robot", "four_wheel_robot", "trajectory_robot", "gripper_robot", "arm")]
 _PLUGIN = """
 parameters:
   pid_gains: {j: {p: 100.0, i: 0.1, d: 1.0, i_clamp: 1.0}, k: {p: 10.0, i: 0.0, d: 0.1, antiwindup: true}}
@@ -35,6 +35,8 @@ _ROBOT = """<robot name="r"><link name="world"/>{joints}{transmissions}</robot>"
 _JOINT = """<joint name="{name}" type="revolute"><parent link="world"/><child link="{name}_link"/><origin xyz="0 {y} 1"/><axis xyz="0 1 0"/>
 <limit {limit}/></joint><link name="{name}_link"><inertial><origin xyz="0.3 0 0"/><mass value="0.5"/><inertia ixx="0.01" ixy="0" ixz="0"
 iyy="0.01" iyz="0" izz="0.01"/></inertial></link>"""
+_TRANSMISSION = """<transmission name="t_{name}"><type>transmission_interface/SimpleTransmission</type><joint name="{name}">{tags}</joint>
+<actuator name="m_{name}"><mechanicalReduction>{reduction}</mechanicalReduction></actuator></transmission>"""
 
 
 class ControllerKind(Kind):
@@ -64,7 +66,8 @@ class ControllerKind(Kind):
         from controller_manager import ControllerManager
         rospy.init_node("fuzz", disable_signals=True, anonymous=True)
         self._log = ros.Log()
-        self._robot = TestRobot({"joints": {name: {"interfaces": _MODES} for name in self._joints}, "imus": {"imu": {"frame_id": "imu_link"}},
+        self._robot = TestRobot({"joints": {name: {"interfaces": _MODES} for name in self._joints},
+                                 "imus": {"imu": {"frame_id": "imu_link"}},
                                  "force_torque_sensors": {"wrist": {"frame_id": "wrist_link"}}})
         self._manager = ControllerManager(self._robot, "/bench")
         self._time = 10.0
@@ -220,9 +223,7 @@ def _robot_text(told: Dict[str, Any]) -> str:
         tags = "".join(f"<hardwareInterface>{escape(str(interface))}</hardwareInterface>"
                        for interface in (interfaces if isinstance(interfaces, list) else [interfaces]))
         name = escape(str(name), {'"': "&quot;"})
-        transmissions += (f'<transmission name="t_{name}"><type>transmission_interface/SimpleTransmission</type><joint name="{name}">{tags}</joint>'
-                          f'<actuator name="m_{name}"><mechanicalReduction>{escape(str(told.get("reduction", 1)))}</mechanicalReduction></actuator>'
-                          "</transmission>")
+        transmissions += _TRANSMISSION.format(name=name, tags=tags, reduction=escape(str(told.get("reduction", 1))))
     return _ROBOT.format(joints=joints, transmissions=transmissions)
 
 
@@ -247,7 +248,8 @@ def _names_in(parameters: Any) -> List[str]:
     return []
 
 
-_JOINT_KEYS = ("joint", "joints", "left_wheel", "right_wheel", "front_wheel", "rear_wheel", "front_steering", "rear_steering", "rear_steer", "front_steer")
+_JOINT_KEYS = ("joint", "joints", "left_wheel", "right_wheel", "front_wheel", "rear_wheel", "front_steering", "rear_steering",
+               "rear_steer", "front_steer")
 
 
 def _sendable(tree: Any) -> Any:
@@ -262,6 +264,6 @@ def _sendable(tree: Any) -> Any:
 
 
 def _text(text: str) -> str:
-    return "".join(character for character in text if character >= " ")[:1000].replace("/", "_") if len(text) > 60 else text.replace("\n", " ")
+    return "".join(character for character in text if character >= " ")
 
 

@@ -8,38 +8,15 @@ from pathlib import Path
 from random import Random
 from typing import Any, Dict, Iterator, List
 
+import yaml
+
 from fuzzing import programs, ros, seeds, values
 from fuzzing.findings import Found, check_message, of_output, of_stack
 from fuzzing.kinds import Kind
 
-_SCRIPTS = {"gzserver": "gazebo_ros", "build_world": "gazebo_ros", "spawn_model": "gazebo_ros", "gz": "gazebo_ros", "spawner": "controller_manager",
-            "unspawner": "controller_manager", "controller_manager": "controller_manager", "controller_group": "controller_manager"}
-_LINES = {
-    "gzserver": ["worlds/empty.world", "--seed 3 test.world", "-e ode --lockstep worlds/shapes.world", "-s libgazebo_ros_api_plugin.so --verbose",
-                 "-r --record_path x worlds/blank.world", "-p log", "-o preset worlds/seesaw.world", "--physics bullet --minimal_comms",
-                 "-g x.so __name:=gazebo __log:=x", "--version", "-h", "model://coke_can/model.sdf"],
-    "build_world": ["plan.yaml -o out.world", "plan.yaml -o out.sdf --preview out.png", "plan.png -o out.world --resolution 0.05", "plan.yaml -o built/",
-                    "-h"],
-    "spawn_model": ["-urdf -param robot_description -model x -z 1", "-sdf -file model.sdf -model x -x 1 -y 2 -R 0.1 -P 0.2 -Y 0.3", "-urdf -file robot.urdf "
-                    "-model x -J j0 0.5 -J j1 -1 -unpause", "-sdf -database coke_can -model can -reference_frame world", "-urdf -param robot_description "
-                    "-model x -gazebo_namespace /gazebo -robot_namespace /r -package_to_model", "-urdf -param p -model x -wait arm", "-sdf -stdin -model x",
-                    "-urdf -file robot.urdf -model x -b", "-h"],
-    "gz": ["model -m x -d", "model -m x -i", "model -m x -p", "model -m x -f robot.urdf -x 1 -y 2 -z 3 -R 1 -P 2 -Y 3", "world -p 1", "world -s",
-           "world -m 10", "world -r", "physics -s 0.001 -u 1000 -g 0,0,-9.8 -i 50", "stats -d 0.1", "sdf -k model.sdf", "sdf -k test.world", "-v", "model"],
-    "spawner": ["joint_state_controller", "--stopped a b", "--namespace /x --timeout 0.2 a", "--timeout 1 controllers.yaml", "--wait-for /go a",
-                "--no-timeout a", "--shutdown-timeout 1 a"],
-    "unspawner": ["a", "a b", "-h"],
-    "controller_manager": ["list", "list-types", "load a", "start a b", "stop a", "unload a", "spawn a", "kill a", "reload-libraries", "reload-libraries "
-                           "--restore", "lj", "-h"],
-    "controller_group": ["list", "spawn g", "switch g"],
-}
+_SCRIPTS = {"gazebo_ros": ("gzserver", "build_world", "spawn_model", "gz"),
+            "controller_manager": ("spawner", "unspawner", "controller_manager", "controller_group")}
 _FILES = ["empty_world.launch", "shapes_world.launch", "range_world.launch", "elevator_world.launch"]
-_ARGUMENTS = {"paused": "false", "use_sim_time": "true", "extra_gazebo_args": "--seed 4", "gui": "false", "recording": "false", "headless": "true",
-              "debug": "false", "physics": "ode", "verbose": "true", "output": "screen", "world_name": "worlds/empty.world", "respawn_gazebo": "false",
-              "use_clock_frequency": "true", "pub_clock_frequency": "100", "enable_ros_network": "true", "server_required": "true",
-              "gui_required": "false"}
-_ODD = ["", "''", "\"", "$(find x)", "$(arg x)", "$(eval 1/0)", "$(env HOME)", "--", "-", "-x", "--help", "a b", ":=", "x:=y", "__name:=", "__name:=/a b",
-        "true", "True", "yes", "1", "worlds/no_such.world", "model://x", ".", "/", "..", "*", ";", "&&", "--iters", "-e", "~", "$(anon x)", "%", "{}", "[1"]
 _PROGRAM_CODES = (0, 1, 2, 255)
 
 
@@ -65,7 +42,10 @@ class LaunchKind(Kind):
         import node_signals  # noqa: F401
         import roslaunch.config  # noqa: F401
         import rosmaster.master  # noqa: F401
-        self._scripts = {name: programs.script_of(package, name, seeds.packages()) for name, package in _SCRIPTS.items()}
+        told = yaml.safe_load((Path(__file__).parents[1] / "commands.yaml").read_text())
+        self._lines, self._arguments, self._odd_words = told["lines"], told["launch_arguments"], told["odd"]
+        self._scripts = {name: programs.script_of(package, name, seeds.packages())
+                         for package, names in _SCRIPTS.items() for name in names}
 
     def start(self, folder: Path, number: int) -> None:
         from PIL import Image
@@ -81,12 +61,12 @@ class LaunchKind(Kind):
 
     def generate(self, random: Random) -> bytes:
         if random.random() < 0.25:
-            arguments = [f"{name}:={_ARGUMENTS[name]}" for name in random.sample(sorted(_ARGUMENTS), random.randint(0, 5))]
+            arguments = [f"{name}:={self._arguments[name]}" for name in random.sample(sorted(self._arguments), random.randint(0, 5))]
             for _ in range(random.choice((1, 1, 2, 3))):
-                arguments.append(f"{random.choice(sorted(_ARGUMENTS))}:={self._odd(random)}")
+                arguments.append(f"{random.choice(sorted(self._arguments))}:={self._odd(random)}")
             return _written({"program": "launch", "arguments": [random.choice(_FILES), *arguments]})
-        program = random.choice(list(_LINES))
-        arguments = shlex.split(random.choice(_LINES[program]))
+        program = random.choice(list(self._lines))
+        arguments = shlex.split(random.choice(self._lines[program]))
         for _ in range(random.choice((1, 1, 2, 3, 5))):
             self._change(random, program, arguments)
         return _written({"program": program, "arguments": arguments})
@@ -97,9 +77,9 @@ class LaunchKind(Kind):
         if change == 0 or not arguments:
             arguments.insert(i, self._odd(random))
         elif change == 1:
-            arguments[i:i] = shlex.split(random.choice(_LINES[program]))
+            arguments[i:i] = shlex.split(random.choice(self._lines[program]))
         elif change == 2:
-            arguments.insert(i, random.choice(shlex.split(random.choice(_LINES[program])) or [""]))
+            arguments.insert(i, random.choice(shlex.split(random.choice(self._lines[program])) or [""]))
         elif change == 3:
             del arguments[i % len(arguments)]
         elif change == 4:
@@ -107,9 +87,8 @@ class LaunchKind(Kind):
         else:
             arguments[i % len(arguments)] = self._odd(random)
 
-    @staticmethod
-    def _odd(random: Random) -> str:
-        texts = random.choice((_ODD, values.ODDITIES, values.NAMES, values.EXTREMES, values.URIS))
+    def _odd(self, random: Random) -> str:
+        texts = random.choice((self._odd_words, values.ODDITIES, values.NAMES, values.EXTREMES, values.URIS))
         return random.choice([text for text in texts if not text.startswith("/dev/") and "file:///dev" not in text]).replace("\0", "")
 
     def smaller(self, case: bytes) -> Iterator[bytes]:

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import base64
+import io
 import json
 from pathlib import Path
 from random import Random
@@ -38,7 +39,7 @@ _MTL = b"newmtl red\nKd 1 0 0\nKa 1 0 0\nd 0.5\nmap_Kd skin.png\n"
 
 
 class MeshKind(Kind):
-    """STL, DAE, OBJ with MTL, textures, height maps. A saved case is JSON: file name -> contents in base64, by the file to load."""
+    """STL, DAE, OBJ with MTL, textures, height maps. A case is JSON: ``mesh``, the file to load, and ``files`` in base64."""
 
     name, suffix = "mesh", ".json"
 
@@ -52,12 +53,11 @@ class MeshKind(Kind):
             kind: [path.read_bytes() for path in seeds.files(kind) if path.stat().st_size < _LARGEST] for kind in (".stl", ".dae", ".png")}
         self._files[".obj"], self._files[".mtl"] = [_OBJ], [_MTL]
         self._files[".stl"].append(_ascii_stl())
-        self._collada = xml_cases.XmlMutator(self._files[".dae"], {})
-        import io
-        for mode, size, form in (("L", (9, 9), "PNG"), ("RGB", (5, 5), "PNG"), ("I;16", (9, 9), "PNG"), ("RGBA", (8, 8), "PNG"), ("RGB", (16, 16), "JPEG"),
-                                 ("P", (8, 8), "GIF"), ("L", (17, 17), "TIFF"), ("RGB", (8, 8), "BMP")):
+        self._collada = xml_cases.XmlMutator(self._files[".dae"])
+        for mode, size, form in (("L", 9, "PNG"), ("RGB", 5, "PNG"), ("I;16", 9, "PNG"), ("RGBA", 8, "PNG"), ("RGB", 16, "JPEG"),
+                                 ("P", 8, "GIF"), ("L", 17, "TIFF"), ("RGB", 8, "BMP")):
             stream = io.BytesIO()
-            Image.new(mode, size).save(stream, form)
+            Image.new(mode, (size, size)).save(stream, form)
             self._files[".png"].append(stream.getvalue())
 
     def generate(self, random: Random) -> bytes:
@@ -73,8 +73,9 @@ class MeshKind(Kind):
             if kind != ".obj" or random.random() < 0.2:
                 main = values.damaged(random, main, random.choice((1, 1, 2, 5, 20)))
         if random.random() < 0.2:
-            name = random.choice(("skin.png", "cube.mtl"))
-            files[name] = values.damaged(random, files[name], random.choice((1, 3))) if name == "skin.png" else self._text_changed(random, _MTL)
+            files["cube.mtl"] = self._text_changed(random, _MTL)
+        elif random.random() < 0.2:
+            files["skin.png"] = values.damaged(random, files["skin.png"], random.choice((1, 3)))
         scale = [1.0, 1.0, 1.0] if random.random() < 0.7 else [values.number(random) for _ in range(3)]
         files = {f"fuzzed{kind}": main, **(files if kind != ".png" else {})}
         return json.dumps({"mesh": f"fuzzed{kind}", "scale": scale, "submesh": random.choice(("", "", "", "cube", "x")),
@@ -121,7 +122,8 @@ class MeshKind(Kind):
         from ode_sim.description import model as d
         from ode_sim.rendering.assets import Assets
         assets = Assets()
-        shape = d.Heightmap(path, path, (4.0, 4.0, 1.0)) if path.endswith(".png") else d.Mesh(path, path, tuple(told["scale"]), told["submesh"])
+        shape = d.Heightmap(path, path, (4.0, 4.0, 1.0)) if path.endswith(".png") else \
+            d.Mesh(path, path, tuple(told["scale"]), told["submesh"])
         for part in assets.parts(d.Visual("v", d.Pose(), shape), "m::l::v"):
             if part.look.texture:
                 assets.texture(part.look.texture, "m::l::v")
@@ -138,8 +140,8 @@ class MeshKind(Kind):
             f"<mesh><uri>{path}</uri><scale>{scale}</scale></mesh>"
         static = "<static>1</static>" if path.endswith(".png") else ""
         world = ode_sim.World.load(GROUND)
-        text = f"<sdf version='1.6'><model name='m'>{static}<link name='l'><pose>0 0 0.3 0 0 0</pose><inertial><mass>1</mass></inertial>" \
-               f"<collision name='c'><geometry>{shape}</geometry></collision></link></model></sdf>"
+        text = f"<sdf version='1.6'><model name='m'>{static}<link name='l'><pose>0 0 0.3 0 0 0</pose><inertial><mass>1</mass>" \
+               f"</inertial><collision name='c'><geometry>{shape}</geometry></collision></link></model></sdf>"
         _, error = refused(lambda: world.spawn_sdf(text), ode_sim.DescriptionError)
         if error is None:
             worlds.check_messages(world, world.problems, "problems of a mesh")

@@ -12,8 +12,9 @@ from fuzzing import ros, seeds, simulation, tree_cases, values, xml_cases
 from fuzzing.findings import check_message
 from fuzzing.kinds import Kind
 
-_INTEGERS = {"int8": (-128, 127), "uint8": (0, 255), "byte": (-128, 127), "char": (0, 255), "int16": (-2 ** 15, 2 ** 15 - 1), "uint16": (0, 2 ** 16 - 1),
-             "int32": (-2 ** 31, 2 ** 31 - 1), "uint32": (0, 2 ** 32 - 1), "int64": (-2 ** 63, 2 ** 63 - 1), "uint64": (0, 2 ** 64 - 1)}
+_INTEGERS = {"byte": (-128, 127), "char": (0, 255), **{f"int{n}": (-2 ** (n - 1), 2 ** (n - 1) - 1) for n in (8, 16, 32, 64)},
+             **{f"uint{n}": (0, 2 ** n - 1) for n in (8, 16, 32, 64)}}
+_FLOATS = (float("nan"), float("inf"), -3e38, 3e38, 1e-38, 1e9)  # of 32 bits
 
 
 class MessageKind(Kind):
@@ -29,17 +30,17 @@ class MessageKind(Kind):
     def prepare(self) -> None:
         self._targets = simulation.listed()
         texts = simulation.robot_texts()
-        names = {tag: [f"{model}::{name}" for model, text in texts.items() for name in re.findall(rf'<{tag} [^>]*?name="([^"]+)"', text)]
-                 for tag in ("link", "joint")}
+        names = {tag: [f"{model}::{name}" for model, text in texts.items()
+                       for name in re.findall(rf'<{tag} [^>]*?name="([^"]+)"', text)] for tag in ("link", "joint")}
         plain = [name.split("::")[1] for name in names["joint"]]
         self._strings: Dict[str, List[str]] = {
-            "model_name": list(texts), "link_name": names["link"], "body_name": names["link"], "joint_name": names["joint"] + plain,
-            "joint_names": plain, "reference_frame": ["", "world", *names["link"]], "name": ["joint0_position_controller", "arm_controller", "max_update_rate",
-                                                                                             "gravity_z", "time_step", "pause"],
-            "start_controllers": ["joint0_position_controller", "joint_state_controller"], "stop_controllers": ["joint1_position_controller"],
-            "light_name": ["sun"], "frame_id": ["", "world", "base_link"]}
-        self._xml = {"urdf": xml_cases.XmlMutator([text for text in seeds.robots().values() if len(text) < 4000], {}),
-                     "sdf": xml_cases.XmlMutator([text for text in seeds.models().values() if len(text) < 4000], {})}
+            "model_name": list(texts), "link_name": names["link"], "body_name": names["link"], "joint_names": plain,
+            "joint_name": names["joint"] + plain, "reference_frame": ["", "world", *names["link"]],
+            "name": ["joint0_position_controller", "arm_controller", "max_update_rate", "gravity_z", "time_step", "pause"],
+            "start_controllers": ["joint0_position_controller", "joint_state_controller"],
+            "stop_controllers": ["joint1_position_controller"], "light_name": ["sun"], "frame_id": ["", "world", "base_link"]}
+        self._xml = {"urdf": xml_cases.XmlMutator([text for text in seeds.robots().values() if len(text) < 4000]),
+                     "sdf": xml_cases.XmlMutator([text for text in seeds.models().values() if len(text) < 4000])}
 
     def start(self, folder: Path, number: int) -> None:
         self._simulation = simulation.Simulation(folder, number)
@@ -72,7 +73,7 @@ class MessageKind(Kind):
             return random.choice((low, high)) if random.random() < extreme else random.randint(max(low, -3), min(high, 3))
         if slot in ("float32", "float64"):
             if random.random() < extreme:
-                return random.choice(values.NUMBERS) if slot == "float64" else random.choice((float("nan"), float("inf"), -3e38, 3e38, 1e-38, 1e9))
+                return random.choice(values.NUMBERS if slot == "float64" else _FLOATS)
             return random.choice((0.0, 1.0, 0.001, 1000.0, random.gauss(0.0, 1.0)))
         if slot == "bool":
             return random.random() < 0.5
@@ -144,7 +145,9 @@ class MessageKind(Kind):
 
 def _message_class(what: str, kind: str) -> type:
     import roslib.message
-    return roslib.message.get_service_class(kind)._request_class if what == "service" else roslib.message.get_message_class(kind)
+    if what == "service":
+        return roslib.message.get_service_class(kind)._request_class
+    return roslib.message.get_message_class(kind)
 
 
 def _filled(kind: type, fields: Dict[str, Any]) -> Any:

@@ -30,6 +30,8 @@ _EXAMPLES = """
 - {image: vast.png, resolution: 0.1, wall: {height: 2.0}}
 - {walls: [{from: [0, 0], to: [1, 0]}]}
 """
+_PREFIXES = (b"[" * 2000, b"a: &a [*a]\n", b"!!python/object/apply:os.system [true]\n", b"x: {y: " * 500, b"\xff\xfe", b"- - - -\n",
+             b"a: &a [1,1,1,1,1,1]\nb: &b [*a,*a,*a,*a,*a,*a]\nwalls: &c [*b,*b,*b,*b,*b,*b]\nmodels: [*c,*c,*c]\n")
 
 
 class PlanKind(Kind):
@@ -66,8 +68,7 @@ class PlanKind(Kind):
         if random.random() < 0.1:
             text = values.with_numbers_changed(random, text.decode()).encode()
         if random.random() < 0.05:
-            text = random.choice((b"[" * 2000, b"a: &a [*a]\n", b"!!python/object/apply:os.system [true]\n", b"x: {y: " * 500, b"\xff\xfe", b"- - - -\n",
-                                  b"a: &a [1,1,1,1,1,1,1,1]\nb: &b [*a,*a,*a,*a,*a,*a,*a]\nwalls: &c [*b,*b,*b,*b,*b,*b,*b,*b]\nmodels: [*c,*c,*c]\n")) + text
+            text = random.choice(_PREFIXES) + text
         return values.damaged(random, text, 2) if random.random() < 0.08 else text
 
     def run(self, case: bytes) -> None:
@@ -87,7 +88,8 @@ class PlanKind(Kind):
     @staticmethod
     def _use() -> None:
         import ode_sim
-        world, error = refused(lambda: ode_sim.World.load(str(Path("built.world").resolve()), finder=seeds.finder()), ode_sim.DescriptionError)
+        built = str(Path("built.world").resolve())
+        world, error = refused(lambda: ode_sim.World.load(built, finder=seeds.finder()), ode_sim.DescriptionError)
         if error is not None:
             raise Found("built what cannot be loaded", "building_sdf.py", str(error))
         worlds.settle(world, 5)
