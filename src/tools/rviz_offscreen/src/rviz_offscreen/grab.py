@@ -12,11 +12,19 @@ import sys
 import time
 from typing import Dict, List
 
-from PyQt5 import sip
-from python_qt_binding.QtCore import QPoint, QRect
-from python_qt_binding.QtGui import QImage, QPainter
-from python_qt_binding.QtWidgets import QApplication, QDockWidget, QWidget
-from rviz import bindings as rviz
+try:
+    from rviz import bindings as rviz  # RViz with Qt 5, as on Debian 12
+except ImportError:
+    from PyQt6 import sip
+    from PyQt6.QtCore import QPoint, QRect
+    from PyQt6.QtGui import QImage, QPainter
+    from PyQt6.QtWidgets import QApplication, QDockWidget, QWidget
+    from rviz import rviz  # with Qt 6, as on Debian 13
+else:
+    from PyQt5 import sip
+    from PyQt5.QtCore import QPoint, QRect
+    from PyQt5.QtGui import QImage, QPainter
+    from PyQt5.QtWidgets import QApplication, QDockWidget, QWidget
 
 from . import displays
 
@@ -131,7 +139,7 @@ class Grabber:
 
     def _paint_window(self, path: str) -> None:
         """The whole window: Qt's widgets, and what OGRE draws laid over the 3D view and the panels of images."""
-        picture = QImage(self.frame.size(), QImage.Format_RGB32)
+        picture = QImage(self.frame.size(), QImage.Format.Format_RGB32)
         painter = QPainter(picture)
         self.frame.render(painter)
         for panel in self.frame.findChildren(QWidget):
