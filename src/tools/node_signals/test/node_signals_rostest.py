@@ -22,7 +22,7 @@ WAITING = """
 import node_signals, rospy, sys
 from std_msgs.msg import Empty
 with node_signals.silent():
-    node_signals.init_node("waiting")
+    {starter}.init_node("waiting")
     topic = rospy.Publisher("/of_waiting", Empty, queue_size=1)
     rospy.on_shutdown(lambda: print("hook", flush=True))
     print("up", flush=True)
@@ -33,9 +33,10 @@ with node_signals.silent():
 
 
 class NodeSignals(unittest.TestCase):
-    def end(self, waits, number):
+    def end(self, waits, number, starter="node_signals"):
         """(what it printed after the signal, exit code) of a node that waits in a way of its own."""
-        node = subprocess.Popen([sys.executable, "-c", WAITING.format(waits=waits)], stdout=subprocess.PIPE, text=True)
+        node = subprocess.Popen([sys.executable, "-c", WAITING.format(waits=waits, starter=starter)], text=True,
+                                stdout=subprocess.PIPE)
         self.assertEqual(node.stdout.readline(), "up\n")
         self.assertIn("/waiting", self.publishers())
         node.send_signal(number)
@@ -54,6 +55,9 @@ class NodeSignals(unittest.TestCase):
     def test_one_that_spins_ends_with_its_own_code(self):
         for number in (signal.SIGINT, signal.SIGTERM):
             self.assertEqual(self.end("node_signals.spin()", number), ("hook\nend\n", 7))
+
+    def test_one_that_rospy_has_started_spins_and_leaves_too(self):
+        self.assertEqual(self.end("node_signals.spin()", signal.SIGINT, "rospy"), ("hook\nend\n", 7))
 
     def test_one_whose_main_thread_hangs_is_left_behind(self):
         """As in a service call to a simulator that has stopped answering."""

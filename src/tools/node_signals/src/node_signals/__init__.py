@@ -16,9 +16,9 @@ A node script::
 Nodes of launch files, which are started by the dozen, have ``signal.signal(signal.SIGINT, signal.SIG_DFL)`` before that
 import: on a busy machine it takes a fifth of a second itself.
 
-A script that handles ``KeyboardInterrupt`` itself has only its imports in that block. From there on a process that gets no
-memory, threads or files from the system any more says so in one line and ends with 1: rospy's threads die of that one by
-one, and what is left of the node waits for ever.
+A script that handles ``KeyboardInterrupt`` itself has only its imports in that block. From there on a process that gets
+no memory, threads or files from the system any more says so in one line and ends with 1: rospy's threads die of that one
+by one, and what is left of the node waits for ever.
 """
 import contextlib
 import errno
@@ -62,18 +62,19 @@ def init_node(name: str, **options) -> None:
 
     end_when_starved_at_start()
     rospy.init_node(name, disable_signals=True, **options)
-    rospy.core.add_shutdown_hook(lambda reason: _shut_down.set())  # the last one, after those of rospy itself
+    _notice_shutdown()
     for number in _SIGNALS:
         signal.signal(number, _on_signal)
 
 
 def spin() -> None:
     """``rospy.spin`` that returns the moment the node is shut down, where rospy's looks twice a second."""
+    _notice_shutdown()
     _shut_down.wait()
 
 
 def leave(code: Optional[int] = 0) -> None:
-    """End the process like ``sys.exit(code)``, the node shut down in an orderly way, without waiting for rospy's threads.
+    """End the process like ``sys.exit(code)``, the node shut down in order, without waiting for rospy's threads.
 
     Python would join them one by one at its end, up to 5 s each when one waits for a peer that hangs.
 
@@ -82,14 +83,15 @@ def leave(code: Optional[int] = 0) -> None:
     import rospy
 
     if rospy.core.is_initialized():
+        _notice_shutdown()
         threading.Thread(target=rospy.signal_shutdown, args=("the node ends",), name="shutdown", daemon=True).start()
         _shut_down.wait()
     _exit(code or 0)
 
 
 def end_when_starved_at_start() -> None:
-    """For nodes that call ``rospy.init_node`` themselves, before they do: rospy takes it for a shutdown when the thread of
-    its server cannot start."""
+    """For nodes that call ``rospy.init_node`` themselves, before they do: rospy takes it for a shutdown when the thread
+    of its server cannot start."""
     import rospy
 
     rospy.core.add_preshutdown_hook(lambda reason: _starved(RuntimeError(reason)) and _end_starved(reason))
@@ -122,6 +124,12 @@ def _watch_for_starvation() -> None:
         _end_starved(args.exc_value) if _starved(args.exc_value) else thread(args)
 
     sys.excepthook, threading.excepthook = in_main, in_thread
+
+
+def _notice_shutdown() -> None:
+    import rospy
+
+    rospy.core.add_shutdown_hook(lambda reason: _shut_down.set())  # after those of rospy itself; at once if it is over
 
 
 def _on_signal(number, _frame) -> None:

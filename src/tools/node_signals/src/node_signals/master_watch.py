@@ -1,8 +1,8 @@
 """A node that outlives the ROS master registers with the next one.
 
 rospy registers once. When an external roscore is killed and started again, nobody finds the node's topics, services and
-parameters any more, though it runs on. A long-lived node calls :func:`watch` after ``init_node``; it asks the master once
-a second whether it is still the one that knows this node.
+parameters any more, though it runs on. A long-lived node calls :func:`watch` after ``init_node``; it asks the master
+once a second whether it is still the one that knows this node.
 """
 from __future__ import annotations
 
@@ -59,8 +59,8 @@ class _Watch:
             except _TROUBLE:
                 if not self._missed:
                     self._missed = True
-                    rospy.logwarn("the ROS master at %s does not answer; this node goes on, and registers again when it is back",
-                                  self._uri)
+                    rospy.logwarn("the ROS master at %s does not answer; this node goes on, and registers again when "
+                                  "it is back", self._uri)
 
     def _look(self) -> None:
         (_, _, pid), (code, _, uri) = self._call([("getPid", ()), ("lookupNode", (self._name,))])
