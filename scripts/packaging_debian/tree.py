@@ -117,6 +117,10 @@ def build(root: Path, prefix: Path) -> Path:
          "--no-compile", "--target", tree / "share/noetic_environment/python", "-r", sources / "scripts/requirements.txt"],
         "installing the PyPI add-ons", {**os.environ, "PYTHONPATH": ""})
     clean(tree)
+    missing = not_installed(sources, tree)
+    if missing:
+        raise PackagingError(f"{len(missing)} files have no install rule in their package's CMakeLists.txt: {', '.join(missing[:5])}"
+                             + (" ..." if len(missing) > 5 else ""))
     return tree
 
 
@@ -131,3 +135,29 @@ def clean(tree: Path) -> None:
             path.unlink()
         elif path.suffix == ".so" and path.is_file() and not path.is_symlink():
             run(["strip", "--strip-unneeded", path], f"stripping {path.name}")
+
+
+#: Folders of a package that are not installed as they stand: tests, C++ sources, what CMake and catkin handle.
+_NOT_INSTALLED = {"test", "core", "bindings", "osmesa", "env-hooks", "cmake", "include", "docs", "rosdep"}
+
+
+def not_installed(sources: Path, tree: Path) -> List[str]:
+    """Files that a package's install rules forgot: modules, programs, messages and whatever is read at run time."""
+    missing = []
+    for package in platform_packages(sources):
+        share = tree / "share" / package.name
+        for path in sorted(path for path in package.rglob("*") if path.is_file()):
+            inside = path.relative_to(package)
+            places = [share / inside]
+            if len(inside.parts) == 1:
+                if path.suffix not in (".xml", ".yaml", ".launch"):
+                    continue
+            elif inside.parts[0] in _NOT_INSTALLED or inside.parts[0].startswith(".") or path.suffix == ".pyc" or path.name == "README.md":
+                continue
+            elif inside.parts[0] == "src":
+                places = [tree / "lib/python3/dist-packages" / inside.relative_to("src")]
+            elif inside.parts[0] in ("scripts", "bin"):
+                places = [tree / "lib" / package.name / path.name, tree / "bin" / path.name]
+            if not any(place.exists() for place in places):
+                missing.append(str(path.relative_to(sources / "src")))
+    return missing

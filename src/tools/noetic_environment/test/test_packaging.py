@@ -68,3 +68,15 @@ def test_the_same_commit_gives_the_same_bytes():
     release = debs.Release("1~deb12", "amd64", 1735689600)
     one, other = (debs.name_only("ros-noetic-x", [], "x", release).read_bytes() for _ in range(2))
     assert one == other
+
+
+def test_a_file_without_install_rule_is_found(tmp_path):
+    sources, installed = tmp_path / "sources", tmp_path / "tree"
+    package = sources / "src/tools/p"
+    for name in ("package.xml", "plugins.xml", "launch/a.launch", "worlds/w.world", "scripts/node", "src/p/m.py", "test/test_p.py", "README.md"):
+        (package / name).parent.mkdir(parents=True, exist_ok=True)
+        (package / name).write_text("")
+    for name in ("share/p/package.xml", "share/p/plugins.xml", "share/p/launch/a.launch", "lib/p/node"):
+        (installed / name).parent.mkdir(parents=True, exist_ok=True)
+        (installed / name).write_text("")
+    assert tree.not_installed(sources, installed) == ["tools/p/src/p/m.py", "tools/p/worlds/w.world"]
