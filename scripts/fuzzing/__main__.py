@@ -4,6 +4,7 @@ from __future__ import annotations
 import argparse
 import os
 import shutil
+import signal
 import sys
 import tempfile
 import zlib
@@ -25,6 +26,8 @@ def main() -> int:
     options = _options(list(kinds))
     here = os.getcwd()
     scratch = Path(tempfile.mkdtemp(prefix="noetic_labs_fuzz_", dir=_FAST if os.access(_FAST, os.W_OK) else None))
+    for number in (signal.SIGINT, signal.SIGTERM):  # also when started in the background of a script
+        signal.signal(number, signal.default_int_handler)
     os.chdir(scratch)  # kinds write files where they are
     try:
         if options.files:
@@ -41,8 +44,8 @@ def main() -> int:
 
 
 def _options(kinds: List[str]) -> argparse.Namespace:
-    parser = argparse.ArgumentParser(prog="scripts/fuzz", description="Hostile inputs for everything that reads or is told something.",
-                                     epilog="What a kind is and what counts as found: docs/fuzzing.md")
+    parser = argparse.ArgumentParser(prog="scripts/fuzz", epilog="What a kind is and what counts as found: docs/fuzzing.md",
+                                     description="Hostile inputs for everything that reads or is told something.")
     parser.add_argument("files", nargs="*", metavar="FILE", help="replay these cases, nothing else")
     parser.add_argument("-k", "--kind", action="append", choices=kinds, help="only this kind; may be repeated")
     parser.add_argument("-n", "--cases", type=int, default=1000, help="of each kind (%(default)s)")

@@ -4,6 +4,7 @@ from __future__ import annotations
 import argparse
 from typing import Dict, List, Optional, Sequence
 
+import node_signals
 import rospy
 from controller_manager_msgs.srv import ListControllers
 from controller_manager_msgs.utils import describe_controller_managers
@@ -44,7 +45,7 @@ def controller_manager_main(arguments: Sequence[str]) -> int:
     if command not in _PASSES and command not in ("list", "list-types", "reload-libraries"):
         print(_USAGE)
         return 1
-    rospy.init_node("controller_manager", anonymous=True)
+    node_signals.init_node("controller_manager", anonymous=True)
     try:
         if command == "list":
             manager.list_controllers()

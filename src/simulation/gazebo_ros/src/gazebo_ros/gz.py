@@ -6,6 +6,7 @@ import sys
 import time
 from typing import Any, List
 
+import node_signals
 import rosgraph
 import rospy
 from gazebo_msgs.msg import ModelState, PerformanceMetrics
@@ -32,6 +33,8 @@ def call(name: str, service: type, *arguments: Any) -> Any:
     try:
         rospy.wait_for_service(f"/gazebo/{name}", 2.0)
         response = rospy.ServiceProxy(f"/gazebo/{name}", service)(*arguments)
+    except rospy.ROSInterruptException:
+        raise
     except (rospy.ROSException, rospy.ServiceException) as error:
         raise Failure(f"no simulator answers at {rosgraph.get_master_uri()} (/gazebo/{name}): {error}") from error
     if not getattr(response, "success", True):
@@ -165,8 +168,10 @@ def main(arguments: List[str]) -> int:
         if options.run is not sdf:
             if not rosgraph.is_master_online():
                 raise Failure(f"no ROS master at {rosgraph.get_master_uri()}; start the simulator first")
-            rospy.init_node("gz", anonymous=True, disable_rostime=True)
+            node_signals.init_node("gz", anonymous=True, disable_rostime=True)
         options.run(options)
+    except rospy.ROSInterruptException:  # Ctrl-C
+        return 1
     except Failure as error:
         print(f"gz {options.command}: {error}", file=sys.stderr)
         return 1
