@@ -90,12 +90,21 @@ class RealtimeActionServer:
 class _Server(actionlib.ActionServer):
     """actionlib's server; its status timer survives a simulation clock that jumps back."""
 
+    _hz = 0.0
+
+    @property
+    def status_frequency(self) -> float:
+        """0 for actionlib, which would start a timer that a jump of the clock ends with a traceback, stopped or not."""
+        return 0.0
+
+    @status_frequency.setter
+    def status_frequency(self, hz: float) -> None:
+        self._hz = hz
+
     def initialize(self):
         super().initialize()
-        if self.status_timer is not None:
-            self.status_timer.shutdown()
-            period = rospy.Duration(1.0 / self.status_frequency)
-            self.status_timer = rospy.Timer(period, self.publish_status_async, reset=True)
+        if self._hz > 0.0:
+            self.status_timer = rospy.Timer(rospy.Duration(1.0 / self._hz), self.publish_status_async, reset=True)
 
     def stop(self):
         with self.lock:
