@@ -166,6 +166,16 @@ def test_whatever_is_commanded_the_limits_are_kept(make, commands, position, vel
                 assert abs(output) <= limits.max_effort
 
 
+@pytest.mark.parametrize("make, limits", [
+    (PositionJointSaturationHandle, JointLimits(has_velocity_limits=True, max_velocity=-math.inf)),
+    (PositionJointSaturationHandle, JointLimits(has_position_limits=True, min_position=math.inf, max_position=math.inf)),
+    (VelocityJointSaturationHandle, JointLimits(has_velocity_limits=True, max_velocity=-math.inf))])
+def test_limits_that_are_no_places_to_be_at_give_a_command_that_is_one(joint, make, limits):
+    handle = make(joint, limits)
+    for command in (0.0, 1.0, math.nan, math.inf):
+        assert math.isfinite(enforce(handle, command))
+
+
 def test_interface_enforces_all_in_name_order():
     order = []
 

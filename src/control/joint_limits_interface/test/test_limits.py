@@ -58,6 +58,10 @@ def test_bad_urdf():
     ({"has_position_limits": False, "angle_wraparound": True}, {"has_position_limits": False, "angle_wraparound": True}),
     ({"angle_wraparound": True}, {}),
     ({"has_effort_limits": True, "max_effort": "a lot"}, {}),
+    ({"has_velocity_limits": True, "max_velocity": -math.inf}, {}),  # nothing can be kept within these
+    ({"has_velocity_limits": True, "max_velocity": math.nan}, {}),
+    ({"has_position_limits": True, "min_position": math.inf, "max_position": math.inf}, {}),
+    ({"has_velocity_limits": True, "max_velocity": math.inf}, {"max_velocity": math.inf}),
 ])
 def test_parameters_override(values, changed):
     before = JointLimits(has_velocity_limits=True, max_velocity=1.0, has_position_limits=True, min_position=-3.0,

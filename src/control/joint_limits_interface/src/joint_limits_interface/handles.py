@@ -69,6 +69,8 @@ class _LimitHandle:
         output = high if output > high else output
         if output - output != 0.0:  # NaN, or an infinity that no limit caught
             output = _sat(self._bad_command(command, held), low, high)
+            if output - output != 0.0:  # the limits themselves are no numbers to be at
+                output = held
         self.joint.command = self._previous = output
 
     @staticmethod

@@ -1,6 +1,7 @@
 """Limits of a joint, from its URDF description and from parameters. Meant order: URDF first, parameters override."""
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 from typing import Any, Dict, Optional
 
@@ -81,7 +82,7 @@ def apply_limits(values: Dict[str, Any], limits: JointLimits) -> JointLimits:
         flag = values.get(f"has_{kind}_limits")
         if flag is False:
             changes[f"has_{kind}_limits"] = False
-        elif flag is True and all(_is_number(values.get(name)) for name in names):
+        elif flag is True and all(_is_limit(name, values.get(name)) for name in names):
             changes[f"has_{kind}_limits"] = True
             changes.update((name, float(values[name])) for name in names)
     if values.get("has_position_limits") is False and isinstance(values.get("angle_wraparound"), bool):
@@ -103,4 +104,9 @@ def soft_limits_of(values: Dict[str, Any]) -> Optional[SoftJointLimits]:
 
 
 def _is_number(value: Any) -> bool:
-    return isinstance(value, (int, float)) and not isinstance(value, bool)
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and value == value
+
+
+def _is_limit(name: str, value: Any) -> bool:
+    """A number that something can be kept within: no upper limit is minus infinity, no lower one infinity."""
+    return _is_number(value) and (value < math.inf if name.startswith("min") else value > -math.inf)
