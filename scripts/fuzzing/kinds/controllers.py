@@ -171,16 +171,18 @@ class ControllerKind(Kind):
         elements = ET.Element("plugin")
         for name, value in _mapping(told.get("elements")).items():
             ET.SubElement(elements, name if name.isidentifier() else "x").text = str(value)
-        plugin = GazeboRosControl()
+        plugin, loaded = GazeboRosControl(), False
         try:
             _, error = refused(lambda: plugin.load(_Server(world), model, SdfElement(elements)), PluginError)
-            if error is None:
+            loaded = error is None
+            if loaded:
                 _, error = refused(lambda: self._go_on(plugin, world), PluginError)
             if error is not None:
                 ros.check_line(str(error))
             worlds.check_state(world)
         finally:
-            plugin.shutdown()
+            if loaded:
+                plugin.shutdown()
 
     @staticmethod
     def _go_on(plugin, world) -> None:
