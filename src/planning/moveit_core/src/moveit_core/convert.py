@@ -204,8 +204,7 @@ def _joint(message, scene) -> motion.JointConstraint:
 
 def _position(message, scene) -> motion.PositionConstraint:
     what = f"position constraint of link '{message.link_name}'"
-    if not message.link_name:
-        raise ValueError("a position constraint names no link")
+    _check_link(message.link_name, scene, what)
     found, poses = shapes(message.constraint_region, what)
     if not found:
         raise ValueError(f"{what} has no region: give it a primitive and its pose")
@@ -221,8 +220,7 @@ def _position(message, scene) -> motion.PositionConstraint:
 
 def _orientation(message, scene) -> motion.OrientationConstraint:
     what = f"orientation constraint of link '{message.link_name}'"
-    if not message.link_name:
-        raise ValueError("an orientation constraint names no link")
+    _check_link(message.link_name, scene, what)
     turn = message.orientation
     quaternion = finite((turn.x, turn.y, turn.z, turn.w), what)
     length = math.sqrt(sum(value * value for value in quaternion))
@@ -244,6 +242,13 @@ def _visibility(message) -> motion.VisibilityConstraint:
         sensor_frame=strip(message.sensor_pose.header.frame_id), cone_sides=message.cone_sides,
         max_view_angle=message.max_view_angle, max_range_angle=message.max_range_angle,
         sensor_view={0: "z", 1: "y", 2: "x"}.get(message.sensor_view_direction, "z"), weight=message.weight)
+
+
+def _check_link(name: str, scene, what: str) -> None:
+    if not name:
+        raise ValueError(f"{what} names no link")
+    if not scene.model.has_link(name) and not scene.knows_frame(name):
+        raise ValueError(f"{what}: the robot has no link of that name")
 
 
 def _frame(name: str, scene, what: str) -> str:

@@ -15,8 +15,6 @@ from plugin_loader import PluginError, find_plugins
 def load_manager(model, namespace: str = "~") -> Optional[ControllerManager]:
     """The controller manager that ``~moveit_controller_manager`` names; None (and an error line) if there is none."""
     found, problems = find_plugins("moveit_core")
-    for problem in problems:
-        rospy.logwarn("%s", problem)
     parameter = rospy.resolve_name(namespace + "moveit_controller_manager")
     name = rospy.get_param(namespace + "moveit_controller_manager", "")
     managers = {known: plugin for known, plugin in found.items() if plugin.base.endswith("MoveItControllerManager")}
@@ -28,6 +26,8 @@ def load_manager(model, namespace: str = "~") -> Optional[ControllerManager]:
     if name not in managers:
         rospy.logerr("Exception while loading controller manager '%s': nobody exports it; there are: %s", name,
                      ", ".join(sorted(managers)))
+        for problem in problems:
+            rospy.logwarn("%s", problem)
         return None
     try:
         return managers[name].load()(model, namespace)

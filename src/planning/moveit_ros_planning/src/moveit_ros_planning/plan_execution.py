@@ -86,6 +86,7 @@ class PlanExecution:
         :param delay: wall seconds between attempts.
         :param before: called before each execution.
         """
+        stops = self._execution.stops
         left = (attempts or int(self.config["max_replan_attempts"])) if replan else 1
         while True:
             left -= 1
@@ -95,7 +96,7 @@ class PlanExecution:
                 return plan
             if plan.code == MoveItErrorCodes.SUCCESS:
                 before()
-                self.execute(plan, diff, stop)
+                self.execute(plan, diff, stop, stops)
             if plan.code not in _AGAIN or left <= 0 or stop.is_set():
                 return plan
             rospy.loginfo("Planning attempt failed (%s); %d of them are left", plan.message, left)
@@ -113,9 +114,9 @@ class PlanExecution:
             rospy.logerr("Planning failed: %s", error)
             return Plan(MoveItErrorCodes.FAILURE, str(error))
 
-    def execute(self, plan: Plan, diff: Optional[PlanningScene], stop: Stop) -> None:
-        """Execute the segments of ``plan`` and write the outcome into it."""
-        run = _Run(self._monitor, self._execution, plan, diff, stop)
+    def execute(self, plan: Plan, diff: Optional[PlanningScene], stop: Stop, stops: Optional[int] = None) -> None:
+        """Execute the segments of ``plan`` and write the outcome into it; for ``stops`` see TrajectoryExecution.start."""
+        run = _Run(self._monitor, self._execution, plan, diff, stop, stops)
         recorder = _Recorder(self._monitor, float(self.config["record_trajectory_state_frequency"]))
         try:
             run.go()
@@ -128,12 +129,14 @@ class PlanExecution:
 class _Run:
     """One execution of a plan, watched."""
 
-    def __init__(self, monitor: SceneMonitor, execution: TrajectoryExecution, plan: Plan, diff, stop: Stop):
+    def __init__(self, monitor: SceneMonitor, execution: TrajectoryExecution, plan: Plan, diff, stop: Stop,
+                 stops: Optional[int]):
         self._monitor = monitor
         self._execution = execution
         self._plan = plan
         self._diff = diff
         self._stop = stop
+        self._stops = stops
         self._changed = threading.Event()
         self._bad: Optional[str] = None
         self._effect_failed = False
@@ -148,7 +151,7 @@ class _Run:
             messages.append(states.trajectory_message(segment.trajectory))
         self._monitor.on_change(self._scene_changed)
         try:
-            execution = self._execution.start(messages, self._segment_done)
+            execution = self._execution.start(messages, self._segment_done, self._stops)
             self._watch(execution)
         finally:
             self._monitor.off_change(self._scene_changed)
@@ -183,7 +186,8 @@ class _Run:
             plan.code, plan.message = codes.TIMED_OUT, execution.reason
         else:
             plan.code = codes.CONTROL_FAILED
-            plan.message = execution.reason or f"the execution ended {execution.status.value}"
+            plan.message = execution.reason or ("it was said to stop" if execution.status is ExecutionStatus.PREEMPTED
+                                                else f"the execution ended {execution.status.value}")
 
     def _segment_done(self, index: int) -> bool:
         segment = self._plan.segments[index]

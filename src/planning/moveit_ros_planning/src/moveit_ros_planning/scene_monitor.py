@@ -59,7 +59,8 @@ class SceneMonitor:
         self._subscribe(options)
         self._publishing = ScenePublisher(self, rospy.get_param(options + "publish_planning_scene_topic",
                                                                 namespace + "monitored_planning_scene"))
-        unset = {entry.name: True for entry in _PARAMETERS if entry.type is bool  # everything is published unless told not to
+        unset = {entry.name: True
+                 for entry in _PARAMETERS if entry.type is bool  # everything is published unless told not to
                  and not rospy.has_param(f"{namespace}planning_scene_monitor/{entry.name}")}
         self._server = Server(namespace + "planning_scene_monitor", _PARAMETERS, self._reconfigure, unset)
 

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import bisect
+import math
 import threading
 import time
 from dataclasses import dataclass
@@ -65,6 +66,8 @@ class TrajectoryExecution:
         self.namespace = namespace
         self._lock = threading.Lock()
         self._running: Optional[Execution] = None
+        #: how often it was said to stop; who has seen it change is not to start a motion
+        self.stops = 0
         self.config: Dict[str, object] = {}
         self._server = Server(namespace + "trajectory_execution", _PARAMETERS, self._reconfigure)
         manage = bool(rospy.get_param(namespace + "moveit_manage_controllers", False))
@@ -96,18 +99,21 @@ class TrajectoryExecution:
         return running is not None and not running.done
 
     def stop(self) -> None:
-        """Stop what is being executed, if anything is."""
+        """Stop what is being executed, or is about to be."""
+        self.stops += 1
         running = self._running
         if running is not None:
             running.stop()
 
     def start(self, trajectories: Sequence[RobotTrajectory],
-              on_segment: Optional[Callable[[int], bool]] = None) -> "Execution":
+              on_segment: Optional[Callable[[int], bool]] = None, stops: Optional[int] = None) -> "Execution":
         """Start to execute trajectories one after the other.
 
         :param on_segment: called with the index of each that has ended well; False stops.
+        :param stops: ``self.stops`` when the motion was asked for, default now; a stop since then ends it at once.
         :raises ExecutionError: nothing can execute them, they do not start where the robot is, or another is running.
         """
+        stops = self.stops if stops is None else stops
         steps = [self._step(trajectory) for trajectory in trajectories]
         first = next((step for step in steps if step.parts), None)
         with self._lock:
@@ -118,7 +124,7 @@ class TrajectoryExecution:
                 self._check_start(first)
             execution = Execution(self, steps, on_segment)
             self._running = execution
-        execution.begin()
+        execution.begin(self.stops != stops)
         return execution
 
     def _step(self, trajectory: RobotTrajectory) -> _Step:
@@ -128,6 +134,7 @@ class TrajectoryExecution:
             raise ExecutionError(f"no controller manager is loaded: "
                                  f"{rospy.resolve_name(self.namespace + 'moveit_controller_manager')} "
                                  "names none that could be used, so nothing can be executed")
+        self._check_points(trajectory)
         wanted = self.choice.actuated(trajectory)
         if not wanted:
             raise ExecutionError("The trajectory to execute specifies no joints that a controller could move")
@@ -143,6 +150,24 @@ class TrajectoryExecution:
         parts = [share(trajectory, self.manager.joints(name), scaling) for name in chosen]
         points = trajectory.joint_trajectory.points or trajectory.multi_dof_joint_trajectory.points
         return _Step(chosen, parts, [point.time_from_start.to_sec() for point in points])
+
+    def _check_points(self, trajectory: RobotTrajectory) -> None:
+        joints = trajectory.joint_trajectory
+        for name in (*joints.joint_names, *trajectory.multi_dof_joint_trajectory.joint_names):
+            if not self.model.has_joint(name):
+                raise ExecutionError(f"the trajectory moves joint '{name}', which the robot '{self.model.name}' does "
+                                     f"not have")
+        before = -1.0
+        for number, point in enumerate(joints.points):
+            now = point.time_from_start.to_sec()
+            if len(point.positions) != len(joints.joint_names):
+                raise ExecutionError(f"Wrong trajectory: point {number} has {len(point.positions)} positions for "
+                                     f"{len(joints.joint_names)} joints")
+            if not all(math.isfinite(value) for value in (*point.positions, *point.velocities, *point.accelerations)):
+                raise ExecutionError(f"Wrong trajectory: point {number} holds a number that is not finite")
+            if now <= before:
+                raise ExecutionError(f"Wrong trajectory: point {number} comes at {now:g} s, not after the one before")
+            before = now
 
     @staticmethod
     def _takes_no_time(trajectory: RobotTrajectory) -> bool:
@@ -221,7 +246,11 @@ class Execution:
         self.status = ExecutionStatus.RUNNING
         self.reason = ""
 
-    def begin(self) -> None:
+    def begin(self, stopped: bool = False) -> None:
+        """Start; ``stopped``: it was said to stop already."""
+        if stopped:
+            self._stopped.set()
+            self.status = ExecutionStatus.PREEMPTED
         threading.Thread(target=self._run, name="trajectory execution", daemon=True).start()
 
     @property

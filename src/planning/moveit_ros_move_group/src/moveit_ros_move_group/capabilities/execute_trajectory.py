@@ -31,9 +31,10 @@ class ExecuteTrajectory(ActionCapability):
             return self.failed(result, MoveItErrorCodes.CONTROL_FAILED,
                                "Cannot execute trajectory since ~allow_trajectory_execution was set to false")
         rospy.loginfo("Execution request received")
+        stops = self.context.execution.stops
         self.feedback("MONITOR")
         try:
-            self._execution = self.context.execution.start([goal.trajectory])
+            self._execution = self.context.execution.start([goal.trajectory], stops=stops)
         except ExecutionError as error:
             rospy.logerr("%s", error)
             return self.failed(result, MoveItErrorCodes.CONTROL_FAILED, str(error))
