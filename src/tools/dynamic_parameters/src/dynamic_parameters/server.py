@@ -71,7 +71,8 @@ class Server:
 
     def __init__(self, namespace: str, parameters: Sequence[Parameter],
                  callback: Callable[[Dict[str, Any], int], Optional[Mapping[str, Any]]],
-                 initial: Optional[Mapping[str, Any]] = None, current: Optional[Callable[[], Mapping[str, Any]]] = None):
+                 initial: Optional[Mapping[str, Any]] = None,
+                 current: Optional[Callable[[], Mapping[str, Any]]] = None):
         self._ns = rospy.resolve_name(namespace).rstrip("/") + "/"
         self._parameters = {parameter.name: parameter for parameter in parameters}
         self._callback = callback
@@ -205,8 +206,8 @@ class Server:
         message = Config(groups=[GroupState("Default", True, 0, 0)])
         for name, parameter in self._parameters.items():
             _, field, entry, low, high = _TYPES[parameter.type]
-            value = min(max(values[name], low), high) if parameter.type is int else values[name]  # what the wire carries
-            getattr(message, field).append(entry(name, value))
+            value = values[name]
+            getattr(message, field).append(entry(name, min(max(value, low), high) if parameter.type is int else value))
         return message
 
     def _describe(self) -> ConfigDescription:

@@ -90,11 +90,18 @@ def leave(code: Optional[int] = 0) -> None:
 
 
 def end_when_starved_at_start() -> None:
-    """For nodes that call ``rospy.init_node`` themselves, before they do: rospy takes it for a shutdown when the thread
-    of its server cannot start."""
+    """For nodes that call ``rospy.init_node`` themselves, before they do: when the thread of one of its servers cannot
+    start, rospy takes it for a shutdown, or logs it and goes on without."""
     import rospy
 
+    def look(record: logging.LogRecord) -> bool:
+        text = record.getMessage()
+        if text.startswith("unable to start TCPROS server") and _starved(RuntimeError(text)):
+            _end_starved("can't start new thread")
+        return True
+
     rospy.core.add_preshutdown_hook(lambda reason: _starved(RuntimeError(reason)) and _end_starved(reason))
+    logging.getLogger("rosout").addFilter(look)
 
 
 def _starved(error: Optional[BaseException]) -> bool:

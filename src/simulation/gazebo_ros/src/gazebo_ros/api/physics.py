@@ -15,10 +15,10 @@ from gazebo_ros.api.handlers import Refused, advertise
 from gazebo_ros.server import Server
 
 #: name in messages and parameters -> in ode_sim
-_SETTINGS = {"time_step": "max_step_size", "max_update_rate": "real_time_update_rate", "sor_pgs_precon_iters": "precon_iters",
-             "sor_pgs_iters": "iters", "sor_pgs_w": "sor", "cfm": "cfm", "erp": "erp",
-             "contact_surface_layer": "contact_surface_layer", "contact_max_correcting_vel": "contact_max_correcting_vel",
-             "max_contacts": "max_contacts"}
+_SETTINGS = {"time_step": "max_step_size", "max_update_rate": "real_time_update_rate",
+             "sor_pgs_precon_iters": "precon_iters", "sor_pgs_iters": "iters", "sor_pgs_w": "sor",
+             **{name: name for name in ("cfm", "erp", "contact_surface_layer", "contact_max_correcting_vel",
+                                        "max_contacts")}}
 
 PARAMETERS = (
     Parameter("time_step", float, 0.001, 0.0, 10.0, "Length of a physics step, s"),
@@ -51,7 +51,7 @@ class PhysicsServices:
         advertise(server, "set_physics_properties", SetPhysicsProperties, self._set, in_physics_thread=False)
 
     def start_reconfigure(self) -> None:
-        """Offer the parameters through dynamic_reconfigure, which shows the live values and changes what it is asked to."""
+        """Offer the parameters through dynamic_reconfigure, which shows the live values."""
         self._parameters = ParameterServer("~", PARAMETERS, self._on_reconfigure, initial=self._values(),
                                            current=lambda: self._server.call(self._values))
         rospy.loginfo("Physics dynamic reconfigure ready.")
@@ -70,8 +70,8 @@ class PhysicsServices:
         for name, setting in _SETTINGS.items():
             if not BOUNDS[setting].hold(values[name]):
                 raise Refused(f"{name} must be {BOUNDS[setting]}, not {values[name]:g}; nothing is changed")
-        physics = replace(self._world.physics.record(), **{setting: values[name] for name, setting in _SETTINGS.items()})
-        self._world.set_physics(physics, (values["gravity_x"], values["gravity_y"], values["gravity_z"]))
+        changes = {setting: values[name] for name, setting in _SETTINGS.items()}
+        self._world.set_physics(replace(self._world.physics.record(), **changes), (values["gravity_x"], values["gravity_y"], values["gravity_z"]))
         self._auto_disable = values["auto_disable_bodies"]
 
     def _get(self, request, response) -> str:
