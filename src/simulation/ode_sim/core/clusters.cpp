@@ -237,12 +237,12 @@ void World::spread_twists(Cluster& c, bool servos) {
 void World::place_shapes(Link& link) {
   for (auto& s : link.shapes) {
     const Pose X = link.X_WL * s->X_LC;
-    const bool within = std::abs(X.p.x) < kOutOfReach && std::abs(X.p.y) < kOutOfReach && std::abs(X.p.z) < kOutOfReach;
-    if (s->out_of_reach == within) {
-      s->out_of_reach = !within;
-      within ? dGeomEnable(s->geom) : dGeomDisable(s->geom);
+    const bool out_of_reach = !within(X.p, kOutOfReach);
+    if (s->out_of_reach != out_of_reach) {
+      s->out_of_reach = out_of_reach;
+      out_of_reach ? dGeomDisable(s->geom) : dGeomEnable(s->geom);
     }
-    if (!within) continue;
+    if (out_of_reach) continue;
     if (s->infinite) {
       const Vec3 n = rotate(X.q, s->plane_normal);
       dGeomPlaneSetParams(s->geom, n.x, n.y, n.z, dot(n, X.p));

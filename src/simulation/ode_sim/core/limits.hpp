@@ -11,7 +11,8 @@
 namespace ode_sim {
 
 constexpr double kFarthest = 1e7;     // m from the origin, and the largest size; 2 nanometres is the last digit there
-constexpr double kOutOfReach = 5e7;   // m: shapes beyond do not collide; the cells of ODE's space run out of numbers at 1.3e8
+constexpr double kFarthestPart = 2e7;  // m: parts of what is placed at kFarthest, and what has moved, may be beyond it
+constexpr double kOutOfReach = 1e8;   // m: shapes beyond do not collide; the cells of ODE's space run out of numbers at 1.3e8
 constexpr double kFastestSet = 1e10;  // m/s, rad/s that may be asked for
 constexpr double kStrongest = 1e12;   // N, N m: forces beyond are cut to it, so that sums and products stay finite
 constexpr double kStiffest = 1e18;    // N/m, N s/m
@@ -31,15 +32,17 @@ inline Vec3 checked(const Vec3& v, const char* what) {
   checked(v.x, what), checked(v.y, what), checked(v.z, what);
   return v;
 }
-// Within kFarthest of the origin, each coordinate.
-inline const Vec3& checked_place(const Vec3& p, const char* what) {
+inline bool within(const Vec3& p, double most) {
+  return std::abs(p.x) <= most && std::abs(p.y) <= most && std::abs(p.z) <= most;
+}
+inline const Vec3& checked_place(const Vec3& p, const char* what, double most = kFarthestPart) {
+  if (within(p, most)) return p;
   const double far = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-  if (finite(p) && far <= kFarthest) return p;
-  throw std::invalid_argument(std::string(what) + (finite(p) ? " lies " + shown(far) + " m away; stay within " + shown(kFarthest) + " m"
+  throw std::invalid_argument(std::string(what) + (finite(p) ? " lies " + shown(far) + " m away; stay within " + shown(most) + " m"
                                                              : " must be finite numbers"));
 }
-inline Pose checked(const Pose& X, const char* what) {
-  checked_place(X.p, what);
+inline Pose checked(const Pose& X, const char* what, double most = kFarthestPart) {
+  checked_place(X.p, what, most);
   if (!finite(X)) throw std::invalid_argument(std::string(what) + " must be finite numbers");
   return normalized(X);
 }

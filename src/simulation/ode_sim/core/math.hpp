@@ -36,8 +36,11 @@ inline Vec3 rotate(const Quat& q, const Vec3& v) {
 }
 inline Quat normalized(const Quat& q) {
   const double n = std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
-  if (!(n > 0) || !std::isfinite(n)) return {};
-  return {q.x / n, q.y / n, q.z / n, q.w / n};
+  if (n > 0 && std::isfinite(n)) return {q.x / n, q.y / n, q.z / n, q.w / n};
+  // The squares are too small or too large for a number: another scale, or no rotation at all.
+  const double most = std::fmax(std::fmax(std::fabs(q.x), std::fabs(q.y)), std::fmax(std::fabs(q.z), std::fabs(q.w)));
+  if (std::isnan(n) || !(most > 0) || !std::isfinite(most)) return {};
+  return normalized(Quat{q.x / most, q.y / most, q.z / most, q.w / most});
 }
 // Rotation by `angle` (rad) about the unit vector `axis`.
 inline Quat axis_angle(const Vec3& axis, double angle) {

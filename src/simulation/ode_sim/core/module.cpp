@@ -21,9 +21,9 @@ using T7 = std::tuple<double, double, double, double, double, double, double>;
 static T3 out(const Vec3& v) { return {v.x, v.y, v.z}; }
 static Vec3 in(const T3& t) { return checked(Vec3{std::get<0>(t), std::get<1>(t), std::get<2>(t)}, "a vector"); }
 static T7 out(const Pose& X) { return {X.p.x, X.p.y, X.p.z, X.q.x, X.q.y, X.q.z, X.q.w}; }
-static Pose in(const T7& t) {
+static Pose in(const T7& t, double most = kFarthestPart) {
   return checked(Pose{{std::get<0>(t), std::get<1>(t), std::get<2>(t)}, {std::get<3>(t), std::get<4>(t), std::get<5>(t), std::get<6>(t)}},
-                 "a pose");
+                 "a pose", most);
 }
 using T6 = std::tuple<double, double, double, double, double, double>;
 static Sym3 in(const T6& t) {  // ixx iyy izz ixy ixz iyz
@@ -274,7 +274,7 @@ PYBIND11_MODULE(_core, m) {
         return world_of(&model).add_shape(l, X_LC, geom, shape);
       }, py::keep_alive<0, 1>())
       .def("finish", [](Model& model) { world_of(&model).finish(model); })
-      .def("set_pose", [](Model& model, T7 from, T7 to) { world_of(&model).set_model_pose(model, in(from), in(to)); })
+      .def("set_pose", [](Model& model, T7 from, T7 to) { world_of(&model).set_model_pose(model, in(from, kInf), in(to)); })
       .def("zero_velocities", [](Model& model) { world_of(&model).zero_velocities(model); });
 
   py::class_<World::Counters>(m, "Counters")

@@ -60,7 +60,7 @@ int World::cast_rays(const double* origins, const double* directions, int n, dou
     ranges[i] = kInf;
     hits[i] = -1;
     const double length = norm(d);
-    if (!(length > 0) || !std::isfinite(length) || !(norm(Vec3{o[0], o[1], o[2]}) < kOutOfReach)) continue;
+    if (!(length > 0) || !std::isfinite(length) || !within(Vec3{o[0], o[1], o[2]}, kOutOfReach)) continue;
     d = d * (1 / length);
     const double inverse[3] = {1 / d.x, 1 / d.y, 1 / d.z};
     near.clear();

@@ -21,7 +21,7 @@ uint64_t mix(uint64_t x) {
 // Whether the numbers of a body are still numbers, and its place one at which things can collide.
 bool on_the_map(dBodyID b) {
   return finite(body_pose(b)) && finite(vec(dBodyGetLinearVel(b))) && finite(vec(dBodyGetAngularVel(b))) &&
-         norm(vec(dBodyGetPosition(b))) < kFarthest;
+         within(vec(dBodyGetPosition(b)), kFarthestPart);
 }
 
 }  // namespace

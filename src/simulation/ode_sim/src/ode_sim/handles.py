@@ -13,7 +13,7 @@ import numpy as np
 from ode_sim.description import model as description
 from ode_sim.description.model import FARTHEST, Pose, Vec3
 from ode_sim.inertia import usable_inertia, usable_mass
-from ode_sim.math3 import compose, inverse
+from ode_sim.math3 import compose, inverse, quat_normalize
 
 
 class Twist(NamedTuple):
@@ -52,6 +52,14 @@ def flat(pose: Pose, what: str = "pose") -> Tuple[float, ...]:
     if far > FARTHEST:
         raise ValueError(f"{what} lies {far:g} m away; stay within {FARTHEST:g} m")
     return values
+
+
+def unit_pose(pose: Pose) -> Pose:
+    """With a quaternion of unit length; one that has it already is left as it is, to the last bit."""
+    if abs(sum(v * v for v in pose.q) - 1.0) < 1e-9:
+        return pose
+    largest = max(map(abs, pose.q)) or 1.0  # squares of 1e200 overflow
+    return Pose(pose.p, quat_normalize([v / largest for v in pose.q]))
 
 
 def pose_of(values) -> Pose:
@@ -403,7 +411,10 @@ class Attachment:
 
     @property
     def pose(self) -> Pose:
-        """X_PC, where the child is held; may be changed a little in every step, to move it along a path."""
+        """X_PC, where the child is held; may be changed a little in every step, to move it along a path.
+
+        :raises RuntimeError: it has let go.
+        """
         return pose_of(self._core.tie_pose(self._id))
 
     @pose.setter
@@ -456,7 +467,8 @@ class ModelHandle:
     @pose.setter
     def pose(self, pose: Pose) -> None:
         if self.links:
-            self.core.set_pose(flat(self.pose), flat(pose, f"pose of model {self.name}"))
+            now = self.pose
+            self.core.set_pose((*now.p, *now.q), flat(pose, f"pose of model {self.name}"))
 
     def twist(self) -> Twist:
         """Of the first link: of its centre of mass."""

@@ -11,7 +11,7 @@ import numpy as np
 from ode_sim import _core
 from ode_sim.builder import Builder
 from ode_sim.description import model as d
-from ode_sim.handles import Attachment, CollisionHandle, JointHandle, LinkHandle, ModelHandle, flat
+from ode_sim.handles import Attachment, CollisionHandle, JointHandle, LinkHandle, ModelHandle, flat, unit_pose
 from ode_sim.math3 import compose
 from ode_sim.physics import PhysicsSettings, check_gravity, check_physics, usable_physics
 
@@ -171,6 +171,7 @@ class World:
         builder = Builder(self.core)
         try:
             flat(pose, f"pose of model '{name}'")
+            pose = unit_pose(pose)
             handle = builder.build(self, model, name, pose)
         except d.DescriptionError:
             raise
@@ -296,7 +297,9 @@ class World:
                     joint.set_position(0.0, axis)
             for link in model.links.values():
                 if not model.static and len(model.links) > 1:
-                    link.pose = compose(model.pose, link.description.pose)
+                    base = model.pose if max(map(abs, model.pose.p)) <= d.FARTHEST else model.initial_pose  # it flew off the map
+                    pose = compose(base, link.description.pose)
+                    link.core.set_pose((*pose.p, *pose.q))
         self.reset_poses()
         self.core.time_ns = 0
         self.core.iterations = 0
@@ -414,7 +417,7 @@ class World:
     def _apply_model_state(model: ModelHandle, saved: d.ModelState) -> None:
         if saved.pose is not None:
             model.pose = saved.pose
-            model.initial_pose = saved.pose
+            model.initial_pose = unit_pose(saved.pose)
         for link_state in saved.links:
             link = model.links.get(link_state.name)
             if link is not None:
