@@ -57,6 +57,8 @@ def of_stack(what: str, output: str) -> Finding:
     """An abort, a signal or a hang: the innermost frame of ours in what faulthandler wrote."""
     place = next((f"{_short(file)}:{line} {name}" for file, line, name in
                   re.findall(r'File "([^"]+)", line (\d+) in (\S+)', output) if _ours(file)), "unknown place")
+    if place == "unknown place" and "Traceback" in output:  # outside the case: the making of it, or this program
+        place = output.strip().splitlines()[-1][:100]
     said = [line for line in output.splitlines()
             if "assertion" in line or "what():" in line or "terminate called" in line or line.startswith("Fatal Python")]
     return Finding(what, place, shortened("; ".join(said)))

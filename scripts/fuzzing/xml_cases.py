@@ -10,7 +10,8 @@ from typing import Callable, Dict, Iterator, List, Optional, Sequence, Tuple
 from fuzzing import values
 
 _MOST_ELEMENTS = 120  # of a seed that is cut down before it is changed
-_DEEP = re.compile(rb"@@deep:(\w+):(\d+)@@")
+_MOST_GROWN = 4000  # elements that more are not added to
+_DEEP = re.compile(rb"@@deep:(\w+):(\d{1,4})@@")
 _RAW = {b"@@comments@@": b"<!--" * 20000, b"@@entity@@": b"&xxe;", b"@@cdata@@": b"<![CDATA[<x>]]>", b"@@null@@": b"\x00",
         b"@@pi@@": b"<?x y?>"}
 _BOMB = (b'<!DOCTYPE x [<!ENTITY a "aaaaaaaaaa"><!ENTITY b "&a;&a;&a;&a;&a;&a;&a;&a;&a;&a;"><!ENTITY c "&b;&b;&b;&b;&b;&b;&b;&b;&b;&b;">'
@@ -40,10 +41,12 @@ class XmlMutator:
         weights = [weight for weight, _ in self._changes]
         for _ in range(random.choice((1, 1, 2, 2, 3, 4, 6, 10, 20))):
             random.choices(functions, weights)[0](random, root)
+            if sum(1 for _ in root.iter()) > _MOST_GROWN:  # copies of copies of copies
+                break
         data = ET.tostring(root, encoding="unicode").encode("utf-8", "surrogatepass")
-        data = _DEEP.sub(lambda m: b"<%b>" % m[1] * int(m[2]) + b"</%b>" % m[1] * int(m[2]), data)
+        data = _DEEP.sub(lambda m: b"<%b>" % m[1] * int(m[2]) + b"</%b>" % m[1] * int(m[2]), data, count=3)
         for marker, raw in _RAW.items():
-            data = data.replace(marker, raw)
+            data = data.replace(marker, raw, 3)
         if b"&xxe;" in data or random.random() < 0.003:
             data = _BOMB + data
         if random.random() < 0.03:
@@ -182,7 +185,7 @@ class XmlMutator:
         if not place:
             return
         parent, index = place
-        count = random.choice((3, 10, 10, 60))
+        count = min(random.choice((3, 10, 10, 60)), _MOST_GROWN // sum(1 for _ in parent[index].iter()) + 1)
         for i in range(count):
             clone = copy.deepcopy(parent[index])
             if "name" in clone.attrib and random.random() < 0.9:
