@@ -89,8 +89,12 @@ class Run:
             return len(new) < self._options.most
 
         first = self._options.first
-        with Pool(kind, self._options.seed, self._scratch, self._options.jobs) as pool:
-            pool.run(iter(range(first, first + self._options.cases)), report)
+        try:
+            with Pool(kind, self._options.seed, self._scratch, self._options.jobs) as pool:
+                pool.run(iter(range(first, first + self._options.cases)), report)
+        except KeyboardInterrupt:
+            print(f"{kind.name}: stopped after {clock.cases} cases in {clock.seconds:.0f} s", flush=True)
+            raise
         rate, seconds = clock.rate, clock.seconds
         with Pool(kind, self._options.seed, self._scratch, 1) as pool:
             for job, finding in new:

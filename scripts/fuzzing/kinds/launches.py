@@ -109,10 +109,11 @@ class LaunchKind(Kind):
         """What roslaunch makes of the arguments; then the server as it would be started."""
         import roslaunch
         import roslaunch.config
+        import rospkg
         file = str(Path(seeds.packages()["gazebo_ros"]) / "launch" / arguments[0])
         try:
             config = roslaunch.config.load_config_default([(file, arguments[1:])], None, verbose=False)
-        except (roslaunch.RLException, ValueError) as error:  # both are said in one line
+        except (roslaunch.RLException, ValueError, rospkg.ResourceNotFound) as error:  # roslaunch says them in its own words
             if "Traceback" in str(error):
                 raise Found("traceback on the terminal", "roslaunch", str(error)) from None
             return
