@@ -95,7 +95,8 @@ class GazeboRosControl(ModelPlugin):
                 return
             except PluginError as error:
                 refused = urdf
-                rospy.logerr("gazebo_ros_control of model '%s': %s. Waiting for another description", self._model.name, error)
+                rospy.logerr("gazebo_ros_control of model '%s': %s. Waiting for another description", self._model.name,
+                             error)
 
     def _start(self, urdf: str) -> None:
         """Begin to control the robot, or leave nothing behind.
@@ -173,8 +174,8 @@ class GazeboRosControl(ModelPlugin):
             self._nh.shutdown()
 
         threading.Thread(target=end, name="gazebo_ros_control end", daemon=True).start()
-        return PluginError(f"the robot hardware {_named(type(hw))} failed: {_reason(error)}. Its controllers are stopped and "
-                           "their controller manager is closed; delete and spawn the robot to begin again")
+        return PluginError(f"the robot hardware {_named(type(hw))} failed: {_reason(error)}. Its controllers are "
+                           "stopped and their controller manager is closed; delete and spawn the robot to begin again")
 
     def _receive_e_stop(self, message: Bool) -> None:
         self._e_stop = message.data
