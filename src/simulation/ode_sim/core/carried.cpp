@@ -101,9 +101,14 @@ Model* World::try_plan_carried() {
 void World::update_carry(Cluster& c) {
   const Link &root = *c.root, &by = *c.by, &at = *c.at;
   const dBodyID body = body_of(&by);
-  const Vec3 p = root.X_WL * c.com, w = vec(dBodyGetAngularVel(body));
-  c.carry_w = by.w - w;
-  c.carry_v = by.velocity_at(p) - vec(dBodyGetLinearVel(body)) - cross(w, p - vec(dBodyGetPosition(body)));
+  const Vec3 p = root.X_WL * c.com;
+  c.carry_w = by.w;
+  c.carry_v = by.velocity_at(p);
+  if (body) {  // else the world holds what carries it
+    const Vec3 w = vec(dBodyGetAngularVel(body));
+    c.carry_w = by.w - w;
+    c.carry_v = by.velocity_at(p) - vec(dBodyGetLinearVel(body)) - cross(w, p - vec(dBodyGetPosition(body)));
+  }
   if (!at.moving) return;
   c.carry_w = c.carry_w - (at.w - root.w);
   c.carry_v = c.carry_v - (at.velocity_at(p) - root.velocity_at(p));

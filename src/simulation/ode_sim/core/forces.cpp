@@ -23,7 +23,8 @@ void World::set_rates(Model& model) {
     if (const auto leader = j->leader.lock()) {
       const Joint& l = *leader;
       const double q = l.servo == ServoMode::Locked ? l.target : l.axes[0].q + l.axes[0].qd * dt;
-      j->target = std::min(std::max(j->multiplier * q + j->offset, a.lower), a.upper);
+      const double wanted = std::min(std::max(j->multiplier * q + j->offset, a.lower), a.upper);
+      j->target = std::min(std::max(wanted, -kFarthest), kFarthest);  // joints that follow each other would grow without bound
     }
     double rate = (j->target - a.q) / dt;
     if (j->servo == ServoMode::Locked) {

@@ -478,6 +478,16 @@ def test_a_follower_outlives_its_leader():
     runs_on(world)
 
 
+def test_joints_that_follow_each_other_stay_within_bounds():
+    world = ode_sim.World()
+    robot = world.spawn(diff_drive())
+    robot.joints["left"].follow(robot.joints["right"], 1e6, 1.0)
+    robot.joints["right"].follow(robot.joints["left"], -1e6, 1.0)
+    runs_on(world, 50)
+    assert np.abs(world.joint_positions).max() <= 1e7
+    world.reset()
+
+
 def test_handles_of_what_is_gone_are_refused():
     world, elsewhere = ode_sim.World(), ode_sim.World()
     gone, here, other = world.spawn(arm(2), name="gone"), world.spawn(arm(2, at=(2, 0, 0)), name="here"), elsewhere.spawn(arm(2))
