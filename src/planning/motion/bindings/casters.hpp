@@ -117,4 +117,6 @@ void bindShapes(py::module_& m);
 void bindScene(py::module_& m);
 void bindConstraints(py::module_& m);
 void bindIk(py::module_& m);
+void bindPlanning(py::module_& m);
+void bindTiming(py::module_& m);
 }  // namespace motion

@@ -24,4 +24,6 @@ PYBIND11_MODULE(_core, m)
   motion::bindScene(m);
   motion::bindConstraints(m);
   motion::bindIk(m);
+  motion::bindPlanning(m);
+  motion::bindTiming(m);
 }

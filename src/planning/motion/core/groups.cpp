@@ -174,6 +174,8 @@ void ModelBuilder::buildStates()
       const JointModel* joint = model_.findJoint(name);
       if (!joint || !group.hasJoint(joint->index))
         warn("group_state '" + state.name + "': joint '" + name + "' is not in group '" + state.group + "'; left out");
+      else if (!joint->active())
+        continue;  // fixed or mimic: generated files name them, and they mean nothing
       else if (static_cast<int>(numbers.size()) != joint->variable_count)
         warn("group_state '" + state.name + "': joint '" + name + "' needs " + std::to_string(joint->variable_count) +
              " values, not " + std::to_string(numbers.size()) + "; left out");

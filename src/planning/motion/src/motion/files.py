@@ -3,8 +3,10 @@ from __future__ import annotations
 
 import os
 from functools import lru_cache
-from typing import Callable, Dict, Optional
+from typing import Callable, Dict, Optional, Tuple
 from urllib.parse import unquote
+
+from motion import _core
 
 FindPackage = Callable[[str], Optional[str]]
 
@@ -47,3 +49,15 @@ def resolve(uri: str, package: FindPackage = find_package) -> str:
     else:
         path = None
     return os.path.abspath(path) if path and os.path.isfile(path) else ""
+
+
+def load_mesh(path: str, scale: Tuple[float, float, float] = (1.0, 1.0, 1.0), package: FindPackage = find_package) -> _core.Mesh:
+    """A mesh of an STL, DAE, OBJ ... file; ``package://`` will do.
+
+    :param scale: per axis.
+    :raises InvalidInputError: there is no such file, or it holds no triangles.
+    """
+    found = resolve(path, package)
+    if not found:
+        raise _core.InvalidInputError(f"mesh file '{path[:120]}' is not found")
+    return _core.Mesh._load(found, scale)

@@ -1,0 +1,165 @@
+#include "motion/cartesian.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "motion/ik.hpp"
+
+namespace motion
+{
+namespace
+{
+constexpr int MIN_STEPS_FOR_JUMPS = 10;  // fewer say nothing of the mean
+constexpr std::size_t MOST_STEPS = 200000;
+
+class Line
+{
+public:
+  Line(const PlanningScene& scene, const RobotState& start, const CartesianRequest& request, const ConstraintSet& constraints)
+    : group_(scene.model()->group(request.group))
+    , request_(request)
+    , constraints_(constraints)
+    , solver_(scene.model(), group_)
+    , free_(scene, start, request.group)
+    , state_(start)
+    , candidate_(start)
+  {
+    frame_.link = start.frameLink(request.link, frame_.pose);
+    if (frame_.link < 0)
+      throwUnknown("link", request.link, "robot '" + scene.model()->name + "'", scene.model()->linkNames());
+  }
+
+  CartesianPath run()
+  {
+    keep();
+    const std::size_t count = request_.waypoints.size();
+    path_.fraction = count ? 0.0 : 1.0;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      const double part = follow(request_.waypoints[i]);
+      path_.fraction = (static_cast<double>(i) + part) / static_cast<double>(count);
+      if (part < 1.0)
+        break;
+    }
+    cutJumps();
+    return path_;
+  }
+
+private:
+  void keep()
+  {
+    std::vector<double> values(group_.size());
+    state_.getGroup(group_, values.data());
+    path_.points.push_back(std::move(values));
+  }
+
+  // Share of the line to `goal` that could be followed.
+  double follow(const Transform& goal)
+  {
+    const Transform from = frame_.at(state_);
+    const double length = (goal.translation() - from.translation()).norm();
+    const double wanted = std::floor(length / request_.max_step) + 1;
+    if (!(wanted < MOST_STEPS))
+      throw InvalidInput("a Cartesian path of " + std::to_string(length) + " m in steps of " + std::to_string(request_.max_step) +
+                         " m: that is too many steps");
+    const bool jumps = request_.jump_threshold > 0 || request_.prismatic_jump > 0 || request_.revolute_jump > 0;
+    const int steps = std::max(static_cast<int>(wanted), jumps ? MIN_STEPS_FOR_JUMPS : 1);
+    const Quaternion q0(from.linear()), q1(goal.linear());
+    for (int i = 1; i <= steps; ++i)
+    {
+      const double t = static_cast<double>(i) / steps;
+      Transform pose = Transform::Identity();
+      pose.translation() = (1 - t) * from.translation() + t * goal.translation();
+      pose.linear() = q0.slerp(t, q1).toRotationMatrix();
+      if (!step(pose))
+        return static_cast<double>(i - 1) / steps;
+      keep();
+    }
+    return 1.0;
+  }
+
+  bool step(const Transform& pose)
+  {
+    IkOptions options;
+    options.timeout = std::max(request_.timeout, 0.05);
+    options.max_restarts = request_.timeout > 0 ? -1 : 0;
+    options.random_seed = path_.points.size();
+    std::string why;
+    options.valid = [&](const double* values) {
+      candidate_.setGroup(group_, values);
+      if (!constraints_.empty())
+        why = constraints_.problem(candidate_);
+      if (why.empty() && request_.avoid_collisions && !free_(candidate_))
+        why = "the robot would collide";
+      return why.empty();
+    };
+    const IkTarget target{frame_.link, pose * frame_.pose.inverse(), true, true};
+    const IkResult found = solver_.solve(state_, {target}, options);
+    if (found.solutions.empty())
+    {
+      path_.message = why.empty() ? "no joint values bring '" + request_.link + "' further along the line" : why;
+      return false;
+    }
+    state_.setGroup(group_, found.solutions[0].data());
+    return true;
+  }
+
+  // Ends the path before the first step that is too large in joint space.
+  void cutJumps()
+  {
+    const std::size_t steps = path_.points.size() - 1;
+    if (steps == 0)
+      return;
+    std::vector<double> distances;
+    double sum = 0;
+    for (std::size_t i = 0; i < steps; ++i)
+    {
+      state_.setGroup(group_, path_.points[i].data());
+      candidate_.setGroup(group_, path_.points[i + 1].data());
+      distances.push_back(state_.distance(candidate_, &group_));
+      sum += distances.back();
+    }
+    const double most = request_.jump_threshold > 0 ? request_.jump_threshold * sum / static_cast<double>(steps)
+                                                    : std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < steps; ++i)
+      if ((steps + 1 >= MIN_STEPS_FOR_JUMPS && distances[i] > most) || jointJumps(i))
+      {
+        path_.message = "a joint jumps at step " + std::to_string(i + 1) + " of the line";
+        path_.fraction *= static_cast<double>(i) / static_cast<double>(steps);
+        path_.points.resize(i + 1);
+        return;
+      }
+  }
+
+  bool jointJumps(std::size_t i) const
+  {
+    const auto& model = *state_.model();
+    for (std::size_t j = 0; j < group_.active_joints.size(); ++j)
+    {
+      const JointModel& joint = model.joints[group_.active_joints[j]];
+      const double most = joint.type == JointType::Prismatic ? request_.prismatic_jump : request_.revolute_jump;
+      if (most > 0 && joint.distance(&path_.points[i][j], &path_.points[i + 1][j]) > most)
+        return true;
+    }
+    return false;
+  }
+
+  const JointModelGroup& group_;
+  const CartesianRequest& request_;
+  const ConstraintSet& constraints_;
+  IkSolver solver_;
+  CollisionFree free_;
+  RobotState state_, candidate_;
+  ConstraintSet::Frame frame_;
+  CartesianPath path_;
+};
+}  // namespace
+
+CartesianPath cartesianPath(const PlanningScene& scene, const RobotState& start, const CartesianRequest& request,
+                            const ConstraintSet& constraints)
+{
+  if (!(request.max_step > 1e-9))
+    throw InvalidInput("the step of a Cartesian path must be above 0 m");
+  return Line(scene, start, request, constraints).run();
+}
+}  // namespace motion

@@ -1,0 +1,405 @@
+#include "joint_space.hpp"
+
+#include <ompl/base/ProjectionEvaluator.h>
+#include <ompl/base/SpaceInformation.h>
+#include <ompl/util/RandomNumbers.h>
+
+#include <algorithm>
+#include <cstring>
+
+namespace ob = ompl::base;
+
+namespace motion
+{
+std::unique_ptr<RobotState> StatePool::take()
+{
+  {
+    std::lock_guard<std::mutex> guard(lock_);
+    if (!free_.empty())
+    {
+      auto state = std::move(free_.back());
+      free_.pop_back();
+      return state;
+    }
+  }
+  return std::make_unique<RobotState>(like_);
+}
+
+void StatePool::give(std::unique_ptr<RobotState> state)
+{
+  std::lock_guard<std::mutex> guard(lock_);
+  free_.push_back(std::move(state));
+}
+
+// ---------------------------------------------------------------- JointSpace
+
+JointSpace::JointSpace(const RobotModelPtr& model, const JointModelGroup& group, StatePool& pool)
+  : model_(model), group_(group), pool_(pool)
+{
+  setName(group.name);
+  for (int j : group.active_joints)
+  {
+    const JointModel& joint = model->joints[j];
+    joints_.push_back(&joint);
+    first_.push_back(static_cast<int>(lower_.size()));
+    for (int k = 0; k < joint.variable_count; ++k)
+    {
+      const VariableBounds& b = joint.bounds[k];
+      const bool angle = joint.continuous || (joint.type == JointType::Planar && k == 2);
+      endless_.push_back(angle);
+      // Without bounds OMPL cannot sample: a cube of 10 m, as upstream's default workspace.
+      lower_.push_back(b.has_position ? b.min_position : angle ? -M_PI : joint.type == JointType::Revolute ? -2 * M_PI : -5.0);
+      upper_.push_back(b.has_position ? b.max_position : angle ? M_PI : joint.type == JointType::Revolute ? 2 * M_PI : 5.0);
+    }
+  }
+}
+
+void JointSpace::limit(std::size_t index, double lower, double upper)
+{
+  lower_[index] = std::max(lower_[index], lower);
+  upper_[index] = std::min(upper_[index], upper);
+  if (lower_[index] > upper_[index])
+    throw InvalidInput("nothing is left of the range of '" + group_.variable_names[index] + "': the path constraints or the workspace exclude all of it");
+}
+
+void JointSpace::setProjection(const std::string& text)
+{
+  const std::size_t open = text.find('('), close = text.find(')');
+  if (text.empty())
+    return;
+  if (open == std::string::npos || close == std::string::npos || close < open)
+    throw InvalidInput("projection_evaluator '" + text.substr(0, 60) + "' is neither joints(a,b) nor link(l)");
+  const std::string kind = text.substr(0, open);
+  std::string list = text.substr(open + 1, close - open - 1);
+  std::vector<std::string> names;
+  std::string name;
+  for (char c : list + ",")
+    if (c == ',' || c == ' ')
+    {
+      if (!name.empty())
+        names.push_back(name);
+      name.clear();
+    }
+    else
+      name += c;
+  if (kind == "link" && names.size() == 1)
+    projection_link_ = model_->link(names[0]).index;
+  else if (kind == "joints" && !names.empty())
+    for (const std::string& joint : names)
+    {
+      const auto found = std::find(group_.variable_names.begin(), group_.variable_names.end(), joint);
+      if (found == group_.variable_names.end())
+        throwUnknown("joint", joint, "group '" + group_.name + "'", group_.variable_names);
+      projection_joints_.push_back(static_cast<int>(found - group_.variable_names.begin()));
+    }
+  else
+    throw InvalidInput("projection_evaluator '" + text.substr(0, 60) + "' is neither joints(a,b) nor link(l)");
+}
+
+double JointSpace::distance(const double* a, const double* b) const
+{
+  double sum = 0;
+  for (std::size_t i = 0; i < joints_.size(); ++i)
+    sum += joints_[i]->distance_factor * joints_[i]->distance(a + first_[i], b + first_[i]);
+  return sum;
+}
+
+void JointSpace::sample(double* values, const std::function<double(double, double)>& uniform) const
+{
+  for (std::size_t i = 0; i < size(); ++i)
+    values[i] = uniform(lower_[i], upper_[i]);
+  for (std::size_t i = 0; i < joints_.size(); ++i)
+    if (joints_[i]->type == JointType::Floating)
+    {
+      double* q = values + first_[i] + 3;
+      const double u = uniform(0, 1), x = 2 * M_PI * uniform(0, 1), y = 2 * M_PI * uniform(0, 1);
+      q[0] = std::sqrt(1 - u) * std::sin(x), q[1] = std::sqrt(1 - u) * std::cos(x);
+      q[2] = std::sqrt(u) * std::sin(y), q[3] = std::sqrt(u) * std::cos(y);
+    }
+}
+
+void JointSpace::clip(double* values) const
+{
+  for (std::size_t i = 0; i < joints_.size(); ++i)
+  {
+    joints_[i]->enforceBounds(values + first_[i]);
+    const bool floating = joints_[i]->type == JointType::Floating;
+    for (int k = 0; k < (floating ? 3 : joints_[i]->variable_count); ++k)
+    {
+      const int index = first_[i] + k;
+      values[index] = std::min(std::max(values[index], lower_[index]), upper_[index]);
+    }
+  }
+}
+
+bool JointSpace::project(double* values) const
+{
+  StatePool::Lease lease(pool_);
+  RobotState& state = *lease;
+  state.setGroup(group_, values);
+  if (!constraints_->project(state, group_))
+    return false;
+  state.getGroup(group_, values);
+  return true;
+}
+
+unsigned int JointSpace::getDimension() const
+{
+  unsigned int dimension = 0;
+  for (const JointModel* joint : joints_)
+    dimension += joint->type == JointType::Floating ? 6 : joint->variable_count;
+  return dimension;
+}
+
+double JointSpace::getMaximumExtent() const
+{
+  double sum = 0;
+  for (std::size_t i = 0; i < joints_.size(); ++i)
+  {
+    const JointModel& joint = *joints_[i];
+    auto range = [&](int k) { return upper_[first_[i] + k] - lower_[first_[i] + k]; };
+    double extent = joint.continuous ? M_PI : range(0);
+    if (joint.type == JointType::Planar)
+      extent = std::hypot(range(0), range(1)) + joint.angular_distance_weight * M_PI;
+    if (joint.type == JointType::Floating)
+      extent = Vector3(range(0), range(1), range(2)).norm() + joint.angular_distance_weight * M_PI / 2;
+    sum += joint.distance_factor * extent;
+  }
+  return std::max(sum, 1e-6);
+}
+
+double JointSpace::getMeasure() const
+{
+  double product = 1;
+  for (std::size_t i = 0; i < size(); ++i)
+    product *= std::max(upper_[i] - lower_[i], 1e-6);
+  return product;
+}
+
+void JointSpace::enforceBounds(ob::State* state) const
+{
+  clip(values(state));
+}
+
+bool JointSpace::satisfiesBounds(const ob::State* state) const
+{
+  const double* v = values(state);
+  for (std::size_t i = 0; i < joints_.size(); ++i)
+    if (!joints_[i]->satisfiesBounds(v + first_[i], 1e-9))
+      return false;
+  for (std::size_t i = 0; i < size(); ++i)
+    if (v[i] < lower_[i] - 1e-9 || v[i] > upper_[i] + 1e-9)
+      return false;
+  return true;
+}
+
+void JointSpace::copyState(ob::State* to, const ob::State* from) const
+{
+  std::memcpy(values(to), values(from), size() * sizeof(double));
+}
+
+double JointSpace::distance(const ob::State* a, const ob::State* b) const
+{
+  return distance(values(a), values(b));
+}
+
+bool JointSpace::equalStates(const ob::State* a, const ob::State* b) const
+{
+  const double *va = values(a), *vb = values(b);
+  for (std::size_t i = 0; i < size(); ++i)
+    if (std::abs(va[i] - vb[i]) > 1e-12)
+      return false;
+  return true;
+}
+
+void JointSpace::interpolate(const ob::State* from, const ob::State* to, double t, ob::State* state) const
+{
+  const double *a = values(from), *b = values(to);
+  double* out = values(state);
+  for (std::size_t i = 0; i < joints_.size(); ++i)
+    joints_[i]->interpolate(a + first_[i], b + first_[i], t, out + first_[i]);
+  if (constraints_ && t > 1e-9 && t < 1 - 1e-9)
+    project(out);
+}
+
+namespace
+{
+class Sampler : public ob::StateSampler
+{
+public:
+  explicit Sampler(const JointSpace* space) : StateSampler(space), joints_(*space) {}
+
+  void sampleUniform(ob::State* state) override
+  {
+    // What cannot be projected is left as it is: the validity check refuses it.
+    for (int attempt = 0; attempt < 4; ++attempt)
+    {
+      joints_.sample(JointSpace::values(state), [this](double low, double high) { return rng_.uniformReal(low, high); });
+      if (!joints_.projects() || joints_.project(JointSpace::values(state)))
+        return;
+    }
+  }
+
+  void sampleUniformNear(ob::State* state, const ob::State* near, double distance) override
+  {
+    around(state, near, [&]() { return rng_.uniformReal(-distance, distance); });
+  }
+
+  void sampleGaussian(ob::State* state, const ob::State* mean, double deviation) override
+  {
+    around(state, mean, [&]() { return rng_.gaussian(0, deviation); });
+  }
+
+private:
+  template <typename Draw>
+  void around(ob::State* state, const ob::State* centre, Draw&& draw)
+  {
+    double* values = JointSpace::values(state);
+    const double* from = JointSpace::values(centre);
+    for (std::size_t i = 0; i < joints_.size(); ++i)
+      values[i] = from[i] + draw();
+    joints_.clip(values);
+    if (joints_.projects())
+      joints_.project(values);
+  }
+
+  const JointSpace& joints_;
+};
+
+class JointProjection : public ob::ProjectionEvaluator
+{
+public:
+  JointProjection(const JointSpace* space, std::vector<int> joints) : ProjectionEvaluator(space), joints_(std::move(joints)) {}
+  unsigned int getDimension() const override { return static_cast<unsigned int>(joints_.size()); }
+  void defaultCellSizes() override { cellSizes_.assign(joints_.size(), 0.1); }
+  void project(const ob::State* state, Eigen::Ref<Eigen::VectorXd> out) const override
+  {
+    for (std::size_t i = 0; i < joints_.size(); ++i)
+      out[i] = JointSpace::values(state)[joints_[i]];
+  }
+
+private:
+  std::vector<int> joints_;
+};
+
+class LinkProjection : public ob::ProjectionEvaluator
+{
+public:
+  LinkProjection(const JointSpace* space, int link) : ProjectionEvaluator(space), joints_(*space), link_(link) {}
+  unsigned int getDimension() const override { return 3; }
+  void defaultCellSizes() override { cellSizes_.assign(3, 0.1); }
+  void project(const ob::State* state, Eigen::Ref<Eigen::VectorXd> out) const override
+  {
+    StatePool::Lease lease(joints_.pool());
+    (*lease).setGroup(joints_.group(), JointSpace::values(state));
+    out = (*lease).linkPose(link_).translation();
+  }
+
+private:
+  const JointSpace& joints_;
+  int link_;
+};
+}  // namespace
+
+ob::StateSamplerPtr JointSpace::allocDefaultStateSampler() const
+{
+  return std::make_shared<Sampler>(this);
+}
+
+ob::State* JointSpace::allocState() const
+{
+  auto* state = new StateType();
+  state->values = new double[size()]();
+  return state;
+}
+
+void JointSpace::freeState(ob::State* state) const
+{
+  auto* own = static_cast<StateType*>(state);
+  delete[] own->values;
+  delete own;
+}
+
+double* JointSpace::getValueAddressAtIndex(ob::State* state, unsigned int index) const
+{
+  return index < size() ? values(state) + index : nullptr;
+}
+
+unsigned int JointSpace::getSerializationLength() const
+{
+  return static_cast<unsigned int>(size() * sizeof(double));
+}
+
+void JointSpace::serialize(void* bytes, const ob::State* state) const
+{
+  std::memcpy(bytes, values(state), size() * sizeof(double));
+}
+
+void JointSpace::deserialize(ob::State* state, const void* bytes) const
+{
+  std::memcpy(values(state), bytes, size() * sizeof(double));
+}
+
+void JointSpace::registerProjections()
+{
+  if (projection_link_ >= 0)
+  {
+    registerDefaultProjection(std::make_shared<LinkProjection>(this, projection_link_));
+    return;
+  }
+  std::vector<int> joints = projection_joints_;
+  if (joints.empty())
+    joints = size() > 1 ? std::vector<int>{0, 1} : std::vector<int>{0};
+  registerDefaultProjection(std::make_shared<JointProjection>(this, joints));
+}
+
+// ---------------------------------------------------------------- validity
+
+bool JointSpaceValidity::isValid(const ob::State* state) const
+{
+  checked.fetch_add(1, std::memory_order_relaxed);
+  if (!space_.satisfiesBounds(state))
+    return false;
+  StatePool::Lease lease(space_.pool());
+  RobotState& robot = *lease;
+  robot.setGroup(space_.group(), JointSpace::values(state));
+  return (!constraints_ || constraints_->satisfied(robot)) && free_(robot);
+}
+
+bool ProjectedMotion::walk(const ob::State* a, const ob::State* b, double& reached, ob::State* last) const
+{
+  const auto& space = si_->getStateSpace();
+  const unsigned int count = std::max(1u, space->validSegmentCount(a, b));
+  const double step = space->distance(a, b) / count;
+  ob::State *before = si_->cloneState(a), *now = si_->allocState();
+  bool valid = true;
+  reached = 0;
+  for (unsigned int i = 1; i <= count && valid; ++i)
+  {
+    space->interpolate(a, b, static_cast<double>(i) / count, now);
+    valid = si_->isValid(now) && space->distance(before, now) < 4 * step + 1e-3;
+    if (valid)
+    {
+      reached = static_cast<double>(i) / count;
+      std::swap(before, now);
+    }
+  }
+  if (last && !valid)
+    si_->copyState(last, before);
+  si_->freeState(before);
+  si_->freeState(now);
+  valid ? ++valid_ : ++invalid_;
+  return valid;
+}
+
+bool ProjectedMotion::checkMotion(const ob::State* a, const ob::State* b) const
+{
+  double reached;
+  return walk(a, b, reached, nullptr);
+}
+
+bool ProjectedMotion::checkMotion(const ob::State* a, const ob::State* b, std::pair<ob::State*, double>& last_valid) const
+{
+  return walk(a, b, last_valid.second, last_valid.first);
+}
+}  // namespace motion

@@ -1,0 +1,198 @@
+#include "motion/timing.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace motion
+{
+namespace
+{
+constexpr double TOLERANCE = 0.01;    // of an acceleration, rad/s^2 or m/s^2, as upstream
+constexpr double MOST_STRETCH = 0.01;  // s, of a segment at one touch, as upstream
+
+TimedPath atRest(const Rows& points)
+{
+  TimedPath out;
+  out.positions = points;
+  out.times.assign(points.size(), 0.0);
+  const std::vector<double> zero(points.empty() ? 0 : points[0].size(), 0.0);
+  out.velocities.assign(points.size(), zero);
+  out.accelerations.assign(points.size(), zero);
+  return out;
+}
+
+std::vector<double> shortestSegments(const Rows& points, const TimingLimits& limits)
+{
+  std::vector<double> segments(points.size() - 1, 0.0);
+  for (std::size_t i = 0; i < segments.size(); ++i)
+    for (std::size_t j = 0; j < points[i].size(); ++j)
+      segments[i] = std::max(segments[i], std::abs(points[i + 1][j] - points[i][j]) / limits.velocity[j]);
+  return segments;
+}
+
+// Mean velocities before and after a way point; at the ends the motion is mirrored, so that it starts and ends at rest.
+struct Around
+{
+  double before, after, time_before, time_after;
+  double acceleration() const { return 2.0 * (after - before) / (time_before + time_after); }
+};
+
+Around around(const Rows& points, const std::vector<double>& segments, std::size_t i, std::size_t j)
+{
+  const std::size_t last = points.size() - 1;
+  const std::size_t in = i == 0 ? 0 : i - 1, out = i == last ? last - 1 : i;
+  const double dt1 = segments[in], dt2 = segments[out];
+  const double dq1 = points[in + 1][j] - points[in][j], dq2 = points[out + 1][j] - points[out][j];
+  const double v1 = dt1 > 0 ? dq1 / dt1 : 0.0, v2 = dt2 > 0 ? dq2 / dt2 : 0.0;
+  return {i == 0 ? -v2 : v1, i == last ? -v1 : v2, dt1, dt2};
+}
+
+// Stretches one of the two segments at way point i, by no more than it needs; false if there is nothing to do.
+bool stretch(const Rows& points, std::vector<double>& segments, std::size_t i, std::size_t j, double limit, bool later)
+{
+  const std::size_t last = points.size() - 1;
+  const std::size_t segment = i == 0 ? 0 : i == last ? last - 1 : later ? i : i - 1;
+  auto fits = [&]() {
+    const Around a = around(points, segments, i, j);
+    return a.time_before + a.time_after <= 0 || std::abs(a.acceleration()) <= limit + TOLERANCE;
+  };
+  if (fits())
+    return false;
+  const double from = segments[segment];
+  double low = from, high = from + MOST_STRETCH;
+  segments[segment] = high;
+  if (!fits())
+    return true;
+  for (int k = 0; k < 20; ++k)
+  {
+    segments[segment] = 0.5 * (low + high);
+    (fits() ? high : low) = segments[segment];
+  }
+  segments[segment] = high;
+  return true;
+}
+
+void fillTimes(TimedPath& out, const std::vector<double>& segments)
+{
+  out.times.assign(1, 0.0);
+  for (double dt : segments)
+    out.times.push_back(out.times.back() + dt);
+}
+}  // namespace
+
+TimedPath iterativeParabolic(const Rows& points, const TimingLimits& limits)
+{
+  TimedPath out = atRest(points);
+  if (points.size() < 2)
+    return out;
+  std::vector<double> segments = shortestSegments(points, limits);
+  // Upstream stops after 100 sweeps, fitting or not; here it goes on until the limits are kept.
+  bool changed = true;
+  for (int sweep = 0; changed && sweep < 20000; ++sweep)
+  {
+    changed = false;
+    for (std::size_t j = 0; j < points[0].size(); ++j)
+    {
+      for (std::size_t i = 0; i < points.size(); ++i)
+        changed |= stretch(points, segments, i, j, limits.acceleration[j], true);
+      for (std::size_t i = points.size(); i-- > 0;)
+        changed |= stretch(points, segments, i, j, limits.acceleration[j], false);
+    }
+  }
+  fillTimes(out, segments);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    for (std::size_t j = 0; j < points[i].size(); ++j)
+    {
+      const Around a = around(points, segments, i, j);
+      out.velocities[i][j] = 0.5 * (a.before + a.after);
+      out.accelerations[i][j] = a.time_before + a.time_after > 0 ? a.acceleration() : 0.0;
+    }
+  return out;
+}
+
+// ---------------------------------------------------------------- spline
+
+namespace
+{
+// Velocities at the way points of the cubic spline that starts and ends at rest (tridiagonal system).
+std::vector<double> splineVelocities(const Rows& points, const std::vector<double>& dt, std::size_t j)
+{
+  const std::size_t n = points.size();
+  std::vector<double> diagonal(n, 1.0), upper(n, 0.0), velocity(n, 0.0);
+  for (std::size_t i = 1; i + 1 < n; ++i)
+  {
+    const double a = dt[i], b = 2 * (dt[i - 1] + dt[i]), c = dt[i - 1];
+    const double right = 3 * (dt[i - 1] / dt[i] * (points[i + 1][j] - points[i][j]) +
+                              dt[i] / dt[i - 1] * (points[i][j] - points[i - 1][j]));
+    const double pivot = b - a * upper[i - 1];
+    upper[i] = c / pivot;
+    velocity[i] = (right - a * velocity[i - 1]) / pivot;
+  }
+  for (std::size_t i = n - 1; i-- > 1;)
+    velocity[i] -= upper[i] * velocity[i + 1];
+  return velocity;
+}
+
+struct Cubic
+{
+  double q, v, half_a, jerk6;  // q + v t + half_a t^2 + jerk6 t^3
+};
+
+Cubic cubic(double q0, double q1, double v0, double v1, double dt)
+{
+  const double slope = (q1 - q0) / dt;
+  return {q0, v0, (3 * slope - 2 * v0 - v1) / dt, (v0 + v1 - 2 * slope) / (dt * dt)};
+}
+}  // namespace
+
+TimedPath iterativeSpline(const Rows& given, const TimingLimits& limits)
+{
+  Rows points;
+  for (const auto& row : given)
+    if (points.empty() || row != points.back())
+      points.push_back(row);
+  TimedPath out = atRest(points);
+  if (points.size() < 2)
+    return out;
+  std::vector<double> segments = shortestSegments(points, limits);
+  for (double& dt : segments)
+    dt = std::max(dt, 1e-6);
+  for (int sweep = 0; sweep < 2000; ++sweep)
+  {
+    std::vector<double> factor(segments.size(), 1.0);
+    for (std::size_t j = 0; j < points[0].size(); ++j)
+    {
+      const std::vector<double> velocity = splineVelocities(points, segments, j);
+      for (std::size_t i = 0; i < segments.size(); ++i)
+      {
+        const double dt = segments[i];
+        const Cubic c = cubic(points[i][j], points[i + 1][j], velocity[i], velocity[i + 1], dt);
+        const double a0 = std::abs(2 * c.half_a), a1 = std::abs(2 * c.half_a + 6 * c.jerk6 * dt);
+        double fastest = std::max(std::abs(velocity[i]), std::abs(velocity[i + 1]));
+        const double top = c.jerk6 != 0 ? -c.half_a / (3 * c.jerk6) : -1;
+        if (top > 0 && top < dt)
+          fastest = std::max(fastest, std::abs(c.v + 2 * c.half_a * top + 3 * c.jerk6 * top * top));
+        factor[i] = std::max({factor[i], fastest / limits.velocity[j], std::sqrt(std::max(a0, a1) / limits.acceleration[j])});
+      }
+    }
+    const double worst = *std::max_element(factor.begin(), factor.end());
+    if (worst <= 1.0 + 1e-6)
+      break;
+    for (std::size_t i = 0; i < segments.size(); ++i)
+      segments[i] *= 1.0 + std::min(factor[i] * 1.0005 - 1.0, 0.5) * (factor[i] > 1.0);
+  }
+  fillTimes(out, segments);
+  for (std::size_t j = 0; j < points[0].size(); ++j)
+  {
+    const std::vector<double> velocity = splineVelocities(points, segments, j);
+    for (std::size_t i = 0; i < points.size(); ++i)
+    {
+      out.velocities[i][j] = velocity[i];
+      const std::size_t s = std::min(i, segments.size() - 1);
+      const Cubic c = cubic(points[s][j], points[s + 1][j], velocity[s], velocity[s + 1], segments[s]);
+      out.accelerations[i][j] = 2 * c.half_a + (i > s ? 6 * c.jerk6 * segments[s] : 0.0);
+    }
+  }
+  return out;
+}
+}  // namespace motion

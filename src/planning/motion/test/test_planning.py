@@ -1,0 +1,260 @@
+"""Planning: goals of every kind, path constraints, every planner, and what is said when it cannot be done."""
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import motion
+import robots
+
+HOME = [0.3, -1.2, 1.4, -0.9, 1.1, 0.5]
+AWAY = [-1.2, -1.6, 1.1, -0.5, 0.9, -1.0]
+FINE = {"planning_time": 60.0, "longest_valid_segment_fraction": 0.001}  # 0.07 rad between checked states
+
+
+@pytest.fixture(scope="module")
+def model():
+    return motion.load_model(*robots.arm("ur5"))
+
+
+@pytest.fixture
+def scene(model):
+    scene = motion.PlanningScene(model)
+    state = scene.state
+    state.set_group("arm", HOME)
+    scene.set_state(state)
+    scene.add_object("post", [motion.Box(0.08, 0.08, 1.2)], pose=((0.45, -0.25, 0.6), (0, 0, 0, 1)))
+    scene.add_object("floor", [motion.Box(3, 3, 0.02)], pose=((0, 0, -0.05), (0, 0, 0, 1)))
+    return scene
+
+
+def request(model, goal=AWAY, **more):
+    return motion.MotionRequest("arm", goals=[motion.joint_goal(model, "arm", goal)], **{"seed": 1, **FINE, **more})
+
+
+def sound(scene, result, constraints=None):
+    """The path is valid and continuous, also between its points."""
+    path = result.path
+    assert result and result.code == 1 and result.message == ""
+    fine = np.concatenate([np.linspace(a, b, 3)[:-1] for a, b in zip(path, path[1:])] + [path[-1:]])
+    assert scene.path_valid(scene.state, "arm", path, constraints) == []
+    assert scene.path_valid(scene.state, "arm", fine) == []
+    assert np.abs(np.diff(path, axis=0)).max() < 0.8
+    np.testing.assert_allclose(path[0], scene.state.get_group("arm"), atol=1e-12)
+
+
+def test_joint_goal_round_a_post(scene, model):
+    result = motion.plan(scene, request(model))
+    sound(scene, result)
+    np.testing.assert_allclose(result.path[-1], AWAY, atol=2e-4)
+    straight = np.linspace(HOME, AWAY, 200)
+    assert scene.path_valid(scene.state, "arm", straight), "the straight way should be blocked"
+    assert result.planner == "RRTConnect" and result.planning_time > 0 and result.states > 0
+
+
+def test_pose_goal_from_several_families(scene, model):
+    state = model.state()
+    state.set_group("arm", AWAY)
+    goal = state.pose("tool")
+    result = motion.plan(scene, motion.MotionRequest("arm", goals=[motion.pose_goal("tool", goal)], seed=2, **FINE))
+    sound(scene, result)
+    state.set_group("arm", result.path[-1])
+    reached = state.pose("tool")
+    assert np.linalg.norm(reached.position - goal.position) <= 1e-4 + 1e-6
+    assert np.linalg.norm((reached.inverse() * goal).rpy()) < 2e-3
+    assert result.goals > 1
+
+
+def test_region_goals_position_or_orientation_alone(scene, model):
+    box = motion.PositionConstraint("tool", [(motion.Box(0.2, 0.2, 0.2), ((-0.4, 0.3, 0.5), (0, 0, 0, 1)))], offset=(0, 0, 0.05))
+    turn = motion.OrientationConstraint("tool", (0, 1, 0, 0), (0.1, 0.1, 3.2))
+    for goal in (motion.Constraints(position=[box]), motion.Constraints(orientation=[turn]), motion.Constraints(position=[box], orientation=[turn]),
+                 motion.Constraints(joint=[motion.JointConstraint("elbow_joint", 1.0, 0.01, 0.01)], orientation=[turn])):
+        result = motion.plan(scene, motion.MotionRequest("arm", goals=[goal], seed=3, **FINE))
+        sound(scene, result)
+        end = result.trajectory.state(len(result.trajectory) - 1)
+        assert all(motion.evaluate(scene, end, goal))
+
+
+def test_any_of_several_goals_will_do(scene, model):
+    impossible = motion.pose_goal("tool", ((9, 9, 9), (0, 0, 0, 1)))
+    result = motion.plan(scene, motion.MotionRequest("arm", goals=[impossible, motion.joint_goal(model, "arm", AWAY)], seed=1, **FINE))
+    sound(scene, result)
+
+
+def test_seeded_runs_repeat_exactly(scene, model):
+    paths = [motion.plan(scene, request(model, seed=seed)).path for seed in (5, 5, 6)]
+    assert np.array_equal(paths[0], paths[1]) and not np.array_equal(paths[0], paths[2])
+    pose = motion.pose_goal("tool", ((-0.4, 0.3, 0.5), (0, 1, 0, 0)))
+    poses = [motion.plan(scene, motion.MotionRequest("arm", goals=[pose], seed=9, **FINE, attempts=2)).path for _ in range(2)]
+    assert len(poses[0]) and np.array_equal(*poses)
+
+
+def test_several_attempts_side_by_side(scene, model):
+    result = motion.plan(scene, request(model, seed=None, attempts=4))
+    sound(scene, result)
+    assert result.attempts == 4
+
+
+def test_orientation_kept_on_the_way(scene, model):
+    state = scene.state
+    keep = motion.Constraints(orientation=[motion.OrientationConstraint("tool", state.pose("tool").quaternion, (0.1, 0.1, 3.2))])
+    target = state.pose("tool")
+    target = motion.Pose(target.position + (-0.15, 0.35, 0.1), target.quaternion)
+    result = motion.plan(scene, motion.MotionRequest("arm", goals=[motion.pose_goal("tool", target)], path_constraints=keep, seed=1, **FINE))
+    sound(scene, result, keep)
+
+
+def test_position_kept_in_a_slab_and_a_joint_in_its_range(scene, model):
+    state = scene.state
+    here = state.pose("tool")
+    slab = motion.Constraints(position=[motion.PositionConstraint("tool", [(motion.Box(4, 4, 0.1), ((0, 0, here.position[2]), (0, 0, 0, 1)))])],
+                              joint=[motion.JointConstraint("elbow_joint", 1.4, 0.6, 0.6)])
+    target = motion.Pose(here.position + (-0.2, 0.3, 0.0), here.quaternion)
+    result = motion.plan(scene, motion.MotionRequest("arm", goals=[motion.pose_goal("tool", target)], path_constraints=slab, seed=2, **FINE))
+    sound(scene, result, slab)
+
+
+FAST = ["RRTConnect", "RRT", "KPIECE", "BKPIECE", "LBKPIECE", "EST", "BiEST", "ProjEST", "SBL", "PRM", "LazyPRM", "TRRT", "BiTRRT",
+        "STRIDE", "PDST", "FMT", "BFMT", "LazyRRT", "SST"]
+OPTIMISING = ["RRTstar", "PRMstar", "LazyPRMstar", "BITstar", "ABITstar", "AITstar", "InformedRRTstar", "SORRTstar", "RRTsharp", "LBTRRT",
+              "SPARS", "SPARStwo", "AnytimePathShortening"]
+
+
+@pytest.mark.parametrize("planner", FAST + OPTIMISING)
+def test_every_planner_of_the_tables(model, planner):
+    """An easy problem; the optimising ones end at their first solution here."""
+    scene = motion.PlanningScene(model)
+    state = scene.state
+    state.set_group("arm", HOME)
+    scene.set_state(state)
+    near = np.array(HOME) + [0.5, 0.2, -0.2, 0.3, 0.2, 0.4]
+    more = {"planner_params": {"termination_condition": "ExactSolution"}} if planner in OPTIMISING else {}
+    # Seeded runs are alone; planners with threads of their own do not repeat anyway.
+    result = motion.plan(scene, request(model, near, planner=f"geometric::{planner}", planning_time=20.0, seed=None, **more))
+    sound(scene, result)
+    assert result.planner == planner
+
+
+def test_all_planners_are_covered():
+    assert sorted(FAST + OPTIMISING) == sorted(motion.planners())
+
+
+def test_parameters_reach_the_planner(scene, model):
+    result = motion.plan(scene, request(model, planner="RRTConnectkConfigDefault", planner_params={"range": 0.3, "type": "geometric::RRTConnect", "goal_bias": 0.1}))
+    sound(scene, result)
+    assert len(result.warnings) == 1 and "no parameter 'goal_bias'" in result.warnings[0] and "'range'" in result.warnings[0]
+    assert "range" in motion.planners()["RRTConnect"] and motion.planner_problem("RRT", {"range": 1}) == ""
+
+
+def test_cancel_ends_a_long_search_at_once(scene, model):
+    """RRTstar uses all its time; the token ends it from another thread."""
+    token, done = motion.CancelToken(), []
+    thread = threading.Thread(target=lambda: done.append(motion.plan(scene, request(model, planner="RRTstar", seed=None, planning_time=300.0), token)))
+    thread.start()
+    time.sleep(0.3)
+    token.cancel()
+    thread.join(60)
+    assert done and done[0].status == "cancelled" and done[0].code == -7 and token.cancelled
+
+
+def test_timeout(scene, model):
+    walls = scene.copy()
+    state = scene.state
+    at = state.pose("tool").position
+    for i, (offset, size) in enumerate((((0.16, 0, 0), (0.02, 0.5, 0.5)), ((-0.16, 0, 0), (0.02, 0.02, 0.5)))):
+        walls.add_object(f"w{i}", [motion.Box(*size)], pose=(at + offset, (0, 0, 0, 1)))
+    # The shoulder cannot pass a full ring around it.
+    for angle in np.linspace(0, 2 * np.pi, 24, endpoint=False):
+        if abs(np.arctan2(np.sin(angle + 0.3), np.cos(angle + 0.3))) < 0.4:
+            walls.add_object(f"ring{angle:.2f}", [motion.Box(0.9, 0.03, 2.0)], pose=motion.Pose.from_rpy((0.6 * np.cos(angle), 0.6 * np.sin(angle), 0.9), (0, 0, angle)))
+    if walls.check(state):
+        pytest.skip("the walls touch the start")
+    result = motion.plan(walls, request(model, planning_time=0.3, goal=AWAY))
+    assert result.status in ("timeout", "solved", "goal_in_collision")
+
+
+@pytest.mark.parametrize("change, status, code, said", [
+    (dict(goal=[0, 0, 9, 0, 0, 0]), "solved", 1, ""),  # clamped to the limit, as upstream
+    (dict(goal=[-0.5, 0.9, 0.3, 0, 0, 0]), "goal_in_collision", -27, "'floor'"),
+    (dict(planner="Teleport"), "unknown_planner", -1, "no planner 'Teleport'"),
+    (dict(planner="stomp::STOMP"), "unknown_planner", -1, "RRTConnect"),
+    (dict(projection="joints(nobody)", planner="KPIECE"), "invalid_request", -16, "no joint 'nobody'"),
+    (dict(planning_time=0.0), "invalid_request", -16, "planning time"),
+    (dict(longest_valid_segment_fraction=2.0), "invalid_request", -16, "longest_valid_segment_fraction")])
+def test_joint_requests_that_are_odd(scene, model, change, status, code, said):
+    result = motion.plan(scene, request(model, **change))
+    assert (result.status, result.code) == (status, code), result.message
+    assert said in result.message and "\n" not in result.message
+
+
+@pytest.mark.parametrize("goal, status, said", [
+    (motion.pose_goal("tool", ((2, 2, 2), (0, 0, 0, 1))), "no_ik", "out of reach"),
+    (motion.pose_goal("tool", ((0.4, 0.2, -0.4), (0, 1, 0, 0))), "goal_in_collision", "'floor'"),
+    (motion.pose_goal("nobody", ((0.4, 0.2, 0.4), (0, 1, 0, 0))), "unknown_link", "no link 'nobody'"),
+    (motion.pose_goal("tool", ((0.4, 0.2, 0.4), (0, 1, 0, 0)), frame="moon"), "unknown_frame", "no frame 'moon'"),
+    (motion.Constraints(), "no_goal", "no goal")])
+def test_goals_that_cannot_be(scene, goal, status, said):
+    result = motion.plan(scene, motion.MotionRequest("arm", goals=[goal], seed=1, planning_time=20.0))
+    assert result.status == status and said in result.message and result.trajectory is None
+    assert result.planning_time < 15
+
+
+def test_starts_that_cannot_be(scene, model):
+    state = scene.state
+    state.set("elbow_joint", 4.0)
+    bad = motion.plan(scene, request(model, start=state))
+    assert (bad.status, bad.code) == ("invalid_start", -26) and "'elbow_joint' is at 4" in bad.message
+    state.set_group("arm", [-0.5, 0.9, 0.3, 0, 0, 0])
+    bad = motion.plan(scene, request(model, start=state))
+    assert (bad.status, bad.code) == ("start_in_collision", -10) and "'floor'" in bad.message
+    keep = motion.Constraints(joint=[motion.JointConstraint("elbow_joint", 0.0, 0.1, 0.1)])
+    bad = motion.plan(scene, request(model, path_constraints=keep))
+    assert (bad.status, bad.code) == ("start_violates_path_constraints", -11) and "'elbow_joint'" in bad.message
+    assert motion.plan(scene, motion.MotionRequest("legs")).status == "invalid_group"
+
+
+def test_attached_bodies_are_carried_round(scene, model):
+    scene.attach(motion.AttachedBody("pole", "tool", [motion.Cylinder(0.02, 0.3)], pose=((0, 0, 0.15), (0, 0, 0, 1)), touch_links=["tool", "link_6", "link_5"]))
+    result = motion.plan(scene, request(model))
+    sound(scene, result)
+    assert result.trajectory.state(0).attached[0].id == "pole"
+
+
+def test_continuous_joints_take_the_short_way():
+    model = motion.load_model(*robots.arm("fetch"))
+    scene = motion.PlanningScene(model)
+    state = scene.state
+    state.set("wrist_roll_joint", 3.0)
+    goal = dict(zip(model.group("arm").variables, state.get_group("arm")), wrist_roll_joint=-3.0)
+    result = motion.plan(scene, motion.MotionRequest("arm", goals=[motion.joint_goal(model, "arm", goal)], start=state, seed=1, planning_time=30.0))
+    trajectory = result.trajectory.unwind()
+    assert trajectory.positions[-1][-1] == pytest.approx(2 * np.pi - 3.0, abs=1e-3)
+    assert np.abs(np.diff(trajectory.positions[:, -1])).max() < 0.4
+
+
+def test_planar_base_plans_inside_its_workspace():
+    ball = '<collision><geometry><sphere radius="0.2"/></geometry></collision>'
+    model = motion.load_model(f'<robot name="cart"><link name="base">{ball}</link></robot>',
+                              '<robot name="cart"><virtual_joint name="drive" type="planar" parent_frame="odom" child_link="base"/><group name="cart"><joint name="drive"/></group></robot>')
+    scene = motion.PlanningScene(model)
+    scene.add_object("wall", [motion.Box(0.1, 2.0, 1.0)], pose=((1.0, 0, 0), (0, 0, 0, 1)))
+    goal = motion.joint_goal(model, "cart", [2.0, 0.0, 1.0])
+    result = motion.plan(scene, motion.MotionRequest("cart", goals=[goal], workspace=((-3, -3, -1), (3, 3, 1)), seed=1, planning_time=30.0))
+    assert result and np.abs(result.path[:, :2]).max() <= 3.0 and np.abs(result.path[:, 1]).max() > 1.0
+    assert scene.path_valid(scene.state, "cart", result.path) == []
+
+
+def test_planning_lets_other_threads_run(scene, model):
+    ticks, stop = [], threading.Event()
+
+    def tick():
+        while not stop.wait(0.005):
+            ticks.append(1)
+    thread = threading.Thread(target=tick)
+    thread.start()
+    motion.plan(scene, request(model, planner="RRTstar", seed=None, planning_time=1.0))
+    stop.set()
+    thread.join()
+    assert len(ticks) > 10
