@@ -73,6 +73,7 @@ def model_text(options: argparse.Namespace) -> str:
     :raises Failure: not there, or not XML
     """
     if options.file:
+        rospy.loginfo("Loading model XML from file %s", options.file)
         try:
             with open(options.file, encoding="utf-8") as stream:
                 text, where = stream.read(), options.file
@@ -82,6 +83,7 @@ def model_text(options: argparse.Namespace) -> str:
             raise Failure(f"cannot read {options.file}: it is no text in UTF-8 (byte {error.start}); "
                           "save it as such") from error
     elif options.param:
+        rospy.loginfo("Loading model XML from ros parameter %s", options.param)
         where = f"parameter {rospy.resolve_name(options.param)}"
         try:
             text = rospy.get_param(options.param)
@@ -89,8 +91,10 @@ def model_text(options: argparse.Namespace) -> str:
             raise Failure(f"{where} is not set; load the robot first, as in "
                           f"<param name=\"{options.param}\" command=\"$(find xacro)/xacro ...\"/>") from None
     elif options.database:
+        rospy.loginfo("Loading model XML from Gazebo Model Database")
         text, where = _DATABASE.format(options.database), "-database"
     else:
+        rospy.loginfo("Loading model XML from stdin")
         text, where = sys.stdin.read(), "standard input"
     try:
         root = ET.fromstring(text)
@@ -109,7 +113,7 @@ def wait_for_model(name: str, gazebo_namespace: str) -> None:
 
     :raises Failure: the simulator is gone
     """
-    rospy.loginfo("Waiting for model %s before spawning", name)
+    rospy.loginfo("Waiting for model %s before proceeding.", name)
     service = gazebo_namespace + "/get_world_properties"
     rospy.wait_for_service(service)
     world = rospy.ServiceProxy(service, GetWorldProperties, persistent=True)
@@ -169,7 +173,6 @@ def spawn(options: argparse.Namespace) -> None:
                       options.gazebo_namespace)
     if bond:  # from here on its end waits for the answer, so the simulator must be there
         service = f"{options.gazebo_namespace}/spawn_{'urdf' if options.urdf else 'sdf'}_model"
-        rospy.loginfo("Waiting for the simulator's service %s", service)
         rospy.wait_for_service(service)
     if not (bond.spawn(ask) if bond else ask()):
         raise Failure(f"model {options.model} was not spawned")
@@ -183,6 +186,7 @@ def spawn(options: argparse.Namespace) -> None:
 
 
 def _unpause(gazebo_namespace: str) -> None:
+    rospy.loginfo("Unpausing physics")
     name = gazebo_namespace + "/unpause_physics"
     rospy.wait_for_service(name)
     try:
@@ -193,6 +197,7 @@ def _unpause(gazebo_namespace: str) -> None:
 
 def _delete(options: argparse.Namespace) -> None:
     """At the end of ``-b``; the simulator may be gone already."""
+    rospy.loginfo("Deleting model %s", options.model)
     try:
         rospy.ServiceProxy(options.gazebo_namespace + "/delete_model", DeleteModel)(options.model)
     except (rospy.ServiceException, rospy.ROSException) as error:
@@ -209,11 +214,11 @@ def main() -> int:
     try:
         spawn(options)
     except Failure as error:
-        rospy.logerr("Spawn service failed: %s", error)
+        rospy.logerr("Spawn service failed. Exiting. Reason: %s", error)
         return 1
     except rospy.ROSInterruptException:
         return 1
     if options.bond:
-        rospy.loginfo("Model %s stays until this node ends", options.model)
+        rospy.loginfo("Waiting for shutdown to delete model %s", options.model)
         node_signals.spin()
     return 0

@@ -46,6 +46,7 @@ class DefaultRobotHWSim(RobotHWSim):
         self._joints: Dict[str, JointSim] = {}
         self._writers: Tuple[JointSim, ...] = ()
         self._readers: Tuple[tuple, ...] = ()  # (state, position(), velocity()): every step goes through them
+        self._without_gains: List[str] = []  # joints that follow their commands exactly
         self._e_stop = False
 
     def init_sim(self, robot_namespace: str, model_nh: NodeHandle, model, urdf: Optional[str],
@@ -59,6 +60,9 @@ class DefaultRobotHWSim(RobotHWSim):
             self.register_interface(interface())
         for transmission in transmissions:
             self._add(transmission, model_nh, model, descriptions)
+        if self._without_gains:
+            rospy.loginfo("nothing is wrong with joints without a p gain: %s follow their commands exactly; set p, i and d in "
+                          "a namespace above if a PID should drive its joint by forces", ", ".join(self._without_gains))
         self._writers = tuple(self._joints.values())
         self._readers = tuple((sim.state, sim.joint.position, sim.joint.velocity) for sim in self._writers)
         if not self._writers:
@@ -126,6 +130,8 @@ class DefaultRobotHWSim(RobotHWSim):
         if interface is EffortJointInterface:
             return EffortMode(joint, handle, limits)
         pid = _load_gains(nh.sub(f"gazebo_ros_control/pid_gains/{description.name}"), description.name)
+        if pid is None and description.name not in self._without_gains:
+            self._without_gains.append(description.name)
         if interface is PositionJointInterface:
             if pid is None:
                 return PositionMode(joint, handle, limits)
@@ -198,8 +204,7 @@ def _warn_of_zero_limits(description: JointDescription, hard: Optional[JointLimi
 def _load_gains(nh: NodeHandle, joint: str) -> Optional[RosPid]:
     """The PID of a joint, or None, which is a good way to drive it too."""
     if not nh.has_param("p"):
-        rospy.loginfo("No p gain specified for pid.  Namespace: %s (nothing is wrong: joint '%s' follows its commands "
-                      "exactly; set p, i and d there if a PID should drive it by forces)", nh.namespace, joint)
+        rospy.loginfo("No p gain specified for pid.  Namespace: %s", nh.namespace)
         return None
     try:
         return load_pid(nh)

@@ -40,6 +40,8 @@ class GazeboRosControl(ModelPlugin):
         self._world = server.world
         given = sdf.get("robotNamespace", None)
         self._namespace = names.join(rospy.get_namespace(), model.name if given is None else given)
+        rospy.loginfo("Loading gazebo_ros_control plugin")
+        rospy.loginfo("Starting gazebo_ros_control plugin in namespace: %s", self._namespace)
         self._nh = NodeHandle(self._namespace)
         self._robot_param = sdf.get("robotParam", "robot_description") or "robot_description"
         self._sim_class = _find_sim(sdf.get("robotSimType", _DEFAULT_SIM) or _DEFAULT_SIM)
@@ -79,9 +81,9 @@ class GazeboRosControl(ModelPlugin):
         return value if isinstance(value, str) and value else None
 
     def _wait_for_description(self) -> None:
-        rospy.logwarn("gazebo_ros_control of model '%s' waits for the robot description in parameter %s (looked for in "
-                      "%s and above) on the ROS param server; the world goes on, controllers can be loaded once it is "
-                      "there", self._model.name, self._robot_param, self._namespace)
+        rospy.logwarn("gazebo_ros_control plugin is waiting for model URDF in parameter [%s] on the ROS param server. "
+                      "(Looked for in %s and above, for model '%s'; the world goes on, controllers can be loaded once "
+                      "it is there)", self._robot_param, self._namespace, self._model.name)
         refused = None
         while not self._gone.wait(_POLL) and not rospy.core.is_shutdown_requested():
             try:
@@ -123,7 +125,8 @@ class GazeboRosControl(ModelPlugin):
         self._nh.own(nh)
         self._hw, self._manager = hw, manager
         self._server.before_step(self._step)
-        rospy.loginfo("Loaded gazebo_ros_control in %s: %s", self._namespace, names)
+        rospy.logdebug("Command interfaces in %s: %s", self._namespace, names)
+        rospy.loginfo("Loaded gazebo_ros_control.")
 
     def _make_hw(self, nh: NodeHandle, urdf: str) -> RobotHWSim:
         try:
