@@ -227,6 +227,32 @@ class Ends(unittest.TestCase):
             self.assertTrue(sim.step(3).success)
 
 
+class Alone(unittest.TestCase):
+    def test_gazebo_typed_without_a_master_brings_its_own_and_takes_it_along(self):
+        with socket.socket() as probe:
+            probe.bind(("localhost", 0))
+            uri = f"http://localhost:{probe.getsockname()[1]}"
+        process = subprocess.Popen(["gazebo", "--lockstep"], env={**os.environ, "ROS_MASTER_URI": uri}, text=True,
+                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True)
+        try:
+            for line in process.stdout:
+                if "Physics dynamic reconfigure ready" in line:
+                    break
+            master = rosgraph.Master("/test", uri)
+            self.assertEqual(xmlrpc.client.ServerProxy(master.lookupNode("/gazebo")).getPid("/test")[2], process.pid)
+            os.killpg(process.pid, signal.SIGINT)
+            self.assertEqual(process.wait(60), 0)
+            for _ in range(600):
+                if not rosgraph.is_master_online(uri):
+                    break
+                rospy.rostime.wallsleep(0.1)
+            self.assertFalse(rosgraph.is_master_online(uri), "its master stayed behind")
+        finally:
+            if process.poll() is None:
+                os.killpg(process.pid, signal.SIGKILL)
+            process.stdout.close()
+
+
 if __name__ == "__main__":
     rospy.init_node("processes_rostest")
     rostest.rosrun("gazebo_ros", "processes", "__main__")
