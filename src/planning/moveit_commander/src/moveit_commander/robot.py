@@ -10,6 +10,7 @@ from moveit_msgs.msg import RobotState
 from visualization_msgs.msg import MarkerArray
 
 from moveit_core import states
+from moveit_ros_planning.robot_model import RobotDescription
 
 from . import conversions
 from .exception import MoveItCommanderException
@@ -90,6 +91,16 @@ class RobotCommander:
         self._session = session(robot_description, ns)
         self._model = self._session.model
         self._groups: Dict[str, MoveGroupCommander] = {}
+
+    @property
+    def model(self) -> motion.RobotModel:
+        """The robot as the motion library knows it."""
+        return self._model
+
+    @property
+    def description(self) -> RobotDescription:
+        """What the parameters say about the robot."""
+        return self._session.description
 
     def _state(self) -> motion.RobotState:
         return self._session.state() or self._session.monitor.state()
