@@ -12,7 +12,7 @@ namespace ode_sim {
 
 namespace {
 
-constexpr uint64_t kVersion = 0x326d69735f65646full;  // "ode_sim2"; counts up when what is written changes
+constexpr uint64_t kVersion = 0x336d69735f65646full;  // "ode_sim3"; counts up when what is written changes
 
 uint64_t digest(const char* data, size_t size) {  // FNV-1a
   uint64_t h = 0xcbf29ce484222325ull;
@@ -158,6 +158,7 @@ struct Relations {
   struct SavedTie {
     int parent, child;
     Pose X_PC;
+    dJointFeedback feedback;  // of the last step in which it was solved for; what is at rest still bears it
   };
   struct Rest {
     bool asleep = false;
@@ -183,7 +184,12 @@ template <class F, class List> void visit_size(F& f, List& list, size_t least_by
 
 template <class F> void visit(F& f, Relations& r) {
   visit_size(f, r.ties, sizeof(int));
-  for (auto& t : r.ties) f.number(t.parent), f.number(t.child), visit(f, t.X_PC);
+  for (auto& t : r.ties) {
+    f.number(t.parent), f.number(t.child);
+    visit(f, t.X_PC);
+    for (dReal* v : {t.feedback.f1, t.feedback.t1, t.feedback.f2, t.feedback.t2})
+      for (int i = 0; i < 3; ++i) f.number(v[i]);
+  }
   visit_size(f, r.exempt, sizeof(uint64_t));
   for (auto& pairs : r.exempt) {
     visit_size(f, pairs, sizeof(int));
@@ -206,7 +212,7 @@ template <class F> void visit(F& f, Relations& r) {
 std::string World::save() {
   refresh();
   Relations r;
-  for (auto& t : ties_) r.ties.push_back({t.parent ? t.parent->id : -1, t.child->id, t.X_PC});
+  for (auto& t : ties_) r.ties.push_back({t.parent ? t.parent->id : -1, t.child->id, t.X_PC, t.feedback});
   for (auto& m : models_) {
     r.exempt.emplace_back(m->exempt.begin(), m->exempt.end());
     for (auto& j : m->joints)
@@ -252,7 +258,7 @@ void World::restore(const std::string& data, const std::vector<int>& tie_ids) {
   for (size_t i = 0; i < r.ties.size(); ++i) {
     const auto& t = r.ties[i];
     if (!links.count(t.child) || (t.parent != -1 && !links.count(t.parent))) refuse(kOtherModels);
-    ties.push_back({tie_ids[i], t.parent == -1 ? nullptr : links[t.parent], links[t.child], t.X_PC});
+    ties.push_back({tie_ids[i], t.parent == -1 ? nullptr : links[t.parent], links[t.child], t.X_PC, nullptr, t.feedback});
   }
   for (auto& [follower, leader] : r.leaders)
     if (!joints.count(follower) || !joints.count(leader)) refuse(kOtherModels);

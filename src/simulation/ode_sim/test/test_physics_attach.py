@@ -89,6 +89,22 @@ def test_part_of_snapshots():
     assert bytes(world.save()) == bytes(expected)
 
 
+def test_what_it_bears_is_part_of_snapshots_too():
+    world = World()
+    robot = world.spawn(arm(links=1, bolted=True))
+    world.attach(robot.links["base"], robot.links["link0"])
+    robot.joints["j0"].feedback()
+    world.step(3)
+    robot.joints["j0"].servo(0.0)  # from here on nothing solves for the attachment
+    world.step(3)
+    saved = world.save()
+    world.step(5)
+    expected = world.save()
+    world.restore(saved)
+    world.step(5)
+    assert bytes(world.save()) == bytes(expected)
+
+
 def test_ends_with_either_model_and_with_a_reset():
     world = World()
     robot, thing, attachment = held_box(world)
