@@ -144,8 +144,7 @@ class Simulation:
                            initial_pose=Pose(Point(0.0, y, 0.0), Quaternion(0.0, 0.0, 0.0, 1.0)))
         if not answer.success:
             raise Found("a robot of the labs cannot be spawned again", name, answer.status_message)
-        for service in [service for service in self._proxies if "/controller_manager/" in service]:
-            del self._proxies[service]  # it would go on talking to the one of the robot before
+        self._proxies.clear()  # they would go on talking to what the robot before had
 
     def _start_controllers(self) -> None:
         for namespace, names in _CONTROLLERS.items():

@@ -109,6 +109,7 @@ class MessageKind(Kind):
     def _send(self, what: str, name: str, kind: str, fields: Dict[str, Any]) -> None:
         import genpy
         import rospy
+        import rosservice
         message = _filled(_message_class(what, kind), fields)
         if what == "topic":
             try:
@@ -119,7 +120,7 @@ class MessageKind(Kind):
             return
         try:
             answer = self._simulation.call(name, message)
-        except genpy.SerializationError:
+        except (genpy.SerializationError, rosservice.ROSServiceException):  # the latter: a message before has taken it away
             return
         except rospy.ServiceException as error:
             ros.check_line(str(error))  # a service that refuses may say so by an error

@@ -4,6 +4,7 @@ import math
 import time
 import unittest
 
+import dynamic_parameters
 import rospy
 import rostest
 from control_msgs.msg import PidState
@@ -11,6 +12,8 @@ from control_toolbox import Gains, Pid, PidGainsSetter, PidParameterError, load_
 from control_toolbox.srv import SetPidGains
 from controller_interface import NodeHandle
 from dynamic_reconfigure.client import Client
+from dynamic_reconfigure.msg import Config, DoubleParameter
+from dynamic_reconfigure.srv import Reconfigure
 
 
 class ControlToolboxTest(unittest.TestCase):
@@ -99,6 +102,17 @@ class ControlToolboxTest(unittest.TestCase):
             rospy.ServiceProxy("/setter/set_gains", SetPidGains)(math.nan, 2.0, 3.0, -4.0, True)
         self.assertEqual(pids[0].gains.p, 1.0)
         self.assertEqual(rospy.get_param("/setter"), {"p": 1.0, "i": 2.0, "d": 3.0, "i_clamp": -4.0, "antiwindup": True})
+
+    def test_a_connection_to_a_closed_reconfigure_server_changes_nothing(self):
+        calls = []
+        server = dynamic_parameters.Server("/closing", [dynamic_parameters.Parameter("p", float, 1.0)],
+                                           lambda config, level: calls.append(config["p"]))
+        kept = rospy.ServiceProxy("/closing/set_parameters", Reconfigure, persistent=True)
+        kept(Config(doubles=[DoubleParameter("p", 2.0)]))
+        server.shutdown()
+        answer = kept(Config(doubles=[DoubleParameter("p", 3.0)]))
+        self.assertEqual([(entry.name, entry.value) for entry in answer.config.doubles], [("p", 2.0)])
+        self.assertEqual(calls, [1.0, 2.0])
 
     def test_state_topic(self):
         pid = self.load(p=2.0, i=1.0, i_clamp=0.5, d=0.5, publish_state=True)

@@ -382,6 +382,14 @@ class PluginTest(unittest.TestCase):
                 one_joint(POSITION), "<robotNamespace>/robot</robotNamespace><controlPeriod>0.0001</controlPeriod>"):
             self.assertEqual(len(log.having("shorter than the time step", level="ERROR")), 1)
 
+    def test_control_periods_that_are_no_time(self):
+        robot = SimulatedRobot(one_joint(POSITION), "<controlPeriod>inf</controlPeriod>")
+        with self.assertRaisesRegex(PluginError, "<controlPeriod> must be a number of seconds, it is infinite"):
+            robot.load()
+        with SimulatedRobot(one_joint(POSITION), "<robotNamespace>/robot</robotNamespace><controlPeriod>nan</controlPeriod>",
+                            FORWARD) as robot:
+            robot.start("pos")  # as without it: every step
+
     def test_unknown_robot_sim(self):
         with self.assertRaisesRegex(PluginError, "nobody/Sim.*gazebo_ros_control/DefaultRobotHWSim"):
             SimulatedRobot(one_joint(POSITION), "<robotSimType>nobody/Sim</robotSimType>").load()

@@ -62,8 +62,10 @@ class GazeboRosControl(ModelPlugin):
     def _control_period(self, wanted: float) -> int:
         """ns; 0 updates in every step."""
         step = self._world.dt
-        if wanted <= 0.0:
+        if not wanted > 0.0:  # NaN too
             return 0
+        if wanted == float("inf"):
+            raise PluginError("<controlPeriod> must be a number of seconds, it is infinite: nothing would ever be controlled")
         if wanted < step * (1.0 - 1e-9):
             rospy.logerr("model '%s': <controlPeriod>%g is shorter than the time step of %g s; controllers are updated "
                          "once per step", self._model.name, wanted, step)

@@ -116,7 +116,8 @@ class Server:
 
     def shutdown(self) -> None:
         """Withdraw topics and service; the values stay on the parameter server."""
-        self._closed = True
+        with self._lock:
+            self._closed = True
         self._service.shutdown("no longer needed")
         self._descriptions.unregister()
         self._updates.unregister()
@@ -185,6 +186,8 @@ class Server:
         values = {entry.name: entry.value for field in ("bools", "ints", "strs", "doubles")
                   for entry in getattr(request.config, field)}
         with self._lock:
+            if self._closed:  # a connection that the client has kept
+                return ReconfigureResponse(self._encode(self._config))
             try:
                 if values:
                     self._change(values)
