@@ -81,7 +81,7 @@ def test_a_package_that_debian_has_is_named_with_its_debian_packages(package):
 
 
 def test_what_is_optional_stays_silent(package, tmp_path):
-    (tmp_path / "CMakeLists.txt").write_text("cmake_minimum_required(VERSION 3.0.2)\nproject(q)\n"
+    (tmp_path / "CMakeLists.txt").write_text("cmake_minimum_required(VERSION 3.10)\nproject(q)\n"
                                              "find_package(catkin QUIET COMPONENTS amcl)\nmessage(STATUS \"amcl ${amcl_FOUND}\")\n")
     ended = subprocess.run(["cmake", "-S", tmp_path, "-B", tmp_path / "b"], capture_output=True, text=True, timeout=200)
     assert ended.returncode == 0 and "amcl 0" in ended.stdout and ended.stderr == ""

@@ -393,7 +393,8 @@ class Renderer:
             texture.use(0)
         program = self._program(flags)
         if uniforms is not None and "lights" in program:
-            program["lights"].write(uniforms.tobytes())
+            lights = program["lights"]  # a compiler leaves out the end of the array if the shader does not read it
+            lights.write(uniforms.reshape(-1, 4)[:lights.array_length].tobytes())
         if "eye" in program:
             program["eye"].value = tuple(eye)
         if "shadow_map" in program and self._shadow is not None:
