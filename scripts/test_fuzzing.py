@@ -21,7 +21,7 @@ from fuzzing.pool import Pool  # noqa: E402
 from fuzzing.worker import case_of  # noqa: E402
 
 #: cases of the short run: all together take some half a minute on one core
-SHORT = {"urdf": 60, "sdf": 60, "world": 40, "plan": 40, "mesh": 40, "api": 80, "yaml": 40, "launch": 12, "messages": 12}
+SHORT = {"urdf": 60, "sdf": 60, "world": 40, "plan": 40, "mesh": 40, "api": 80, "xacro": 20, "yaml": 40, "launch": 12, "messages": 12}
 
 
 class Trap(Kind):

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Callable, Optional, Tuple, Type
 
 ROOT = Path(__file__).resolve().parents[2]
-_LONGEST_MESSAGE = 1000  # characters: the reason, a path, and at most one shortened line of the input
+_LONGEST_MESSAGE = 1500  # characters: the reason, a path, and at most one shortened line of the input
 
 
 @dataclass(frozen=True)
@@ -39,6 +39,10 @@ class Found(Exception):
     def __init__(self, what: str, place: str, detail: str = ""):
         super().__init__(what, place, detail)
         self.finding = Finding(what, place, shortened(detail))
+
+    @classmethod
+    def of(cls, finding: Finding) -> "Found":
+        return cls(finding.what, finding.place, finding.detail)
 
 
 def shortened(text: str, length: int = 200) -> str:

@@ -34,7 +34,7 @@ class Ended(NamedTuple):
 
 
 def run(script: Path, arguments: List[str], master: str) -> Ended:
-    """:param master: URI of the ROS master that the program is to use."""
+    """:param master: URI of the ROS master that the program is to use, if it uses one."""
     sys.stdout.flush()
     pid = os.fork()
     if pid == 0:
@@ -54,8 +54,10 @@ def _become(script: Path, arguments: List[str], master: str) -> None:
             os.dup2(stream, number)
         faulthandler.enable(all_threads=False)
         faulthandler.register(signal.SIGUSR1, all_threads=True)
-        os.environ["ROS_MASTER_URI"] = master
+        if master:
+            os.environ["ROS_MASTER_URI"] = master
         sys.argv = [str(script), *arguments]
+        sys.path.insert(0, str(script.parent))  # as Python does for a script
         try:
             runpy.run_path(str(script), run_name="__main__")
             code = 0

@@ -250,7 +250,7 @@ class Simulation:
         text = re.sub(r"\x1b\[[\d;]*m", "", text[:whole].decode("utf-8", "replace"))
         if "Traceback (most recent call last)" in text:
             from fuzzing import findings
-            raise _as_found(findings.of_output(text[text.index("Traceback (most"):]))
+            raise Found.of(findings.of_output(text[text.index("Traceback (most"):]))
         for line in text.splitlines():
             if re.match(r"\[(ERROR|FATAL|WARN)\]", line):
                 ros.check_line(re.sub(r"^\[\w+\] \[[\d., -]+\]: ", "", line))
@@ -272,10 +272,6 @@ def rospy_closed() -> type:
     """What a connection that was kept raises when the other side has gone."""
     from rospy.exceptions import TransportException
     return TransportException
-
-
-def _as_found(finding) -> Found:
-    return Found(finding.what, finding.place, finding.detail)
 
 
 def listed() -> List[Target]:

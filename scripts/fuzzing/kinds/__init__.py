@@ -57,14 +57,15 @@ def all_kinds() -> Dict[str, Kind]:
     from fuzzing.kinds.meshes import MeshKind
     from fuzzing.kinds.messages import MessageKind
     from fuzzing.kinds.plans import PlanKind
-    kinds: List[Kind] = [UrdfKind(), SdfKind(), WorldKind(), PlanKind(), MeshKind(), ApiKind(), ControllerKind(), LaunchKind(),
-                         MessageKind()]
+    from fuzzing.kinds.xacros import XacroKind
+    kinds: List[Kind] = [UrdfKind(), XacroKind(), SdfKind(), WorldKind(), PlanKind(), MeshKind(), ApiKind(), ControllerKind(),
+                         LaunchKind(), MessageKind()]
     return {kind.name: kind for kind in kinds}
 
 
 def kind_of_file(path: Path) -> Optional[str]:
     """What a file to replay is, by its name and, where that does not tell, by what is in it."""
-    known = {".urdf": "urdf", ".xacro": "urdf", ".sdf": "sdf", ".world": "world", ".mesh": "mesh", ".launchargs": "launch"}
+    known = {".urdf": "urdf", ".xacro": "xacro", ".sdf": "sdf", ".world": "world", ".mesh": "mesh", ".launchargs": "launch"}
     if path.suffix in known:
         return known[path.suffix]
     text = path.read_bytes()

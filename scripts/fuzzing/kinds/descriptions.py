@@ -42,7 +42,8 @@ class _XmlKind(Kind):
         if world is None:
             return
         worlds.check_messages(world, world.problems, "problems of a description")
-        worlds.settle(world)
+        if not worlds.settle(world):
+            return
         worlds.check_messages(world, world.messages, "messages of a world")
         worlds.check_replay(world)
         _draw(world)

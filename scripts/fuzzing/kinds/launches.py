@@ -132,11 +132,11 @@ class LaunchKind(Kind):
         said = re.sub(r"\x1b\[[\d;]*m", "", ended.errors)
         both = said + "\n" + ended.output
         if ended.hung:
-            raise _found(of_stack("hang", both))
+            raise Found.of(of_stack("hang", both))
         if ended.code < 0 and not ended.interrupted:
-            raise _found(of_stack(f"process ended by signal {-ended.code}", both))
+            raise Found.of(of_stack(f"process ended by signal {-ended.code}", both))
         if "Traceback (most recent call last)" in both:
-            raise _found(of_output(both[both.index("Traceback (most"):]))
+            raise Found.of(of_output(both[both.index("Traceback (most"):]))
         if ended.code not in _PROGRAM_CODES and not ended.interrupted:
             raise Found("exit code", program, f"{ended.code}: {programs.last_line(both)}")
         if ended.code in (1, 2) and not ended.interrupted:
@@ -147,10 +147,6 @@ class LaunchKind(Kind):
         for line in said.splitlines():
             if re.match(r"\[(ERROR|FATAL|WARN)\]", line):
                 ros.check_line(re.sub(r"^\[\w+\] \[[\d., -]+\]: ", "", line))
-
-
-def _found(finding) -> Found:
-    return Found(finding.what, finding.place, finding.detail)
 
 
 def _written(told: Dict[str, Any]) -> bytes:

@@ -118,6 +118,8 @@ class MessageKind(Kind):
                 return
             time.sleep(0.005)
             return
+        if name.endswith("/switch_controller"):
+            self._simulation.call("/gazebo/unpause_physics")  # in a paused world it waits, as it should
         try:
             answer = self._simulation.call(name, message)
         except (genpy.SerializationError, rosservice.ROSServiceException):  # the latter: a message before has taken it away

@@ -1,7 +1,10 @@
 """The xacro commands as a student types them."""
 import os
+import signal
 import subprocess
+import time
 
+import psutil
 import pytest
 
 HERE = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
@@ -52,6 +55,20 @@ def test_malformed_xml_names_file_and_line(write):
     path = write("<link>\n</lnk>")
     result = run(path)
     assert result.returncode == 2 and f"{path}:3: not well-formed XML" in result.stderr
+
+
+def test_ctrl_c_ends_it_without_a_traceback(write):
+    path = write('<a b="${[n for n in range(10 ** 11) if n &lt; 0]}"/>')
+    process = subprocess.Popen([os.path.join(HERE, "xacro"), str(path)], stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+    try:
+        while sum(psutil.Process(process.pid).cpu_times()[:2]) < 3.0:  # it expands, and would for hours
+            assert process.poll() is None
+            time.sleep(0.05)
+        process.send_signal(signal.SIGINT)
+        _, complaint = process.communicate(timeout=60)
+    finally:
+        process.kill()
+    assert process.returncode != 0 and "Traceback" not in complaint
 
 
 def test_missing_file(tmp_path):

@@ -182,6 +182,8 @@ def main() -> None:
         _fail(f"{file}:{error.lineno}: not well-formed XML: {error}", options.verbosity, error)
     except BrokenPipeError:
         os._exit(1)  # the reader went away (`xacro f | head`): nothing to report, nothing left to flush
+    except KeyboardInterrupt:
+        sys.exit(130)
     except Exception as error:  # noqa: BLE001  expressions in a xacro file may raise anything
         place = _place_of(error)
         if isinstance(error, RecursionError) or isinstance(getattr(error, "exc", None), RecursionError):
