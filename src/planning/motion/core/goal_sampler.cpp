@@ -71,7 +71,9 @@ std::vector<std::vector<double>> GoalSampler::sample(std::size_t wanted, Random&
     sampleJoints(wanted, random, stop);
   else
   {
-    samplePoses(wanted, random, stop);
+    // Inverse kinematics knows nothing of constraints on joints.
+    if (goal_.joints.empty())
+      samplePoses(wanted, random, stop);
     if (found_.empty() && !stop())
       sampleByProjection(wanted, random, stop);
   }

@@ -30,7 +30,6 @@
 #include <ompl/geometric/planners/rrt/SORRTstar.h>
 #include <ompl/geometric/planners/rrt/TRRT.h>
 #include <ompl/geometric/planners/sbl/SBL.h>
-#include <ompl/geometric/planners/sst/SST.h>
 #include <ompl/geometric/planners/stride/STRIDE.h>
 
 #include <functional>
@@ -68,7 +67,7 @@ const std::map<std::string, Make>& table()
       {"RRTsharp", maker<og::RRTsharp>()},   {"RRTstar", maker<og::RRTstar>()},
       {"SBL", maker<og::SBL>()},             {"SORRTstar", maker<og::SORRTstar>()},
       {"SPARS", maker<og::SPARS>()},         {"SPARStwo", maker<og::SPARStwo>()},
-      {"SST", maker<og::SST>()},             {"STRIDE", maker<og::STRIDE>()},
+      {"STRIDE", maker<og::STRIDE>()},
       {"TRRT", maker<og::TRRT>()}};
   return planners;
 }

@@ -285,7 +285,9 @@ private:
     problem_->addStartState(start);
     si_->freeState(start);
     problem_->setGoal(std::make_shared<FoundGoals>(si_, goals_));
-    problem_->setOptimizationObjective(objective());
+    // Without an objective each planner has its own default; given one, PRM and LazyPRM would use all of their time.
+    if (const auto wanted = objective())
+      problem_->setOptimizationObjective(wanted);
   }
 
   void limitWorkspace()
@@ -319,7 +321,7 @@ private:
     return found == request_.parameters.end() ? "" : found->second;
   }
 
-  ob::OptimizationObjectivePtr objective() const
+  ob::OptimizationObjectivePtr objective()
   {
     const std::string name = parameter("optimization_objective");
     if (name == "MinimaxObjective")
@@ -330,7 +332,11 @@ private:
       return std::make_shared<ob::MechanicalWorkOptimizationObjective>(si_);
     if (name == "MaximizeMinClearanceObjective")
       return std::make_shared<ob::MaximizeMinClearanceObjective>(si_);
-    return std::make_shared<ob::PathLengthOptimizationObjective>(si_);
+    if (name == "PathLengthOptimizationObjective")
+      return std::make_shared<ob::PathLengthOptimizationObjective>(si_);
+    if (!name.empty())
+      warn("optimization_objective '" + name.substr(0, 60) + "' is not known; the planner's own is used");
+    return nullptr;
   }
 
   ob::PlannerTerminationCondition termination()

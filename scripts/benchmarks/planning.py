@@ -1,0 +1,133 @@
+#!/usr/bin/env python3
+"""What planning costs: collision checks, inverse kinematics on the published protocol, whole plans; processor time of one core.
+
+usage: planning.py [--json FILE] [--quick]
+"""
+import argparse
+import json
+import os
+import subprocess
+import sys
+import time
+
+import numpy as np
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+ROOT = os.path.join(HERE, "..", "..")
+sys.path.insert(0, os.path.join(ROOT, "src", "planning", "motion", "test"))
+
+import motion  # noqa: E402
+import robots  # noqa: E402
+
+ADJACENT = [("pedestal", "base_link"), ("base_link", "shoulder_link"), ("shoulder_link", "upper_arm_link"),
+            ("forearm_link", "upper_arm_link"), ("forearm_link", "wrist_1_link"), ("wrist_1_link", "wrist_2_link"),
+            ("wrist_2_link", "wrist_3_link"), ("ee_link", "wrist_3_link"), ("ee_link", "wrist_1_link"),
+            ("ee_link", "wrist_2_link"), ("pedestal", "shoulder_link"), ("wrist_1_link", "wrist_3_link")]
+
+
+def pedestal_ur5():
+    """The lab's UR5 on its pedestal, with its meshes; None without the lab's packages."""
+    xacro = motion.find_package("myur5_description")
+    if not xacro:
+        return None
+    text = subprocess.run(["xacro", os.path.join(xacro, "urdf", "myur5.urdf.xacro")], check=True, capture_output=True, text=True).stdout
+    pairs = "".join(f'<disable_collisions link1="{a}" link2="{b}" reason="Adjacent"/>' for a, b in ADJACENT)
+    srdf = f'<robot name="myur5"><group name="manipulator"><chain base_link="pedestal" tip_link="tool0"/></group>{pairs}</robot>'
+    return motion.load_model(text, srdf)
+
+
+def inverse(count):
+    """TRAC-IK's protocol: random reachable poses, random seeds, 1e-5, 5 ms of processor time each."""
+    figures = {}
+    for name in robots.ARMS:
+        model = motion.load_model(*robots.arm(name))
+        state, seed, times, solved = model.state(), model.state(), [], 0
+        for i in range(count):
+            state.randomize("arm", seed=2 * i)
+            seed.randomize("arm", seed=2 * i + 1)
+            goal, start = state.pose("tool"), time.thread_time()
+            found = motion.ik(model, "arm", goal, seed=seed, timeout=1.0, random_seed=i)
+            times.append((time.thread_time() - start) * 1e3)
+            solved += bool(found) and times[-1] <= 5.0
+        figures[f"IK of {name}: solved within 5 ms at 1e-5, %"] = 100.0 * solved / count
+        figures[f"IK of {name}: median, ms"] = float(np.median(times))
+        figures[f"IK of {name}: 99th percentile, ms"] = float(np.percentile(times, 99))
+    return figures
+
+
+def scene_of(model):
+    """A table, a post and 20 boxes round the robot."""
+    scene = motion.PlanningScene(model)
+    state = scene.state
+    state.set_group("manipulator", [0.0, -1.57, 1.2, -1.2, -1.57, 0.0])
+    scene.set_state(state)
+    scene.add_object("table", [motion.Box(0.8, 1.4, 0.04)], pose=((0.75, 0, 0.9), (0, 0, 0, 1)))
+    scene.add_object("post", [motion.Cylinder(0.05, 1.4)], pose=((0.1, 0.6, 1.3), (0, 0, 0, 1)))
+    random = np.random.default_rng(7)
+    while len(scene.objects) < 22:
+        name, place = f"box{len(scene.objects)}", random.uniform((-0.9, -0.9, 0.95), (0.9, 0.9, 1.9))
+        scene.add_object(name, [motion.Box(*random.uniform(0.04, 0.12, 3))], pose=(place, (0, 0, 0, 1)))
+        if scene.check() or np.linalg.norm(place[:2]) < 0.25:
+            scene.remove_object(name)
+    return scene
+
+
+def checks(model, count):
+    scene = motion.PlanningScene(model)
+    states = np.random.default_rng(1).uniform(-np.pi, np.pi, (count, 6))
+    start = time.thread_time()
+    hit = scene.check_states("manipulator", states)
+    every = (time.thread_time() - start) / count * 1e6
+    free = states[~hit]
+    start = time.thread_time()
+    scene.check_states("manipulator", free)
+    figures = {"pedestal UR5 with meshes: check of a random state, us": every,
+               "pedestal UR5 with meshes: check of a free state, us": (time.thread_time() - start) / len(free) * 1e6}
+    for number in range(1000):
+        scene.add_object(f"o{number}", [motion.Sphere(0.02)], pose=((2, 0.01 * number, 0), (0, 0, 0, 1)))
+    start = time.thread_time()
+    child = scene.diff()
+    child.add_object("one more", [motion.Sphere(0.02)], pose=((2, -1, 0), (0, 0, 0, 1)))
+    child.check()
+    figures["copy of a scene with 1 000 objects, one added, checked, ms"] = (time.thread_time() - start) * 1e3
+    return figures
+
+
+def plans(model, count):
+    """Random reachable free pose goals, from goal to timed trajectory."""
+    scene, goal_state = scene_of(model), model.state()
+    pipeline, times, solved, seed = motion.Pipeline(), [], 0, 0
+    while len(times) < count:
+        goal_state.randomize("manipulator", seed=seed)
+        seed += 1
+        if scene.check(goal_state, group="manipulator"):
+            continue
+        goal = motion.pose_goal("tool0", goal_state.pose("tool0"))
+        start = time.thread_time()
+        result = pipeline.generate(scene, motion.MotionRequest("manipulator", goals=[goal], seed=seed, longest_valid_segment_fraction=0.005))
+        times.append((time.thread_time() - start) * 1e3)
+        solved += bool(result)
+    title = "pedestal UR5, table, post, 20 boxes: pose goal to timed trajectory"
+    return {f"{title}: solved, %": 100.0 * solved / count, f"{title}: p50, ms": float(np.percentile(times, 50)),
+            f"{title}: p95, ms": float(np.percentile(times, 95))}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--json")
+    parser.add_argument("--quick", action="store_true")
+    arguments = parser.parse_args()
+    figures = inverse(500 if arguments.quick else 10000)
+    model = pedestal_ur5()
+    if model is not None:
+        figures.update(checks(model, 2000 if arguments.quick else 20000))
+        figures.update(plans(model, 20 if arguments.quick else 100))
+    for name, value in figures.items():
+        print(f"{name:80} {value:10.4g}")
+    if arguments.json:
+        with open(arguments.json, "w", encoding="utf-8") as file:
+            json.dump(figures, file)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,14 @@
+"""The example of the README runs as it stands."""
+import contextlib
+import io
+import re
+from pathlib import Path
+
+
+def test_example_runs_and_plans():
+    text = (Path(__file__).resolve().parent.parent / "README.md").read_text(encoding="utf-8")
+    example, = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
+    said = io.StringIO()
+    with contextlib.redirect_stdout(said):
+        exec(compile(example, "README.md", "exec"), {"__name__": "readme"})
+    assert "planned in" in said.getvalue() and "straight up: 100%" in said.getvalue()
