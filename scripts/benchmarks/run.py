@@ -23,6 +23,8 @@ WANTED = [
     (r"seconds to the first joint states", "<", 5.0), (r"memory of the server", "<", 300.0),
     (r"arms: cost per arm against one arm", "<=", 1.05), (r"first picture of RViz", "<", 3.0),
     (r"arm with 800x800 camera: real-time factor", ">=", 0.99), (r"frame / bare draw", "<=", 1.5),
+    (r"^IK of .* solved within 5 ms", ">=", 99.6), (r"^IK of .* median", "<", 0.4), (r"to timed trajectory: solved", ">=", 100.0),
+    (r"to timed trajectory: p50", "<", 50.0), (r"to timed trajectory: p95", "<", 250.0), (r"1 000 objects, one added", "<", 2.0),
     (r"motors: p99 cycle", "<", 1.5), (r"^mbot.*real-time factor, throttled$", ">=", 0.99),
     (r"^mbot.*real-time factor, uncapped$", ">=", 10.0), (r"mbots: cost per mbot against one", "<=", 1.05),
 ]
@@ -176,6 +178,8 @@ SECTIONS = {
     "tracking": ("error of the joint trajectory controller", tracking),
     "pendulum": ("error against step size", pendulum),
     "physics": ("bare physics against bare ODE, and rays", lambda quick: section_script("physics.py")),
+    "motion": ("kinematics, collision checks and plans of the motion library",
+               lambda quick: section_script("planning.py", *(["--quick"] if quick else []))),
     "camera": ("pictures per second, and what one costs", camera),
     "rviz": ("time to a picture of RViz", rviz),
     "can": ("cycles of rm_hw against the motor bench", lambda quick: section_script("can_loop.py", "--seconds", 5 if quick else 20)),

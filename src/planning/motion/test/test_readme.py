@@ -12,3 +12,9 @@ def test_example_runs_and_plans():
     with contextlib.redirect_stdout(said):
         exec(compile(example, "README.md", "exec"), {"__name__": "readme"})
     assert "planned in" in said.getvalue() and "straight up: 100%" in said.getvalue()
+
+
+def test_no_ros_in_the_library():
+    for path in (Path(__file__).resolve().parent.parent / "src").rglob("*.py"):
+        imported = set(re.findall(r"^\s*(?:import|from)\s+(\w+)", path.read_text(encoding="utf-8"), re.MULTILINE))
+        assert imported <= {"__future__", "dataclasses", "functools", "motion", "numpy", "os", "random", "time", "typing", "urllib"}, path
