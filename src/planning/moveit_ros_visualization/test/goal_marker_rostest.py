@@ -32,8 +32,9 @@ class Marker(unittest.TestCase):
         rospy.sleep(1.5)  # a marker's server takes no feedback from a client in the marker's first second
 
     def send(self, event, pose=None, entry=0):
-        self.publisher.publish(InteractiveMarkerFeedback(client_id="test", marker_name=self.marker.name, menu_entry_id=entry,
-                                                         event_type=event, pose=pose or self.marker.pose))
+        self.publisher.publish(InteractiveMarkerFeedback(
+            client_id="test", marker_name=self.marker.name, menu_entry_id=entry, event_type=event,
+            pose=pose or self.marker.pose))
 
     def choose(self, title):
         entry, = [entry for entry in self.marker.menu_entries if entry.title == title]

@@ -21,7 +21,8 @@ def check(robot):
     assert (chain.base_link, chain.tip_link) == ("base", "tip")
     assert [link.name for link in robot.group_map["arm"].links] == ["extra"]
     assert [group.name for group in robot.group_map["all"].subgroups] == ["arm"]
-    assert {joint.name: joint.value for joint in robot.group_state_map["home"].joints} == {"a": [0.5], "world": [1, 2, 3]}
+    home = {joint.name: joint.value for joint in robot.group_state_map["home"].joints}
+    assert home == {"a": [0.5], "world": [1, 2, 3]}
     assert robot.end_effectors[0].parent_group is None and robot.end_effectors[0].parent_link == "tip"
     assert robot.virtual_joints[0].type == robot.virtual_joints[0].joint_type == "planar"
     assert robot.passive_joints[0].name == "wheel"
@@ -44,9 +45,11 @@ def test_elements_can_be_added():
 
 
 @pytest.mark.parametrize("text, said", [
-    ("<robot", "not XML"), ("<model/>", "<model>, not <robot>"), ("<robot><group/></robot>", "<group> has no attribute 'name'"),
+    ("<robot", "not XML"), ("<model/>", "<model>, not <robot>"),
+    ("<robot><group/></robot>", "<group> has no attribute 'name'"),
     ('<robot><virtual_joint name="v" type="soft" parent_frame="a" child_link="b"/></robot>', "type 'soft'"),
-    ('<robot><group_state name="s" group="g"><joint name="j" value="up"/></group_state></robot>', "'up', which is no number")])
+    ('<robot><group_state name="s" group="g"><joint name="j" value="up"/></group_state></robot>',
+     "'up', which is no number")])
 def test_bad_documents_are_one_line(text, said):
     with pytest.raises(ParseError) as caught:
         SRDF.from_xml_string(text)

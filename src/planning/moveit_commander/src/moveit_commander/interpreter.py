@@ -409,10 +409,11 @@ class MoveGroupCommandInterpreter:
         group = self.get_active_group()
         known = list(group.get_remembered_joint_values()) if group is not None else []
         named = list(group.get_named_targets()) if group is not None else []
-        alone = ("help wait group_state current load save pick place constrain vars joints tolerance time eef execute ground "
-                 "id stop planner rotate")
-        keywords: Dict[str, List[str]] = {name: [] for name in alone.split()}
+        alone = ("help", "wait", "group_state", "current", "load", "save", "pick", "place", "constrain", "vars",
+                 "joints", "tolerance", "time", "eef", "execute", "ground", "id", "stop", "planner", "rotate")
+        keywords: Dict[str, List[str]] = {name: [] for name in alone}
         directions = ["up", "down", "left", "right", "backward", "forward"]
-        keywords.update(go=directions + ["random"] + named, plan=["random"] + named, record=known, show=known,
-                        delete=known, use=self._robot.get_group_names(), allow=["replanning", "looking"], trace=["on", "off"])
+        keywords.update(go=directions + ["random"] + named, plan=["random"] + named, record=known, show=known)
+        keywords.update(delete=known, use=self._robot.get_group_names(), allow=["replanning", "looking"])
+        keywords["trace"] = ["on", "off"]
         return keywords

@@ -115,7 +115,7 @@ class PlanExecution:
             return Plan(MoveItErrorCodes.FAILURE, str(error))
 
     def execute(self, plan: Plan, diff: Optional[PlanningScene], stop: Stop, stops: Optional[int] = None) -> None:
-        """Execute the segments of ``plan`` and write the outcome into it; for ``stops`` see TrajectoryExecution.start."""
+        """Execute the segments of ``plan``, write the outcome into it; for ``stops`` see TrajectoryExecution.start."""
         run = _Run(self._monitor, self._execution, plan, diff, stop, stops)
         recorder = _Recorder(self._monitor, float(self.config["record_trajectory_state_frequency"]))
         try:

@@ -62,7 +62,7 @@ class PlannerConfigs:
         if not isinstance(entry, dict):
             rospy.logerr("Could not find the planner configuration '%s' on the param server; group '%s' uses %s "
                          "instead (harmless: "
-                         "%splanner_configs has %s)", name, group, _DEFAULT, rospy.resolve_name(self._namespace),
+                         "%s has %s)", name, group, _DEFAULT, rospy.resolve_name(self._namespace + "planner_configs"),
                          ", ".join(sorted(self._shared)) or "none")
             return {}
         if "type" not in entry:
