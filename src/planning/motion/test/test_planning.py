@@ -153,8 +153,10 @@ def test_cancel_ends_a_long_search_at_once(scene, model):
     thread = threading.Thread(target=lambda: done.append(motion.plan(scene, request(model, planner="RRTstar", seed=None, planning_time=300.0), token)))
     thread.start()
     time.sleep(0.3)
+    spent = time.process_time()
     token.cancel()
     thread.join(60)
+    assert time.process_time() - spent < 0.05  # of the processor: the machine may be busy with other things
     assert done and done[0].status == "cancelled" and done[0].code == -7 and token.cancelled
 
 
