@@ -29,6 +29,11 @@ PRERM = f"""#!/bin/sh
 set -e
 find {PREFIX} -depth -name __pycache__ -type d -exec rm -rf {{}} +
 """
+# dpkg takes an empty /opt away with the last folder in it; base-files made it, and no package owns it.
+POSTRM = """#!/bin/sh
+set -e
+[ -d /opt ] || install -d -m 755 /opt
+"""
 
 
 @dataclass(frozen=True)
@@ -109,7 +114,7 @@ def platform(tree: Path, root: Path, release: Release) -> Path:
     folder = tree.parents[2].parent / "debs" / "noetic-labs"
     shutil.rmtree(folder.parent, ignore_errors=True)
     (folder / "DEBIAN").mkdir(parents=True)
-    for name, text in (("postinst", POSTINST), ("prerm", PRERM)):
+    for name, text in (("postinst", POSTINST), ("prerm", PRERM), ("postrm", POSTRM)):
         (folder / "DEBIAN" / name).write_text(text)
         (folder / "DEBIAN" / name).chmod(0o755)
     shutil.copytree(tree, folder / PREFIX.lstrip("/"), symlinks=True)
