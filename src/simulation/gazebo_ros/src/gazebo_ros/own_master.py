@@ -1,22 +1,16 @@
 """A ROS master for the command ``gazebo`` typed alone: Gazebo runs without ROS, this simulator speaks nothing else."""
 from __future__ import annotations
 
-import ctypes
 import os
-import signal
 import subprocess
 import sys
 import time
 from urllib.parse import urlparse
 
 import rosgraph
+from node_signals.children import end_with_parent
 
-_PR_SET_PDEATHSIG = 1  # linux/prctl.h
 _START = 10.0  # s for the master to answer
-
-
-def _end_with_parent() -> None:
-    ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGTERM)
 
 
 def start_if_missing() -> None:
@@ -25,7 +19,7 @@ def start_if_missing() -> None:
     place = urlparse(uri)
     if rosgraph.is_master_online() or not place.port or not rosgraph.network.is_local_address(place.hostname or ""):
         return
-    subprocess.Popen(["rosmaster", "--core", "-p", str(place.port)], start_new_session=True, preexec_fn=_end_with_parent,
+    subprocess.Popen(["rosmaster", "--core", "-p", str(place.port)], start_new_session=True, preexec_fn=end_with_parent,
                      stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     print(f"gazebo: no ROS master runs at {uri}: this simulator brings its own, which ends with it "
           f"(process {os.getpid()})", file=sys.stderr, flush=True)

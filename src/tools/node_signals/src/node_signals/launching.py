@@ -1,0 +1,79 @@
+"""``roslaunch`` with a Ctrl-C that works at any moment; everything else is Debian's roslaunch.
+
+Upstream ends its processes inside the signal's handler. A Ctrl-C that comes while roslaunch starts a process - its lock is
+held then - or between fork and exec of a node waits there for 10 to 40 s, one that comes while it starts the master waits for
+that master, and one that comes while it looks at the log folder is swallowed.
+"""
+from __future__ import annotations
+
+import contextlib
+import os
+import signal
+import subprocess
+import threading
+
+import roslaunch
+from roslaunch import core, nodeprocess, pmon
+
+from node_signals.children import end_with_parent
+
+_PID = os.getpid()
+
+
+def _on_signal(number, frame) -> None:
+    """The shutdown runs beside the main thread, which so can finish what it holds a lock for."""
+    if os.getpid() != _PID or pmon._shutting_down:  # a fork of this process that is about to become a node
+        return
+    pmon._shutting_down = True
+    threading.Thread(target=pmon.pmon_shutdown, name="shutdown").start()
+
+
+def _unless_ending(is_running):
+    """Nobody waits for a master that Ctrl-C has ended."""
+    def checked(master):
+        if pmon._shutting_down:
+            raise core.RLException("interrupted")
+        return is_running(master)
+    return checked
+
+
+def _silent_when_ending(report):
+    """What cannot be started any more needs no message."""
+    def checked(*arguments):
+        if not pmon._shutting_down:
+            report(*arguments)
+    return checked
+
+
+def _master_first_by_sigterm(stop):
+    """SIGINT in the first moments of a Python program is a traceback on the terminal; the master has nothing to put in order."""
+    def checked(process, errors):
+        if process.name == "master" and process.popen.poll() is None:
+            with contextlib.suppress(ProcessLookupError):
+                os.killpg(process.popen.pid, signal.SIGTERM)
+        stop(process, errors)
+    return checked
+
+
+def _alone() -> None:
+    os.setsid()
+    end_with_parent(signal.SIGKILL)
+
+
+class _Popen(subprocess.Popen):
+    """What roslaunch runs while it reads files (xacro, rosversion) ends with it, without a traceback of its own at Ctrl-C."""
+
+    def __init__(self, *arguments, **options):
+        if options.get("preexec_fn") is None:
+            options["preexec_fn"] = _alone
+        super().__init__(*arguments, **options)
+
+
+def main() -> None:
+    signal.signal(signal.SIGINT, signal.SIG_DFL)  # nothing has been started yet; pmon takes over with its first process
+    subprocess.Popen = _Popen
+    pmon.rl_signal = _on_signal
+    core.Master.is_running = _unless_ending(core.Master.is_running)
+    nodeprocess.LocalProcess._stop_unix = _master_first_by_sigterm(nodeprocess.LocalProcess._stop_unix)
+    roslaunch.handle_exception = _silent_when_ending(roslaunch.handle_exception)
+    roslaunch.main()
