@@ -185,7 +185,7 @@ def _load_world(name: str, finder: ResourceFinder) -> Tuple[object, List[Problem
         return load_world(_EMPTY_WORLD, finder)
 
 
-def make_server(options, sim_time: bool) -> Server:
+def make_server(options, sim_time: bool = True) -> Server:
     """The world, its node and everything the node offers; plugins are started by ``Server.run``."""
     rospack = rospkg.RosPack()
     finder = make_finder(rospack)
