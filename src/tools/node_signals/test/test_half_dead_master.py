@@ -1,4 +1,4 @@
-"""The command controller_manager, where no controller manager is needed."""
+"""Commands that ask a master which answers no more: Ctrl-C ends them."""
 import os
 import signal
 import subprocess
@@ -10,7 +10,9 @@ from xmlrpc.server import SimpleXMLRPCRequestHandler, SimpleXMLRPCServer
 
 import pytest
 
-COMMAND = Path(__file__).resolve().parents[2] / "controller_manager" / "scripts" / "controller_manager"
+SRC = Path(__file__).resolve().parents[3]
+COMMANDS = {"gz": [SRC / "simulation/gazebo_ros/scripts/gz", "model"],
+            "controller_manager": [SRC / "control/controller_manager/scripts/controller_manager", "list"]}
 
 
 class HalfDeadMaster(ThreadingMixIn, SimpleXMLRPCServer):
@@ -42,8 +44,9 @@ def half_dead_master():
     master.server_close()
 
 
-def test_ctrl_c_ends_it_while_it_waits_for_the_master(half_dead_master, tmp_path):
-    command = subprocess.Popen([COMMAND, "list"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env={
+@pytest.mark.parametrize("name", sorted(COMMANDS))
+def test_ctrl_c_ends_it_while_it_waits_for_the_master(half_dead_master, tmp_path, name):
+    command = subprocess.Popen(COMMANDS[name], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env={
         **os.environ, "ROS_MASTER_URI": half_dead_master.uri, "ROS_HOME": str(tmp_path)})
     try:
         assert half_dead_master.asked.wait(60.0)
