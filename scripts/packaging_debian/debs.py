@@ -88,7 +88,7 @@ def _wrap(text: str) -> str:
 
 
 def _build(folder: Path, name: str, release: Release, architecture: str, depends: List[str], summary: str, text: str,
-           copyright_text: str, suggests: Tuple[str, ...] = ()) -> Path:
+           copyright_text: str, recommends: Tuple[str, ...] = (), suggests: Tuple[str, ...] = ()) -> Path:
     """dpkg-deb of ``folder``, which holds the package's files already."""
     (folder / "DEBIAN").mkdir(exist_ok=True)
     about = folder / "usr/share/doc" / name
@@ -96,8 +96,8 @@ def _build(folder: Path, name: str, release: Release, architecture: str, depends
     (about / "copyright").write_text(copyright_text)
     size = sum(path.lstat().st_size for path in folder.rglob("*") if path.is_file()) // 1024 + 1
     fields = {"Package": name, "Version": release.version, "Architecture": architecture, "Maintainer": MAINTAINER,
-              "Installed-Size": str(size), "Depends": ", ".join(depends), "Suggests": ", ".join(suggests), "Section": "science",
-              "Priority": "optional", "Description": f"{summary}\n{_wrap(text)}"}
+              "Installed-Size": str(size), "Depends": ", ".join(depends), "Recommends": ", ".join(recommends),
+              "Suggests": ", ".join(suggests), "Section": "science", "Priority": "optional", "Description": f"{summary}\n{_wrap(text)}"}
     (folder / "DEBIAN/control").write_text("".join(f"{key}: {value}\n" for key, value in fields.items() if value))
     for path in [folder, *folder.rglob("*")]:
         if not path.is_symlink():
@@ -124,7 +124,7 @@ def platform(tree: Path, root: Path, release: Release) -> Path:
                   "ROS 1 Noetic's other half: simulator, controllers, xacro, planning",
                   "What Debian's ROS packages lack to run packages written for ROS Noetic, Gazebo Classic and ros_control,\n"
                   f"under the same names, in {PREFIX}. In a new shell: source {PREFIX}/setup.bash",
-                  copyright_text, ("ros-noetic-desktop-full",))
+                  copyright_text, tuple(sections(root, "windows")), ("ros-noetic-desktop-full",))
 
 
 def _add_on_licences(tree: Path) -> str:

@@ -18,8 +18,9 @@ FOREIGN = re.compile(r"ament_|rosidl_|fast|osrf_|python3-|.*_vendor$|.*(cyclone|
                      r"|shared_queues|domain_coordinator|mk$|test_interface_files|pybind11|ompl$|spdlog|google")
 #: Metapackages: the sections of scripts/debian-packages.txt that they bring beside Debian's metapackage of that name.
 META: Dict[str, Tuple[str, ...]] = {
-    "desktop_full": ("build", "headers", "desktop", "planning"), "desktop": ("build", "headers"), "viz": (), "perception": (),
-    "simulators": ("build", "headers"), "robot": ("build", "headers"), "ros_base": ("build",), "ros_core": ("build",)}
+    "desktop_full": ("build", "headers", "desktop", "planning", "windows"), "desktop": ("build", "headers", "windows"),
+    "viz": ("windows",), "perception": (), "simulators": ("build", "headers"), "robot": ("build", "headers"),
+    "ros_base": ("build",), "ros_core": ("build",)}
 #: Names that courses type and Debian spells otherwise.
 TOOLS = {"python3-catkin-tools": "catkin-tools", "python3-rosdep": "python3-rosdep2", "python3-osrf-pycommon": "catkin-tools"}
 
@@ -53,12 +54,14 @@ def covered(root: Path) -> Dict[str, Tuple[List[str], str]]:
     known = known_to_apt()
     made: Dict[str, Tuple[List[str], str]] = {}
     rules = yaml.safe_load(DEBIAN_RULES.read_text())
+    windows = sections(root, "windows")
     for name, rule in rules.items():
         packages = [package for package in rule.get("debian") or [] if package in known]
         if packages and not FOREIGN.match(name) and name not in META:
             made[debian_name(name)] = (packages, f"Debian's packages of the ROS package {name}")
     for package in platform_packages(root):
-        made[debian_name(package.name)] = ([], f"the ROS package {package.name}, which noetic-labs supplies")
+        made[debian_name(package.name)] = (windows if package.parent.name == "windows" else [],
+                                           f"the ROS package {package.name}, which noetic-labs supplies")
     for name, wanted in META.items():
         own = [package for package in (rules.get(name) or {}).get("debian", []) if package in known]
         made[debian_name(name)] = (own + [package for package in sections(root, *wanted) if package in known],

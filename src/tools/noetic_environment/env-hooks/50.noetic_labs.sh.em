@@ -34,4 +34,27 @@ if [ ! -d "$ROS_ROOT" ]; then
   export ROS_ROOT=/usr/share/roslib
 fi
 
+@[if DEVELSPACE]@
+# The clone's labs are leaves: whoever builds a workspace on the clone stands on the platform alone, so that no file of a lab
+# stands in for one that is missing there. catkin finds files by the list .catkin, thus the labs are taken off it; the clone's
+# own shells find them by ROS_PACKAGE_PATH.
+_noetic_labs_labs=$(cd "$_noetic_labs_here/../../labs" 2>/dev/null && pwd)
+_noetic_labs_list=$CATKIN_ENV_HOOK_WORKSPACE/.catkin
+_noetic_labs_without() {  # LIST SEPARATOR: the list without what is below labs
+  printf '%s' "$1" | tr "$2" '\n' | grep -vF "$_noetic_labs_labs/" | paste -s -d "$2" -
+}
+if [ -n "$_noetic_labs_labs" ]; then
+  if grep -qF "$_noetic_labs_labs/" "$_noetic_labs_list" 2>/dev/null && [ -w "$CATKIN_ENV_HOOK_WORKSPACE" ]; then
+    printf '%s' "$(_noetic_labs_without "$(cat "$_noetic_labs_list")" ';')" > "$_noetic_labs_list.$$" \
+      && mv "$_noetic_labs_list.$$" "$_noetic_labs_list"
+  fi
+  ROS_PACKAGE_PATH=$(_noetic_labs_without "$ROS_PACKAGE_PATH" ':')
+  if [ "${CMAKE_PREFIX_PATH%%:*}" = "$CATKIN_ENV_HOOK_WORKSPACE" ]; then
+    ROS_PACKAGE_PATH="${ROS_PACKAGE_PATH:+$ROS_PACKAGE_PATH:}$_noetic_labs_labs"
+  fi
+  export ROS_PACKAGE_PATH
+fi
+unset -f _noetic_labs_without
+unset _noetic_labs_labs _noetic_labs_list
+@[end if]@
 unset _noetic_labs_here _noetic_labs_add_ons _noetic_labs_rosdep

@@ -78,3 +78,26 @@ def test_add_ons_come_after_the_modules_of_all_workspaces(students_workspace):
     folders = path.split(":")
     assert folders.index("/mine") < len(folders) - 1 and (Path(folders[-1]) / "trimesh").is_dir()
     assert len(folders) == len(set(folders))
+
+
+LABS = PACKAGE.parents[1] / "labs"
+FIND = "python3 -c 'from roslaunch.substitution_args import resolve_args as r; print(r(\"$(find arm_gazebo)/worlds/arm.world\"))'"
+
+
+@pytest.mark.skipif(not LABS.is_dir(), reason="installed without the labs")
+def test_the_labs_are_there_in_the_clones_own_shell_and_in_no_workspace_that_stands_on_it(tmp_path):
+    package = tmp_path / "src/arm_gazebo"
+    package.mkdir(parents=True)
+    (package / "package.xml").write_text('<package format="2"><name>arm_gazebo</name><version>0.0.1</version><description>d</description>'
+                                         '<maintainer email="a@b.cd">a</maintainer><license>BSD</license>'
+                                         '<buildtool_depend>catkin</buildtool_depend></package>')
+    (package / "CMakeLists.txt").write_text("cmake_minimum_required(VERSION 3.10)\nproject(arm_gazebo)\nfind_package(catkin REQUIRED)\n"
+                                            "catkin_package()\n")
+    said = shell(f"source {SETUP_FILE}; {FIND}; rospack find arm_controller; cd {tmp_path}; catkin init >/dev/null;"
+                 "catkin build --no-notify --no-status >/dev/null; source devel/setup.bash;"
+                 f"{FIND}; rospack find arm_controller 2>/dev/null || echo none; rospack find gazebo_ros;"
+                 "catkin build --no-notify --no-status | grep -c 'CMAKE_PREFIX_PATH is different' || true;"
+                 f"source {SETUP_FILE}; {FIND}; catkin build --no-notify --no-status | grep -c 'is different' || true")
+    lab = str(LABS / "arm/arm_gazebo/worlds/arm.world")
+    assert said == [lab, str(LABS / "arm/arm_controller"), str(package / "worlds/arm.world"), "none",
+                    str(LABS.parent / "simulation/gazebo_ros"), "0", lab, "0"]
