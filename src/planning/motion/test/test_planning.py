@@ -53,6 +53,16 @@ def test_joint_goal_round_a_post(scene, model):
     assert result.planner == "RRTConnect" and result.planning_time > 0 and result.states > 0
 
 
+def test_no_corner_is_cut_between_way_points(scene, model):
+    """Six joints' worth of 0.7 rad between the states that the planner looks at: more than the post is wide."""
+    scene.add_object("thin", [motion.Box(0.03, 0.03, 1.2)], pose=((0.3, -0.45, 0.6), (0, 0, 0, 1)))
+    for seed in range(1, 21):
+        result = motion.plan(scene, request(model, seed=seed, longest_valid_segment_fraction=0.01))
+        assert result, result.message
+        fine = np.concatenate([np.linspace(a, b, 80)[:-1] for a, b in zip(result.path, result.path[1:])])
+        assert not np.any(scene.check_states("arm", fine)), seed
+
+
 def test_pose_goal_from_several_families(scene, model):
     state = model.state()
     state.set_group("arm", AWAY)
