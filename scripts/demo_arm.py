@@ -118,16 +118,16 @@ def save_plot(path: Path, rows, target) -> None:
     figure.savefig(path, dpi=110)
 
 
-def save_report(out: Path, figures: dict, pictures: list) -> None:
+def save_report(out: Path, figures: dict, pictures: list, title: str = "The arm moves") -> None:
     rows = "\n".join(f"<tr><td>{html.escape(k)}</td><td>{html.escape(v)}</td></tr>" for k, v in figures.items())
     images = "\n".join(f'<figure><img src="{p.name}" alt="{html.escape(t)}"><figcaption>{html.escape(t)}</figcaption></figure>'
                        for p, t in pictures)
     (out / "report.html").write_text(f"""<!doctype html>
-<html lang="en"><meta charset="utf-8"><title>The arm moves</title>
+<html lang="en"><meta charset="utf-8"><title>{html.escape(title)}</title>
 <style>body {{font: 15px sans-serif; max-width: 1100px; margin: 2em auto; padding: 0 1em}} img {{max-width: 100%; border: 1px solid #ccc}}
 figure {{display: inline-block; width: 48%; margin: 0.5%; vertical-align: top}} figure:first-of-type {{width: 98%}}
 td {{padding: 0.2em 1.2em 0.2em 0; border-bottom: 1px solid #ddd}} figcaption {{color: #555; font-size: 90%}}</style>
-<h1>The arm moves</h1>
+<h1>{html.escape(title)}</h1>
 <table>
 {rows}
 </table>
