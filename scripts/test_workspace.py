@@ -87,3 +87,14 @@ def test_launch_arguments_are_documented():
         for arg in ET.parse(path).getroot().findall("arg"):
             assert arg.get("value") is not None or (arg.get("default") is not None and arg.get("doc")), \
                 f"{path}: argument {arg.get('name')} needs a default and a doc"
+
+
+@pytest.mark.parametrize("package", sorted(PACKAGES))
+def test_every_python_package_is_installed(package):
+    """A module that setup.py forgets is found in the devel space and missing from the installed platform."""
+    setup = PACKAGES[package] / "setup.py"
+    for path in python_files(package):
+        if path.name == "__init__.py":
+            name = ".".join(path.relative_to(PACKAGES[package] / "src").parts[:-1])
+            said = setup.read_text() if setup.is_file() else ""
+            assert "find_packages" in said or f'"{name}"' in said or f"'{name}'" in said, f"{setup} does not name {name}"
