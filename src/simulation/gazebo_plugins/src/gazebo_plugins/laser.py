@@ -5,13 +5,14 @@ A ``gpu_ray`` sensor needs no GPU here: both kinds cast rays against collision s
 from __future__ import annotations
 
 import numpy as np
+import rospy
 from geometry_msgs.msg import Point32
-from gazebo_ros import SdfElement
+from gazebo_ros import SdfElement, names
 from gazebo_ros.plugin import PluginError, SensorPlugin
 from ode_sim import math3
 from sensor_msgs.msg import ChannelFloat32, LaserScan, PointCloud, Range as RangeMsg
 
-from gazebo_plugins.ros_side import SensorGate, Topics, subscribed
+from gazebo_plugins.ros_side import SensorGate, Topics, subscribed, told_namespace
 
 _MOST_RAYS = 1_000_000
 
@@ -135,6 +136,10 @@ class Laser(SensorPlugin):
     def load(self, server, sensor, sdf) -> None:
         self.fan = RayFan(server, sensor)
         self.topics = Topics(sdf, sensor.model.name, "B")
+        given = told_namespace(sdf, sensor.model.name, "Laser")
+        rospy.loginfo("Starting Laser Plugin (ns = %s)", given)
+        kind = "GPU Laser" if sensor.type == "gpu_ray" else "Laser"
+        rospy.loginfo('%s Plugin (ns = %s) <tf_prefix_>, set to "%s"', kind, given, names.tf_prefix(self.topics.namespace))
         message = self.message = LaserScan()
         message.header.frame_id = self.topics.frame(sdf.text_or("frameName", "/world"))
         scan = self.fan.horizontal

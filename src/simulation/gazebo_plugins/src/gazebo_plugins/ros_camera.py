@@ -16,7 +16,8 @@ from std_msgs.msg import Header
 
 from gazebo_plugins.camera_info import CameraInfoService, camera_info, read_calibration
 from gazebo_plugins.image_topics import ImageTopics
-from gazebo_plugins.ros_side import SensorGate
+from gazebo_plugins.rate_watch import RateWatch
+from gazebo_plugins.ros_side import SensorGate, told_namespace
 from gazebo_plugins.studio import Shooting
 
 _RATE = (Parameter("imager_rate", float, 2.0, 1.0, 50.0, "Frame rate of the sensor, Hz of sim time"),)
@@ -63,9 +64,17 @@ class RosCamera:
         calibration = read_calibration(sdf, self.camera)
         self._check_focal_length(calibration.focal_length)
         prefix = tf_prefix(robot_namespace(sdf, sensor.model.name, "B"))
+        given = told_namespace(sdf, sensor.model.name, "Camera")
+        rospy.loginfo('Camera Plugin (ns = %s)  <tf_prefix_>, set to "%s"', given, prefix)
+        if not sdf.get("cameraName", ""):
+            rospy.logwarn("dynamic reconfigure is not enabled for this image topic [%s] becuase <cameraName> is not "
+                          "specified", sdf.text_or("imageTopicName", "image_raw"))  # upstream's spelling
         self.frame_id = resolve_frame(prefix, sdf.get("frameName", ""))
         #: the plugin's own ``<updateRate>``
-        self.gate = SensorGate(sdf.get("updateRate", 0.0))
+        self._plugin_rate = sdf.get("updateRate", 0.0)
+        self.gate = SensorGate(self._plugin_rate)
+        self._watch = RateWatch()
+        self._world = server.world
         self._closed = False
         self._shooting = Shooting(server, self.camera, f"camera '{sensor.name}' of model '{sensor.model.name}'",
                                   depth_range)
@@ -117,7 +126,11 @@ class RosCamera:
         def arrived(frame: Frame) -> None:
             if not self._closed:
                 deliver(header, frame)
-        self._shooting.shoot(outputs, arrived)
+        taken = self._shooting.shoot(outputs, arrived)
+        said = self._watch.asked(self.sensor.measurement_ns, taken, self.sensor.update_rate.rate, self._plugin_rate,
+                                 self._world.dt)
+        if said:
+            rospy.logwarn("camera '%s' of model '%s' %s", self.sensor.name, self.sensor.model.name, said)
 
     def info(self, header: Header) -> CameraInfo:
         """camera_info with this header."""

@@ -62,6 +62,22 @@ def subscribed(publisher: rospy.Publisher) -> Callable[[], bool]:
     return lambda: publisher.get_num_connections() > 0
 
 
+def told_namespace(sdf, model_name: str, kind: str) -> str:
+    """The namespace as Gazebo's sensor plugins name it on the terminal, which is said here in their words.
+
+    :param kind: ``Camera``, ``Laser``
+    """
+    given = sdf.get("robotNamespace", None)
+    if given is None:
+        rospy.loginfo("%s Plugin: The 'robotNamespace' param did not exit", kind)  # upstream's spelling
+    elif not given:
+        rospy.loginfo("%s Plugin: The 'robotNamespace' param was empty", kind)
+        return model_name
+    else:
+        rospy.loginfo("%s Plugin: Using the 'robotNamespace' param: '%s'", kind, given)
+    return given or ""
+
+
 class RateGate:
     """``updateRate`` of a plugin: open when strictly more than a period has passed, and the period is then added, not
     the present time (Gazebo's drive plugins). 0 or less = open in every step.

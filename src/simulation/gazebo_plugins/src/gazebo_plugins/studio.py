@@ -36,12 +36,14 @@ class Shooting:
         shared.users += 1
         self._key = shared.process.add_camera(camera, depth_range)
 
-    def shoot(self, outputs: Tuple[str, ...], deliver: Callable[[Frame], None]) -> None:
+    def shoot(self, outputs: Tuple[str, ...], deliver: Callable[[Frame], None]) -> bool:
         """Take a picture now; ``deliver(frame)`` is called from the pictures' thread, and not at all if there is none.
 
         In lock-step this returns when ``deliver`` has. Without it the picture may come later, with the stamp of now.
+
+        :returns: False when the picture is left out because too many are under way
         """
-        self._shared.process.draw(self._key, outputs, lambda frame: self._arrived(frame, deliver), self._wait)
+        return self._shared.process.draw(self._key, outputs, lambda frame: self._arrived(frame, deliver), self._wait)
 
     def _arrived(self, frame: Frame, deliver: Callable[[Frame], None]) -> None:
         if not frame.error:
