@@ -1,0 +1,1 @@
+"""Reloading a plugin with its code: the button R, and --reload-import."""

@@ -1,0 +1,25 @@
+"""Facts of a ROS package, for the help of its plugins."""
+import xml.etree.ElementTree as ET
+
+import rospkg
+
+
+def get_package_path(name):
+    """The folder of a package.
+
+    :raises rospkg.ResourceNotFound: there is none of that name.
+    """
+    return rospkg.RosPack().get_path(name)
+
+
+def package_facts(name, path=None):
+    """``version``, ``description``, ``maintainer``, ``url`` as far as its package.xml has them."""
+    try:
+        root = ET.parse(f"{path or get_package_path(name)}/package.xml").getroot()
+    except (rospkg.ResourceNotFound, OSError, ET.ParseError):
+        return {}
+    urls = [(element.get("type", "website") != "website", (element.text or "").strip()) for element in root.findall("url")]
+    return {"version": (root.findtext("version") or "").strip(),
+            "description": " ".join("".join(root.find("description").itertext()).split())[:500]
+            if root.find("description") is not None else "",
+            "maintainer": (root.findtext("maintainer") or "").strip(), "url": min(urls)[1] if urls else ""}

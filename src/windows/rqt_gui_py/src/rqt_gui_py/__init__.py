@@ -1,0 +1,1 @@
+"""Plugins that use rospy."""

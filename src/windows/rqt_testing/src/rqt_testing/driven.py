@@ -1,0 +1,127 @@
+"""Runs a command of ours with an ear: ``python3 -m rqt_testing.driven SOCKET SCRIPT ARGUMENTS...``.
+
+The script runs as it would alone; a thread answers questions about its widgets on a Unix socket, one JSON line each way:
+``{"what": "rect", "name": ...}``. Clicks and keys come from outside, through the X server, like a person's.
+"""
+import json
+import runpy
+import socket
+import sys
+import threading
+import time
+
+from python_qt_binding.QtCore import QCoreApplication, QEvent, QObject
+from python_qt_binding.QtWidgets import QAbstractItemView, QApplication, QMenu, QTabBar, QWidget
+
+_KIND = QEvent.Type(QEvent.registerEventType())
+
+
+class _Call(QEvent):
+    def __init__(self, function):
+        super().__init__(_KIND)
+        self.function, self.done, self.answer = function, threading.Event(), None
+
+
+class _Runner(QObject):
+    """Runs calls in the thread of the widgets."""
+
+    def event(self, event):
+        if event.type() == _KIND:
+            try:
+                event.answer = event.function()
+            except Exception as error:  # the answer to a question about a widget that goes just now
+                event.answer = {"error": f"{type(error).__name__}: {error}"}
+            event.done.set()
+            return True
+        return super().event(event)
+
+
+def _rect(widget, inner=None):
+    inner = widget.rect() if inner is None else inner
+    corner = widget.mapToGlobal(inner.topLeft())
+    return [corner.x(), corner.y(), inner.width(), inner.height()]
+
+
+def _widgets(name):
+    return [w for w in QApplication.allWidgets() if w.objectName() == name and w.isVisible()]
+
+
+def _text(widget):
+    for getter in ("text", "currentText", "toPlainText", "windowTitle"):
+        if hasattr(widget, getter):
+            return str(getattr(widget, getter)())
+    return ""
+
+
+def _answer(question):
+    what, name = question["what"], question.get("name", "")
+    if what == "names":
+        return sorted({w.objectName() for w in QApplication.allWidgets() if w.isVisible()} - {""})
+    if what == "windows":
+        return [[w.windowTitle(), type(w).__name__, *_rect(w)] for w in QApplication.topLevelWidgets() if w.isVisible()]
+    if what == "entry":  # of a menu, menu bar, tab bar or item view, by its text
+        return _entry(name)
+    found = _widgets(name)
+    if not found:
+        return {"error": f"no visible widget is named {name}"}
+    if what == "rect":
+        return _rect(found[-1])
+    if what == "text":
+        return _text(found[-1])
+    return {"error": f"what is {what}"}
+
+
+def _entry(text):
+    for widget in reversed([w for w in QApplication.allWidgets() if w.isVisible()]):
+        if hasattr(widget, "actionGeometry"):
+            for action in widget.actions():
+                if action.text().replace("&", "") == text and action.isVisible():
+                    return _rect(widget, widget.actionGeometry(action))
+        elif isinstance(widget, QTabBar):
+            for index in range(widget.count()):
+                if widget.tabText(index) == text:
+                    return _rect(widget, widget.tabRect(index))
+    for view in (w for w in QApplication.allWidgets() if w.isVisible() and isinstance(w, QAbstractItemView)):
+        found = view.model() and view.model().match(view.model().index(0, 0), 0, text, 1)
+        if found:
+            return _rect(view.viewport(), view.visualRect(found[0]))
+    for widget in (w for w in QApplication.allWidgets() if w.isVisible() and not isinstance(w, QMenu)):
+        if isinstance(widget, QWidget) and hasattr(widget, "text") and _plain_text(widget) == text:
+            return _rect(widget)
+    return {"error": f"nothing visible says {text}"}
+
+
+def _plain_text(widget):
+    try:
+        return str(widget.text()).replace("&", "")
+    except TypeError:
+        return None
+
+
+def _serve(path):
+    server = socket.socket(socket.AF_UNIX)
+    server.bind(path)
+    server.listen()
+    while QCoreApplication.instance() is None:
+        time.sleep(0.005)
+    runner = _Runner()
+    runner.moveToThread(QCoreApplication.instance().thread())
+    while True:
+        connection, _ = server.accept()
+        with connection, connection.makefile("rw") as stream:
+            question = json.loads(stream.readline())
+            call = _Call(lambda: _answer(question))
+            QCoreApplication.postEvent(runner, call)
+            call.done.wait(10)
+            stream.write(json.dumps(call.answer) + "\n")
+
+
+def main():
+    path, script = sys.argv[1:3]
+    sys.argv = sys.argv[2:]
+    threading.Thread(target=_serve, args=(path,), daemon=True).start()
+    runpy.run_path(script, run_name="__main__")
+
+
+if __name__ == "__main__":
+    main()
