@@ -1,0 +1,3 @@
+#pragma once
+
+#define RVIZ_VISUAL_TOOLS_DEPRECATED __attribute__((deprecated))
