@@ -85,7 +85,10 @@ def test_meshes_are_in_step(tmp_path):
     subprocess.run([sys.executable, PACKAGE / "scripts" / "make_meshes.py", tmp_path], check=True)
     for name in BOUNDS:
         shipped, drawn = (trimesh.load(folder / (name + ".stl")) for folder in (PACKAGE / "meshes", tmp_path))
-        np.testing.assert_allclose(shipped.triangles, drawn.triangles, atol=1e-3, err_msg=name)
+        assert len(shipped.faces) == len(drawn.faces), name
+        for measure in ("bounds", "area", "volume", "moment_inertia"):  # which way a cap is cut into triangles may differ
+            np.testing.assert_allclose(getattr(shipped, measure), getattr(drawn, measure), rtol=1e-5, atol=1e-3,
+                                       err_msg=f"{name} {measure}")
 
 
 @pytest.mark.parametrize("name", BOUNDS)

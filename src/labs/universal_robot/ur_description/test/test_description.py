@@ -102,4 +102,8 @@ def test_meshes_are_in_step(tmp_path):
     subprocess.run([sys.executable, PACKAGE / "scripts" / "make_meshes.py", tmp_path], check=True)
     for drawn in tmp_path.glob("*/*"):
         shipped = trimesh.load(PACKAGE / "meshes" / "ur5" / drawn.relative_to(tmp_path), force="mesh")
-        np.testing.assert_allclose(shipped.triangles, trimesh.load(drawn, force="mesh").triangles, atol=1e-5)
+        again = trimesh.load(drawn, force="mesh")
+        assert len(shipped.faces) == len(again.faces), drawn
+        for measure in ("bounds", "area", "volume", "moment_inertia"):  # which way a cap is cut into triangles may differ
+            np.testing.assert_allclose(getattr(shipped, measure), getattr(again, measure), rtol=1e-4, atol=1e-8,
+                                       err_msg=f"{drawn} {measure}")

@@ -12,21 +12,8 @@ import sys
 import time
 from typing import Dict, List
 
-try:
-    from rviz import bindings as rviz  # RViz with Qt 5, as on Debian 12
-except ImportError:
-    from PyQt6 import sip
-    from PyQt6.QtCore import QPoint, QRect
-    from PyQt6.QtGui import QImage, QPainter
-    from PyQt6.QtWidgets import QApplication, QDockWidget, QWidget
-    from rviz import rviz  # with Qt 6, as on Debian 13
-else:
-    from PyQt5 import sip
-    from PyQt5.QtCore import QPoint, QRect
-    from PyQt5.QtGui import QImage, QPainter
-    from PyQt5.QtWidgets import QApplication, QDockWidget, QWidget
-
 from . import displays
+from .bindings import QApplication, QDockWidget, QImage, QPainter, QPoint, QRect, QWidget, rviz, sip
 
 _SETTLE_FRAMES = 3  # frames to draw after a change before the picture is taken: OGRE shows it one or two frames later
 
