@@ -1,0 +1,68 @@
+"""Curves drawn by pyqtgraph."""
+from __future__ import annotations
+
+from typing import Dict, List
+
+from python_qt_binding.QtCore import Signal
+from python_qt_binding.QtGui import QColor
+from python_qt_binding.QtWidgets import QVBoxLayout, QWidget
+
+from rqt_plot.graphics import pyqtgraph
+
+
+class PyQtGraphDataPlot(QWidget):
+    """A white plot with a grid and a legend."""
+
+    limits_changed = Signal()
+
+    def __init__(self, parent=None):
+        super().__init__(parent)
+        self._plot_widget = pyqtgraph.PlotWidget(self, background="w")
+        item = self._plot_widget.getPlotItem()
+        item.addLegend(pen="#c0c0c0", brush="#ffffffc0", labelTextColor="k")
+        item.showGrid(True, True, 0.2)
+        item.disableAutoRange()
+        item.hideButtons()
+        for side in ("left", "bottom"):
+            item.getAxis(side).setPen("k")
+            item.getAxis(side).setTextPen("k")
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.addWidget(self._plot_widget)
+        item.sigRangeChanged.connect(lambda *_: self.limits_changed.emit())
+        self._curves: Dict[str, pyqtgraph.PlotDataItem] = {}
+        self._current_vline = None
+
+    def add_curve(self, curve_id: str, curve_name: str, curve_color: QColor = QColor("blue"), markers_on: bool = False) -> None:
+        look = dict(symbol="o", symbolSize=4, symbolPen=None, symbolBrush=curve_color) if markers_on else {}
+        # Width 1: wider lines are drawn many times slower.
+        self._curves[curve_id] = self._plot_widget.plot(name=curve_name, pen=pyqtgraph.mkPen(curve_color, width=1), **look)
+
+    def remove_curve(self, curve_id: str) -> None:
+        curve = self._curves.pop(curve_id, None)
+        if curve is not None:
+            self._plot_widget.removeItem(curve)
+
+    def set_values(self, curve_id: str, x, y) -> None:
+        if curve_id in self._curves:
+            self._curves[curve_id].setData(x, y)
+
+    def redraw(self) -> None:
+        """Nothing to do: values repaint by themselves."""
+
+    def vline(self, x: float, color) -> None:
+        if self._current_vline is not None:
+            self._plot_widget.removeItem(self._current_vline)
+        self._current_vline = self._plot_widget.addLine(x=x, pen=color)
+
+    def set_xlim(self, limits: List[float]) -> None:
+        self._plot_widget.setXRange(limits[0], limits[1], padding=0)
+
+    def set_ylim(self, limits: List[float]) -> None:
+        self._plot_widget.setYRange(limits[0], limits[1], padding=0)
+
+    def get_xlim(self) -> List[float]:
+        return list(self._plot_widget.viewRange()[0])
+
+    def get_ylim(self) -> List[float]:
+        return list(self._plot_widget.viewRange()[1])
