@@ -1,0 +1,7 @@
+#!/usr/bin/env python3
+import node_signals
+
+with node_signals.silent():
+    from turtle_tf2 import nodes
+
+    node_signals.leave(nodes.broadcast_fixed_carrot())
