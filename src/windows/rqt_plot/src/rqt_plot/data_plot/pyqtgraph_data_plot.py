@@ -10,6 +10,16 @@ from python_qt_binding.QtWidgets import QVBoxLayout, QWidget
 from rqt_plot.graphics import pyqtgraph
 
 
+class _Curve(pyqtgraph.PlotCurveItem):
+    """A curve whose extent nobody asks for: limits are set from outside, and to search it for them takes as long as to draw it."""
+
+    def dataBounds(self, ax, frac=1.0, orthoRange=None):
+        return None, None
+
+    def boundingRect(self):
+        return self.viewRect()
+
+
 class PyQtGraphDataPlot(QWidget):
     """A white plot with a grid and a legend."""
 
@@ -30,13 +40,18 @@ class PyQtGraphDataPlot(QWidget):
         layout.setContentsMargins(0, 0, 0, 0)
         layout.addWidget(self._plot_widget)
         item.sigRangeChanged.connect(lambda *_: self.limits_changed.emit())
-        self._curves: Dict[str, pyqtgraph.PlotDataItem] = {}
+        self._curves: Dict[str, pyqtgraph.GraphicsObject] = {}
         self._current_vline = None
 
     def add_curve(self, curve_id: str, curve_name: str, curve_color: QColor = QColor("blue"), markers_on: bool = False) -> None:
-        look = dict(symbol="o", symbolSize=4, symbolPen=None, symbolBrush=curve_color) if markers_on else {}
-        # Width 1: wider lines are drawn many times slower.
-        self._curves[curve_id] = self._plot_widget.plot(name=curve_name, pen=pyqtgraph.mkPen(curve_color, width=1), **look)
+        pen = pyqtgraph.mkPen(curve_color, width=1)  # wider lines are drawn many times slower
+        if markers_on:
+            item = pyqtgraph.PlotDataItem(name=curve_name, pen=pen, symbol="o", symbolSize=4, symbolPen=None,
+                                          symbolBrush=curve_color)
+        else:
+            item = _Curve(name=curve_name, pen=pen, connect="finite")
+        self._curves[curve_id] = item
+        self._plot_widget.addItem(item)
 
     def remove_curve(self, curve_id: str) -> None:
         curve = self._curves.pop(curve_id, None)
