@@ -261,6 +261,9 @@ private:
 
 IkResult IkSolver::solve(const RobotState& state, const std::vector<IkTarget>& targets, const IkOptions& options) const
 {
+  const GroupSolver* other = model_->solver(group_.name);
+  if (other && other->takes(targets))
+    return other->solve(state, targets, options);
   const auto started = Clock::now();
   const int n = static_cast<int>(group_.size());
   Values seed(n), q(n), best(n);

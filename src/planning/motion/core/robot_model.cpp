@@ -57,6 +57,31 @@ Transform JointModel::transform(const double* v) const
   return origin;
 }
 
+void JointModel::valuesOf(const Transform& moved, double* v) const
+{
+  const Quaternion q(moved.linear());
+  switch (type)
+  {
+    case JointType::Revolute:
+      v[0] = wrapAngle(2.0 * std::atan2(q.vec().dot(axis), q.w()));
+      break;
+    case JointType::Prismatic:
+      v[0] = moved.translation().dot(axis);
+      break;
+    case JointType::Planar:
+      v[0] = moved.translation().x(), v[1] = moved.translation().y();
+      v[2] = std::atan2(moved.linear()(1, 0), moved.linear()(0, 0));
+      break;
+    case JointType::Floating:
+      for (int k = 0; k < 3; ++k)
+        v[k] = moved.translation()[k];
+      v[3] = q.x(), v[4] = q.y(), v[5] = q.z(), v[6] = q.w();
+      break;
+    default:
+      break;
+  }
+}
+
 namespace
 {
 double quaternionAngle(const double* a, const double* b)
@@ -199,6 +224,39 @@ RobotModelPtr RobotModel::load(const std::string& urdf, const std::string& srdf,
     model->srdf = Srdf::parse(srdf, model->warnings);
   ModelBuilder(parsed, options, *model).build();
   return model;
+}
+
+std::shared_ptr<RobotModel> RobotModel::load(const std::shared_ptr<urdf::ModelInterface>& urdf, const Srdf& srdf,
+                                             const Options& options)
+{
+  if (!urdf || !urdf->getRoot())
+    throw ModelError("the URDF '" + (urdf ? urdf->getName() : "") + "' has no root link");
+  auto model = std::make_shared<RobotModel>();
+  model->srdf = srdf;
+  ModelBuilder(urdf, options, *model).build();
+  return model;
+}
+
+void RobotModel::setBounds(int joint, const std::vector<VariableBounds>& limits)
+{
+  JointModel& changed = joints[joint];
+  if (limits.size() != changed.bounds.size())
+    throw InvalidInput("joint '" + changed.name + "': " + std::to_string(limits.size()) + " limits for " +
+                       std::to_string(changed.bounds.size()) + " variables");
+  changed.bounds = limits;
+  std::copy(limits.begin(), limits.end(), bounds.begin() + changed.first_variable);
+}
+
+void RobotModel::setSolver(const std::string& group, std::shared_ptr<const GroupSolver> solver)
+{
+  this->group(group);
+  solvers_[group] = std::move(solver);
+}
+
+const GroupSolver* RobotModel::solver(const std::string& group) const
+{
+  const auto found = solvers_.find(group);
+  return found == solvers_.end() ? nullptr : found->second.get();
 }
 
 namespace

@@ -214,6 +214,15 @@ const std::vector<Transform>& RobotState::linkPoses() const
   return poses_;
 }
 
+void RobotState::placeLink(int link, const Transform& pose, bool whole)
+{
+  const Transform move = pose * linkPose(link).inverse();
+  for (std::size_t i = 0; i < poses_.size(); ++i)
+    if (whole || model_->isAncestor(link, static_cast<int>(i)))
+      poses_[i] = move * poses_[i];
+  poses_[link] = pose;
+}
+
 int RobotState::frameLink(const std::string& name, Transform& in_link) const
 {
   in_link.setIdentity();

@@ -39,6 +39,16 @@ struct IkResult
   double time = 0;   // s
 };
 
+// Inverse kinematics that somebody else wrote for one group of one robot; asked from several threads.
+class GroupSolver
+{
+public:
+  virtual ~GroupSolver() = default;
+  // Can it be asked for these? Else the library's own solver is.
+  virtual bool takes(const std::vector<IkTarget>& targets) const = 0;
+  virtual IkResult solve(const RobotState& seed, const std::vector<IkTarget>& targets, const IkOptions& options) const = 0;
+};
+
 class IkSolver
 {
 public:

@@ -12,6 +12,11 @@
 #include "motion/srdf.hpp"
 #include "motion/types.hpp"
 
+namespace urdf
+{
+class ModelInterface;
+}
+
 namespace motion
 {
 enum class JointType
@@ -64,6 +69,8 @@ struct JointModel
   const char* typeName() const;
   // Transform from parent link to child link for this joint's variables.
   Transform transform(const double* values) const;
+  // The values whose transform, less the joint's origin, comes nearest to `moved`.
+  void valuesOf(const Transform& moved, double* values) const;
   double distance(const double* a, const double* b) const;
   double maximumExtent() const;
   void interpolate(const double* from, const double* to, double t, double* out) const;
@@ -104,6 +111,8 @@ struct JointModelGroup
   bool hasJoint(int joint) const;
 };
 
+class GroupSolver;  // ik.hpp
+
 class RobotModel
 {
 public:
@@ -119,6 +128,14 @@ public:
   // Throws ModelError. `srdf` may be empty: a robot without groups.
   static std::shared_ptr<const RobotModel> load(const std::string& urdf, const std::string& srdf,
                                                 const Options& options);
+  // The same of a URDF that is parsed already.
+  static std::shared_ptr<RobotModel> load(const std::shared_ptr<urdf::ModelInterface>& urdf, const Srdf& srdf,
+                                          const Options& options);
+  // Other limits for a joint: before the model is shared.
+  void setBounds(int joint, const std::vector<VariableBounds>& limits);
+  // Somebody else's inverse kinematics for a group, in place of the library's: before the model is shared.
+  void setSolver(const std::string& group, std::shared_ptr<const GroupSolver> solver);
+  const GroupSolver* solver(const std::string& group) const;  // null: the library's
 
   std::string name, frame;
   std::vector<std::string> warnings;
@@ -151,6 +168,7 @@ public:
 
 private:
   friend class ModelBuilder;
+  std::map<std::string, std::shared_ptr<const GroupSolver>> solvers_;
   std::unordered_map<std::string, int> joint_index_, link_index_, group_index_, variable_index_;
 };
 using RobotModelPtr = std::shared_ptr<const RobotModel>;

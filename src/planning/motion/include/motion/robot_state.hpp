@@ -40,6 +40,12 @@ public:
   // ------------------------------------------------------------ variables
   const std::vector<double>& positions() const { return positions_; }
   void setPositions(const double* values);
+  // For those who write values themselves, mimic joints too. Poses are computed anew after this call.
+  double* writePositions()
+  {
+    dirty_ = true;
+    return positions_.data();
+  }
   std::vector<double> velocities, efforts, accelerations;  // empty or one per variable
   void setVariable(int variable, double value);  // joints that mimic it follow
   void setGroup(const JointModelGroup& group, const double* values);
@@ -61,6 +67,8 @@ public:
   // The first call after a change computes all of them: a state is not to be read first by two threads at once.
   const std::vector<Transform>& linkPoses() const;
   const Transform& linkPose(int link) const { return linkPoses()[link]; }
+  // A link goes to a pose, with all that it carries or (`whole`) with the whole robot; until values change again.
+  void placeLink(int link, const Transform& pose, bool whole);
   // A link, an attached body or `body/subframe`; false if there is no such frame.
   bool framePose(const std::string& name, Transform& pose) const;
   // The link that moves the frame, and the frame's pose in it; -1 if there is no such frame.

@@ -1,0 +1,544 @@
+#include <moveit/robot_model/joint_model_group.h>
+
+#include <algorithm>
+
+#include <moveit/exceptions/exceptions.h>
+#include <moveit/robot_model/revolute_joint_model.h>
+#include <moveit/robot_model/robot_model.h>
+
+#include "motion/robot_model.hpp"
+
+namespace moveit
+{
+namespace core
+{
+namespace
+{
+constexpr char LOGNAME[] = "robot_model.jmg";
+}
+
+JointModelGroup::JointModelGroup(const motion::JointModelGroup& core, const srdf::Model::Group& config,
+                                 const RobotModel* parent_model)
+  : core_(&core)
+  , parent_model_(parent_model)
+  , name_(core.name)
+  , config_(config)
+  , is_chain_(core.is_chain)
+  , is_single_dof_(core.single_variable_joints)
+  , subgroup_names_(core.subgroups)
+  , attached_end_effector_names_(core.attached_end_effectors)
+  , end_effector_name_(core.end_effector)
+  , default_states_names_(core.state_names)
+{
+  for (int joint : core.joints)
+    addJoint(parent_model->getJointModel(joint));
+  for (std::size_t i = 1; i < variable_index_list_.size(); ++i)
+    is_contiguous_index_list_ = is_contiguous_index_list_ && variable_index_list_[i] == variable_index_list_[i - 1] + 1;
+  for (int joint : core.joint_roots)
+  {
+    joint_roots_.push_back(parent_model->getJointModel(joint));
+    common_root_ = parent_model->getCommonRoot(common_root_, joint_roots_.back());
+  }
+  addLinks();
+  for (const auto& state : core.states)
+    for (const auto& joint : state.second)
+      for (std::size_t k = 0; k < joint.second.size(); ++k)
+        default_states_[state.first][parent_model->core()->joint(joint.first).variables[k]] = joint.second[k];
+}
+
+JointModelGroup::~JointModelGroup() = default;
+
+void JointModelGroup::addJoint(const JointModel* joint)
+{
+  joint_model_vector_.push_back(joint);
+  joint_model_name_vector_.push_back(joint->getName());
+  if (joint->getVariableCount() == 0)
+  {
+    fixed_joints_.push_back(joint);
+    return;
+  }
+  if (joint->getMimic())
+    mimic_joints_.push_back(joint);
+  else
+  {
+    active_joint_model_vector_.push_back(joint);
+    active_joint_model_name_vector_.push_back(joint->getName());
+    active_joint_model_start_index_.push_back(variable_names_.size());
+    active_joint_models_bounds_.push_back(&joint->getVariableBounds());
+    active_variable_count_ += joint->getVariableCount();
+  }
+  if (joint->getType() == JointModel::REVOLUTE && static_cast<const RevoluteJointModel*>(joint)->isContinuous())
+    continuous_joint_model_vector_.push_back(joint);
+  joint_variables_index_map_[joint->getName()] = variable_names_.size();
+  for (std::size_t k = 0; k < joint->getVariableCount(); ++k)
+  {
+    joint_variables_index_map_[joint->getVariableNames()[k]] = variable_names_.size();
+    variable_names_.push_back(joint->getVariableNames()[k]);
+    variable_index_list_.push_back(joint->getFirstVariableIndex() + k);
+  }
+}
+
+void JointModelGroup::addLinks()
+{
+  for (int index : core_->links)
+  {
+    const LinkModel* link = parent_model_->getLinkModel(index);
+    link_model_vector_.push_back(link);
+    link_model_name_vector_.push_back(link->getName());
+    if (parent_model_->core()->links[index].hasGeometry())
+      link_model_with_geometry_name_vector_.push_back(link->getName());
+  }
+  for (int index : core_->updated_links)
+  {
+    const LinkModel* link = parent_model_->getLinkModel(index);
+    updated_link_model_vector_.push_back(link);
+    updated_link_model_set_.insert(link);
+    updated_link_model_name_vector_.push_back(link->getName());
+    if (!parent_model_->core()->links[index].hasGeometry())
+      continue;
+    updated_link_model_with_geometry_vector_.push_back(link);
+    updated_link_model_with_geometry_set_.insert(link);
+    updated_link_model_with_geometry_name_vector_.push_back(link->getName());
+    updated_link_model_with_geometry_name_set_.insert(link->getName());
+  }
+}
+
+namespace
+{
+bool contains(const std::vector<std::string>& names, const std::string& name)
+{
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+}  // namespace
+
+bool JointModelGroup::hasJointModel(const std::string& joint) const
+{
+  return contains(joint_model_name_vector_, joint);
+}
+
+bool JointModelGroup::hasLinkModel(const std::string& link) const
+{
+  return contains(link_model_name_vector_, link);
+}
+
+bool JointModelGroup::isLinkUpdated(const std::string& name) const
+{
+  return contains(updated_link_model_name_vector_, name);
+}
+
+bool JointModelGroup::isSubgroup(const std::string& group) const
+{
+  return contains(subgroup_names_, group);
+}
+
+const JointModel* JointModelGroup::getJointModel(const std::string& joint) const
+{
+  if (hasJointModel(joint))
+    return parent_model_->getJointModel(joint);
+  ROS_ERROR_NAMED(LOGNAME, "Joint '%s' not found in group '%s'", joint.c_str(), name_.c_str());
+  return nullptr;
+}
+
+const LinkModel* JointModelGroup::getLinkModel(const std::string& link) const
+{
+  if (hasLinkModel(link))
+    return parent_model_->getLinkModel(link);
+  ROS_ERROR_NAMED(LOGNAME, "Link '%s' not found in group '%s'", link.c_str(), name_.c_str());
+  return nullptr;
+}
+
+int JointModelGroup::getVariableGroupIndex(const std::string& variable) const
+{
+  const auto found = joint_variables_index_map_.find(variable);
+  if (found != joint_variables_index_map_.end())
+    return found->second;
+  ROS_ERROR_NAMED(LOGNAME, "Variable '%s' is not part of group '%s'", variable.c_str(), name_.c_str());
+  return -1;
+}
+
+void JointModelGroup::getSubgroups(std::vector<const JointModelGroup*>& sub_groups) const
+{
+  sub_groups.clear();
+  for (const std::string& name : subgroup_names_)
+    sub_groups.push_back(parent_model_->getJointModelGroup(name));
+}
+
+// ---------------------------------------------------------------- named and random values
+
+void JointModelGroup::addDefaultState(const std::string& name, const std::map<std::string, double>& default_state)
+{
+  if (!default_states_.count(name))
+    default_states_names_.push_back(name);
+  default_states_[name] = default_state;
+}
+
+bool JointModelGroup::getVariableDefaultPositions(const std::string& name, std::map<std::string, double>& values) const
+{
+  const auto found = default_states_.find(name);
+  if (found == default_states_.end())
+    return false;
+  values = found->second;
+  return true;
+}
+
+void JointModelGroup::getVariableDefaultPositions(double* values) const
+{
+  for (std::size_t i = 0; i < variable_index_list_.size(); ++i)
+    values[i] = parent_model_->core()->defaults[variable_index_list_[i]];
+}
+
+void JointModelGroup::getVariableDefaultPositions(std::vector<double>& values) const
+{
+  values.resize(getVariableCount());
+  getVariableDefaultPositions(values.data());
+}
+
+void JointModelGroup::getVariableDefaultPositions(std::map<std::string, double>& values) const
+{
+  std::vector<double> all;
+  getVariableDefaultPositions(all);
+  for (std::size_t i = 0; i < all.size(); ++i)
+    values[variable_names_[i]] = all[i];
+}
+
+void JointModelGroup::getVariableRandomPositions(random_numbers::RandomNumberGenerator& rng, std::vector<double>& values) const
+{
+  values.resize(getVariableCount());
+  getVariableRandomPositions(rng, values.data());
+}
+
+void JointModelGroup::getVariableRandomPositions(random_numbers::RandomNumberGenerator& rng, double* values,
+                                                 const JointBoundsVector& active_joint_bounds) const
+{
+  for (std::size_t i = 0; i < active_joint_model_vector_.size(); ++i)
+    active_joint_model_vector_[i]->getVariableRandomPositions(rng, values + active_joint_model_start_index_[i],
+                                                              *active_joint_bounds[i]);
+  updateMimicJoints(values);
+}
+
+void JointModelGroup::getVariableRandomPositionsNearBy(random_numbers::RandomNumberGenerator& rng, double* values,
+                                                       const JointBoundsVector& active_joint_bounds, const double* seed,
+                                                       const std::vector<double>& distances) const
+{
+  if (distances.size() != active_joint_model_vector_.size())
+    throw Exception("When sampling random values nearby for group '" + name_ + "', distances vector should be of size " +
+                    std::to_string(active_joint_model_vector_.size()) + ", but it is of size " +
+                    std::to_string(distances.size()));
+  for (std::size_t i = 0; i < active_joint_model_vector_.size(); ++i)
+  {
+    const int start = active_joint_model_start_index_[i];
+    active_joint_model_vector_[i]->getVariableRandomPositionsNearBy(rng, values + start, *active_joint_bounds[i],
+                                                                    seed + start, distances[i]);
+  }
+  updateMimicJoints(values);
+}
+
+void JointModelGroup::getVariableRandomPositionsNearBy(random_numbers::RandomNumberGenerator& rng, double* values,
+                                                       const JointBoundsVector& active_joint_bounds, const double* seed,
+                                                       const double distance) const
+{
+  getVariableRandomPositionsNearBy(rng, values, active_joint_bounds, seed,
+                                   std::vector<double>(active_joint_model_vector_.size(), distance));
+}
+
+void JointModelGroup::getVariableRandomPositionsNearBy(random_numbers::RandomNumberGenerator& rng, double* values,
+                                                       const JointBoundsVector& active_joint_bounds, const double* seed,
+                                                       const std::map<JointModel::JointType, double>& distance_map) const
+{
+  std::vector<double> distances;
+  for (const JointModel* joint : active_joint_model_vector_)
+  {
+    const auto found = distance_map.find(joint->getType());
+    if (found == distance_map.end())
+      ROS_WARN_NAMED(LOGNAME, "Did not pass in distance for '%s'", joint->getName().c_str());
+    distances.push_back(found == distance_map.end() ? 0.0 : found->second);
+  }
+  getVariableRandomPositionsNearBy(rng, values, active_joint_bounds, seed, distances);
+}
+
+void JointModelGroup::getVariableRandomPositionsNearBy(random_numbers::RandomNumberGenerator& rng,
+                                                       std::vector<double>& values, const std::vector<double>& seed,
+                                                       double distance) const
+{
+  values.resize(getVariableCount());
+  getVariableRandomPositionsNearBy(rng, values.data(), active_joint_models_bounds_, seed.data(), distance);
+}
+
+void JointModelGroup::getVariableRandomPositionsNearBy(random_numbers::RandomNumberGenerator& rng,
+                                                       std::vector<double>& values, const std::vector<double>& seed,
+                                                       const std::map<JointModel::JointType, double>& distance_map) const
+{
+  values.resize(getVariableCount());
+  getVariableRandomPositionsNearBy(rng, values.data(), active_joint_models_bounds_, seed.data(), distance_map);
+}
+
+void JointModelGroup::getVariableRandomPositionsNearBy(random_numbers::RandomNumberGenerator& rng,
+                                                       std::vector<double>& values, const std::vector<double>& seed,
+                                                       const std::vector<double>& distances) const
+{
+  values.resize(getVariableCount());
+  getVariableRandomPositionsNearBy(rng, values.data(), active_joint_models_bounds_, seed.data(), distances);
+}
+
+void JointModelGroup::updateMimicJoints(double* values) const
+{
+  for (const JointModel* joint : mimic_joints_)
+  {
+    const auto source = joint_variables_index_map_.find(joint->getMimic()->getName());
+    if (source != joint_variables_index_map_.end())
+      values[joint_variables_index_map_.at(joint->getName())] =
+          values[source->second] * joint->getMimicFactor() + joint->getMimicOffset();
+  }
+}
+
+// ---------------------------------------------------------------- bounds, distance
+
+bool JointModelGroup::enforcePositionBounds(double* state, const JointBoundsVector& active_joint_bounds) const
+{
+  bool changed = false;
+  for (std::size_t i = 0; i < active_joint_model_vector_.size(); ++i)
+    if (active_joint_model_vector_[i]->enforcePositionBounds(state + active_joint_model_start_index_[i],
+                                                             *active_joint_bounds[i]))
+      changed = true;
+  if (changed)
+    updateMimicJoints(state);
+  return changed;
+}
+
+bool JointModelGroup::satisfiesPositionBounds(const double* state, const JointBoundsVector& active_joint_bounds,
+                                              double margin) const
+{
+  for (std::size_t i = 0; i < active_joint_model_vector_.size(); ++i)
+    if (!active_joint_model_vector_[i]->satisfiesPositionBounds(state + active_joint_model_start_index_[i],
+                                                                *active_joint_bounds[i], margin))
+      return false;
+  return true;
+}
+
+double JointModelGroup::getMaximumExtent(const JointBoundsVector& active_joint_bounds) const
+{
+  double sum = 0.0;
+  for (std::size_t i = 0; i < active_joint_model_vector_.size(); ++i)
+    sum += active_joint_model_vector_[i]->getDistanceFactor() *
+           active_joint_model_vector_[i]->getMaximumExtent(*active_joint_bounds[i]);
+  return sum;
+}
+
+double JointModelGroup::distance(const double* state1, const double* state2) const
+{
+  double sum = 0.0;
+  for (std::size_t i = 0; i < active_joint_model_vector_.size(); ++i)
+  {
+    const int start = active_joint_model_start_index_[i];
+    sum += active_joint_model_vector_[i]->getDistanceFactor() *
+           active_joint_model_vector_[i]->distance(state1 + start, state2 + start);
+  }
+  return sum;
+}
+
+void JointModelGroup::interpolate(const double* from, const double* to, double t, double* state) const
+{
+  for (std::size_t i = 0; i < active_joint_model_vector_.size(); ++i)
+  {
+    const int start = active_joint_model_start_index_[i];
+    active_joint_model_vector_[i]->interpolate(from + start, to + start, t, state + start);
+  }
+  updateMimicJoints(state);
+}
+
+bool JointModelGroup::isValidVelocityMove(const std::vector<double>& from_joint_pose,
+                                          const std::vector<double>& to_joint_pose, double dt) const
+{
+  if (from_joint_pose.size() != to_joint_pose.size())
+  {
+    ROS_ERROR_NAMED(LOGNAME, "To and from joint poses are of different sizes.");
+    return false;
+  }
+  return isValidVelocityMove(from_joint_pose.data(), to_joint_pose.data(), from_joint_pose.size(), dt);
+}
+
+bool JointModelGroup::isValidVelocityMove(const double* from_joint_pose, const double* to_joint_pose,
+                                          std::size_t array_size, double dt) const
+{
+  for (std::size_t i = 0; i < array_size && i < active_joint_models_bounds_.size(); ++i)
+  {
+    const VariableBounds& b = (*active_joint_models_bounds_[i])[0];
+    const double way = to_joint_pose[i] - from_joint_pose[i];
+    if (b.velocity_bounded_ && (way > dt * b.max_velocity_ || way < dt * b.min_velocity_))
+      return false;
+  }
+  return true;
+}
+
+// ---------------------------------------------------------------- end effectors, inverse kinematics
+
+bool JointModelGroup::getEndEffectorTips(std::vector<std::string>& tips) const
+{
+  std::vector<const LinkModel*> links;
+  if (!getEndEffectorTips(links))
+    return false;
+  tips.clear();
+  for (const LinkModel* link : links)
+    tips.push_back(link->getName());
+  return true;
+}
+
+bool JointModelGroup::getEndEffectorTips(std::vector<const LinkModel*>& tips) const
+{
+  tips.clear();
+  for (const std::string& name : attached_end_effector_names_)
+  {
+    const JointModelGroup* effector = parent_model_->getEndEffector(name);
+    if (!effector)
+    {
+      ROS_ERROR_NAMED(LOGNAME, "Unable to find joint model group for eef");
+      return false;
+    }
+    const LinkModel* link = parent_model_->getLinkModel(effector->getEndEffectorParentGroup().second);
+    if (!link)
+    {
+      ROS_ERROR_NAMED(LOGNAME, "Unable to find end effector link for eef");
+      return false;
+    }
+    if (std::find(tips.begin(), tips.end(), link) == tips.end())
+      tips.push_back(link);
+  }
+  return true;
+}
+
+const LinkModel* JointModelGroup::getOnlyOneEndEffectorTip() const
+{
+  std::vector<const LinkModel*> tips;
+  getEndEffectorTips(tips);
+  if (tips.size() == 1)
+    return tips.front();
+  if (tips.size() > 1)
+    ROS_ERROR_NAMED(LOGNAME, "More than one end effector tip found for joint model group '%s', so cannot return only one",
+                    name_.c_str());
+  else
+    ROS_ERROR_NAMED(LOGNAME, "No end effector tips found in joint model group '%s'", name_.c_str());
+  return nullptr;
+}
+
+void JointModelGroup::setDefaultIKTimeout(double ik_timeout)
+{
+  group_kinematics_.first.default_ik_timeout_ = ik_timeout;
+  if (group_kinematics_.first.solver_instance_)
+    group_kinematics_.first.solver_instance_->setDefaultTimeout(ik_timeout);
+  for (auto& sub : group_kinematics_.second)
+    sub.second.default_ik_timeout_ = ik_timeout;
+}
+
+bool JointModelGroup::setRedundantJoints(const std::vector<std::string>& joints)
+{
+  const kinematics::KinematicsBasePtr& solver = group_kinematics_.first.solver_instance_;
+  return solver && solver->setRedundantJoints(joints);
+}
+
+bool JointModelGroup::computeIKIndexBijection(const std::vector<std::string>& ik_jnames,
+                                              std::vector<unsigned int>& joint_bijection) const
+{
+  joint_bijection.clear();
+  for (const std::string& name : ik_jnames)
+  {
+    const auto found = joint_variables_index_map_.find(name);
+    if (found == joint_variables_index_map_.end())
+    {
+      // Solvers name fixed joints too.
+      if (hasJointModel(name) && getJointModel(name)->getType() == JointModel::FIXED)
+        continue;
+      ROS_ERROR_NAMED(LOGNAME,
+                      "IK solver computes joint values for joint '%s' but group '%s' does not contain such a joint.",
+                      name.c_str(), name_.c_str());
+      return false;
+    }
+    const JointModel* joint = getJointModel(name);
+    for (std::size_t k = 0; k < joint->getVariableCount(); ++k)
+      joint_bijection.push_back(found->second + k);
+  }
+  return true;
+}
+
+void JointModelGroup::setSolverAllocators(const std::pair<SolverAllocatorFn, SolverAllocatorMapFn>& solvers)
+{
+  if (solvers.first)
+  {
+    KinematicsSolver& own = group_kinematics_.first;
+    own.allocator_ = solvers.first;
+    own.solver_instance_ = solvers.first(this);
+    if (own.solver_instance_)
+    {
+      own.solver_instance_->setDefaultTimeout(own.default_ik_timeout_);
+      if (!computeIKIndexBijection(own.solver_instance_->getJointNames(), own.bijection_))
+        own.reset();
+    }
+    return;
+  }
+  // Without a solver of its own: those of the subgroups, which have to make up the whole group.
+  for (const auto& sub : solvers.second)
+  {
+    if (!sub.first->getSolverInstance())
+      return;
+    KinematicsSolver& solver = group_kinematics_.second[sub.first];
+    solver.allocator_ = sub.second;
+    solver.solver_instance_ = const_cast<JointModelGroup*>(sub.first)->getSolverInstance();
+    solver.default_ik_timeout_ = group_kinematics_.first.default_ik_timeout_;
+    if (!computeIKIndexBijection(solver.solver_instance_->getJointNames(), solver.bijection_))
+    {
+      group_kinematics_.second.clear();
+      return;
+    }
+  }
+}
+
+bool JointModelGroup::canSetStateFromIK(const std::string& tip) const
+{
+  const kinematics::KinematicsBaseConstPtr& solver = group_kinematics_.first.solver_instance_;
+  if (!solver || tip.empty())
+    return false;
+  const std::vector<std::string>& tips = solver->getTipFrames();
+  const std::string wanted = tip[0] == '/' ? tip.substr(1) : tip;
+  for (const std::string& name : tips)
+  {
+    const std::string own = !name.empty() && name[0] == '/' ? name.substr(1) : name;
+    if (own == wanted)
+      return true;
+    if (!parent_model_->hasLinkModel(own))
+      continue;
+    for (const auto& fixed : parent_model_->getLinkModel(own)->getAssociatedFixedTransforms())
+      if (fixed.first->getName() == wanted)
+        return true;
+  }
+  return false;
+}
+
+void JointModelGroup::printGroupInfo(std::ostream& out) const
+{
+  out << "Group '" << name_ << "' using " << getVariableCount() << " variables\n";
+  out << "  * Joints:\n";
+  for (const JointModel* joint : joint_model_vector_)
+    out << "    '" << joint->getName() << "' (" << joint->getTypeName() << ")\n";
+  out << "  * Variables:\n";
+  for (std::size_t i = 0; i < variable_names_.size(); ++i)
+  {
+    const JointModel* joint = parent_model_->getJointOfVariable(variable_names_[i]);
+    out << "    '" << variable_names_[i] << "', index " << variable_index_list_[i] << " in full state, index " << i
+        << " in group state";
+    if (joint->getMimic())
+      out << ", mimic '" << joint->getMimic()->getName() << "'";
+    out << "\n        " << parent_model_->getVariableBounds(variable_names_[i]) << '\n';
+  }
+  out << "  * Variables Index List:\n    ";
+  for (int index : variable_index_list_)
+    out << index << ' ';
+  out << (is_contiguous_index_list_ ? "(contiguous)" : "(non-contiguous)") << '\n';
+  if (group_kinematics_.first)
+    out << "  * Kinematics solver bijection:\n    ";
+  for (unsigned int index : group_kinematics_.first.bijection_)
+    out << index << ' ';
+  for (const auto& sub : group_kinematics_.second)
+    out << "\n  * Compound kinematics solver: '" << sub.first->getName() << "'";
+  out << std::endl;
+}
+}  // namespace core
+}  // namespace moveit
