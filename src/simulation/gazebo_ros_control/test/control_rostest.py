@@ -11,6 +11,7 @@ import unittest
 import rosgraph
 import rospy
 import rostest
+from controller_manager_msgs.srv import ListControllerTypes
 from gazebo_ros.plugin import PluginError
 from hardware_interface import EffortJointInterface, PositionJointInterface, VelocityJointInterface
 from sensor_msgs.msg import JointState
@@ -331,6 +332,12 @@ class PluginTest(unittest.TestCase):
                 with SimulatedRobot(one_joint(POSITION), plugin):
                     self.assertTrue(self.service_there(namespace))
                 self.assertFalse(self.service_there(namespace), "gone with the model")
+
+    def test_the_list_of_types_has_no_doubles_of_tests(self):
+        with SimulatedRobot(one_joint(POSITION), "<robotNamespace>/r</robotNamespace>"):
+            types = rospy.ServiceProxy("/r/controller_manager/list_controller_types", ListControllerTypes)().types
+        self.assertIn("joint_state_controller/JointStateController", types)
+        self.assertEqual([name for name in types if "_tests/" in name], [])
 
     def test_description_in_a_parameter_of_another_name(self):
         robot = SimulatedRobot(one_joint(POSITION), "<robotNamespace>/robot</robotNamespace>"

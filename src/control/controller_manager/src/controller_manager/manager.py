@@ -8,6 +8,7 @@ loop stands still (a paused simulation) and a switch waits for it.
 from __future__ import annotations
 
 import math
+import sys
 import threading
 import traceback
 from typing import Callable, List, Optional, Sequence, Tuple
@@ -404,7 +405,9 @@ class ControllerManager:
             for loaded in self._controllers])
 
     def _list_types(self, _request: object) -> ListControllerTypesResponse:
-        plugins = self._types.all()
+        """Without the doubles of a package of tests, unless this process works with that package."""
+        plugins = [plugin for plugin in self._types.all()
+                   if not plugin.package.endswith("_tests") or plugin.package in sys.modules]
         return ListControllerTypesResponse([plugin.name for plugin in plugins], [plugin.base for plugin in plugins])
 
     # -- bookkeeping ---------------------------------------------------------------------------------------------------
