@@ -119,4 +119,5 @@ void bindConstraints(py::module_& m);
 void bindIk(py::module_& m);
 void bindPlanning(py::module_& m);
 void bindTiming(py::module_& m);
+void bindOctree(py::module_& m);
 }  // namespace motion

@@ -26,4 +26,5 @@ PYBIND11_MODULE(_core, m)
   motion::bindIk(m);
   motion::bindPlanning(m);
   motion::bindTiming(m);
+  motion::bindOctree(m);
 }

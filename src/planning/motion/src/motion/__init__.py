@@ -2,9 +2,9 @@
 from motion._core import (
     AllowedCollisionMatrix, AttachedBody, Box, CancelToken, CollisionResult, Cone, ConstraintResult, Constraints, Contact,
     Cylinder, DistanceResult, EndEffectorInfo, Group, InvalidInputError, JointConstraint, JointInfo, LinkInfo, Mesh,
-    ModelError, MotionError, OcTree, OrientationConstraint, Plane, PlanningScene, PositionConstraint, RobotModel,
-    RobotState, Shape, Sphere, UnknownNameError, VariableLimits, VirtualJointInfo, VisibilityConstraint, WorldObject,
-    evaluate, planners)
+    ModelError, MotionError, OccupancyMap, OcTree, OrientationConstraint, Plane, PlanningScene, PositionConstraint,
+    RobotModel, RobotState, Shape, Sphere, UnknownNameError, VariableLimits, VirtualJointInfo, VisibilityConstraint, WorldObject,
+    evaluate, label_points, planners)
 from motion.cartesian import CartesianResult, cartesian_path, explain, is_valid, path_valid
 from motion.files import find_package, load_mesh
 from motion.kinematics import IkResult, ik

@@ -12,6 +12,7 @@ from visualization_msgs.msg import Marker, MarkerArray
 
 from moveit_core import convert, states
 from moveit_core.errors import PlanningError
+from moveit_ros_occupancy_map_monitor.monitor import OccupancyMapMonitor
 from moveit_ros_planning.plan_execution import PlanExecution
 from moveit_ros_planning.planning_pipeline import Pipelines
 from moveit_ros_planning.robot_model import RobotDescription
@@ -29,6 +30,7 @@ class Context:
     execution: Optional[TrajectoryExecution]
     plan_execution: Optional[PlanExecution]
     display: "Display"
+    octomap: OccupancyMapMonitor
     debug: bool = False
 
     @property

@@ -11,6 +11,7 @@ from moveit_msgs.srv import LoadMap, SaveMap
 import motion
 import node_signals
 from moveit_core.errors import one_line
+from moveit_ros_occupancy_map_monitor.monitor import OccupancyMapMonitor
 from moveit_ros_planning import robot_model
 from moveit_ros_planning.plan_execution import PlanExecution
 from moveit_ros_planning.planning_pipeline import PipelineError, Pipelines
@@ -72,8 +73,9 @@ class MoveGroup:
         if rospy.get_param("~allow_trajectory_execution", True):
             execution = TrajectoryExecution(description.model, monitor.states)
             plan_execution = PlanExecution(monitor, execution)
-        self.context = Context(description, monitor, pipelines, execution, plan_execution, Display(description.model,
-                                                                                                   debug), debug)
+        octomap = OccupancyMapMonitor(monitor, buffer)
+        self.context = Context(description, monitor, pipelines, execution, plan_execution, Display(description.model, debug),
+                               octomap, debug)
         self._map_services = [rospy.Service("~load_map", LoadMap, self._load_map), rospy.Service("~save_map", SaveMap,
                                                                                                  self._save_map)]
         self.capabilities: List[Capability] = []
@@ -121,6 +123,7 @@ class MoveGroup:
             capability.shutdown()
         if self.context.execution is not None:
             self.context.execution.shutdown()
+        self.context.octomap.shutdown()
         self.context.monitor.shutdown()
 
     def _load_map(self, request) -> bool:
@@ -129,7 +132,7 @@ class MoveGroup:
         except (motion.MotionError, OSError, ValueError) as error:
             rospy.logerr("Failed to load map from file: %s", one_line(error))
             return False
-        self.context.monitor.set_octomap(tree, motion.Pose.identity())
+        self.context.octomap.assign(tree)
         return True
 
     def _save_map(self, request) -> bool:

@@ -1,7 +1,6 @@
 """The services ``get_planning_scene``, ``apply_planning_scene``, ``clear_octomap``, and those of octomap files."""
 from __future__ import annotations
 
-import motion
 import rospy
 from moveit_msgs.srv import ApplyPlanningScene as ApplyPlanningSceneSrv
 from moveit_msgs.srv import GetPlanningScene as GetPlanningSceneSrv
@@ -49,5 +48,5 @@ class ClearOctomap(Capability):
 
     def _clear(self, _request, _response) -> None:
         rospy.loginfo("Clearing octomap...")
-        self.context.monitor.set_octomap(None, motion.Pose.identity())
+        self.context.octomap.clear()
         rospy.loginfo("Octomap cleared.")

@@ -1,0 +1,1 @@
+"""Octomap updaters: :mod:`.depth_image` and :mod:`.point_cloud`."""
