@@ -23,6 +23,12 @@ class Namespace(unittest.TestCase):
         scene.add_box("box", pose)
         self.assertEqual(scene.get_known_object_names(), ["box"])
 
+    def test_names_that_scripts_and_subclasses_use(self):
+        scene = PlanningSceneInterface(ns="/left", synchronous=False)
+        self.assertEqual(scene._pub_co.resolved_name, "/left/collision_object")
+        self.assertEqual(scene._pub_aco.resolved_name, "/left/attached_collision_object")
+        self.assertEqual(scene._apply_planning_scene_diff.resolved_name, "/left/apply_planning_scene")
+
 
 if __name__ == "__main__":
     rospy.init_node("namespace_rostest")

@@ -32,13 +32,13 @@ class PlanningSceneInterface:
         self._ns = ns
         self._synchronous = synchronous
         self._get = rospy.ServiceProxy(self._name("get_planning_scene"), GetPlanningScene)
-        self._apply = rospy.ServiceProxy(self._name("apply_planning_scene"), ApplyPlanningScene)
-        for service in (self._get, self._apply):
+        self._apply_planning_scene_diff = rospy.ServiceProxy(self._name("apply_planning_scene"), ApplyPlanningScene)
+        for service in (self._get, self._apply_planning_scene_diff):
             self._wait(service.resolved_name)
         if not synchronous:
-            self._objects = rospy.Publisher(self._name("collision_object"), CollisionObject, queue_size=100)
-            self._attached = rospy.Publisher(self._name("attached_collision_object"), AttachedCollisionObject,
-                                             queue_size=100)
+            self._pub_co = rospy.Publisher(self._name("collision_object"), CollisionObject, queue_size=100)
+            self._pub_aco = rospy.Publisher(self._name("attached_collision_object"), AttachedCollisionObject,
+                                            queue_size=100)
 
     def _name(self, relative: str) -> str:
         return ns_join(self._ns, relative) if self._ns else relative
@@ -58,7 +58,7 @@ class PlanningSceneInterface:
 
     def _submit(self, message, attach: bool = False) -> None:
         if not self._synchronous:
-            (self._attached if attach else self._objects).publish(message)
+            (self._pub_aco if attach else self._pub_co).publish(message)
             return
         scene = PlanningScene(is_diff=True)
         scene.robot_state.is_diff = True
@@ -190,7 +190,7 @@ class PlanningSceneInterface:
     def apply_planning_scene(self, planning_scene_message: PlanningScene) -> bool:
         """Apply a scene or a diff; False when some of it could not be (move_group says what)."""
         request = ApplyPlanningScene._request_class(planning_scene_message)
-        return self._call(self._apply, request).success
+        return self._call(self._apply_planning_scene_diff, request).success
 
     @staticmethod
     def _call(service, request):
