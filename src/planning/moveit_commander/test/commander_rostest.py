@@ -282,7 +282,7 @@ class Scene(Commander):
 
     def test_the_other_way_through_topics(self):
         other = PlanningSceneInterface(synchronous=False)
-        while not other._objects.get_num_connections():
+        while not other._pub_co.get_num_connections():
             rospy.sleep(0.01)
         other.add_box("sent", stamped(2, 0, 0))
         while self.scene.get_known_object_names() != ["sent"]:
