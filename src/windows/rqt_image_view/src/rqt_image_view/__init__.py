@@ -1,0 +1,1 @@
+"""Shows images of topics: the plugin rqt_image_view, and the conversion of images for other windows."""
