@@ -1,0 +1,1 @@
+"""Tables of plots: the plugin rqt_multiplot of rqt."""
