@@ -470,9 +470,10 @@ class ServerView:
 
 
 def log_problems(problems: Iterable[d.Problem], what: str) -> None:
-    """One line each."""
+    """One line each; what upstream says nothing of goes to debug."""
+    logs = {"error": rospy.logerr, "note": rospy.logdebug}
     for problem in problems:
-        log = rospy.logerr if problem.severity == "error" else rospy.logwarn
+        log = logs.get(problem.severity, rospy.logwarn)
         log("%s: %s", what, problem)
 
 

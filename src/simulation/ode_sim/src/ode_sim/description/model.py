@@ -51,7 +51,7 @@ class Source:
 class Problem:
     """Something a reader noticed and went on (``warning``) or had to leave out (``error``)."""
 
-    severity: str  # "warning" | "error"
+    severity: str  # "note" (worth a line only to who looks for it) | "warning" | "error"
     message: str
     source: Source = Source()
 

@@ -173,7 +173,7 @@ class SdfModels(SdfShapes):
             count = seen.get(item.name, 0)
             seen[item.name] = count + 1
             if count:
-                self.warn(element, f"the name is used twice in this link; renamed '{quoted(item.name)}_{count}'")
+                self.warn(element, f"the name is used twice in this link; renamed '{quoted(item.name)}_{count}'", "note")
                 item = replace(item, name=f"{item.name}_{count}")
             yield item
 

@@ -213,6 +213,6 @@ class Extensions:
         if old is not None:
             if text_of(old) != text:
                 self._reader.warn(like, f"<{like.tag if like is not None else tags[-1]}> is given twice; "
-                                        f"'{quoted(text)}' takes the place of '{quoted(text_of(old))}'")
+                                        f"'{quoted(text)}' takes the place of '{quoted(text_of(old))}'", "note")
             element.remove(old)
         child(element, tags[-1], text, like=like)
