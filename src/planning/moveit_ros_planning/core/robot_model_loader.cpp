@@ -1,0 +1,120 @@
+#include <moveit/robot_model_loader/robot_model_loader.h>
+
+#include <ros/ros.h>
+
+namespace robot_model_loader
+{
+namespace
+{
+constexpr char LOGNAME[] = "robot_model_loader";
+}
+
+RobotModelLoader::RobotModelLoader(const std::string& robot_description, bool load_kinematics_solvers)
+{
+  Options options(robot_description);
+  options.load_kinematics_solvers_ = load_kinematics_solvers;
+  configure(options);
+}
+
+RobotModelLoader::RobotModelLoader(const Options& opt)
+{
+  configure(opt);
+}
+
+RobotModelLoader::~RobotModelLoader() = default;
+
+void RobotModelLoader::configure(const Options& opt)
+{
+  const ros::WallTime start = ros::WallTime::now();
+  if (!opt.urdf_string_.empty() && !opt.srdf_string_.empty())
+    rdf_loader_ = std::make_shared<rdf_loader::RDFLoader>(opt.urdf_string_, opt.srdf_string_);
+  else
+    rdf_loader_ = std::make_shared<rdf_loader::RDFLoader>(opt.robot_description_);
+  if (!getURDF())
+    return;
+  try
+  {
+    model_ = std::make_shared<moveit::core::RobotModel>(getURDF(), getSRDF() ? getSRDF() : std::make_shared<srdf::Model>());
+  }
+  catch (const std::exception&)
+  {
+    return;  // said already
+  }
+  if (!getRobotDescription().empty())
+    readLimits();
+  if (opt.load_kinematics_solvers_)
+    loadKinematicsSolvers();
+  ROS_DEBUG_STREAM_NAMED(LOGNAME, "Loaded kinematic model in " << (ros::WallTime::now() - start).toSec() << " seconds");
+}
+
+// <robot_description>_planning/joint_limits wins over the URDF.
+void RobotModelLoader::readLimits()
+{
+  XmlRpc::XmlRpcValue limits;
+  if (!ros::param::get(getRobotDescription() + "_planning/joint_limits", limits) ||
+      limits.getType() != XmlRpc::XmlRpcValue::TypeStruct)
+    return;
+  for (moveit::core::JointModel* joint : model_->getJointModels())
+  {
+    std::vector<moveit_msgs::JointLimits> all = joint->getVariableBoundsMsg();
+    bool changed = false;
+    for (moveit_msgs::JointLimits& limit : all)
+    {
+      if (!limits.hasMember(limit.joint_name) || limits[limit.joint_name].getType() != XmlRpc::XmlRpcValue::TypeStruct)
+        continue;
+      changed = true;
+      XmlRpc::XmlRpcValue& given = limits[limit.joint_name];
+      auto number = [&given](const char* key, double& value) {
+        if (!given.hasMember(key))
+          return false;
+        XmlRpc::XmlRpcValue& item = given[key];
+        if (item.getType() == XmlRpc::XmlRpcValue::TypeInt)
+          value = static_cast<int>(item);
+        else if (item.getType() == XmlRpc::XmlRpcValue::TypeDouble)
+          value = static_cast<double>(item);
+        else
+          return false;
+        return true;
+      };
+      auto flag = [&given](const char* key, std::uint8_t& value) {
+        if (given.hasMember(key) && given[key].getType() == XmlRpc::XmlRpcValue::TypeBoolean)
+          value = static_cast<bool>(given[key]);
+      };
+      const bool low = number("min_position", limit.min_position), high = number("max_position", limit.max_position);
+      if (low || high)
+        limit.has_position_limits = true;
+      flag("has_position_limits", limit.has_position_limits);
+      number("max_velocity", limit.max_velocity);
+      flag("has_velocity_limits", limit.has_velocity_limits);
+      number("max_acceleration", limit.max_acceleration);
+      flag("has_acceleration_limits", limit.has_acceleration_limits);
+      if (limit.min_position > limit.max_position)
+      {
+        ROS_ERROR_NAMED(LOGNAME, "joint_limits of '%s': min_position %g is above max_position %g; the limits of the URDF stay",
+                        limit.joint_name.c_str(), limit.min_position, limit.max_position);
+        changed = false;
+      }
+    }
+    if (changed)
+      joint->setVariableBounds(all);
+  }
+}
+
+void RobotModelLoader::loadKinematicsSolvers(const kinematics_plugin_loader::KinematicsPluginLoaderPtr& kloader)
+{
+  if (!model_)
+    return;
+  kinematics_loader_ = kloader ? kloader :
+                                 std::make_shared<kinematics_plugin_loader::KinematicsPluginLoader>(
+                                     getRobotDescription().empty() ? "robot_description" : getRobotDescription());
+  const moveit::core::SolverAllocatorFn allocator = kinematics_loader_->getLoaderFunction(getSRDF());
+  std::map<std::string, moveit::core::SolverAllocatorFn> by_group;
+  for (const std::string& name : kinematics_loader_->getKnownGroups())
+    if (model_->hasJointModelGroup(name))
+      by_group[name] = allocator;
+  model_->setKinematicsAllocators(by_group);
+  for (const auto& timeout : kinematics_loader_->getIKTimeout())
+    if (model_->hasJointModelGroup(timeout.first))
+      model_->getJointModelGroup(timeout.first)->setDefaultIKTimeout(timeout.second);
+}
+}  // namespace robot_model_loader
