@@ -1,0 +1,1 @@
+"""Joysticks of the Linux kernel (/dev/input/js*)."""

@@ -1,0 +1,1 @@
+"""Velocities from a joystick."""

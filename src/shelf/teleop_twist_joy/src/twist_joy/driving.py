@@ -1,0 +1,79 @@
+"""From axes and buttons to velocities. No ROS in it."""
+from typing import Dict, Optional, Sequence, Tuple
+
+FIELDS = {"linear": ("x", "y", "z"), "angular": ("yaw", "pitch", "roll")}
+_DEFAULTS = {"linear": ("x", 1, 0.5, 1.0), "angular": ("yaw", 0, 0.5, None)}  # field, axis, scale, turbo (None: as scale)
+
+Velocities = Dict[str, float]
+
+
+class Driver:
+    """Parameters (each axis_ and scale_ one number, or one for each field of a map):
+
+    enable_button (0), enable_turbo_button (-1: none), require_enable_button (True), axis_linear (x: 1),
+    scale_linear (m/s, x: 0.5), scale_linear_turbo (x: 1.0), axis_angular (yaw: 0), scale_angular (rad/s, yaw: 0.5),
+    scale_angular_turbo (as scale_angular).
+    """
+
+    def __init__(self, parameters: dict):
+        self.enable = int(parameters.get("enable_button", 0))
+        self.turbo = int(parameters.get("enable_turbo_button", -1))
+        self.required = bool(parameters.get("require_enable_button", True))
+        self.axes: Dict[str, int] = {}
+        self.scales: Dict[str, Velocities] = {"normal": {}, "turbo": {}}
+        for kind in FIELDS:
+            self._read(kind, parameters)
+        self._stopped = False
+
+    def _read(self, kind: str, parameters: dict) -> None:
+        field, axis, normal, turbo = _DEFAULTS[kind]
+        axes = parameters.get("axis_" + kind, axis)
+        mapped = isinstance(axes, dict)
+        normal = parameters.get("scale_" + kind, {} if mapped else normal)
+        turbo = parameters.get(f"scale_{kind}_turbo", {} if mapped else normal if turbo is None else turbo)
+        for name, values, into in (("axis_", axes, self.axes), ("scale_", normal, self.scales["normal"]),
+                                   ("scale_turbo_", turbo, self.scales["turbo"])):
+            if isinstance(values, dict) != mapped:
+                raise ValueError(f"axis_{kind} and scale_{kind} must both be numbers, or both maps like {{{field}: 1}}")
+            for key, value in (values if mapped else {field: values}).items():
+                if key not in FIELDS[kind]:
+                    raise ValueError(f"{name}{kind} has a field {key!r:.40}; there are {', '.join(FIELDS[kind])}")
+                if type(value) not in (int, float) or into is self.axes and type(value) is not int:
+                    raise ValueError(f"{name}{kind} must give numbers (axes whole ones), but {key} is {value!r:.40}")
+                into[key] = value
+
+    def drive(self, axes: Sequence[float], buttons: Sequence[int]) -> Optional[Velocities]:
+        """m/s and rad/s of the six fields. None if there is nothing to say: an enable button that is let go stops once."""
+        if self._pressed(self.turbo, buttons):
+            return self._velocities(axes, "turbo")
+        if not self.required or self._pressed(self.enable, buttons):
+            return self._velocities(axes, "normal")
+        if self._stopped:
+            return None
+        self._stopped = True
+        return self._velocities((), "normal")
+
+    @staticmethod
+    def _pressed(button: int, buttons: Sequence[int]) -> bool:
+        return 0 <= button < len(buttons) and bool(buttons[button])
+
+    def _velocities(self, axes: Sequence[float], which: str) -> Velocities:
+        self._stopped = not axes
+        values = {field: 0.0 for fields in FIELDS.values() for field in fields}
+        for field, axis in self.axes.items():
+            if 0 <= axis < len(axes):
+                values[field] = axes[axis] * self.scales[which].get(field, 0.0)
+        return values
+
+    def lines(self) -> Sequence[Tuple[str, tuple]]:
+        """What the node tells at its start: formats with their arguments."""
+        told = [("Teleop enable button %i.", (self.enable,))]
+        if self.turbo >= 0:
+            told.append(("Turbo on button %i.", (self.turbo,)))
+        for kind, fields in FIELDS.items():
+            for field in sorted(set(fields) & set(self.axes)):
+                told.append((kind.capitalize() + " axis %s on %i at scale %f.",
+                             (field, self.axes[field], self.scales["normal"].get(field, 0.0))))
+                if self.turbo >= 0:
+                    told.append((f"Turbo for {kind} axis %s is scale %f.", (field, self.scales["turbo"].get(field, 0.0))))
+        return told

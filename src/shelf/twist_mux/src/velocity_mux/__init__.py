@@ -1,0 +1,1 @@
+"""Choice among several sources of velocity commands, by priority, timeout and locks."""
