@@ -301,7 +301,7 @@ void World::follow_servos() {
       for (auto& c : m->clusters)
         if (c.root) all.push_back(&c);
   std::vector<BodyState> start;
-  remember_bodies(start, all);
+  for (Cluster* c : all) start.push_back(state_of(c->root->body));
   std::vector<std::pair<dBodyID, dMass>> held;
   for (Cluster* c : all) {
     const dBodyID b = c->root->body;

@@ -275,7 +275,10 @@ void World::install(Joint& j) {
       case JointType::Fixed: j.joint = dJointCreateFixed(world_, nullptr); break;
     }
     dJointAttach(j.joint, first, second);
-    if (j.watched) dJointSetFeedback(j.joint, &j.ode_feedback);
+    if (j.watched) {
+      j.ode_feedback = kUnsolved;
+      dJointSetFeedback(j.joint, &j.ode_feedback);
+    }
   }
 
   const Posed posed(first, second, X_1J, X_2J);

@@ -135,12 +135,11 @@ void World::servo_off(Joint& j) {
 }
 
 void World::set_inertial(Link& link, double mass, const Vec3& com, const Sym3& inertia) {
-  link.model->mass += mass - link.mass;
   link.mass = mass;
   link.com = com;
   link.inertia = inertia;
   link.model->dirty = true;
-  judge_sanity(*link.model);
+  judge_masses(*link.model);
 }
 
 // Position-commanded to `multiplier` times the position of the leader, plus `offset`. Without a leader it is let go.

@@ -131,18 +131,18 @@ void World::make_contact_joints() {
   }
   feedback_.resize(watched);
   size_t next = 0;
+  // The body that a contact acts on. None where a kinematic one would not feel it: it connects nothing with anything.
+  auto pushed = [&](const Link& l) -> dBodyID {
+    const Cluster& c = cluster_of(l);
+    return c.root && !c.root->kinematic ? c.root->body : nullptr;
+  };
   // Resting contacts must persist, or friction is lost every other step: this much overlap (m) is left alone.
   constexpr double slack = 2e-5;
   for (auto& c : contacts_) {
     const Surface &sa = c.a->surface, &sb = c.b->surface;
     if (sa.collide_without_contact || sb.collide_without_contact) continue;
     Link *la = c.a->link, *lb = c.b->link;
-    dBodyID ba = body_of(la), bb = body_of(lb);
-    if (la->carrier) ba = nullptr;  // kinematic: only its surface speed counts
-    if (lb->carrier) bb = nullptr;
-    const Cluster &ca = la->model->clusters[la->cluster], &cb = lb->model->clusters[lb->cluster];
-    if (la->carrier && ca.root) ba = ca.root->body;
-    if (lb->carrier && cb.root) bb = cb.root->body;
+    dBodyID ba = pushed(*la), bb = pushed(*lb);
     if (ba == bb) continue;
 
     dContact d{};
@@ -212,8 +212,11 @@ void World::make_contact_joints() {
     t1 = t1 * (1 / norm(t1));
     d.fdir1[0] = t1.x; d.fdir1[1] = t1.y; d.fdir1[2] = t1.z;
 
-    // Surface speed that the bodies do not have: links moved by servo joints.
-    auto driven = [&](const Link* l) { return l->moving || (cluster_of(*l).by && !cluster_of(*cluster_of(*l).by).root->model->jump); };
+    // Surface speed that the bodies do not have: links moved by servo joints, and kinematic ones.
+    auto driven = [&](const Link* l) {
+      const Cluster& c = cluster_of(*l);
+      return l->moving || (c.root && c.root->kinematic) || (c.by && !cluster_of(*c.by).root->model->jump);
+    };
     const bool driven1 = driven(l1), driven2 = driven(l2);
     if (driven1 || driven2) {
       auto slide = [&](Link* l, dBodyID body) {

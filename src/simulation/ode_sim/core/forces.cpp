@@ -222,6 +222,9 @@ void World::update_axis(Joint& j, int i) {
     upper -= kStopSkin;
   }
   if (j.sign < 0) std::tie(lower, upper) = std::make_pair(-upper, -lower);
+  // ODE's hinge looks at no stop while both are out of its reach, and takes itself to be where it was when it last looked. Its
+  // angle is always less than pi: it looks at this stop and never meets it.
+  if (j.type == JointType::Revolute && lower < -kPi && upper > kPi && (std::isfinite(lower) || std::isfinite(upper))) upper = kPi;
   set_limot(j, i, dParamLoStop, std::isfinite(lower) ? lower : -dInfinity);
   set_limot(j, i, dParamHiStop, std::isfinite(upper) ? upper : dInfinity);
   set_limot(j, i, dParamLoStop, std::isfinite(lower) ? lower : -dInfinity);  // ODE refuses a low stop above the old high one

@@ -43,6 +43,9 @@ inline void set_body_twist(dBodyID body, const Vec3& v, const Vec3& w) {
 }
 inline Pose body_pose(dBodyID body) { return {vec(dBodyGetPosition(body)), quat(dBodyGetQuaternion(body))}; }
 
+// What a joint's feedback is before a step: ODE leaves that of a joint which it does not solve for as it was.
+constexpr dJointFeedback kUnsolved{{std::numeric_limits<dReal>::quiet_NaN()}, {}, {}, {}};
+
 // A parameter of an axis of an ODE joint (dParamVel ...).
 void set_limot(const Joint& j, int axis, int parameter, double value);
 

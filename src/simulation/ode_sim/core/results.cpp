@@ -43,14 +43,15 @@ void World::read_joint(Joint& j) {
 
 void World::read_feedback(Joint& j) {
   if (!j.watched || !j.joint) return;
-  const dJointFeedback& f = j.ode_feedback;
+  const dJointFeedback f = j.ode_feedback;
+  j.ode_feedback = kUnsolved;
   const bool child_first = j.sign > 0;
   const Vec3 at = j.frame_W().p;
   const dBodyID first = dJointGetBody(j.joint, 0);
   const Vec3 force = vec(f.f1) + j.carried_force;
   const Vec3 torque = vec(f.t1) + j.carried_torque - cross(at - vec(dBodyGetPosition(first)), force);
   j.carried_force = j.carried_torque = {};
-  if (!finite(force) || !finite(torque)) return;  // the solver lost its way: that of the step before
+  if (!finite(force) || !finite(torque)) return;  // at rest, or the solver lost its way: that of the step before
   j.feedback.child_force = child_first ? force : -force;
   j.feedback.child_torque = child_first ? torque : -torque;
   j.feedback.parent_force = -j.feedback.child_force;

@@ -12,7 +12,7 @@ namespace ode_sim {
 
 namespace {
 
-constexpr uint64_t kVersion = 0x336d69735f65646full;  // "ode_sim3"; counts up when what is written changes
+constexpr uint64_t kVersion = 0x346d69735f65646full;  // "ode_sim4"; counts up when what is written changes
 
 uint64_t digest(const char* data, size_t size) {  // FNV-1a
   uint64_t h = 0xcbf29ce484222325ull;
@@ -146,6 +146,7 @@ template <class F> void World::walk(F& f) {
     f.same(static_cast<int>(m->joints.size()), kOtherModels);
     f.same(static_cast<int>(m->links.size()), kOtherModels);
     f.flag(m->take_exempt);
+    f.flag(m->loop);
     for (auto& j : m->joints) visit(f, *j);
     for (auto& l : m->links) visit(f, *l);
   }
@@ -164,6 +165,7 @@ struct Relations {
     bool asleep = false;
     int steps = 0;
     double time = 0;
+    Vec3 carry_v, carry_w;
   };
   std::vector<SavedTie> ties;
   std::vector<std::vector<std::pair<int, int>>> exempt;  // of each model
@@ -200,7 +202,10 @@ template <class F> void visit(F& f, Relations& r) {
   for (auto& l : leaders) f.number(l.first), f.number(l.second);
   std::vector<std::pair<int, Relations::Rest>> rest(r.rest.begin(), r.rest.end());
   visit_size(f, rest, sizeof(int));
-  for (auto& c : rest) f.number(c.first), f.flag(c.second.asleep), f.number(c.second.steps), f.number(c.second.time);
+  for (auto& [root, c] : rest) {
+    f.number(root), f.flag(c.asleep), f.number(c.steps), f.number(c.time);
+    visit(f, c.carry_v), visit(f, c.carry_w);
+  }
   if constexpr (F::reads) {
     r.leaders = {leaders.begin(), leaders.end()};
     r.rest = {rest.begin(), rest.end()};
@@ -218,7 +223,7 @@ std::string World::save() {
     for (auto& j : m->joints)
       if (const auto leader = j->leader.lock()) r.leaders[j->id] = leader->id;
     for (auto& c : m->clusters)
-      if (c.root) r.rest[c.root->id] = {c.asleep, c.idle_steps, c.idle_time};
+      if (c.root) r.rest[c.root->id] = {c.asleep, c.idle_steps, c.idle_time, c.carry_v, c.carry_w};
   }
   Writer f;
   uint64_t version = kVersion;
@@ -264,8 +269,6 @@ void World::restore(const std::string& data, const std::vector<int>& tie_ids) {
     if (!joints.count(follower) || !joints.count(leader)) refuse(kOtherModels);
 
   // Nothing is refused from here on.
-  refresh();
-  hold_true_velocities();
   Reader take{data, true, sizeof version, end};
   walk(take);
   ties_ = std::move(ties);
@@ -278,24 +281,28 @@ void World::restore(const std::string& data, const std::vector<int>& tie_ids) {
   for (size_t i = 0; i < models_.size(); ++i) {
     Model& m = *models_[i];
     m.exempt = {r.exempt[i].begin(), r.exempt[i].end()};
-    m.loop = false;
+    judge_masses(m);
     recluster(m);
-    for (auto& c : m.clusters)
+  }
+  contacts_.clear();
+  plan_carried();
+  for (auto& m : models_)
+    for (auto& c : m->clusters)
       if (const auto rest = c.root ? r.rest.find(c.root->id) : r.rest.end(); rest != r.rest.end()) {
         c.asleep = rest->second.asleep;
         c.idle_steps = rest->second.steps;
         c.idle_time = rest->second.time;
+        c.carry_v = rest->second.carry_v;
+        c.carry_w = rest->second.carry_w;
       }
-  }
-  contacts_.clear();
-  plan_carried();
   Reader again{data, true, sizeof version, end};
   walk(again);
-  for (auto& m : models_)
-    for (auto& j : m->joints) j->projected = true;  // not to be read from the poses, which would cost the last bit
-  read_back();
-  for (auto& m : models_)
+  // Links are not read from the bodies, nor joints from the links: either would cost the last bit.
+  for (auto& m : models_) {
+    for (auto& j : m->joints) j->projected = true;
     for (auto& l : m->links) place_shapes(*l);
+  }
+  publish();
 }
 
 }  // namespace ode_sim

@@ -1,9 +1,8 @@
-// Islands, sleep, and the solver for each.
+// The solver for each island, and what becomes of numbers that are lost.
 #include "ode_access.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace ode_sim {
 
@@ -26,23 +25,26 @@ bool on_the_map(dBodyID b) {
 
 }  // namespace
 
-void World::remember_bodies(std::vector<BodyState>& out, const std::vector<Cluster*>& clusters) const {
-  out.clear();
-  for (Cluster* c : clusters) {
-    BodyState s;
-    s.body = c->root->body;
-    s.p = vec(dBodyGetPosition(s.body));
-    s.q = quat(dBodyGetQuaternion(s.body));
-    s.v = vec(dBodyGetLinearVel(s.body));
-    s.w = vec(dBodyGetAngularVel(s.body));
-    s.f = vec(dBodyGetForce(s.body));
-    s.t = vec(dBodyGetTorque(s.body));
-    std::memcpy(s.R, dBodyGetRotation(s.body), sizeof s.R);
-    out.push_back(s);
-  }
+World::BodyState World::state_of(dBodyID b) {
+  BodyState s;
+  s.body = b;
+  s.p = vec(dBodyGetPosition(b));
+  s.q = quat(dBodyGetQuaternion(b));
+  s.v = vec(dBodyGetLinearVel(b));
+  s.w = vec(dBodyGetAngularVel(b));
+  s.f = vec(dBodyGetForce(b));
+  s.t = vec(dBodyGetTorque(b));
+  std::memcpy(s.R, dBodyGetRotation(b), sizeof s.R);
+  return s;
 }
 
-void World::recall_bodies(const std::vector<BodyState>& in) const {
+std::vector<World::BodyState> World::states_of(const std::vector<dBodyID>& bodies) {
+  std::vector<BodyState> out;
+  for (dBodyID b : bodies) out.push_back(state_of(b));
+  return out;
+}
+
+void World::recall_bodies(const std::vector<BodyState>& in) {
   for (auto& s : in) {
     set_body_pose(s.body, {s.p, s.q});
     set_body_twist(s.body, s.v, s.w);
@@ -91,138 +93,104 @@ void World::run(bool direct, int iterations_wanted) {
   }
 }
 
-// Finds the islands, puts those at rest to sleep, and steps the others: small ones exactly, large ones iteratively.
+// Bodies that a pass of a solver moves together.
+void World::Pass::add(const Island& island) {
+  for (Cluster* c : island.clusters) {
+    clusters.push_back(c);
+    bodies.push_back(c->root->body);
+  }
+  for (Link* l : island.kinematic) bodies.push_back(l->body);
+}
+
+void World::Pass::enable(bool on) const {
+  for (dBodyID b : bodies) on ? dBodyEnable(b) : dBodyDisable(b);
+}
+
+// Steps the islands that are awake: small ones exactly, large ones iteratively.
 void World::solve() {
-  nodes_.clear();
-  for (auto& m : models_)
-    for (auto& c : m->clusters) {
-      c.node = -1;
-      if (!c.root || c.root->kinematic) continue;
-      c.node = static_cast<int>(nodes_.size());
-      nodes_.push_back(&c);
-    }
-  std::vector<int> group(nodes_.size());
-  std::iota(group.begin(), group.end(), 0);
-  auto find = [&](int i) {
-    while (group[i] != i) i = group[i] = group[group[i]];
-    return i;
-  };
-  auto node = [&](const Link* l) { return l && !l->carrier ? l->model->clusters[l->cluster].node : -1; };
-  auto merge = [&](int a, int b) {
-    if (a < 0 || b < 0) return;
-    a = find(a), b = find(b);
-    if (a != b) group[std::max(a, b)] = std::min(a, b);
-  };
-  auto contact_node = [&](const Link* l) { return l->model->clusters[l->cluster].node; };
-  for (auto& m : models_)
-    for (auto& j : m->joints)
-      if (j->joint) merge(node(j->parent), node(j->child));
-  for (auto& t : ties_)
-    if (t.joint) merge(node(t.parent.get()), node(t.child.get()));
-  for (auto& c : contacts_)
-    if (c.joint) merge(contact_node(c.a->link), contact_node(c.b->link));
-
-  islands_.clear();
-  std::vector<int> island_of(nodes_.size(), -1);
-  for (size_t i = 0; i < nodes_.size(); ++i) {
-    const int g = find(static_cast<int>(i));
-    if (island_of[g] < 0) {
-      island_of[g] = static_cast<int>(islands_.size());
-      islands_.emplace_back();
-    }
-    island_of[i] = island_of[g];
-    islands_[island_of[i]].clusters.push_back(nodes_[i]);
-  }
-  for (auto& m : models_)
-    for (auto& j : m->joints)
-      if (j->joint) {
-        const int n = std::max(node(j->parent), node(j->child));
-        if (n < 0) continue;
-        islands_[island_of[n]].joints = true;
-        islands_[island_of[n]].rows += j->type == JointType::Ball ? 3 : j->type == JointType::Universal ? 6 : 6;
-      }
-  for (auto& t : ties_)
-    if (const int n = std::max(node(t.parent.get()), node(t.child.get())); t.joint && n >= 0) {
-      islands_[island_of[n]].joints = true;
-      islands_[island_of[n]].rows += 6;
-    }
-  for (auto& c : contacts_)
-    if (c.joint) {
-      const int n = std::max(contact_node(c.a->link), contact_node(c.b->link));
-      if (n >= 0) islands_[island_of[n]].contact_rows += 3;
-    }
-
-  std::vector<Cluster*> exact, touching, iterative;
-  std::vector<Island*> touching_islands;
-  for (auto& island : islands_) {
-    bool all_may_sleep = true, idle = true;
-    for (Cluster* c : island.clusters) {
-      all_may_sleep &= c->root->model->may_sleep;
-      if (!c->asleep) island.awake = true;
-    }
-    if (island.awake && all_may_sleep)
-      for (Cluster* c : island.clusters) {
-        dBodyID b = c->root->body;
-        const Vec3 v = vec(dBodyGetLinearVel(b)), w = vec(dBodyGetAngularVel(b));
-        if (dot(v, v) < 0.01 && dot(w, w) < 0.01) {
-          ++c->idle_steps;
-          c->idle_time += dt;
-        } else {
-          c->idle_steps = 0;
-          c->idle_time = 0;
-        }
-        if (c->idle_steps < 5 || c->idle_time < 1.0) idle = false;
-      }
-    if (island.awake && all_may_sleep && idle && island.contact_rows > 0) {
-      for (Cluster* c : island.clusters) {
-        c->asleep = true;
-        set_body_twist(c->root->body, {}, {});
-        c->root->v = c->root->w = {};
-        spread_twists(*c);
-      }
-      island.awake = false;
-    }
-    for (Cluster* c : island.clusters) {
-      if (island.awake) c->asleep = false;
-      if (!island.awake) dBodySetForce(c->root->body, 0, 0, 0), dBodySetTorque(c->root->body, 0, 0, 0);
-    }
-    if (!island.awake) continue;
-    auto& kind = island.contact_rows == 0 && island.rows <= kMostExactRows ? exact : island.rows + island.contact_rows <= (island.joints ? direct_rows : heap_rows) ? touching : iterative;
-    kind.insert(kind.end(), island.clusters.begin(), island.clusters.end());
-    if (&kind == &touching) touching_islands.push_back(&island);
-  }
-
-  auto enable = [&](const std::vector<Cluster*>& clusters, bool on) {
-    for (Cluster* c : clusters) on ? dBodyEnable(c->root->body) : dBodyDisable(c->root->body);
-  };
-  // Kinematic bodies move in exactly one pass.
-  std::vector<dBodyID> kinematic;
-  std::vector<Pose> kinematic_start;
-  for (auto& m : models_)
-    for (auto& l : m->links)
-      if (l->carrier || (l->kinematic && l->cluster >= 0 && m->clusters[l->cluster].root == l.get())) kinematic.push_back(l->body);
-  for (dBodyID b : kinematic) {
-    kinematic_start.push_back(body_pose(b));
-    dBodyEnable(b);
-  }
-
-  auto run_iterative = [&](const std::vector<Cluster*>& clusters, int times, std::vector<std::string>& said) {
-    said.clear();
-    enable(clusters, true);
-    {
-      std::lock_guard<std::mutex> lock(ode_mutex);
-      dRandSetSeed(static_cast<unsigned long>(mix(seed ^ mix(iterations)) & 0xffffffffu));
-      run(false, times);
-    }
-    enable(clusters, false);
-    ++counters.quick;
-    for (auto& s : said) report("ODE: " + s, island_names(clusters));
-    said.clear();
-  };
-
+  find_islands();
+  for (auto& island : islands_) rest(island);
   std::vector<std::string> said;
   const Listening listening(said);
-  remember_bodies(before_, nodes_);
+  before_.clear();
+  for (Cluster* c : nodes_) before_.push_back(state_of(c->root->body));
+  drop_absurd_forces();
+  std::vector<BodyState> kinematic;
+  std::vector<const Island*> touching_islands;
+  Pass &exact = passes_[0], &touching = passes_[1], &iterative = passes_[2];
+  for (Pass& pass : passes_) pass.clear();
+  for (auto& island : islands_) {
+    if (!island.awake) continue;
+    for (Link* l : island.kinematic) kinematic.push_back(state_of(l->body));
+    if (island.contact_rows == 0 && island.rows <= kMostExactRows) {
+      exact.add(island);
+    } else if (island.rows + island.contact_rows <= (island.joints ? direct_rows : heap_rows)) {
+      touching.add(island);
+      touching_islands.push_back(&island);
+    } else {
+      iterative.add(island);
+    }
+  }
+  run_direct(exact, said);
+  for (auto& s : said) report("ODE: " + s, island_names(exact.clusters));
+  said.clear();
+  if (const auto start = states_of(touching.bodies); !start.empty()) {
+    run_direct(touching, said);
+    if (!said.empty()) {
+      recall_bodies(start);
+      run_one_by_one(touching_islands, said);
+    }
+  }
+  run_iterative(iterative, iters, said);
+  for (auto& start : kinematic)
+    if (!on_the_map(start.body)) {
+      BodyState still = start;
+      still.v = still.w = {};
+      recall_bodies({still});
+      report("a kinematic link left the map; it was stopped where it was. Look at the speeds commanded", "");
+    }
+}
+
+void World::run_direct(const Pass& pass, std::vector<std::string>& said) {
+  if (pass.bodies.empty()) return;
+  said.clear();
+  pass.enable(true);
+  run(true, 0);
+  pass.enable(false);
+  ++counters.direct;
+}
+
+void World::run_iterative(const Pass& pass, int times, std::vector<std::string>& said) {
+  if (pass.bodies.empty()) return;
+  said.clear();
+  pass.enable(true);
+  {
+    std::lock_guard<std::mutex> lock(ode_mutex);
+    dRandSetSeed(static_cast<unsigned long>(mix(seed ^ mix(iterations)) & 0xffffffffu));
+    run(false, times);
+  }
+  pass.enable(false);
+  ++counters.quick;
+  for (auto& s : said) report("ODE: " + s, island_names(pass.clusters));
+  said.clear();
+}
+
+// The direct solver lost its way in some island: finds it, and gives that one to the iterative solver.
+void World::run_one_by_one(const std::vector<const Island*>& islands, std::vector<std::string>& said) {
+  for (const Island* island : islands) {
+    Pass alone;
+    alone.add(*island);
+    const auto start = states_of(alone.bodies);
+    run_direct(alone, said);
+    if (said.empty()) continue;
+    recall_bodies(start);
+    run_iterative(alone, 10 * iters, said);  // small, so that many more iterations than usual are affordable
+    ++counters.fallbacks;
+  }
+  said.clear();
+}
+
+void World::drop_absurd_forces() {
   for (Cluster* c : nodes_) {
     dBodyID b = c->root->body;
     const Vec3 f = vec(dBodyGetForce(b)), t = vec(dBodyGetTorque(b));
@@ -233,61 +201,13 @@ void World::solve() {
     dBodySetTorque(b, 0, 0, 0);
     report("a force beyond all reason was left out. Look at its masses, inertias and commands", c->root->model->name);
   }
-
-  if (!exact.empty() || !kinematic.empty()) {
-    enable(exact, true);
-    run(true, 0);
-    enable(exact, false);
-    ++counters.direct;
-    for (auto& s : said) report("ODE: " + s, island_names(exact));
-    said.clear();
-  }
-  // ODE wakes them again with the islands that they touch: this is how far they have come in this step.
-  std::vector<Pose> kinematic_poses;
-  for (size_t i = 0; i < kinematic.size(); ++i) {
-    const dBodyID b = kinematic[i];
-    dBodyDisable(b);
-    if (!on_the_map(b)) {
-      set_body_pose(b, kinematic_start[i]);
-      set_body_twist(b, {}, {});
-      report("a kinematic link left the map; it was stopped where it was. Look at the speeds commanded", "");
-    }
-    kinematic_poses.push_back(body_pose(b));
-  }
-  if (!touching.empty()) {
-    std::vector<BodyState> start;
-    remember_bodies(start, touching);
-    enable(touching, true);
-    run(true, 0);
-    enable(touching, false);
-    ++counters.direct;
-    if (!said.empty()) {
-      // The direct solver lost its way in some island: find it, and give that one to the iterative solver.
-      recall_bodies(start);
-      for (Island* island : touching_islands) {
-        said.clear();
-        remember_bodies(start, island->clusters);
-        enable(island->clusters, true);
-        run(true, 0);
-        enable(island->clusters, false);
-        if (said.empty()) continue;
-        recall_bodies(start);
-        // Small, so that many more iterations than usual are affordable.
-        run_iterative(island->clusters, 10 * iters, said);
-        ++counters.fallbacks;
-      }
-      said.clear();
-    }
-  }
-  if (!iterative.empty()) run_iterative(iterative, iters, said);
-  for (size_t i = 0; i < kinematic.size(); ++i) {
-    set_body_pose(kinematic[i], kinematic_poses[i]);
-    dBodyDisable(kinematic[i]);
-  }
 }
 
-// A body whose numbers are lost goes back to where it was, at rest.
+// A body whose numbers are lost goes back to where it was, at rest. What its ties are said to bear is then no number either.
 void World::guard_nan() {
+  for (auto& t : ties_)
+    for (dReal* v : {t.feedback.f1, t.feedback.t1, t.feedback.f2, t.feedback.t2})
+      if (!finite(vec(v))) t.feedback = {};
   for (auto& s : before_) {
     if (on_the_map(s.body)) continue;
     for (auto& n : nodes_)

@@ -152,8 +152,7 @@ void World::finish(Model& model) {
       }
     }
   }
-  judge_sanity(model);
-  for (auto& link : model.links) model.mass += link->mass;
+  judge_masses(model);
   for (auto& j : model.joints)
     if (j->type == JointType::Revolute)
       for (auto& shape : j->child->shapes)
@@ -211,8 +210,10 @@ std::vector<Link*> World::subtree(Joint& joint, bool* loop) {
   return out;
 }
 
-// Whether the links beyond each joint could be real bodies of their size: radius of gyration against reach.
-void World::judge_sanity(Model& model) {
+// The mass of all, and whether the links beyond each joint could be real bodies of their size: radius of gyration against reach.
+void World::judge_masses(Model& model) {
+  model.mass = 0;
+  for (auto& l : model.links) model.mass += l->mass;
   std::vector<Link*> odd;
   for (auto& l : model.links) {
     const double gyration = std::sqrt(std::max({l->inertia.xx, l->inertia.yy, l->inertia.zz}) / l->mass);

@@ -111,6 +111,7 @@ struct Link {
   Joint* parent_joint = nullptr;  // the first joint whose child it is
   std::vector<Joint*> joints;     // all that it has a part in, in order of creation
   int visit = 0;                  // of the search that came by last
+  int node = -1;                  // of the island search, where it has a kinematic body
   double size = 0.05;  // m, reach of its shapes from its origin
 
   Vec3 com_W() const { return X_WL * com; }
@@ -411,7 +412,7 @@ class World {
   dBodyID body_of(const Link* link) const;
   Pose X_BL(const Link& link) const;
   std::vector<Link*> subtree(Joint& joint, bool* loop = nullptr);
-  void judge_sanity(Model& model);
+  void judge_masses(Model& model);
   std::string island_names(const std::vector<Cluster*>& clusters) const;
 
   struct BodyState {
@@ -421,13 +422,30 @@ class World {
     double R[12];
   };
   std::vector<BodyState> before_;
-  void remember_bodies(std::vector<BodyState>& out, const std::vector<Cluster*>& clusters) const;
-  void recall_bodies(const std::vector<BodyState>& in) const;
+  static BodyState state_of(dBodyID body);
+  static std::vector<BodyState> states_of(const std::vector<dBodyID>& bodies);
+  static void recall_bodies(const std::vector<BodyState>& in);
   struct Island {
     std::vector<Cluster*> clusters;
+    std::vector<Link*> kinematic;  // links whose own kinematic bodies its joints hang on
     int rows = 0, contact_rows = 0;
     bool joints = false, awake = false;
+    bool driven = false;  // something that no force moves moves it
   };
+  struct Pass {
+    std::vector<Cluster*> clusters;
+    std::vector<dBodyID> bodies;  // of the clusters, and kinematic ones
+    void add(const Island& island);
+    void enable(bool on) const;
+    void clear() { clusters.clear(), bodies.clear(); }
+  };
+  Pass passes_[3];  // of the step under way
+  void find_islands();
+  void rest(Island& island);
+  void drop_absurd_forces();
+  void run_direct(const Pass& pass, std::vector<std::string>& said);
+  void run_iterative(const Pass& pass, int times, std::vector<std::string>& said);
+  void run_one_by_one(const std::vector<const Island*>& islands, std::vector<std::string>& said);
   std::vector<Island> islands_;
   std::vector<Cluster*> nodes_;
 };

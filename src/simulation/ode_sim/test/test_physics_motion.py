@@ -329,16 +329,6 @@ def test_force_at_a_point_turns_the_body():
     assert link.angular_velocity()[1] == pytest.approx(0.0, abs=1e-9)
 
 
-def test_kinematic_link_moves_as_told_and_feels_nothing():
-    world = ode_sim.World()
-    lift = world.spawn(box("lift", at=(0, 0, 1), size=(1, 1, 0.1), kinematic=True))
-    load = world.spawn(box("load", at=(0, 0, 1.1)))
-    lift.set_twist((0, 0, 0.2), (0, 0, 0))
-    world.step(1000)
-    assert lift.pose.p[2] == pytest.approx(1.2, abs=1e-9)
-    assert load.pose.p[2] == pytest.approx(1.3, abs=1e-3)
-
-
 def test_four_bar_closed_loop_turns_without_falling_apart():
     up = Pose((0, 0, 0.2))
     links = (Link("crank", Pose(), Inertial(0.2, Pose((0, 0, 0.1)), 1e-3, 0, 0, 1e-3, 0, 1e-4)), 

@@ -480,6 +480,22 @@ class ModelHandle:
         for link in self.links.values():
             link.set_twist(linear, angular)
 
+    @property
+    def flown_apart(self) -> bool:
+        """Whether some link is where no joint can have taken it."""
+        base = self.pose.p
+        far = max((abs(x - x0) for link in self.links.values() for x, x0 in zip(link.pose.p, base)), default=0.0)
+        return far > FARTHEST / 10 or max(map(abs, base)) > FARTHEST
+
+    def put_together(self) -> None:
+        """Every link where the description has it relative to the model, as with all joints at zero."""
+        if self.static or len(self.links) < 2:
+            return
+        base = self.pose
+        for link in self.links.values():
+            pose = compose(base, link.description.pose)
+            link.core.set_pose((*pose.p, *pose.q))
+
     def remove(self) -> None:
         self.world.remove(self.name)
 

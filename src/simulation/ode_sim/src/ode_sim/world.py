@@ -292,14 +292,13 @@ class World:
         """Time 0, every model with its joints as it was spawned, everything at rest, random numbers from the start."""
         self.core.detach_all()
         for model in self.models.values():
+            if model.flown_apart:  # joints far off cannot be set
+                model.pose = model.initial_pose
+                model.put_together()
             for joint in model.joints.values():
                 for axis in range(joint.axis_count):
                     joint.set_position(0.0, axis)
-            for link in model.links.values():
-                if not model.static and len(model.links) > 1:
-                    base = model.pose if max(map(abs, model.pose.p)) <= d.FARTHEST else model.initial_pose  # it flew off the map
-                    pose = compose(base, link.description.pose)
-                    link.core.set_pose((*pose.p, *pose.q))
+            model.put_together()
         self.reset_poses()
         self.core.time_ns = 0
         self.core.iterations = 0
