@@ -58,7 +58,7 @@ def test_malformed_xml_names_file_and_line(write):
 
 
 def test_ctrl_c_ends_it_without_a_traceback(write):
-    path = write('<a b="${[n for n in range(10 ** 11) if n &lt; 0]}"/>')
+    path = write('<a b="${(lambda f: f(f, 90))(lambda f, n: 1 if n &lt; 2 else f(f, n - 1) + f(f, n - 2))}"/>')
     process = subprocess.Popen([os.path.join(HERE, "xacro"), str(path)], stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
     try:
         while sum(psutil.Process(process.pid).cpu_times()[:2]) < 3.0:  # it expands, and would for hours
@@ -69,6 +69,14 @@ def test_ctrl_c_ends_it_without_a_traceback(write):
     finally:
         process.kill()
     assert process.returncode != 0 and "Traceback" not in complaint
+
+
+def test_an_expression_without_end_is_refused_in_one_line_with_its_place(write):
+    path = write('<link name="a"/>\n<link name="${9**9**9}"/>')
+    result = run(path)
+    assert result.returncode == 2
+    assert f"{path}:3: 9 to the power of 387420489 is too much for a robot description" in result.stderr.splitlines()[0]
+    assert "Traceback" not in result.stderr
 
 
 def test_missing_file(tmp_path):

@@ -16,6 +16,7 @@ import xacro
 import xacro.cli
 from ament_index_python.packages import PackageNotFoundError
 
+from noetic_xacro.expressions import bound_symbols, safe_eval
 from noetic_xacro.reserved import RESERVED
 
 _PLACE = "xacro_place"  # attribute set on DOM elements: "file:line"
@@ -160,6 +161,8 @@ def _fail(message: str, verbosity: int, error: BaseException) -> None:
 def install() -> None:
     """Put this module's functions into the module ``xacro``; done once, by its import."""
     xacro.parse = _parse
+    xacro.safe_eval = safe_eval
+    bound_symbols(xacro._global_symbols)
     _keep_place_in_clones()
     _accept_macros_without_prefix()
 
