@@ -1,0 +1,1 @@
+"""What the lists of rules are made of: conditions on a message."""

@@ -1,0 +1,8 @@
+"""...from topic."""
+from .list_filter import ListFilter
+
+
+class TopicFilter(ListFilter):
+    @staticmethod
+    def values_of(message):
+        return message.topics
