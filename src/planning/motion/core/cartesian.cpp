@@ -11,6 +11,7 @@ namespace
 {
 constexpr int MIN_STEPS_FOR_JUMPS = 10;  // fewer say nothing of the mean
 constexpr std::size_t MOST_STEPS = 200000;
+constexpr int HALVINGS = 5;  // of a step that is too long for the joints' values to be found from the last ones
 
 class Line
 {
@@ -64,18 +65,37 @@ private:
                          " m: that is too many steps");
     const bool jumps = request_.jump_threshold > 0 || request_.prismatic_jump > 0 || request_.revolute_jump > 0;
     const int steps = std::max(static_cast<int>(wanted), jumps ? MIN_STEPS_FOR_JUMPS : 1);
-    const Quaternion q0(from.linear()), q1(goal.linear());
     for (int i = 1; i <= steps; ++i)
     {
-      const double t = static_cast<double>(i) / steps;
-      Transform pose = Transform::Identity();
-      pose.translation() = (1 - t) * from.translation() + t * goal.translation();
-      pose.linear() = q0.slerp(t, q1).toRotationMatrix();
-      if (!step(pose))
+      const RobotState before = state_;
+      if (!reach(between(from, goal, static_cast<double>(i) / steps), HALVINGS))
+      {
+        state_ = before;
         return static_cast<double>(i - 1) / steps;
+      }
       keep();
     }
     return 1.0;
+  }
+
+  static Transform between(const Transform& from, const Transform& to, double t)
+  {
+    Transform pose = Transform::Identity();
+    pose.translation() = (1 - t) * from.translation() + t * to.translation();
+    pose.linear() = Quaternion(from.linear()).slerp(t, Quaternion(to.linear())).toRotationMatrix();
+    return pose;
+  }
+
+  // Near a stretched arm a centimetre is a long way for the elbow: it is gone in smaller steps then.
+  bool reach(const Transform& pose, int halvings)
+  {
+    const Transform from = frame_.at(state_);
+    if (step(pose))
+      return true;
+    if (halvings == 0 || !reach(between(from, pose, 0.5), halvings - 1) || !reach(pose, halvings - 1))
+      return false;
+    path_.message.clear();
+    return true;
   }
 
   bool step(const Transform& pose)

@@ -232,3 +232,19 @@ def test_sequence_stops_between_motions_or_blends_them(scene):
     too_wide = motion.pilz_sequence(scene, [(requests[0], 0.5), (requests[1], 0.0)])
     assert not too_wide and "blend radius" in too_wide.message
     assert not motion.pilz_sequence(scene, [(requests[0], 0.1)])
+
+
+def test_a_stretched_arm_can_be_drawn_in():
+    """The first centimetre takes the elbow of a stretched arm far: further than the joints' values follow in one step."""
+    model, done = motion.load_model(*robots.arm("fetch")), 0
+    scene = motion.PlanningScene(model)
+    for seed in range(100):
+        state = model.state()
+        state.randomize("arm", seed=seed)
+        values = state.get_group("arm")
+        values[3] = 0.001 * (seed % 5)
+        state.set_group("arm", values)
+        here, back = state.pose("tool"), state.pose("link_2").position - state.pose("tool").position
+        goal = (here.position + 0.05 * back / np.linalg.norm(back), here.quaternion)
+        done += bool(motion.cartesian_path(scene, "arm", [goal], start=state, avoid_collisions=False))
+    assert done >= 96  # the others meet a joint's limit
