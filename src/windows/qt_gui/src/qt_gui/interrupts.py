@@ -16,6 +16,7 @@ class Interrupts(QObject):
         self._notifier = QSocketNotifier(self._reading.fileno(), QSocketNotifier.Type.Read, self)
         self._notifier.activated.connect(self._wake)
         self._on_interrupt = on_interrupt
+        self.fired = False  # a signal has come
         self._wakeup_before = signal.set_wakeup_fd(self._writing.fileno(), warn_on_full_buffer=False)
         for number in (signal.SIGINT, signal.SIGTERM):
             signal.signal(number, self._on_signal)
@@ -25,10 +26,13 @@ class Interrupts(QObject):
             self._reading.recv(64)  # being Python code, this lets the handler below run
         except BlockingIOError:
             pass
+        if self.fired:
+            self._on_interrupt()  # again: an event loop that had not begun then could not be ended
 
     def _on_signal(self, number, _frame):
         for each in (signal.SIGINT, signal.SIGTERM):
             signal.signal(each, signal.SIG_DFL)
+        self.fired = True
         self._on_interrupt()
 
     def stop(self):

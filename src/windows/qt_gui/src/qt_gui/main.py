@@ -1,6 +1,8 @@
 """The program: options, application, window, end."""
 import os
+import signal
 import sys
+import threading
 
 from qt_gui import options as command_line
 from qt_gui.display import missing_display
@@ -27,6 +29,8 @@ class Main:
         :return: exit code; wrong options of the window give 1
         """
         argv = sys.argv if argv is None else argv
+        if threading.current_thread() is threading.main_thread():
+            signal.signal(signal.SIGINT, signal.SIG_DFL)  # until there is a window to close, Ctrl-C just ends the process
         program = os.path.basename(Main.main_filename)
         try:
             self._options = command_line.parse(program, argv[1:], standalone, plugin_argument_provider)
@@ -75,12 +79,11 @@ class Main:
 
         choose_theme()
         interrupts = Interrupts(lambda: (app.closeAllWindows(), app.quit()))
-        if self._options.reload_import:
-            from qt_gui.reload_importer import reload_modules_of_plugins
-            reload_modules_of_plugins(gui.plugins)
         try:
             gui.open()
             remote = RemoteControl(gui)  # noqa: F841 answers as long as it is there
+            if interrupts.fired:
+                return 0
             return app.exec() if hasattr(app, "exec") else app.exec_()
         finally:
             interrupts.stop()

@@ -124,6 +124,7 @@ class PerspectiveManager(QObject):
 
         :param clone: it starts as a copy of the one in use, and nothing on the screen changes
         """
+        name = name.replace("/", "__")
         self.save()
         if clone and self._perspective_settings is not None:
             copy = self._settings_of(name)

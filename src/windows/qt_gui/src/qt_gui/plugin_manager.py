@@ -5,6 +5,7 @@ from qt_gui.errors import PluginLoadError
 from qt_gui.plugin_descriptor import PluginDescriptor
 from qt_gui.plugin_handler import ContainerHandler, PluginHandler
 from qt_gui.plugin_instance_id import PluginInstanceId
+from qt_gui.reload_importer import ReloadImporter
 from qt_gui.reporting import describe
 
 CONTAINER = "__DockWidgetContainer"  # the id under which containers are stored among the plugins
@@ -24,6 +25,7 @@ class PluginManager(QObject):
         super().__init__()
         self._provider = provider
         self._options = options
+        self._importer = ReloadImporter(everything=options.reload_import)
         self._window = None
         self._menu = None
         self._descriptors = None
@@ -57,18 +59,23 @@ class PluginManager(QObject):
         self._descriptors[CONTAINER] = container
 
     def get_plugins(self):
-        """Id -> class path of each plugin."""
+        """Id -> class path of each plugin that can run."""
+        return self._class_paths(lambda descriptor: not descriptor.attributes().get("not_available"))
+
+    def _class_paths(self, wanted):
         self.discover()
         return {i: "/".join(d.attributes().get("class_type", "unknown").split("::")) for i, d in self._descriptors.items()
-                if i != CONTAINER}
+                if i != CONTAINER and wanted(d)}
 
     def find_plugins_by_name(self, name):
-        """Those of :meth:`get_plugins` whose id or class path contains ``name``, in upper or lower case. An id or class path
-        that is ``name`` exactly stands alone."""
-        plugins, name = self.get_plugins(), name.lower()
-        found = {i: path for i, path in plugins.items() if name in i.lower() or name in path.lower()}
-        exact = {i: path for i, path in found.items() if name in (i.lower(), path.lower(), i.split("/")[0].lower())}
-        return exact if len(exact) == 1 else found
+        """Those of :meth:`get_plugins` whose id or class path contains ``name``, in upper or lower case. An id, package or
+        class path that is ``name`` exactly stands alone."""
+        return _fitting(self.get_plugins(), name)
+
+    def reason_against(self, name):
+        """Why the plugin that ``name`` fits cannot run, or None when it fits none of these."""
+        fitting = _fitting(self._class_paths(lambda descriptor: descriptor.attributes().get("not_available")), name)
+        return next((self._descriptors[i].attributes()["not_available"] for i in sorted(fitting)), None)
 
     def get_plugin_descriptor(self, plugin_id):
         self.discover()
@@ -113,6 +120,7 @@ class PluginManager(QObject):
         except SystemExit as error:  # argparse of a plugin that does not like its arguments
             qCritical(f"could not load plugin '{instance_id.plugin_id}': it ended itself with {error.code}")
         else:
+            self._importer.note(descriptor)
             self._running[str(instance_id)] = handler
             handler.close_signal.connect(self._unload_later)
             handler.reload_signal.connect(self._reload_later)
@@ -159,6 +167,7 @@ class PluginManager(QObject):
         self.plugins_about_to_change_signal.emit()
         self._save(handler)
         self._end(handler)
+        self._importer.forget(self._descriptors[handler.instance_id().plugin_id])
         handler = self._start(handler.instance_id(), handler.argv())
         if handler is not None:
             self._restore(handler)
@@ -238,3 +247,10 @@ class PluginManager(QObject):
                     continue
                 wanted[str(instance_id)] = instance_id
         return wanted
+
+
+def _fitting(plugins, name):
+    name = name.lower()
+    found = {i: path for i, path in plugins.items() if name in i.lower() or name in path.lower()}
+    exact = {i: path for i, path in found.items() if name in (i.lower(), path.lower(), i.split("/")[0].lower())}
+    return exact if len(exact) == 1 else found

@@ -9,6 +9,7 @@ from typing import Callable, Dict, List, Tuple
 from python_qt_binding import QtCore
 
 _CYAN, _RED, _RESET = "\033[36m", "\033[31m", "\033[0m"
+_NOISE = ("This plugin does not support", "QStandardPaths: ")  # Qt about its own offscreen platform, and about being root
 _options = {"verbose": False}
 _seen: Dict[Tuple, int] = {}
 listeners: List[Callable[[str], None]] = []  # each is given every warning and error, for tests
@@ -47,8 +48,8 @@ def _on_exception(kind, error, trace) -> None:
 
 def _on_message(kind, _context, text) -> None:
     level = getattr(kind, "value", kind)  # 0 debug, 1 warning, 2 critical, 3 fatal, 4 info in every binding
-    if level in (0, 4) and not _options["verbose"] or text.startswith("This plugin does not support"):
-        return  # the latter is Qt about its own offscreen platform
+    if level in (0, 4) and not _options["verbose"] or text.startswith(_NOISE):
+        return
     if level not in (0, 4):
         for listener in listeners:
             listener(text)

@@ -1,1 +1,1 @@
-"""..."""
+"""Widgets and helpers that plugins share."""

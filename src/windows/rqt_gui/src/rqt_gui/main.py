@@ -33,12 +33,13 @@ class Main(Base):
 
     def _add_plugin_providers(self):
         from qt_gui.recursive_plugin_provider import RecursivePluginProvider
-        from rqt_gui.rospkg_plugin_provider import RospkgPluginProvider
+        from rqt_gui.rospkg_plugin_provider import CompiledPluginProvider, RospkgPluginProvider
 
         RospkgPluginProvider.rospack = self._ros_pack
         self.plugin_providers.append(RospkgPluginProvider("qt_gui", "qt_gui_py::Plugin"))
         for tag, base in (("qt_gui", "qt_gui_py::PluginProvider"), ("rqt_gui", "rqt_gui_py::PluginProvider")):
             self.plugin_providers.append(RecursivePluginProvider(RospkgPluginProvider(tag, base)))
+        self.plugin_providers.append(CompiledPluginProvider())
 
 
 if __name__ == "__main__":

@@ -52,20 +52,18 @@ class RosPluginProvider(PluginProvider):
 
     def _read(self, package, path):
         """The descriptors of the classes in one file that have this provider's base; what is wrong with it is a line."""
-        try:
-            root = ElementTree.parse(path).getroot()
-        except OSError as error:
-            qWarning(f"package {package}: plugin description {path} cannot be read: {error.strerror}")
-            return
-        except (ElementTree.ParseError, ValueError, LookupError) as error:
-            qWarning(f"package {package}: plugin description {path} is not XML: {error}")
+        root = _parse(package, path)
+        if root is None:
             return
         for library in root.iter("library"):
             for element in library.iter("class"):
-                if element.get("base_class_type") == self._base_class_type:
+                if self._accepts(element.get("base_class_type")):
                     descriptor = self._descriptor(package, path, library, element)
                     if descriptor is not None:
                         yield descriptor
+
+    def _accepts(self, base_class_type):
+        return base_class_type == self._base_class_type
 
     def _descriptor(self, package, path, library, element):
         type_name = (element.get("type") or "").strip()
@@ -84,6 +82,25 @@ class RosPluginProvider(PluginProvider):
     def package_path(self, package, path):
         """The folder of a package, given its description file."""
         return os.path.dirname(path)
+
+
+_parsed = {}  # (path, time) -> root, None for what is broken: several providers read the same file, one line is enough
+
+
+def _parse(package, path):
+    try:
+        key = path, os.stat(path).st_mtime_ns
+        if key not in _parsed:
+            _parsed[key] = None
+            _parsed[key] = ElementTree.parse(path).getroot()
+    except OSError as error:
+        key = path, None
+        if key not in _parsed:
+            _parsed[key] = None
+            qWarning(f"package {package}: plugin description {path} cannot be read: {error.strerror}")
+    except (ElementTree.ParseError, ValueError, LookupError) as error:
+        qWarning(f"package {package}: plugin description {path} is not XML: {error}")
+    return _parsed[key]
 
 
 def describe_menu(descriptor, element):

@@ -8,8 +8,9 @@ import xml.etree.ElementTree as ET
 
 import rospkg
 from python_qt_binding.QtCore import qWarning
-
-from rqt_gui.ros_plugin_provider import RosPluginProvider
+from qt_gui.errors import PluginLoadError
+from qt_gui.plugin_descriptor import PluginDescriptor
+from rqt_gui.ros_plugin_provider import RosPluginProvider, describe_menu
 
 _MANIFESTS = ("package.xml", "manifest.xml")
 _MENTIONS = re.compile(rb"<\s*r?qt_gui\b")
@@ -30,18 +31,60 @@ class RospkgPluginProvider(RosPluginProvider):
         return [(package, path) for package, tag, path in exports(RospkgPluginProvider.rospack) if tag == export_tag]
 
     def package_path(self, package, path):
-        return RospkgPluginProvider.rospack.get_path(package)
+        return _known["paths"][package]
 
 
-_known = {}  # RosPack -> its exports: several providers ask for the same
+class CompiledPluginProvider(RospkgPluginProvider):
+    """Plugins in C++: they are in the menu, greyed, and whoever asks for one by name is told why it does not start."""
+
+    def __init__(self):
+        super().__init__("rqt_gui", "rqt_gui_cpp::Plugin")
+
+    def _find_plugins(self, export_tag, discovery_data):
+        return super()._find_plugins("rqt_gui", None) + super()._find_plugins("qt_gui", None)
+
+    def _accepts(self, base_class_type):
+        return base_class_type in ("rqt_gui_cpp::Plugin", "qt_gui_cpp::Plugin")
+
+    def _descriptor(self, package, path, library, element):
+        name, kind = element.get("name") or package, element.get("type") or ""
+        reason = f"'{name}' of package {package} is a compiled C++ plugin ({kind}); only Python plugins can be loaded here"
+        return describe_menu(PluginDescriptor(name, {"package_name": package, "plugin_path": os.path.dirname(path),
+                                                     "class_type": kind, "not_available": reason}), element)
+
+    def load(self, plugin_id, plugin_context):
+        raise PluginLoadError(self._plugin_descriptors[plugin_id].attributes()["not_available"])
+
+
+_known = {}  # of the last RosPack asked: several providers ask for the same
 
 
 def exports(rospack):
     """(package, tag, description file) of all exports of plugins, in the order of the packages' names."""
     if _known.get("of") is not rospack:
-        _known.update(of=rospack, exports=[entry for package in sorted(rospack.list())
-                                           for entry in _of_package(package, rospack.get_path(package))])
+        _known.update(of=rospack, paths=_packages(rospack))
+        _known["exports"] = [entry for package, folder in sorted(_known["paths"].items()) for entry in _of_package(package, folder)]
     return _known["exports"]
+
+
+def _packages(rospack):
+    """Name -> folder of all packages. One manifest that is not XML spoils rospkg's list; then those of its path are left out."""
+    try:
+        return {name: rospack.get_path(name) for name in rospack.list()}
+    except (ET.ParseError, ValueError, LookupError):
+        pass
+    found = {}
+    for path in reversed(rospack.ros_paths):
+        for folder, below, files in os.walk(path):
+            if "package.xml" in files:
+                below.clear()
+                try:
+                    found[(ET.parse(os.path.join(folder, "package.xml")).findtext("name") or "").strip()] = folder
+                except (OSError, ET.ParseError, ValueError, LookupError) as error:
+                    qWarning(f"{folder}/package.xml is not XML, so that no ROS tool lists packages any more: {error}")
+            elif "CATKIN_IGNORE" in files:
+                below.clear()
+    return found
 
 
 def _of_package(package, folder):
@@ -56,11 +99,7 @@ def _of_package(package, folder):
             qWarning(f"package {package}: {path} cannot be read: {error.strerror}")
             return
         if _MENTIONS.search(data):  # most packages do not, and parsing is what takes time
-            try:
-                root = ET.fromstring(data)
-            except (ET.ParseError, ValueError, LookupError) as error:
-                qWarning(f"package {package}: {path} is not XML, its plugins are left out: {error}")
-                return
+            root = ET.fromstring(data)
             for element in root.iterfind("export/*"):
                 if element.tag in ("qt_gui", "rqt_gui") and element.get("plugin"):
                     yield package, element.tag, element.get("plugin").replace("${prefix}", folder)
