@@ -16,7 +16,7 @@ pytestmark = pytest.mark.skipif(PREFIX is None, reason="no sourced workspace has
 @pytest.fixture
 def package(tmp_path):
     """Function that writes a package, configures it and builds it; its result has returncode and stdout."""
-    def make(components, source=None, options=""):
+    def make(components, source=None, options="", build=True):
         depends = "".join(f"<depend>{name}</depend>" for name in components.split())
         (tmp_path / "package.xml").write_text(
             "<package format='2'><name>p</name><version>1.0.0</version><description>d</description>"
@@ -28,6 +28,8 @@ def package(tmp_path):
             (tmp_path / "p.cpp").write_text(source)
             lists += "add_library(p SHARED p.cpp)\ntarget_link_libraries(p ${catkin_LIBRARIES})\n"
         (tmp_path / "CMakeLists.txt").write_text(lists)
+        if not build:
+            return None
         ended = subprocess.run(["cmake", "-S", tmp_path, "-B", tmp_path / "build", "-Wno-dev"], capture_output=True, text=True, timeout=200)
         if ended.returncode == 0 and source:
             ended = subprocess.run(["cmake", "--build", tmp_path / "build"], capture_output=True, text=True, timeout=280)
@@ -56,6 +58,21 @@ def test_old_sources_build(package, standard):
         """, standard)
     assert ended.returncode == 0, ended.stdout + ended.stderr
     assert "global namespace is deprecated" not in ended.stdout + ended.stderr
+
+
+def test_packages_of_catkin_make_find_the_old_headers_too(package, tmp_path):
+    """catkin_make configures all packages in one run of CMake, with a find_package(catkin) of its own before theirs."""
+    package("roscpp pluginlib", "#include <class_loader/class_loader.h>\n#include <pluginlib/class_list_macros.h>\n",
+            build=False)
+    workspace = tmp_path / "workspace"
+    (workspace / "src/p").mkdir(parents=True)
+    for file in ("package.xml", "CMakeLists.txt", "p.cpp"):
+        (tmp_path / file).rename(workspace / "src/p" / file)
+    (workspace / "src/CMakeLists.txt").symlink_to("/usr/share/catkin/cmake/toplevel.cmake")
+    for step in (["-S", workspace / "src", "-B", workspace / "build", "-Wno-dev", f"-DCATKIN_DEVEL_PREFIX={workspace}/devel"],
+                 ["--build", workspace / "build"]):
+        ended = subprocess.run(["cmake", *step], capture_output=True, text=True, timeout=280)
+        assert ended.returncode == 0, ended.stdout + ended.stderr
 
 
 def paragraph(ended):
