@@ -10,7 +10,7 @@ import threading
 import weakref
 import xmlrpc.client
 from http.client import HTTPException
-from typing import Callable, Iterator, List, Optional, Tuple
+from typing import Callable, Dict, Iterator, List, Optional, Tuple
 
 import rosgraph
 import rospy
@@ -19,7 +19,7 @@ from rospy.impl.registration import RegManager, get_registration_listeners, get_
 _PERIOD = 1.0  # s
 _TIMEOUT = 5.0  # s that the master gets to answer
 _TROUBLE = (OSError, xmlrpc.client.Error, HTTPException, rosgraph.MasterException)
-_restorers: List[Callable[[], Optional[Callable[[], None]]]] = []
+_restorers: Dict[int, Callable[[], Optional[Callable[[], None]]]] = {}  # by their own id
 
 
 def on_return(f: Callable[[], None]) -> None:
@@ -27,7 +27,8 @@ def on_return(f: Callable[[], None]) -> None:
 
     A bound method is held weakly and forgotten with its object. It runs in the thread of the watch.
     """
-    _restorers.append(weakref.WeakMethod(f) if hasattr(f, "__self__") else lambda: f)
+    kept = weakref.WeakMethod(f, lambda dead: _restorers.pop(id(dead), None)) if hasattr(f, "__self__") else lambda: f
+    _restorers[id(kept)] = kept
 
 
 def watch() -> None:
@@ -82,11 +83,9 @@ class _Watch:
         return list(multi())
 
     def _register(self) -> None:
-        for reference in list(_restorers):
+        for reference in list(_restorers.values()):
             restore = reference()
-            if restore is None:
-                _restorers.remove(reference)
-            else:
+            if restore is not None:
                 restore()
         calls = list(self._registrations())
         managers = [one for one in get_registration_listeners().listeners if isinstance(one, RegManager)]

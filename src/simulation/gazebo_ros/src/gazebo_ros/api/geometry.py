@@ -5,11 +5,10 @@ from typing import Any, Tuple
 
 from geometry_msgs.msg import Pose as PoseMsg, Quaternion, Point, Twist, Vector3
 from ode_sim import CollisionHandle, ModelHandle, math3
-from ode_sim.description.model import Pose, Vec3
+from ode_sim.description.model import FARTHEST, Pose, Vec3
 
 from gazebo_ros.api.handlers import Refused, finite
 
-FARTHEST = 1e7  # m; collisions are not found much beyond
 WORLD_NAMES = ("", "world", "map", "/map")  # when no entity has that name
 
 
