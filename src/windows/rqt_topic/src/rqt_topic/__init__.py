@@ -1,0 +1,1 @@
+"""Plugin of rqt: shows all topics with type, bandwidth, rate and values."""
