@@ -5,6 +5,7 @@ import unittest
 import moveit_commander
 import rospy
 import rostest
+from dynamic_reconfigure.client import Client
 from geometry_msgs.msg import PoseStamped
 from moveit_msgs.msg import Grasp, GripperTranslation, MoveItErrorCodes, PlaceLocation
 from sensor_msgs.msg import JointState
@@ -79,6 +80,14 @@ class PickPlace(unittest.TestCase):
     def test_plan_only_moves_nothing(self):
         self.assertEqual(self.arm.pick("block", grasp(0.45, 0.0, 0.25), plan_only=True), Codes.SUCCESS)
         self.assertIn("block", self.scene.get_known_object_names())
+
+    def test_steps_and_tries_can_be_set(self):
+        client = Client("/move_group/pick_place", timeout=30)
+        before = client.get_configuration(timeout=30)
+        self.assertEqual((before["max_attempted_states_per_pose"], before["cartesian_motion_step_size"]), (5, 0.02))
+        after = client.update_configuration({"cartesian_motion_step_size": 0.01, "jump_factor": 0.0})
+        self.assertEqual(after["cartesian_motion_step_size"], 0.01)
+        self.assertEqual(self.arm.pick("block", grasp(0.45, 0.0, 0.25), plan_only=True), Codes.SUCCESS)
 
     def test_what_cannot_be_done_has_its_code(self):
         self.assertEqual(self.arm.pick("ghost", grasp(0.45, 0.0, 0.25)), Codes.INVALID_OBJECT_NAME)

@@ -6,7 +6,7 @@ import rospy
 import rostest
 from client import HOME, LEFT, call, move, plan
 from moveit_msgs.msg import MoveItErrorCodes
-from moveit_msgs.srv import QueryPlannerInterfaces
+from moveit_msgs.srv import ExecuteKnownTrajectory, QueryPlannerInterfaces
 
 
 class Melodic(unittest.TestCase):
@@ -21,6 +21,14 @@ class Melodic(unittest.TestCase):
         for goal in (LEFT, HOME):
             moved = move(goal, planner_id="RRTConnectkConfigDefault").result()[1]
             self.assertEqual(moved.error_code.val, MoveItErrorCodes.SUCCESS)
+
+    def test_old_configurations_ask_for_a_service_that_executes(self):
+        found = plan(LEFT)
+        answer = call("execute_kinematic_path", ExecuteKnownTrajectory, found.trajectory, True)
+        self.assertEqual(answer.error_code.val, MoveItErrorCodes.SUCCESS)
+        self.assertEqual(call("execute_kinematic_path", ExecuteKnownTrajectory, found.trajectory, True).error_code.val,
+                         MoveItErrorCodes.CONTROL_FAILED, "the robot is no longer where the trajectory starts")
+        self.assertEqual(move(HOME).result()[1].error_code.val, MoveItErrorCodes.SUCCESS)
 
 
 if __name__ == "__main__":

@@ -75,7 +75,7 @@ class Names(unittest.TestCase):
                         "set_planner_params", "clear_octomap", "plan_sequence_path", "move_group/load_map",
                         "move_group/save_map"):
             self.assertIn(f"/{service}", services)
-        for server in ("planning_scene_monitor", "trajectory_execution", "plan_execution",
+        for server in ("planning_scene_monitor", "trajectory_execution", "plan_execution", "sense_for_plan", "pick_place",
                        "planning_pipelines/ompl/ompl"):
             self.assertIn(f"/move_group/{server}/set_parameters", services)
 

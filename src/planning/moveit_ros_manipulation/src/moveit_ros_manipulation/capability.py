@@ -11,23 +11,41 @@ from moveit_msgs.msg import (AttachedCollisionObject, CollisionObject, Constrain
                              MoveItErrorCodes, PickupAction, PlaceAction, PlaceLocation, RobotState)
 from trajectory_msgs.msg import JointTrajectoryPoint
 
+from dynamic_parameters import Parameter, Server
 from moveit_core import states
 from moveit_core.errors import PlanningError
 from moveit_ros_move_group.capability import ActionCapability, Capability, result_text
 from moveit_ros_planning.plan_execution import Plan, Stop
 from moveit_ros_planning.robot_model import scaling_factors
 
-from .planner import Manipulation, Outcome, Task, allowing, hand_pose
+from .planner import Manipulation, Outcome, Settings, Task, allowing, hand_pose
+
+
+_PARAMETERS = [
+    Parameter("max_attempted_states_per_pose", int, 5, 1, 100, "Joint configurations that are tried per pose"),
+    Parameter("max_consecutive_fail_attempts", int, 3, 1, 10, "Poses in a row without a configuration after which the "
+              "search for more ends (all poses are tried here)"),
+    Parameter("cartesian_motion_step_size", float, 0.02, 0.005, 0.1, "Step of straight approaches and retreats, m"),
+    Parameter("jump_factor", float, 2.0, 0.0, 10.0, "A straight motion ends before a step above this many times its mean "
+              "one in joint space; 0 allows any"),
+]
 
 
 class PickPlace(Capability):
-    """Both actions."""
+    """Both actions, and the dynamic_reconfigure server ``~pick_place``."""
 
     title = "PickPlaceAction"
 
     def __init__(self, context):
         super().__init__(context)
-        self._actions = [Pickup(context), Place(context)]
+        self._settings = Settings()
+        self._server = Server("~pick_place", _PARAMETERS, self._reconfigure)
+        self._actions = [Pickup(context, self._settings), Place(context, self._settings)]
+
+    def _reconfigure(self, config, _level) -> None:
+        self._settings.tries = int(config["max_attempted_states_per_pose"])
+        self._settings.step = float(config["cartesian_motion_step_size"])
+        self._settings.jump = float(config["jump_factor"])
 
     def shutdown(self) -> None:
         for action in self._actions:
@@ -37,8 +55,9 @@ class PickPlace(Capability):
 class _Manipulate(ActionCapability):
     """What picking and placing have in common."""
 
-    def __init__(self, context):
+    def __init__(self, context, settings: Settings):
         self._stop = Stop()
+        self._settings = settings
         super().__init__(context)
 
     def preempt(self) -> None:
@@ -89,7 +108,7 @@ class _Manipulate(ActionCapability):
         """A planner for the time that the goal allows."""
         seconds = goal.allowed_planning_time if goal.allowed_planning_time > 0 else 5.0
         return Manipulation(lambda scene, group, values, left: self._free(scene, goal, group, values, left), seconds,
-                            self._stop.is_set)
+                            self._stop.is_set, self._settings)
 
     def _free(self, scene, goal, group: str, values, seconds: float) -> motion.PlanResult:
         request = MotionPlanRequest(group_name=group, planner_id=goal.planner_id, allowed_planning_time=seconds,

@@ -15,7 +15,6 @@ from moveit_core import convert
 from moveit_core.errors import PlanningError
 from moveit_ros_planning.plan_execution import Segment
 
-_TRIES = 5  # joint configurations per pose
 _GRIPPER_TIME = 1.0  # s that a gripper gets when its posture has no times
 Allow = Callable[[motion.AllowedCollisionMatrix], None]
 
@@ -46,6 +45,16 @@ class Task:
 
 
 @dataclass
+class Settings:
+    """Joint configurations tried per pose; step (m) of straight motions; a joint-space step above ``jump`` times the mean one
+    ends them (0: none does)."""
+
+    tries: int = 5
+    step: float = 0.02
+    jump: float = 2.0
+
+
+@dataclass
 class Outcome:
     """Segments, or why there are none."""
 
@@ -60,7 +69,9 @@ class Manipulation:
     :param free_motion: plans a motion to joint values: ``(scene, group, values, seconds) -> PlanResult``.
     """
 
-    def __init__(self, free_motion: Callable, time_limit: float, cancelled: Callable[[], bool] = lambda: False):
+    def __init__(self, free_motion: Callable, time_limit: float, cancelled: Callable[[], bool] = lambda: False,
+                 settings: Optional[Settings] = None):
+        self._settings = settings or Settings()
         self._free_motion = free_motion
         self._end = time.monotonic() + time_limit
         self._cancelled = cancelled
@@ -87,7 +98,7 @@ class Manipulation:
         loose = self._loosened(scene, task.allow_approach)
         self._set_posture(loose, task.open)
         found = motion.ik(loose, task.group, task.target, link=task.link, seed=loose.state, avoid_collisions=True,
-                          timeout=min(0.5, max(0.05, self.left)), solutions=_TRIES)
+                          timeout=min(0.5, max(0.05, self.left)), solutions=self._settings.tries)
         return list(found.solutions) if found else []
 
     @staticmethod
@@ -142,8 +153,8 @@ class Manipulation:
         step = motion.Pose(np.zeros(3), rotation.quaternion) * motion.Pose(vector / length * distance * sign,
                                                                            convert.IDENTITY[1])
         goal = motion.Pose(np.asarray(here.position) + np.asarray(step.position), here.quaternion)
-        found = motion.cartesian_path(scene, task.group, [goal], link=task.link, start=state, max_step=0.02,
-                                      jump_threshold=2.0,
+        found = motion.cartesian_path(scene, task.group, [goal], link=task.link, start=state, max_step=self._settings.step,
+                                      jump_threshold=self._settings.jump,
                                       avoid_collisions=True)
         if found.trajectory is None or found.fraction * distance < move.min_distance - 1e-6:
             return None

@@ -57,7 +57,7 @@ class MoveGroup:
     def __init__(self, debug: bool = False):
         rospy.loginfo("MoveGroup debug mode is %s", "ON" if debug else "OFF")
         name = rospy.get_param("~planning_scene_monitor_options/robot_description", "robot_description")
-        description = robot_model.load(name)
+        description = robot_model.load(name, compiled_solvers=True)
         rospy.loginfo("Loading robot model '%s'...", description.model.name)
         if rospy.get_param("~collision_detector", "FCL") not in ("", "FCL"):
             rospy.logwarn("collision_detector '%s' does not exist here; FCL is used",

@@ -24,6 +24,13 @@ _PARAMETERS = [
     Parameter("record_trajectory_state_frequency", float, 0.0, 0.0, 1000.0,
               "The frequency at which to record states when monitoring trajectories", 6),
 ]
+#: of looking around before a motion: known to clients, but no sensor here can be turned to look
+_SENSING = [
+    Parameter("max_safe_path_cost", float, 0.01, 0.0, 1000.0, "The cost of a path above which sensors should look first"),
+    Parameter("max_look_attempts", int, 3, 0, 100, "How often sensors may look"),
+    Parameter("max_cost_sources", int, 100, 1, 10000, "Places on a path that are looked at"),
+    Parameter("discard_overlapping_cost_sources", float, 0.8, 0.01, 1.0, "Places that overlap by more count as one"),
+]
 #: outcomes after which planning again may help
 _AGAIN = (MoveItErrorCodes.PLANNING_FAILED, MoveItErrorCodes.INVALID_MOTION_PLAN,
           MoveItErrorCodes.UNABLE_TO_AQUIRE_SENSOR_DATA, MoveItErrorCodes.MOTION_PLAN_INVALIDATED_BY_ENVIRONMENT_CHANGE)
@@ -74,6 +81,7 @@ class PlanExecution:
         self._execution = execution
         self.config = {}
         self._server = Server(namespace + "plan_execution", _PARAMETERS, self._reconfigure)
+        self._sensing = Server(namespace + "sense_for_plan", _SENSING, lambda config, level: None)
 
     def _reconfigure(self, config, _level) -> None:
         self.config = config

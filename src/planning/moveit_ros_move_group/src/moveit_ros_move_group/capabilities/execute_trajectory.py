@@ -1,13 +1,14 @@
-"""The action ``execute_trajectory``."""
+"""The action ``execute_trajectory``, and the service ``execute_kinematic_path`` of old configurations."""
 from __future__ import annotations
 
 import rospy
 from moveit_msgs.msg import ExecuteTrajectoryAction, MoveItErrorCodes
+from moveit_msgs.srv import ExecuteKnownTrajectory
 
-from moveit_core.errors import code_name
+from moveit_core.errors import PlanningError, code_name
 from moveit_ros_planning.trajectory_execution import ExecutionError, error_code
 
-from ..capability import ActionCapability
+from ..capability import ActionCapability, Capability, serve
 
 
 class ExecuteTrajectory(ActionCapability):
@@ -50,3 +51,30 @@ class ExecuteTrajectory(ActionCapability):
             return "Execution was stopped."
         rospy.loginfo("Execution completed: %s", execution.status.value)
         return execution.reason or code_name(result.error_code.val)
+
+
+class ExecuteService(Capability):
+    """Executes a trajectory; waits for its end if told to. Not among the default capabilities: the action can be cancelled."""
+
+    title = "ExecutePathService"
+
+    def __init__(self, context):
+        super().__init__(context)
+        self._service = serve("execute_kinematic_path", ExecuteKnownTrajectory, self._execute)
+
+    def _execute(self, request, response) -> None:
+        codes, execution = MoveItErrorCodes, self.context.execution
+        if execution is None:
+            raise PlanningError(codes.CONTROL_FAILED,
+                                "Cannot execute trajectory since ~allow_trajectory_execution was set to false")
+        rospy.loginfo("Received new trajectory execution service request...")
+        try:
+            running = execution.start([request.trajectory], stops=execution.stops)
+        except ExecutionError as error:
+            raise PlanningError(codes.CONTROL_FAILED, str(error)) from error
+        response.error_code.val = codes.SUCCESS
+        if request.wait_for_execution:
+            while not running.wait(0.2) and not rospy.is_shutdown():
+                pass
+            response.error_code.val = error_code(running.status)
+            rospy.loginfo("Execution completed: %s", running.status.value)
