@@ -1,0 +1,27 @@
+"""Which messages, services and actions are installed."""
+import os
+from typing import Dict, List
+
+import rosmsg
+import rospkg
+
+from . import rosaction
+
+MODES = (".msg", ".srv", ".action")
+
+
+def installed_types(mode: str) -> Dict[str, List[str]]:
+    """Package to the names of its types, both sorted. Looks through all packages, which takes a moment.
+
+    :param mode: .msg, .srv or .action
+    """
+    rospack = rospkg.RosPack()
+    packages = rosaction.iterate_packages(rospack) if mode == ".action" else rosmsg.iterate_packages(rospack, mode)
+    found: Dict[str, set] = {}
+    for package, folder in packages:
+        try:
+            names = os.listdir(folder)
+        except OSError:
+            continue
+        found.setdefault(package, set()).update(name[:-len(mode)] for name in names if name.endswith(mode))
+    return {package: sorted(names) for package, names in sorted(found.items()) if names}
