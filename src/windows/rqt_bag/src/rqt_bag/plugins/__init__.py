@@ -1,0 +1,1 @@
+"""Bases of views and renderers, and the raw view."""
