@@ -1,4 +1,5 @@
 """Which messages, services and actions are installed."""
+import functools
 import os
 from typing import Dict, List
 
@@ -10,8 +11,9 @@ from . import rosaction
 MODES = (".msg", ".srv", ".action")
 
 
+@functools.lru_cache(maxsize=len(MODES))
 def installed_types(mode: str) -> Dict[str, List[str]]:
-    """Package to the names of its types, both sorted. Looks through all packages, which takes a moment.
+    """Package to the names of its types, both sorted. Looks through all packages, which takes a moment, once in a process.
 
     :param mode: .msg, .srv or .action
     """

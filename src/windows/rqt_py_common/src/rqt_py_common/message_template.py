@@ -31,7 +31,10 @@ class Field:
         self.name, self.type_name, self.path = name, type_name, path
         self.expression: Optional[str] = None
         self.children: List[Field] = []
-        base, self.is_array, length = parse_type(type_name)
+        try:
+            base, self.is_array, length = parse_type(type_name)
+        except Exception as error:  # genmsg has no class for brackets that do not close
+            raise TemplateError(path, f"{type_name or 'an empty text'} is no message type") from error
         self.base, self.fixed_length = base, length
         if is_valid_constant_type(base) or base in ("time", "duration"):
             default = _DEFAULTS.get(base, "0")

@@ -1,0 +1,1 @@
+"""Plugin of rqt: publishes messages whose fields are expressions."""
