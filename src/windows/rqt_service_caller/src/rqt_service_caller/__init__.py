@@ -1,0 +1,1 @@
+"""Plugin of rqt: calls services with a request whose fields are expressions."""
