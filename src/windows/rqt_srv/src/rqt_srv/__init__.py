@@ -1,0 +1,1 @@
+"""Plugin of rqt: shows the definitions of all service types."""
