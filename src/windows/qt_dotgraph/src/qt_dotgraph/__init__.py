@@ -1,0 +1,1 @@
+"""Graphs laid out by Graphviz and drawn by Qt."""
