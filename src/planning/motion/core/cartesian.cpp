@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "motion/ik.hpp"
 
@@ -11,6 +12,8 @@ namespace
 {
 constexpr int MIN_STEPS_FOR_JUMPS = 10;  // fewer say nothing of the mean
 constexpr std::size_t MOST_STEPS = 200000;
+constexpr int ATTEMPTS = 6;
+constexpr double BESIDE = 0.02, NEAR = 0.5;  // rad or m
 constexpr int HALVINGS = 5;  // of a step that is too long for the joints' values to be found from the last ones
 
 class Line
@@ -114,7 +117,9 @@ private:
       return why.empty();
     };
     const IkTarget target{frame_.link, pose * frame_.pose.inverse(), true, true};
-    const IkResult found = solver_.solve(state_, {target}, options);
+    IkResult found = solver_.solve(state_, {target}, options);
+    if (found.solutions.empty() && why.empty())
+      found = fromBeside(target, options);
     if (found.solutions.empty())
     {
       path_.message = why.empty() ? "no joint values bring '" + request_.link + "' further along the line" : why;
@@ -122,6 +127,34 @@ private:
     }
     state_.setGroup(group_, found.solutions[0].data());
     return true;
+  }
+
+  // A stretched arm has no slope to follow inwards. From values beside the last ones there is one; what it leads to still has
+  // to be near them.
+  IkResult fromBeside(const IkTarget& target, IkOptions options)
+  {
+    std::mt19937 random(static_cast<unsigned>(path_.points.size()));
+    std::uniform_real_distribution<double> little(-BESIDE, BESIDE);
+    std::vector<double> last(group_.size()), values;
+    state_.getGroup(group_, last.data());
+    const auto valid = options.valid;
+    options.valid = [&](const double* found) {
+      for (std::size_t i = 0; i < last.size(); ++i)
+        if (std::abs(found[i] - last[i]) > NEAR)
+          return false;
+      return valid(found);
+    };
+    IkResult result;
+    for (int attempt = 0; attempt < ATTEMPTS && result.solutions.empty(); ++attempt)
+    {
+      values = last;
+      for (double& value : values)
+        value += little(random);
+      RobotState beside(state_);
+      beside.setGroup(group_, values.data());
+      result = solver_.solve(beside, {target}, options);
+    }
+    return result;
   }
 
   // Ends the path before the first step that is too large in joint space.

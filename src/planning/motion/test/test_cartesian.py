@@ -242,9 +242,20 @@ def test_a_stretched_arm_can_be_drawn_in():
         state = model.state()
         state.randomize("arm", seed=seed)
         values = state.get_group("arm")
-        values[3] = 0.001 * (seed % 5)
+        values[3] = 0.001 * (seed % 5)  # with 0, no joint's motion begins to draw it in
         state.set_group("arm", values)
         here, back = state.pose("tool"), state.pose("link_2").position - state.pose("tool").position
         goal = (here.position + 0.05 * back / np.linalg.norm(back), here.quaternion)
         done += bool(motion.cartesian_path(scene, "arm", [goal], start=state, avoid_collisions=False))
     assert done >= 96  # the others meet a joint's limit
+
+
+@pytest.mark.parametrize("name, way", [("fetch", (-0.05, 0, 0)), ("ur5", (-0.05, 0, 0)), ("iiwa", (0, 0, -0.05))])
+def test_an_arm_that_is_quite_straight_can_be_drawn_in(name, way):
+    model = motion.load_model(*robots.arm(name))
+    state = model.state()
+    here = state.pose("tool")
+    line = motion.cartesian_path(motion.PlanningScene(model), "arm", [(here.position + way, here.quaternion)], start=state,
+                                 avoid_collisions=False)
+    assert line, line.message
+    assert np.abs(np.diff(line.trajectory.positions, axis=0)).max() < 0.5
