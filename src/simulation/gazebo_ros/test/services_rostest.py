@@ -2,6 +2,8 @@
 """The services of the node gazebo: what they do, and what they say when they cannot. The world bench.world is paused;
 time passes only through the step service, so that every figure is exact."""
 import math
+import subprocess
+import tempfile
 import time
 import unittest
 
@@ -14,6 +16,7 @@ from rosgraph_msgs.msg import Clock
 from std_msgs.msg import ColorRGBA
 
 from gazebo_ros import names
+from gazebo_ros.srv import TakePicture
 from simulator import Simulator, box, pose, twist, urdf, xyz
 
 NAN = float("nan")
@@ -66,6 +69,19 @@ class Stepping(Case):
         while clock != 123_000_000 and time.monotonic() < end:  # the message may still be under way
             clock = rospy.wait_for_message("/clock", Clock, 60).clock.to_nsec()
         self.assertEqual(clock, 123_000_000)
+
+    def test_a_picture_while_the_world_stands_still(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = f"{folder}/now.png"
+            command = ["rosrun", "gazebo_ros", "picture", "crate", "-o", file, "--size", "160x100", "--view", "top"]
+            self.assertEqual(subprocess.run(command, capture_output=True, text=True, timeout=60).stderr, "")
+            with open(file, "rb") as png:
+                self.assertEqual(png.read(8), b"\x89PNG\r\n\x1a\n")
+        self.assertEqual(self.sim.world().sim_time, 0.0)
+        picture = self.sim.proxy("take_picture", TakePicture)
+        self.refused(picture("nobody", "", 0, 0), "no model 'nobody'", "crate")
+        self.refused(picture("", "below", 0, 0), "no view 'below'", "iso, front")
+        self.refused(picture("", "", 5, 9000), "5x9000 pixels")
 
     def test_no_steps_and_running_are_refused(self):
         self.refused(self.sim.step(0), "at least 1")

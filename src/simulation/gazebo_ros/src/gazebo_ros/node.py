@@ -32,6 +32,7 @@ from gazebo_ros.api.lights import LightServices
 from gazebo_ros.api.metrics import MetricsPublisher
 from gazebo_ros.api.models import ModelServices
 from gazebo_ros.api.physics import PhysicsServices
+from gazebo_ros.api.pictures import PictureServices
 from gazebo_ros.api.spawning import SpawnServices
 from gazebo_ros.api.states import StatePublishers
 from gazebo_ros.api.stepping import SteppingServices
@@ -213,6 +214,7 @@ def _offer_api(server: Server) -> None:
     LightServices(server)
     SpawnServices(server)
     SteppingServices(server)
+    PictureServices(server)
     physics = PhysicsServices(server)
     rospy.loginfo("Finished loading Gazebo ROS API Plugin.")
     physics.start_reconfigure()

@@ -68,12 +68,12 @@ class Visit:
         return [(topic, kind) for topic, kind in self.master.getTopicTypes() if set(publishers.get(topic, ())) - {own}]
 
     def take_scene(self) -> None:
-        if not any(name == "/gazebo/spawn_sdf_model" for name, _ in self.master.getSystemState()[2]):
+        if not any(name == scene.SERVICE for name, _ in self.master.getSystemState()[2]):
             return
         try:
-            self.pictures += scene.pictures(images.save, self.job["folder"], self.job["stem"], _ANSWER)
+            self.pictures += scene.pictures(self.job["folder"], self.job["stem"], _ANSWER)
         except (rospy.ROSException, rospy.ServiceException, ROSServiceException) as error:
-            self.notes.append(f"no picture of the scene: {error}; is the simulation paused?")
+            self.notes.append(f"no picture of the scene: {error}")
 
     def take_rviz(self) -> None:
         name = f"{self.job['stem']}-rviz.png"

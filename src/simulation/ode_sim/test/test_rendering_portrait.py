@@ -1,0 +1,65 @@
+"""Pictures that fill the frame: where the camera stands, and what is drawn."""
+import cv2
+import numpy as np
+import ode_sim
+import pytest
+from ode_sim.rendering import describe
+from ode_sim.rendering.portrait import VIEWS, Portrait, PortraitError, camera_for, extent, take
+
+WORLD = """<sdf version="1.6"><world name="w"><scene><background>0 0 0 1</background><ambient>1 1 1 1</ambient></scene>
+<model name="ground"><static>true</static><link name="l"><visual name="v"><geometry><plane><normal>0 0 1</normal>
+<size>100 100</size></plane></geometry></visual></link></model>
+<model name="red"><static>true</static><pose>3 1 0.2 0 0 0.5</pose><link name="l"><visual name="v">
+<pose>0 0 0.1 0 0 0</pose><geometry><box><size>0.6 0.1 0.1</size></box></geometry><material><ambient>1 0 0 1</ambient><diffuse>0 0 0 1</diffuse>
+</material></visual></link></model>
+<model name="far"><static>true</static><pose>-20 0 0.5 0 0 0</pose><link name="l"><visual name="v"><geometry><sphere>
+<radius>0.5</radius></sphere></geometry></visual></link></model>
+<model name="bare"><static>true</static><link name="l"/></model></world></sdf>"""
+
+
+@pytest.fixture(scope="module")
+def world():
+    return ode_sim.World.load(WORLD)
+
+
+def portrait(world, model, view="iso", size=(320, 200)):
+    return Portrait(describe(world), np.array(world.link_poses), model, view, *size)
+
+
+def seen(camera, points):
+    rotation = np.array(ode_sim.math3.quat_to_matrix(camera.pose.q))
+    return camera.project((points - camera.pose.p) @ rotation)
+
+
+@pytest.mark.parametrize("view", VIEWS)
+@pytest.mark.parametrize("size", [(320, 200), (200, 320)])
+@pytest.mark.parametrize("stretch", [(1, 1, 1), (8, 1, 0.2), (0.1, 0.1, 3)])
+def test_all_of_it_is_in_the_frame_and_fills_it(view, size, stretch):
+    corners = np.array([[x, y, z] for x in (4, 5) for y in (-3, -2) for z in (0, 1)]) * stretch
+    camera = camera_for(corners, view, *size)
+    pixels = seen(camera, corners)
+    low, high = pixels.min(axis=0), pixels.max(axis=0)
+    assert (low >= 0).all() and (high <= np.array(size)).all()
+    assert ((high - low) / size).max() > 0.75
+    assert np.abs((low + high) / 2 - np.array(size) / 2).max() < 0.06 * max(size)
+
+
+def test_the_ground_does_not_count_and_the_model_alone_does(world):
+    low, high = extent(portrait(world, "")).min(axis=0), extent(portrait(world, "")).max(axis=0)
+    assert low[0] == pytest.approx(-20.5) and 3 < high[0] < 3.4 and high[2] == pytest.approx(1.0)
+    alone = extent(portrait(world, "red"))
+    assert alone[:, 2].min() == pytest.approx(0.25)
+    assert np.ptp(alone[:, 0]) == pytest.approx(0.6 * np.cos(0.5) + 0.1 * np.sin(0.5))
+
+
+def test_what_is_drawn_is_the_model(world):
+    png, problems = take(portrait(world, "red", "left"))
+    picture = cv2.imdecode(np.frombuffer(png, np.uint8), cv2.IMREAD_COLOR)
+    assert picture.shape == (200, 320, 3) and not problems
+    columns = np.flatnonzero((picture[:, :, 2] > 200).any(axis=0) & (picture[:, :, 0] < 50).any(axis=0))
+    assert np.ptp(columns) > 0.7 * 320
+
+
+def test_nothing_to_see_is_said_in_one_line(world):
+    with pytest.raises(PortraitError, match="^model 'bare' has nothing to see$"):
+        take(portrait(world, "bare"))
