@@ -57,7 +57,7 @@ def test_a_configuration_runs_from_the_command_line(config):
         first = widget.view.panels[0][0]
         assert first.points[1].y[-1] == pytest.approx(-3.8)
         x, y = first.view.shown_range()
-        assert x == pytest.approx([TODAY + 9, TODAY + 19]) and y == pytest.approx([-3.8, 1.9])
+        assert x == pytest.approx([TODAY + 9, TODAY + 19]) and y == pytest.approx([-3.8 - 0.03 * 3.8, 1.9 + 0.03 * 1.9])
     assert errors == []
 
 

@@ -5,7 +5,7 @@ import threading
 import time
 
 import rosgraph
-from python_qt_binding.QtCore import Qt, Signal, qWarning
+from python_qt_binding.QtCore import QSize, Qt, Signal, qWarning
 from python_qt_binding.QtGui import QIcon
 from python_qt_binding.QtWidgets import QFileDialog, QHBoxLayout, QLabel, QProgressBar, QScrollArea, QToolButton, QVBoxLayout, QWidget
 
@@ -96,6 +96,9 @@ class BagWidget(QWidget):
         layout.addWidget(self.message)
         layout.addLayout(status)
         self.message.hide()
+
+    def sizeHint(self) -> QSize:
+        return QSize(860, 420)
 
     # State
 

@@ -36,6 +36,9 @@ class Canvas(QWidget):
         self.smooth, self.grid_lines, self.quarters, self.original_size = False, 0, 0, False
         self._scaled: Optional[QImage] = None
 
+    def sizeHint(self) -> QSize:
+        return QSize(640, 480)
+
     def set_picture(self, picture: Optional[np.ndarray], message: str = "") -> None:
         """Show a picture, or a message in place of one."""
         self.picture, self.message = picture, message

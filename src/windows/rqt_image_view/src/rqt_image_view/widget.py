@@ -3,15 +3,22 @@ from __future__ import annotations
 
 from typing import Dict, List
 
-from python_qt_binding.QtCore import Qt, Signal, qWarning
+from python_qt_binding.QtCore import QSize, Qt, Signal, qWarning
 from python_qt_binding.QtGui import QIcon
 from python_qt_binding.QtWidgets import (QCheckBox, QComboBox, QDoubleSpinBox, QGridLayout, QHBoxLayout, QLabel, QLineEdit,
-                                         QScrollArea, QSpinBox, QToolButton, QVBoxLayout, QWidget)
+                                         QScrollArea, QSizePolicy, QSpinBox, QToolButton, QVBoxLayout, QWidget)
 
 from qt_gui.compatibility import QAction
 
 from rqt_image_view.canvas import Canvas
 from rqt_image_view.pictures import COLOR_SCHEMES, DepthView
+
+
+class _Scroll(QScrollArea):
+    """As large as what is in it would like to be."""
+
+    def sizeHint(self) -> QSize:
+        return self.widget().sizeHint()
 
 
 class ImageViewWidget(QWidget):
@@ -50,8 +57,10 @@ class ImageViewWidget(QWidget):
     def _make_controls(self) -> None:
         self.topics = QComboBox()
         self.topics.setObjectName("topics_combo_box")
-        self.topics.setMinimumWidth(180)
-        self.topics.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
+        # A long name must not make the window wide; the list of choices is as wide as it needs.
+        self.topics.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
+        self.topics.setMinimumContentsLength(12)
+        self.topics.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self.refresh_button = self._button("refresh_topics_push_button", "view-refresh", "Refresh", "Look for image topics")
         self.zoom = self._button("zoom_1_push_button", "zoom-original", "1:1", "One pixel of the image per pixel of the screen",
                                  True)
@@ -104,9 +113,8 @@ class ImageViewWidget(QWidget):
             line = QHBoxLayout()
             for widget in row:
                 line.addWidget(widget)
-            line.addStretch()
             grid.addLayout(line, number, 0)
-        scroll = QScrollArea()
+        scroll = _Scroll()
         scroll.setWidgetResizable(True)
         scroll.setWidget(self.canvas)
         layout = QVBoxLayout(self)

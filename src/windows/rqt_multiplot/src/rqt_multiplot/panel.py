@@ -11,9 +11,10 @@ from rqt_multiplot.config import ConfigError, Plot, ScaleType, read_curve
 from rqt_multiplot.export import write_image, write_text
 from rqt_multiplot.plot_view import PlotView
 from rqt_multiplot.points import Points
-from rqt_multiplot.sampling import Sampler
+from rqt_multiplot.sampling import AXES, Sampler
 from rqt_multiplot.sources import Topics
 
+_ROOM = 0.03  # of the extent of values, on either side
 CURVE_MIME = "application/x-rqt-multiplot-curve"
 
 
@@ -187,7 +188,7 @@ class PlotPanel(QWidget):
     def preferred_range(self) -> Tuple[Optional[Tuple[float, float]], Optional[Tuple[float, float]]]:
         """What the scales of the curves want to see: x, y; None while nothing is known."""
         wanted: Tuple[list, list] = ([], [])
-        for curve, points in zip(self.plot.curves, self.points):
+        for curve, points, sampler in zip(self.plot.curves, self.points, self.samplers):
             bounds = points.bounds()
             for which, (values, axis) in enumerate(((points.x, curve.axes.x_axis), (points.y, curve.axes.y_axis))):
                 scale = axis.scale
@@ -196,7 +197,9 @@ class PlotPanel(QWidget):
                 elif scale.type == ScaleType.RELATIVE and len(values):
                     wanted[which].append((values[-1] + scale.relative_minimum, values[-1] + scale.relative_maximum))
                 elif scale.type == ScaleType.AUTO and bounds[which]:
-                    wanted[which].append(bounds[which])
+                    low, high = bounds[which]
+                    room = 0.0 if sampler.is_time(AXES[which]) else _ROOM * (high - low)  # a curve on the frame is not seen
+                    wanted[which].append((low - room, high + room))
         return tuple((min(low for low, _ in pairs), max(high for _, high in pairs)) if pairs else None for pairs in wanted)
 
     def _follow(self) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import List, Optional
 
-from python_qt_binding.QtCore import Signal, qWarning
+from python_qt_binding.QtCore import QSize, Signal, qWarning
 from python_qt_binding.QtWidgets import (QCheckBox, QComboBox, QFileDialog, QHBoxLayout, QLabel, QMenu, QMessageBox, QProgressBar,
                                          QSpinBox, QToolButton, QVBoxLayout, QWidget)
 
@@ -109,6 +109,9 @@ class MultiplotWidget(QWidget):
         files.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
         bar.addWidget(files)
         return bar
+
+    def sizeHint(self) -> QSize:
+        return QSize(900, 600)
 
     # The table
 

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 from typing import Dict, List, Optional
 
-from python_qt_binding.QtCore import Signal, qWarning
+from python_qt_binding.QtCore import QSize, Signal, qWarning
 from python_qt_binding.QtGui import QColor
 from python_qt_binding.QtWidgets import QHBoxLayout, QWidget
 from qt_gui_py_common.simple_settings_dialog import SimpleSettingsDialog
@@ -64,6 +64,9 @@ class DataPlot(QWidget):
         self._switch_data_plot_widget(0)
         self._redraw.connect(self._do_redraw)
         self._add_curve.connect(lambda *curve: self._data_plot_widget.add_curve(*curve))
+
+    def sizeHint(self) -> QSize:
+        return QSize(640, 400)
 
     # How it is drawn
 

@@ -29,7 +29,8 @@ class PyQtGraphDataPlot(QWidget):
         super().__init__(parent)
         self._plot_widget = pyqtgraph.PlotWidget(self, background="w")
         item = self._plot_widget.getPlotItem()
-        item.addLegend(pen="#c0c0c0", brush="#ffffffc0", labelTextColor="k")
+        self._legend = item.addLegend(pen="#c0c0c0", brush="#ffffffc0", labelTextColor="k")
+        self._legend.hide()  # empty, it would be a small box
         item.showGrid(True, True, 0.2)
         item.disableAutoRange()
         item.hideButtons()
@@ -52,11 +53,13 @@ class PyQtGraphDataPlot(QWidget):
             item = _Curve(name=curve_name, pen=pen, connect="finite")
         self._curves[curve_id] = item
         self._plot_widget.addItem(item)
+        self._legend.show()
 
     def remove_curve(self, curve_id: str) -> None:
         curve = self._curves.pop(curve_id, None)
         if curve is not None:
             self._plot_widget.removeItem(curve)
+            self._legend.setVisible(bool(self._curves))
 
     def set_values(self, curve_id: str, x, y) -> None:
         if curve_id in self._curves:
