@@ -1,5 +1,6 @@
 #include "solver_plugins.hpp"
 
+#include <dlfcn.h>
 #include <pluginlib/class_loader.hpp>
 
 #include <memory>
@@ -31,6 +32,13 @@ std::string oneLine(std::string text)
   return text.substr(0, 300);
 }
 
+// What a library lacks would end the process when it is first called: all of it is looked up now.
+void demandWholeLibrary(const std::string& path)
+{
+  if (!path.empty() && !dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL))
+    throw std::runtime_error(oneLine(dlerror()));
+}
+
 std::vector<std::string> tipsOf(const moveit::core::JointModelGroup& group)
 {
   std::vector<std::string> tips;
@@ -55,6 +63,7 @@ kinematics::KinematicsBasePtr makeSolver(const SolverRequest& request, const mov
     std::lock_guard<std::mutex> lock(one_at_a_time);
     try
     {
+      demandWholeLibrary(loader().getClassLibraryPath(request.plugin));
       solver = loader().createUniqueInstance(request.plugin);
     }
     catch (const pluginlib::PluginlibException& error)

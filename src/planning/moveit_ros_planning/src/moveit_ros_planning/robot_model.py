@@ -10,6 +10,8 @@ import rospy
 
 from moveit_core.errors import one_line
 
+from . import solvers
+
 
 class DescriptionError(Exception):
     """The robot cannot be loaded; one line saying which parameter, why and what to do."""
@@ -27,6 +29,7 @@ class Kinematics:
     position_only: bool = False
     epsilon: float = 1e-5
     links: List[str] = field(default_factory=list)
+    resolution: float = 0.1
 
 
 @dataclass
@@ -52,10 +55,12 @@ def resolve(name: str) -> str:
     return found or rospy.resolve_name(name)
 
 
-def load(name: str = "robot_description", meshes: bool = True, own_namespace: Optional[str] = "~") -> RobotDescription:
+def load(name: str = "robot_description", meshes: bool = True, own_namespace: Optional[str] = "~",
+         compiled_solvers: bool = False) -> RobotDescription:
     """Read a robot from the parameter server.
 
     :param own_namespace: where ``<group>/kinematics_solver`` is looked up first.
+    :param compiled_solvers: let compiled plugins that kinematics.yaml names solve inverse kinematics.
     :raises DescriptionError: no or an unusable description.
     """
     where = resolve(name)
@@ -78,7 +83,10 @@ def load(name: str = "robot_description", meshes: bool = True, own_namespace: Op
         raise DescriptionError(f"the robot description in {where} cannot be used: {one_line(error, 400)}") from error
     for warning in model.warnings:
         rospy.logwarn("%s", warning)
-    return RobotDescription(where, model, _kinematics(where, model, own_namespace), urdf, srdf or "")
+    description = RobotDescription(where, model, _kinematics(where, model, own_namespace), urdf, srdf or "")
+    if compiled_solvers:
+        solvers.use_compiled(description)
+    return description
 
 
 class Packages:
@@ -144,7 +152,8 @@ def _group_kinematics(where: str, entry: Dict[str, Any]) -> Kinematics:
                       position_tolerance=number("goal_position_tolerance", 1e-4),
                       orientation_tolerance=number("goal_orientation_tolerance", 1e-3),
                       position_only=bool(entry.get("position_only_ik", False)), epsilon=number("epsilon", 1e-5),
-                      links=[str(link) for link in links] if isinstance(links, list) else [])
+                      links=[str(link) for link in links] if isinstance(links, list) else [],
+                      resolution=number("kinematics_solver_search_resolution", 0.1))
 
 
 def prepare_scene(description: RobotDescription) -> motion.PlanningScene:

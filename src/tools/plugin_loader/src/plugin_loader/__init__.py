@@ -18,6 +18,7 @@ from __future__ import annotations
 
 import importlib
 import os
+import re
 import sys
 import threading
 import xml.etree.ElementTree as ET
@@ -96,6 +97,13 @@ def exported_values(base: str, attribute: str, rospack: Optional[rospkg.RosPack]
     return [value for _, _, value in _exports(rospack or rospkg.RosPack(), base, attribute)]
 
 
+def _plugin_description(file: str) -> ET.Element:
+    """An element with all that the file holds: pluginlib takes several <library> elements without one around them."""
+    with open(file, encoding="utf-8", errors="replace") as description:
+        text = re.sub(r"<\?xml[^>]*\?>|<!DOCTYPE[^>]*>", "", description.read())
+    return ET.fromstring(f"<file>{text}</file>")
+
+
 def find_plugins(base: str, attribute: str = "plugin",
                  rospack: Optional[rospkg.RosPack] = None) -> Tuple[Dict[str, PluginClass], List[str]]:
     """All classes exported for ``base``: (name -> PluginClass, problems as lines). The first package wins a name."""
@@ -103,12 +111,11 @@ def find_plugins(base: str, attribute: str = "plugin",
     problems: List[str] = []
     for package, _, file in _exports(rospack or rospkg.RosPack(), base, attribute):
         try:
-            root = ET.parse(file).getroot()
+            root = _plugin_description(file)
         except (OSError, ET.ParseError) as error:
             problems.append(f"package {package}: plugin description {file} cannot be read: {error}")
             continue
-        libraries = [root] if root.tag == "library" else root.iter("library")
-        for library in libraries:
+        for library in root.iter("library"):
             path = os.path.normpath(os.path.join(os.path.dirname(file), library.get("path", "src")))
             for entry in library.iterfind("class"):
                 type_name = (entry.get("type") or "").strip()
