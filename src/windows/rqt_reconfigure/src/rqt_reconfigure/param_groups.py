@@ -1,0 +1,99 @@
+"""Groups of parameters as boxes, tabs, and boxes that fold."""
+from typing import Dict
+
+from python_qt_binding.QtCore import Signal
+from python_qt_binding.QtWidgets import QFormLayout, QGroupBox, QPushButton, QTabWidget, QVBoxLayout, QWidget
+
+from .param_editors import Editor, make_editor
+
+
+class GroupWidget(QWidget):
+    """A group with its editors and the groups within. ``changed`` has names and values to send together."""
+
+    changed = Signal(dict)
+    group_changed = Signal(str, bool)  # name, whether it is unfolded
+
+    def __init__(self, description: dict):
+        super().__init__()
+        self.name, self.kind = description.get("name", ""), description.get("type", "")
+        self.editors: Dict[str, Editor] = {}
+        self.groups, self._pending = [], {}
+        form = QFormLayout(self)
+        for parameter in description.get("parameters", []):
+            editor = make_editor(parameter)
+            if editor is not None:
+                self.editors[editor.name] = editor
+                editor.changed.connect(self._changed)
+                form.addRow(editor.label(), editor)
+                form.labelForField(editor).setToolTip(editor.toolTip())
+        tabs = None
+        for group in self._sorted(description.get("groups", {})):
+            child = GroupWidget(group)
+            child.changed.connect(self._children_changed)
+            child.group_changed.connect(self.group_changed)
+            self.groups.append(child)
+            if child.kind == "tab":
+                if tabs is None:
+                    tabs = QTabWidget()
+                    form.addRow(tabs)
+                tabs.addTab(child, child.name)
+            else:
+                tabs = None
+                form.addRow(self._box(child, group))
+        if self.kind == "apply":
+            self.apply_button = QPushButton(f"Apply {self.name}")
+            self.apply_button.clicked.connect(self._apply)
+            form.addRow(self.apply_button)
+
+    @staticmethod
+    def _sorted(groups) -> list:
+        return sorted(groups.values() if isinstance(groups, dict) else groups, key=lambda group: group.get("id", 0))
+
+    def _box(self, child: "GroupWidget", group: dict) -> QWidget:
+        box = QGroupBox(child.name)
+        layout = QVBoxLayout(box)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.addWidget(child)
+        child.box = box
+        if child.kind == "collapse":
+            box.setCheckable(True)
+            box.toggled.connect(child.setVisible)
+            box.setChecked(bool(group.get("state", True)))
+            box.clicked.connect(lambda on: self.group_changed.emit(child.name, on))
+        elif child.kind == "hide":
+            box.setVisible(bool(group.get("state", True)))
+        return box
+
+    def show_values(self, config: dict) -> None:
+        """What the server has now."""
+        for name, editor in self.editors.items():
+            if name in config and name not in self._pending:
+                editor.show_value(config[name])
+        states = {group.get("name", key): group for key, group in (config.get("groups") or {}).items()}
+        for group in self.groups:
+            group.show_values({**config, "groups": states.get(group.name, {}).get("groups", {})})
+            state = states.get(group.name, {}).get("state")
+            if state is not None and group.kind == "collapse":
+                group.box.setChecked(bool(state))
+            elif state is not None and group.kind == "hide":
+                group.box.setVisible(bool(state))
+
+    def all_editors(self) -> Dict[str, Editor]:
+        found = dict(self.editors)
+        for group in self.groups:
+            found.update(group.all_editors())
+        return found
+
+    def _changed(self, name: str, value) -> None:
+        self._children_changed({name: value})
+
+    def _children_changed(self, values: dict) -> None:
+        if self.kind == "apply":
+            self._pending.update(values)
+        else:
+            self.changed.emit(values)
+
+    def _apply(self) -> None:
+        values, self._pending = self._pending, {}
+        if values:
+            self.changed.emit(values)
