@@ -1,0 +1,1 @@
+"""Plugin of rqt: drives a robot with two sliders or the keyboard."""
