@@ -67,6 +67,17 @@ class Screenshot(unittest.TestCase):
         self.assertGreater(window[:40].mean(), 180, "the light menu and tool bars are there")
         self.assertTrue((window == BACKGROUND).all(axis=2).mean() > 0.3, "and the dark 3D view")
 
+    def test_a_named_view_has_the_robot_in_its_frame_and_fills_it(self):
+        path = os.path.join(self.folder, "fit.png")
+        result = screenshot("-d", CONFIG, "-o", path, "--size", f"{WIDTH}x{HEIGHT}", "--view", "iso", "--view", "front")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        for view in ("iso", "front"):
+            picture = np.asarray(PIL.Image.open(os.path.join(self.folder, f"fit-{view}.png")).convert("RGB")).astype(int)
+            rows, columns = np.nonzero(picture.max(axis=2) - picture.min(axis=2) > 60)  # the boxes have colours, the rest none
+            spans = np.ptp(columns) / WIDTH, np.ptp(rows) / HEIGHT
+            self.assertTrue(0.6 < max(spans) < 0.98, f"{view}: the boxes span {spans} of the picture")
+            self.assertTrue(rows.min() > 0 and rows.max() < HEIGHT - 1 and columns.min() > 0 and columns.max() < WIDTH - 1)
+
     def config(self, *displays):
         """The configuration of the cross with more displays in it."""
         path = os.path.join(self.folder, "more.rviz")

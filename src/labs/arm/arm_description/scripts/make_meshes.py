@@ -27,11 +27,11 @@ def base_link():
             legs.append(hull(rod("z", 4, 27, 29, (sx * 31, sy * 37, 0), 16),
                              rod("z", 4, 43, 46, (sx * 27, sy * 35, 0), 16)))
     lower = hull(*(rod("z", 5.2, -9, -6, (sx * 40, sy * 39.7, 0), 12) for sx in (-1, 1) for sy in (-1, 1)))
-    deck = box((-40, -43, 6), (40, 43, 9))
+    deck = box((-40, -43, 6), (12, 43, 9))  # ends behind what the camera sees
     board = [box((-30, -30, -3.5), (30, 30, -2)), box((-12, -10, -2), (6, 8, 1)), box((14, -28, -2), (28, -18, 6)),
              box((12, 16, -2), (27, 28, 4)), box((-29, -22, -2), (-22, 24, 5))]
     board += [rod("z", 1.8, -6, -2, (sx * 27, sy * 27, 0), 12) for sx in (-1, 1) for sy in (-1, 1)]
-    rims = mirrored(box((-38, 40, 9), (38, 43, 15)), "y") + [box((-40, -40, 9), (-37, 40, 29))]
+    rims = mirrored(box((-38, 40, 9), (12, 43, 15)), "y") + [box((-40, -40, 9), (-37, 40, 29))]
     top = [box((-31.5, -39.5, 45.7), (31.5, 39.5, 48.7)), *mirrored(box((-31.5, 36.5, 38), (31.5, 39.5, 46)), "y")]
     # the servo that turns the table hangs under the top plate
     servo = [box((-16, -22, 33), (16, 28, 46)), rod("z", 8, 46, 48.7, (-1.1, 4.5, 0), 16)]

@@ -30,7 +30,8 @@ def parser() -> argparse.ArgumentParser:
     p.add_argument("--config", "-d", default="", help="RViz configuration (default: RViz's own default.rviz)")
     p.add_argument("--output", "-o", default="rviz.png", help="PNG to write; with several views -NAME or -NUMBER is added")
     p.add_argument("--view", action="append", default=[], metavar="VIEW",
-                   help="front, back, left, right, top, iso, or [NAME:]yaw=..,pitch=..,distance=..,x=..,y=..,z=..; repeatable")
+                   help="front, back, left, right, top, iso, or [NAME:]yaw=..,pitch=..,distance=..,x=..,y=..,z=..; repeatable. "
+                        "A name without distance and focal point has the robot fill the frame")
     p.add_argument("--window", action="store_true", help="the whole window instead of the 3D view alone")
     p.add_argument("--size", default="1280x800", help="WIDTHxHEIGHT in pixels (default 1280x800)")
     p.add_argument("--backend", choices=["xvfb", "osmesa"], default="xvfb",
@@ -117,7 +118,7 @@ def take(config: str, views: List[View], output: str, *, size: str = "1280x800",
         raise ScreenshotError(f"no ROS master at {os.environ.get('ROS_MASTER_URI')}: start roscore or a launch file first")
     job = {"config": config, "window": window, "size": [width, height], "fixed_frame": fixed_frame, "timeout": timeout,
            "grace": grace, "watch": watch, "anti_aliasing": anti_aliasing,
-           "pictures": [{"path": p, "view": v.values} for p, v in zip(paths, views)]}
+           "pictures": [{"path": p, "view": v.values, "fit": v.fits} for p, v in zip(paths, views)]}
     with tempfile.TemporaryDirectory(prefix="rviz_offscreen_") as home, backend(backend_name, f"{width}x{height}") as variables:
         # RViz writes ~/.rviz on exit; a picture must neither read nor change the user's.
         environment = {**os.environ, **variables, "HOME": home, "ROS_LOG_DIR": home, "XDG_RUNTIME_DIR": home,

@@ -75,6 +75,29 @@ def states(manager) -> Iterator[State]:
     yield from map(_state, _enabled(root))
 
 
+@dataclass(frozen=True)
+class Robot:
+    """An enabled RobotModel: name of its description's parameter, and where RViz has its links, in the fixed frame."""
+
+    parameter: str
+    links: Dict[str, Tuple[Tuple[float, ...], Tuple[float, ...]]]  # name -> position (3,) m, orientation (4,) x y z w
+
+
+def robots(manager) -> Iterator[Robot]:
+    """Those that RViz shows."""
+    def numbers(prop) -> Tuple[float, ...]:
+        return tuple(float(word) for word in str(prop.getValue()).split(";"))
+
+    for display in _enabled(manager.getRootDisplayGroup()):
+        children = _children(display)
+        if "Robot Description" not in children or "Links" not in children:
+            continue
+        links = {name: _children(prop) for name, prop in _children(children["Links"]).items()}
+        yield Robot(str(children["Robot Description"].getValue()),
+                    {name: (numbers(inner["Position"]), numbers(inner["Orientation"])) for name, inner in links.items()
+                     if "Position" in inner and "Orientation" in inner})
+
+
 def published_topics() -> frozenset:
     """Names of topics that somebody publishes, as the master knows them."""
     return frozenset(name for name, _ in rosgraph.Master(_RVIZ).getSystemState()[0])

@@ -12,7 +12,7 @@ import sys
 import time
 from typing import Dict, List
 
-from . import displays
+from . import displays, extent
 from .bindings import QApplication, QDockWidget, QImage, QPainter, QPoint, QRect, QWidget, rviz, sip
 
 _SETTLE_FRAMES = 3  # frames to draw after a change before the picture is taken: OGRE shows it one or two frames later
@@ -100,10 +100,17 @@ class Grabber:
 
     # ------------------------------------------------------------------------------------------ pictures
 
-    def set_view(self, values: List[list]) -> None:
+    def set_view(self, values: List[list], fit: bool) -> None:
+        """``fit``: distance and focal point are those that have the robots in the frame, unless ``values`` say others."""
         values = dict(values)
         if not values:
             return
+        points = extent.corners(self.manager) if fit else ()
+        if len(points):
+            panel = next(panel for panel in self.frame.findChildren(QWidget)
+                         if panel.metaObject().className() == "rviz::RenderPanel")
+            aspect = panel.width() / max(panel.height(), 1)
+            values = {**extent.fitting_view(points, values["yaw"], values["pitch"], aspect), **values}
         views = self.manager.getViewManager()
         view = views.getCurrent()
         if view.subProp("Yaw") is None or view.subProp("Distance") is None:
@@ -207,7 +214,7 @@ def main() -> None:
     drawn = time.monotonic() - start
     grabber.watch(job["watch"])
     for picture in job["pictures"]:
-        grabber.set_view(picture["view"])
+        grabber.set_view(picture["view"], picture["fit"])
         grabber.save(picture["path"])
     json.dump({**result, "seconds": round(drawn, 3)}, answer)
     answer.write("\n")

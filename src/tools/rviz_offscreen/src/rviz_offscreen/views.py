@@ -23,10 +23,16 @@ class ViewError(ValueError):
 
 @dataclass(frozen=True)
 class View:
-    """``values``: yaw, pitch (rad), distance (m), focal point x, y, z (m, fixed frame); what is missing stays as configured."""
+    """``values``: yaw, pitch (rad), distance (m), focal point x, y, z (m, fixed frame). Of a named view, distance and
+    focal point are chosen to have the robot in the frame, unless one of them is given; else what is missing stays as
+    configured."""
 
     name: str
     values: Tuple[Tuple[str, float], ...] = field(default=())
+
+    @property
+    def fits(self) -> bool:
+        return self.name in NAMED and not {"distance", "x", "y", "z"} & dict(self.values).keys()
 
 
 def parse_view(text: str) -> View:
