@@ -75,6 +75,10 @@ class RayFan:
         self._rng = server.world.rng(sensor.scoped_name)
         self.directions_S = _directions(self.horizontal.rays(), self.vertical.rays())
 
+    def reported_directions(self) -> np.ndarray:
+        """(V*H, 3) unit vectors in the sensor frame, in the order of what :meth:`cast` returns."""
+        return _directions(self.horizontal.reported(), self.vertical.reported())
+
     def cast(self, clipped: bool = False):
         """(ranges (V*H,) m, +inf beyond max and -inf up to min, REP-117; intensities (V*H,)), row by row from below.
 
@@ -166,7 +170,7 @@ class BlockLaser(SensorPlugin):
         self.fan = RayFan(server, sensor)
         self.topics = Topics(sdf, sensor.model.name, "C")
         self.frame = self.topics.frame(sdf.text_or("frameName", "/world"))
-        self.directions_S = _directions(self.fan.horizontal.reported(), self.fan.vertical.reported())
+        self.directions_S = self.fan.reported_directions()
         self.sigma = sdf.get("gaussianNoise", 0.0)
         self.rng = server.world.rng(sensor.scoped_name + "/block_laser")
         self.publisher = self.topics.publisher(sdf.text_or("topicName", "/world"), PointCloud)

@@ -1,0 +1,1 @@
+"""Simulated Velodyne lidars."""
