@@ -1,4 +1,4 @@
-"""roslaunch, ended by Ctrl-C in its first moments."""
+"""roslaunch, ended by Ctrl-C in its first moments, and where its logs go."""
 import os
 import signal
 import socket
@@ -15,14 +15,14 @@ LAUNCH = """<launch>
 AT_ONCE = 5.0  # s; upstream takes 10 to 40 where it fails, a loaded machine about 2
 
 
-def launch(tmp_path):
+def launch(tmp_path, **changed):
     file = tmp_path / "two.launch"
     file.write_text(LAUNCH)
     with socket.socket() as probe:
         probe.bind(("localhost", 0))
         port = probe.getsockname()[1]
     environment = {**os.environ, "ROS_MASTER_URI": f"http://localhost:{port}", "ROS_HOME": str(tmp_path),
-                   "PYTHONUNBUFFERED": "1"}
+                   "PYTHONUNBUFFERED": "1", **changed}
     return subprocess.Popen(["roslaunch", "-p", str(port), str(file)], env=environment, stdout=subprocess.PIPE,
                             stderr=subprocess.STDOUT, text=True, start_new_session=True)
 
@@ -60,3 +60,19 @@ def test_ctrl_c_while_files_are_read_is_silent(tmp_path):
     time.sleep(0.1)
     seconds, text = interrupted(process, "")
     assert seconds < AT_ONCE and "Traceback" not in text and "auto-starting" not in text, text
+
+
+@pytest.mark.parametrize("variable", ["ROS_HOME", "ROS_LOG_DIR"])
+def test_a_home_that_takes_no_files_is_replaced(tmp_path, variable):
+    """As with one that is read-only or full."""
+    process = launch(tmp_path, TMPDIR=str(tmp_path), **{variable: "/dev/null/ros"})
+    said = ""
+    for line in process.stdout:
+        said += line
+        if "process[two-3]" in line:
+            break
+    _, text = interrupted(process, said)
+    assert "process[two-3]" in text and "Traceback" not in text, text
+    first = text.splitlines()[0]
+    assert first.startswith("roslaunch: nothing can be written to /dev/null/ros (Not a directory); ") and str(tmp_path / "ros_") in first
+    assert text.count("nothing can be written") == 1

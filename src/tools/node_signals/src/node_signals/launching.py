@@ -1,8 +1,9 @@
-"""``roslaunch`` with a Ctrl-C that works at any moment; everything else is Debian's roslaunch.
+"""``roslaunch`` with a Ctrl-C that works at any moment and logs that find a place; everything else is Debian's roslaunch.
 
 Upstream ends its processes inside the signal's handler. A Ctrl-C that comes while roslaunch starts a process - its lock is
 held then - or between fork and exec of a node waits there for 10 to 40 s, one that comes while it starts the master waits for
-that master, and one that comes while it looks at the log folder is swallowed.
+that master, and one that comes while it looks at the log folder is swallowed. Where nothing can be written to ~/.ros it says
+that rosmaster is missing, or fills the terminal with tracebacks of the log.
 """
 from __future__ import annotations
 
@@ -10,8 +11,12 @@ import contextlib
 import os
 import signal
 import subprocess
+import sys
+import tempfile
 import threading
+from typing import Optional
 
+import rospkg
 import roslaunch
 from roslaunch import core, nodeprocess, pmon
 
@@ -69,8 +74,35 @@ class _Popen(subprocess.Popen):
         super().__init__(*arguments, **options)
 
 
+def _trouble_with(folder: str) -> Optional[OSError]:
+    """Why no log of a few pages can be kept there."""
+    try:
+        os.makedirs(folder, exist_ok=True)
+        with tempfile.TemporaryFile(dir=folder) as file:
+            file.write(bytes(1 << 16))
+    except OSError as error:
+        return error
+    return None
+
+
+def _find_place_for_logs() -> None:
+    """Nodes run in ROS_HOME and log below it; with a home folder that is full or read-only, in a temporary one."""
+    for variable, folder_of in (("ROS_HOME", rospkg.get_ros_home), ("ROS_LOG_DIR", rospkg.get_log_dir)):
+        folder = folder_of()
+        trouble = _trouble_with(folder)
+        if trouble is None:
+            continue
+        try:
+            os.environ[variable] = tempfile.mkdtemp(prefix="ros_")
+        except OSError:  # roslaunch has words of its own for that
+            return
+        print(f"roslaunch: nothing can be written to {folder} ({trouble.strerror}); {os.environ[variable]} takes its place in this run",
+              file=sys.stderr)
+
+
 def main() -> None:
     signal.signal(signal.SIGINT, signal.SIG_DFL)  # nothing has been started yet; pmon takes over with its first process
+    _find_place_for_logs()
     subprocess.Popen = _Popen
     pmon.rl_signal = _on_signal
     core.Master.is_running = _unless_ending(core.Master.is_running)
