@@ -118,8 +118,8 @@ class MessageKind(Kind):
                 return
             time.sleep(0.005)
             return
-        if name.endswith("/switch_controller"):
-            self._simulation.call("/gazebo/unpause_physics")  # in a paused world it waits, as it should
+        if name.endswith(("/switch_controller", "/reload_controller_libraries")):
+            self._simulation.call("/gazebo/unpause_physics")  # in a paused world it waits, as it should: the loop stops controllers
         try:
             answer = self._simulation.call(name, message)
         except (genpy.SerializationError, rosservice.ROSServiceException):  # the latter: a message before has taken it away

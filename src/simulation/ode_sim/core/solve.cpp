@@ -184,7 +184,7 @@ void World::run_one_by_one(const std::vector<const Island*>& islands, std::vecto
     run_direct(alone, said);
     if (said.empty()) continue;
     recall_bodies(start);
-    run_iterative(alone, 10 * iters, said);  // small, so that many more iterations than usual are affordable
+    run_iterative(alone, std::max(iters, std::min(10 * iters, 10000)), said);  // small: more iterations than usual are affordable
     ++counters.fallbacks;
   }
   said.clear();

@@ -26,14 +26,14 @@ class Bounds(NamedTuple):
 
 
 # A step below a microsecond loses its length in the nanoseconds of the clock; one above a second is no simulation any more.
-# The upper bounds of the counts keep a step from taking minutes.
+# The upper bounds of the counts keep a step from taking seconds; those of iterations are what upstream lets dynamic_reconfigure set.
 BOUNDS: Dict[str, Bounds] = {
     "max_step_size": Bounds(1e-6, 1.0, "s"),
     "real_time_update_rate": Bounds(1e-3, 1e9, "Hz", or_zero=True),
     "real_time_factor": Bounds(0.0, 1e9),
     "max_contacts": Bounds(1, 10_000_000),
-    "iters": Bounds(1, 100_000),
-    "precon_iters": Bounds(0, 100_000),
+    "iters": Bounds(1, 10_000),
+    "precon_iters": Bounds(0, 10_000),
     "sor": Bounds(1e-6, 10.0),
     "cfm": Bounds(0.0, 1e3),
     "erp": Bounds(0.0, 10.0),
