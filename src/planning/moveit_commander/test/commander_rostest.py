@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """The Python clients, against a running move_group."""
 import copy
+import io
 import math
 import os
 import subprocess
@@ -14,7 +15,7 @@ import rospy
 import rostest
 from geometry_msgs.msg import Point, Pose, PoseStamped, Quaternion
 from moveit_commander import MoveGroupCommander, MoveItCommanderException, PlanningSceneInterface, RobotCommander
-from moveit_msgs.msg import (Constraints, MoveItErrorCodes, OrientationConstraint, PlanningScene,
+from moveit_msgs.msg import (Constraints, DisplayTrajectory, MoveItErrorCodes, OrientationConstraint, PlanningScene,
                              PlanningSceneComponents,
                              RobotState)
 from sensor_msgs.msg import JointState
@@ -96,6 +97,21 @@ class Targets(Commander):
         self.assertIn("'legs'", str(caught.exception))
         with self.assertRaises(RuntimeError):
             MoveGroupCommander("manipulator", "nothing_here")
+
+    def test_scripts_for_older_versions_run(self):
+        """plan() was the trajectory itself once; scripts end with moveit_commander.os._exit(0)."""
+        self.assertTrue(callable(moveit_commander.os._exit) and moveit_commander.rospy is rospy)
+        self.assertIs(moveit_commander.PoseStamped, PoseStamped)
+        with self.assertRaises(AttributeError):
+            moveit_commander.nothing
+        self.arm.set_named_target("left")
+        plan = self.arm.plan()
+        self.assertGreater(len(plan.joint_trajectory.points), 1)
+        shown = DisplayTrajectory()
+        shown.trajectory.append(plan)
+        shown.serialize(io.BytesIO())
+        self.assertTrue(self.arm.execute(plan))
+        self.at([1.2] + HOME[1:])
 
     def test_remembered_values(self):
         self.arm.remember_joint_values("here")

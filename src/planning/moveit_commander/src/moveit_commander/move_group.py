@@ -27,6 +27,18 @@ _ALGORITHMS = {"iterative_time_parameterization": "iterative_parabolic",
                "time_optimal_trajectory_generation": "time_optimal"}
 
 
+class PlanTuple(tuple):
+    """(success, trajectory, time, code), with the fields of the trajectory: that is what plan() returned once."""
+
+    @property
+    def joint_trajectory(self):
+        return self[1].joint_trajectory
+
+    @property
+    def multi_dof_joint_trajectory(self):
+        return self[1].multi_dof_joint_trajectory
+
+
 class MoveGroupCommander(TargetCommands):
     """Commands for one group: targets, plans, motions.
 
@@ -291,17 +303,19 @@ class MoveGroupCommander(TargetCommands):
             self.set_joint_value_target(joints)
 
     def plan(self, joints=None) -> Tuple[bool, RobotTrajectory, float, MoveItErrorCodes]:
-        """(success, trajectory, planning time in s, error code)."""
+        """(success, trajectory, planning time in s, error code); scripts for Melodic may take it for the trajectory."""
         self._take_target(joints)
         result = self._requests.plan()
-        return (result.error_code.val == MoveItErrorCodes.SUCCESS, result.planned_trajectory, result.planning_time,
-                result.error_code)
+        return PlanTuple((result.error_code.val == MoveItErrorCodes.SUCCESS, result.planned_trajectory, result.planning_time,
+                          result.error_code))
 
     def execute(self, trajectory, wait: bool = True) -> bool:
-        """Execute a planned RobotTrajectory (or JointTrajectory)."""
+        """Execute a planned RobotTrajectory (or JointTrajectory, or what :meth:`plan` returned)."""
         if isinstance(trajectory, tuple):
-            raise MoveItCommanderException("plan() returns (success, trajectory, time, code): execute its second "
-                                           "element, plan()[1]")
+            if not isinstance(trajectory, PlanTuple):
+                raise MoveItCommanderException("plan() returns (success, trajectory, time, code): execute its second "
+                                               "element, plan()[1]")
+            trajectory = trajectory[1]
         if not hasattr(trajectory, "joint_trajectory"):
             trajectory = RobotTrajectory(joint_trajectory=trajectory)
         return self._requests.execute(trajectory, wait)
