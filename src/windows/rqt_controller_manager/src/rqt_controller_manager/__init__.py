@@ -1,0 +1,1 @@
+"""Plugin of rqt: loads, starts, stops and unloads controllers."""

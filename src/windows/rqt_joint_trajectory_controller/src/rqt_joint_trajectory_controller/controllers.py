@@ -1,0 +1,56 @@
+"""Which trajectory controllers can be moved by sliders, and why the others cannot."""
+from typing import Dict, List, NamedTuple, Tuple
+
+import rospy
+from controller_manager_msgs.srv import ListControllers
+from controller_manager_msgs.utils import ControllerManagerLister
+
+from .joint_limits_urdf import DescriptionError, JointLimits, joint_limits
+
+
+class Found(NamedTuple):
+    """``usable``: name to joints with limits; ``reasons``: lines about the running ones that cannot be used."""
+
+    usable: Dict[str, Dict[str, JointLimits]]
+    reasons: Tuple[str, ...]
+
+
+class ControllerFinder:
+    """Asks managers; any call may hang."""
+
+    def __init__(self):
+        self._list_managers = ControllerManagerLister()
+
+    def managers(self) -> List[str]:
+        return list(self._list_managers())
+
+    def controllers(self, manager: str) -> Found:
+        """:raises rospy.ServiceException: the manager is gone"""
+        running = [c for c in rospy.ServiceProxy(f"{manager}/list_controllers", ListControllers)().controller
+                   if c.state == "running" and "JointTrajectoryController" in c.type]
+        if not running:
+            return Found({}, (f"{manager} runs no controller whose type contains JointTrajectoryController",))
+        limits, reasons = self._limits(manager.rsplit("/", 1)[0])
+        if limits is None:
+            return Found({}, reasons)
+        usable = {}
+        for controller in running:
+            joints = list(dict.fromkeys(joint for claimed in controller.claimed_resources for joint in claimed.resources))
+            missing = [joint for joint in joints if joint not in limits]
+            if joints and not missing:
+                usable[controller.name] = {joint: limits[joint] for joint in joints}
+            else:
+                reasons += (f"{controller.name}: robot_description has no limits of position and velocity for "
+                            f"{', '.join(missing)}" if missing else f"{controller.name} claims no joints",)
+        return Found(usable, reasons)
+
+    @staticmethod
+    def _limits(namespace: str):
+        """From robot_description beside the manager, else from the global one."""
+        for name in dict.fromkeys((f"{namespace}/robot_description", rospy.resolve_name("robot_description"), "/robot_description")):
+            if rospy.has_param(name):
+                try:
+                    return joint_limits(rospy.get_param(name)), ()
+                except DescriptionError as error:
+                    return None, (f"{name}: {error}",)
+        return None, (f"there is no parameter {namespace}/robot_description, nor /robot_description",)
