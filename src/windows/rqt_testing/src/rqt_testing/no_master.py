@@ -1,5 +1,6 @@
 """A master that knows nobody: enough for rospy to make publishers and subscribers in a test."""
 import threading
+from socketserver import ThreadingMixIn
 from xmlrpc.server import SimpleXMLRPCRequestHandler, SimpleXMLRPCServer
 
 
@@ -10,13 +11,17 @@ class _Handler(SimpleXMLRPCRequestHandler):
         pass
 
 
+class _Server(ThreadingMixIn, SimpleXMLRPCServer):
+    daemon_threads = True  # callers keep their connections open
+
+
 class NoMaster:
     """Answers every call of a node with success and nothing; ``answers[method]`` gives a method another value."""
 
     def __init__(self, answers=None):
         self.answers = {"getPid": 1, "getSystemState": [[], [], []], "getPublishedTopics": [], "getTopicTypes": [],
                         "subscribeParam": {}, "getParamNames": [], "hasParam": False, "searchParam": "", **(answers or {})}
-        self._server = SimpleXMLRPCServer(("127.0.0.1", 0), requestHandler=_Handler, logRequests=False, allow_none=True)
+        self._server = _Server(("127.0.0.1", 0), requestHandler=_Handler, logRequests=False, allow_none=True)
         self._server.register_instance(self)
         self._server.register_multicall_functions()
 

@@ -1,0 +1,1 @@
+"""The nodes and topics of a running system as a graph."""

@@ -1,0 +1,236 @@
+"""The graph of a system as DOT text: filters, groups, clusters. No ROS and no Qt in here."""
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field
+from typing import Dict, Iterable, List, Optional, Set, Tuple
+
+NODE_NODE_GRAPH = "node_node"
+NODE_TOPIC_GRAPH = "node_topic"
+NODE_TOPIC_ALL_GRAPH = "node_topic_all"
+
+#: Parts of the names of nodes and topics that are there in every system and tell little.
+QUIET_NAMES = ("/diag_agg", "/runtime_logger", "/pr2_dashboard", "/rviz", "/rosout", "/cpu_monitor", "/monitor", "/hd_monitor",
+               "/rxloggerlevel", "/clock", "/rqt", "/statistics")
+_QUIET_TOPICS = ("/time", "/clock", "/rosout", "/statistics")
+_TF = ("/tf", "/tf_static")
+_ACTION = ("goal", "cancel", "status", "feedback", "result")
+_IMAGE = ("compressed", "compressedDepth", "theora")
+
+
+@dataclass
+class Options:
+    """What to show; the defaults are those of the window."""
+
+    mode: str = NODE_NODE_GRAPH
+    node_filter: str = "/"
+    topic_filter: str = "/"
+    namespaces: int = 2
+    group_actions: bool = True
+    group_tf: bool = True
+    group_images: bool = True
+    hide_dead_sinks: bool = True
+    hide_leaf_topics: bool = True
+    hide_debug: bool = True
+    hide_tf: bool = False
+    hide_unreachable: bool = True
+    hide_params: bool = True
+
+
+@dataclass(frozen=True)
+class Statistics:
+    """Of one connection: frequency in Hz, mean age of messages in s, traffic in bytes/s (of the window measured)."""
+
+    frequency: float
+    age: float
+    traffic: float
+
+
+def split_filter(text: str) -> Tuple[List[str], List[str]]:
+    """A comma list as (names or expressions to include, those to exclude); nothing and ``/`` include everything."""
+    words = [word.strip() for word in text.split(",")]
+    excluded = [word[1:] for word in words if word.startswith("-")]
+    included = [word for word in words if word and not word.startswith("-")]
+    return (included if included and included != ["/"] else [".*"]), excluded
+
+
+def matches_any(name: str, patterns: Iterable[str]) -> bool:
+    """Whether ``name`` is one of the names, or begins as one of the regular expressions says; one that is malformed fits none."""
+    for pattern in patterns:
+        if name == pattern:
+            return True
+        if re.fullmatch(r"[a-zA-Z0-9_/]+", pattern) is None:
+            try:
+                if re.match(pattern, name):
+                    return True
+            except re.error:
+                continue
+    return False
+
+
+def passes(name: str, text: str) -> bool:
+    """Whether a filter lets a name through."""
+    included, excluded = split_filter(text)
+    return matches_any(name, included) and not matches_any(name, excluded)
+
+
+@dataclass
+class Graph:
+    """What is shown. ``topics``: name -> whether it stands for several; edges are (start, end, label, statistics)."""
+
+    nodes: Set[str] = field(default_factory=set)
+    topics: Dict[str, bool] = field(default_factory=dict)
+    node_edges: Set[Tuple[str, str, str]] = field(default_factory=set)  # (publisher, subscriber, topic)
+    topic_edges: Set[Tuple[str, str, bool]] = field(default_factory=set)  # (node, topic, whether it publishes)
+
+
+def select(state, options: Options) -> Graph:
+    """The part of a :class:`rqt_graph.ros_state.State` that the options show."""
+    nodes = {node for node in state.nodes if passes(node, options.node_filter)
+             and not (options.hide_debug and _quiet(node)) and not (options.hide_unreachable and node in state.bad)}
+    every_topic = set(state.publishers) | set(state.subscribers)
+    params = _parameter_topics(every_topic) if options.hide_params else set()
+
+    def shown(topic):
+        return passes(topic, options.topic_filter) and topic not in params and not (options.hide_tf and topic in _TF)
+
+    if options.mode == NODE_NODE_GRAPH:
+        edges = {(start, end, topic) for start, topic, end in state.connections if start in nodes and end in nodes
+                 and shown(topic) and not (options.hide_debug and topic in _QUIET_TOPICS)}
+        return Graph(nodes, {}, edges)
+    links = state.registered() if options.mode == NODE_TOPIC_ALL_GRAPH else set(state.active)
+    links = {(node, topic, out) for node, topic, out in links
+             if node in nodes and shown(topic) and not (options.hide_debug and _quiet(topic))}
+    links = _without_leaves(links, options)
+    topics = {topic: False for _, topic, _ in links}
+    links, topics = _grouped(links, topics, options)
+    return Graph(nodes, topics, set(), links)
+
+
+def _quiet(name: str) -> bool:
+    return any(quiet in name for quiet in QUIET_NAMES)
+
+
+def _parameter_topics(topics) -> Set[str]:
+    servers = {topic[:-len("/parameter_descriptions")] for topic in topics if topic.endswith("/parameter_descriptions")}
+    return {f"{server}/{kind}" for server in servers if f"{server}/parameter_updates" in topics
+            for kind in ("parameter_descriptions", "parameter_updates")}
+
+
+def _without_leaves(links, options: Options):
+    count: Dict[str, int] = {}
+    heard = {topic for _, topic, out in links if not out}
+    for _, topic, _ in links:
+        count[topic] = count.get(topic, 0) + 1
+    return {(node, topic, out) for node, topic, out in links
+            if not (options.hide_dead_sinks and topic not in heard) and not (options.hide_leaf_topics and count[topic] < 2)}
+
+
+def _grouped(links, topics, options: Options):
+    """Links and topics with those of an action, of tf, of an image in the place of their parts."""
+    stands_for: Dict[str, str] = {}
+    if options.group_actions:
+        for topic in topics:
+            server = topic[:-len("/feedback")] if topic.endswith("/feedback") else None
+            if server is not None and all(f"{server}/{part}" in topics for part in _ACTION):
+                stands_for.update({f"{server}/{part}": f"{server}/action_topics" for part in _ACTION})
+    if options.group_images:
+        for topic in topics:
+            parts = [f"{topic}/{part}" for part in _IMAGE if f"{topic}/{part}" in topics]
+            if len(parts) >= 2:
+                stands_for.update({part: f"{topic}/image_topics" for part in [topic, *parts]})
+    if options.group_tf and not options.hide_tf and any(topic in topics for topic in _TF):
+        stands_for.update({topic: "/tf" for topic in _TF})
+    links = {(node, stands_for.get(topic, topic), out) for node, topic, out in links}
+    groups = set(stands_for.values())
+    return links, {topic: topic in groups for _, topic, _ in links}
+
+
+def generate_dot(state, options: Options, statistics: Optional[Dict] = None) -> str:
+    """DOT text of what the options show.
+
+    :param statistics: (publisher, topic, subscriber) -> :class:`Statistics`
+    """
+    graph = select(state, options)
+    writer = _Writer(options.namespaces, statistics or {})
+    for node in sorted(graph.nodes):
+        bad = state.bad.get(node)
+        color = {None: None, "DEAD": "red"}.get(bad, "orange")
+        writer.node("n_" + node, node, node, "ellipse", f"{node} ({bad})" if bad else node, color)
+    for topic, group in sorted(graph.topics.items()):
+        writer.node("t_" + topic, topic, topic, "box3d" if group else "box", f"topic:{topic}")
+    for start, end, topic in sorted(graph.node_edges):
+        writer.edge("n_" + start, "n_" + end, topic, writer.statistics_of(topic, end, start), f"topic:{topic}")
+    for node, topic, out in sorted(graph.topic_edges):
+        if out:
+            writer.edge("n_" + node, "t_" + topic, "", None)
+        else:
+            writer.edge("t_" + topic, "n_" + node, "", writer.statistics_of(topic, node))
+    return writer.text()
+
+
+def quoted(text: str) -> str:
+    """A string of DOT: quotes and backslashes of the text stay what they are; ``\\n`` breaks a line."""
+    return '"' + text.replace("\\", "\\\\").replace('"', '\\"').replace("\n", "\\n") + '"'
+
+
+class _Writer:
+    """Collects lines of DOT, nodes in the clusters of their namespaces."""
+
+    def __init__(self, levels: int, statistics: Dict):
+        self._levels = levels
+        self._root = ({}, [])  # clusters within: name -> the same pair; lines
+        self._edges: List[str] = []
+        self._statistics = statistics
+        self._most_traffic = max([10000.0, *(s.traffic for s in statistics.values())])
+        self._oldest = max([0.1, *(s.age for s in statistics.values())])
+
+    def node(self, key, name, label, shape, tooltip, color=None) -> None:
+        clusters, lines = self._root
+        for depth in range(2, min(2 + self._levels, name.count("/") + 1)):
+            clusters, lines = clusters.setdefault("/".join(name.split("/")[:depth]), ({}, []))
+        lines.append(f"{quoted(key)} [label={quoted(label)} shape={shape} tooltip={quoted(tooltip)}"
+                     + (f" color={color}" if color else "") + "];")
+
+    def edge(self, start, end, label, statistics, tooltip=None) -> None:
+        attributes = [f"tooltip={quoted(tooltip)}"] if tooltip else []
+        if statistics is not None:
+            text, width, color = statistics
+            label = f"{label}\n{text}" if label else text
+            attributes += [f"penwidth={width}", f'color="#{color[0]:02x}{color[1]:02x}{color[2]:02x}"']
+        if label:
+            attributes.append(f"label={quoted(label)}")
+        self._edges.append(f"{quoted(start)} -> {quoted(end)}" + (f" [{' '.join(attributes)}]" if attributes else "") + ";")
+
+    def statistics_of(self, topic, subscriber, publisher=None):
+        """(text, pen width, colour) of a connection, or of all that lead from a topic to a node; None without statistics."""
+        found = [s for (p, t, n), s in self._statistics.items() if t == topic and n == subscriber and publisher in (None, p)]
+        if not found:
+            return None
+        age, traffic = max(s.age for s in found), sum(s.traffic for s in found)
+        width = max(1, int(traffic / self._most_traffic * 5))
+        if len(found) > 1:
+            return f"({len(found)} connections)", width, _heat(age / self._oldest)
+        text = f"{found[0].frequency:.1f} Hz" if found[0].frequency > 0 else "? Hz"
+        return text + (f" // {round(age * 1000)} ms" if age > 0 else ""), width, _heat(age / self._oldest)
+
+    def text(self) -> str:
+        return "\n".join(["digraph graphname {", "rankdir=LR; ranksep=0.2; compound=true;", *_lines(self._root, [0]), *self._edges,
+                          "}", ""])
+
+
+def _lines(cluster, counter) -> List[str]:
+    clusters, lines = cluster
+    result = list(lines)
+    for name, inner in sorted(clusters.items()):
+        counter[0] += 1
+        result += [f"subgraph cluster_{counter[0]} {{", f"label={quoted(name)}; style=bold;", *_lines(inner, counter), "}"]
+    return result
+
+
+def _heat(part: float) -> Tuple[int, int, int]:
+    """Green for 0, yellow in the middle, red for 1; black when there is no age."""
+    if part <= 0:
+        return 0, 0, 0
+    part = min(part, 1.0)
+    return (int(part * 2 * 255), 255, 0) if part <= 0.5 else (255, 255 - int((part - 0.5) * 2 * 255), 0)
