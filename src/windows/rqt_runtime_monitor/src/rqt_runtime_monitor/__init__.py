@@ -1,0 +1,1 @@
+"""Plugin of rqt: shows /diagnostics, errors first."""
