@@ -101,7 +101,8 @@ def build(root: Path, prefix: Path) -> Path:
     shutil.rmtree(stage, ignore_errors=True)
     shutil.rmtree(workspace / "src", ignore_errors=True)
     (workspace / "src").mkdir(parents=True)
-    (workspace / ".catkin_tools").mkdir(exist_ok=True)  # else catkin takes the clone around it for the workspace
+    # else catkin takes the clone around it for the workspace; catkin_tools 0.9.5 wants the inner folder too
+    (workspace / ".catkin_tools/profiles").mkdir(parents=True, exist_ok=True)
     for room in sorted({package.parent for package in platform_packages(sources)}):
         (workspace / "src" / room.name).symlink_to(room)
     environment = {key: value for key, value in os.environ.items()
