@@ -37,7 +37,7 @@ class OccupancyMapMonitor:
         self._map = _map(0.1 if resolution is None else resolution, rospy.resolve_name(namespace + "octomap_resolution"))
         self.frame = str(rospy.get_param(namespace + "octomap_frame", "")).lstrip("/") or scene.model.frame
         #: m that sensors are believed to see where their own settings do not say
-        self.max_range = float(rospy.get_param(namespace + "max_range", np.inf))
+        self.max_range = _number(namespace + "max_range", np.inf)
         self.updaters: List[OccupancyMapUpdater] = []
         self._load(entries)
         for updater in self.updaters:
@@ -70,8 +70,9 @@ class OccupancyMapMonitor:
                 if name not in found:
                     raise PluginError(f"nobody exports it; there are: {', '.join(sorted(found)) or 'none'}")
                 self.updaters.append(found[name].load()(self, entry))
-            except (PluginError, UpdaterError) as error:
-                rospy.logerr("Exception while loading octomap updater '%s': %s", name, error)
+            except Exception as error:  # a third party's updater may raise anything; the others are still of use
+                kind = "" if isinstance(error, (PluginError, UpdaterError)) else f"{type(error).__name__}: "
+                rospy.logerr("Exception while loading octomap updater '%s': %s%s", name, kind, " ".join(str(error).split())[:200])
 
     def shutdown(self) -> None:
         """End all updaters."""
@@ -161,6 +162,14 @@ class OccupancyMapMonitor:
                     raise UpdaterError(f"what the sensor saw cannot be used: TF does not connect '{frame}' to '{target}' at "
                                        f"{stamp.to_sec():.3f} s ({' '.join(str(error).split())[:100]})") from None
             time.sleep(0.01)
+
+
+def _number(parameter: str, default: float) -> float:
+    value = rospy.get_param(parameter, default)
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or value != value:
+        rospy.logerr("parameter %s is %r, not a number: it is ignored", rospy.resolve_name(parameter), str(value)[:40])
+        return default
+    return float(value)
 
 
 def _map(resolution, parameter: str) -> motion.OccupancyMap:
