@@ -1,0 +1,1 @@
+"""Plugin of rqt: a Python console in the window."""
