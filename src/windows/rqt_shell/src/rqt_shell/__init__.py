@@ -1,0 +1,1 @@
+"""Plugin of rqt: a shell in the window."""
