@@ -151,9 +151,16 @@ class Masters(unittest.TestCase):
             near.end()
             self.assertEqual(gz("world", "-s").stderr, "")
             self.assertEqual(gz("model", "-m", "crate", "-p").stdout.split()[:3], ["9", "0", "4"])
+            self.assertIn("swing has no joint knee; it has ", gz("joint", "-m", "swing", "-j", "knee", "-f", "1").stderr)
+            self.assertEqual(gz("joint", "-m", "swing", "-j", "hinge", "-f", "0").stderr, "")
+            self.assertIn("/gazebo/link_states", gz("topic", "-l").stdout.split())
+            self.assertIn("Type: gazebo_msgs/LinkStates", gz("topic", "-i", "/gazebo/link_states").stdout)
+            self.assertIn("rosbag record", gz("log", "-d", "1").stderr)
+            self.assertIn("--model-name", gz("help", "joint").stdout)
+            self.assertEqual((gz("help").returncode, gz("help", "nothing").returncode), (0, 1))
             self.assertIn("SimTime[0.10]", gz("stats", "-d", "0.1").stdout)  # 101 steps of its own, none of the other's
 
-    def test_a_master_that_is_killed_and_comes_back_knows_the_simulator_again(self):
+    def test_a_master_that_stands_still_and_one_that_is_killed_and_comes_back_know_the_simulator_again(self):
         uri = master_place(self)
         process = start_master(self, uri)
         master = xmlrpc.client.ServerProxy(uri)
@@ -176,6 +183,11 @@ class Masters(unittest.TestCase):
             self.assertIn("success: True", command("rosservice", "call", "/gazebo/set_physics_properties", PHYSICS).stdout)
             before = known()
             self.assertEqual((before[3]["use_sim_time"], before[3]["gazebo"]["gravity_z"]), (True, -1.5))
+            process.send_signal(signal.SIGSTOP)
+            rospy.rostime.wallsleep(6.5)  # longer than a question to it is left open
+            process.send_signal(signal.SIGCONT)
+            wait_until(lambda: known() == before)
+            self.assertEqual(command("gz", "world", "-m", "5").returncode, 0)
             process.kill()
             process.wait()
             start_master(self, uri)

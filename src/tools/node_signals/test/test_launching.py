@@ -15,9 +15,9 @@ LAUNCH = """<launch>
 AT_ONCE = 5.0  # s; upstream takes 10 to 40 where it fails, a loaded machine about 2
 
 
-def launch(tmp_path, **changed):
+def launch(tmp_path, text=LAUNCH, **changed):
     file = tmp_path / "two.launch"
-    file.write_text(LAUNCH)
+    file.write_text(text)
     with socket.socket() as probe:
         probe.bind(("localhost", 0))
         port = probe.getsockname()[1]
@@ -76,3 +76,17 @@ def test_a_home_that_takes_no_files_is_replaced(tmp_path, variable):
     first = text.splitlines()[0]
     assert first.startswith("roslaunch: nothing can be written to /dev/null/ros (Not a directory); ") and str(tmp_path / "ros_") in first
     assert text.count("nothing can be written") == 1
+
+
+@pytest.mark.parametrize("display, times", [("", 1), (":77", 0)])
+def test_a_window_without_a_display_is_one_line_that_names_the_remedy(tmp_path, display, times):
+    windows = "".join(f'<node name="w{i}" pkg="rviz" type="rviz" args="--help"/>' for i in range(2))
+    process = launch(tmp_path, f"<launch>{windows}</launch>", DISPLAY=display, WAYLAND_DISPLAY="", QT_QPA_PLATFORM="")
+    said = ""
+    for line in process.stdout:
+        said += line
+        if "process[w1-" in line or "w1-" in line and "process" in line:
+            break
+    _, said = interrupted(process, said)
+    lines = [line for line in said.splitlines() if "rviz opens a window" in line]
+    assert len(lines) == times and all("scripts/offscreen" in line for line in lines), said

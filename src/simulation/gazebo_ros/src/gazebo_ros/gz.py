@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 import time
 from typing import Any, List
@@ -10,8 +11,8 @@ import node_signals
 import rosgraph
 import rospy
 from gazebo_msgs.msg import ModelState, PerformanceMetrics
-from gazebo_msgs.srv import (DeleteModel, GetModelProperties, GetModelState, GetPhysicsProperties, GetWorldProperties,
-                             SetModelState, SetPhysicsProperties, SpawnModel)
+from gazebo_msgs.srv import (ApplyJointEffort, DeleteModel, GetModelProperties, GetModelState, GetPhysicsProperties,
+                             GetWorldProperties, JointRequest, SetModelState, SetPhysicsProperties, SpawnModel)
 from geometry_msgs.msg import Point, Pose, Quaternion
 from ode_sim import math3
 from ode_sim.description import DescriptionError, load_world, read_model
@@ -121,14 +122,56 @@ def sdf(options: argparse.Namespace) -> None:
     print("Check complete")
 
 
+def joint(options: argparse.Namespace) -> None:
+    """Put a force or torque on a joint, from now on; 0 ends it."""
+    if not options.joint_name or options.force is None:
+        raise Failure("a joint (-j) and its force (-f, N or Nm) are needed; targets of position and velocity are "
+                      "the work of a controller: see ros_control")
+    if options.model_name:
+        names = call("get_model_properties", GetModelProperties, options.model_name).joint_names
+        if options.joint_name not in names:
+            raise Failure(f"model {options.model_name} has no joint {options.joint_name}; it has {', '.join(names)}")
+    call("clear_joint_forces", JointRequest, options.joint_name)
+    if options.force:
+        call("apply_joint_effort", ApplyJointEffort, options.joint_name, options.force, rospy.Time(),
+             rospy.Duration(-1))
+
+
+def topic(options: argparse.Namespace) -> None:
+    """List, show or measure the topics of the simulator, which are ROS topics here."""
+    if options.list:
+        system = rosgraph.Master(rospy.get_name()).getSystemState()
+        print("\n".join(sorted(name for name, nodes in system[0] if "/gazebo" in nodes)))
+        return
+    for word, name in (("echo", options.echo), ("info", options.info), ("hz", options.hz)):
+        if name:
+            os.execvp("rostopic", ["rostopic", word, name])
+    raise Failure("say what: -l lists, -e TOPIC shows messages, -i TOPIC who sends them, -z TOPIC how often")
+
+
+def log(_options: argparse.Namespace) -> None:
+    """Not here: rosbag records and plays."""
+    raise Failure("logs of world states are not written here; rosbag record /gazebo/model_states records, and the same "
+                  "world, seed and commands give the same run again")
+
+
+def helps(options: argparse.Namespace) -> None:
+    """What there is, or the options of one command."""
+    try:
+        parser().parse_args([options.about, "--help"] if options.about else ["--help"])
+    except SystemExit as end:
+        if end.code:
+            raise Failure(f"no command {options.about}") from None
+
+
 def parser() -> argparse.ArgumentParser:
     top = argparse.ArgumentParser(prog="gz", description="Ask or change a running simulator (the node /gazebo).",
                                   formatter_class=argparse.RawDescriptionHelpFormatter)
     top.add_argument("-v", "--version", action="version", version=VERSION)
     commands = top.add_subparsers(dest="command", required=True, metavar="COMMAND")
 
-    def command(f: Any) -> argparse.ArgumentParser:
-        added = commands.add_parser(f.__name__, help=f.__doc__, description=f.__doc__)
+    def command(f: Any, name: str = "") -> argparse.ArgumentParser:
+        added = commands.add_parser(name or f.__name__, help=f.__doc__, description=f.__doc__)
         added.set_defaults(run=f)
         return added
 
@@ -156,6 +199,17 @@ def parser() -> argparse.ArgumentParser:
     add = command(stats).add_argument
     add("-d", "--duration", type=float, help="s; without it: until Ctrl-C")
     add("-p", "--plot", action="store_true", help="accepted")
+    add = command(joint).add_argument
+    add("-m", "--model-name", default="")
+    add("-j", "--joint-name", default="")
+    add("-f", "--force", type=float, help="N or Nm")
+    add = command(topic).add_argument
+    add("-l", "--list", action="store_true")
+    for short, name in (("e", "echo"), ("i", "info"), ("z", "hz")):
+        add(f"-{short}", f"--{name}", metavar="TOPIC")
+    add = command(log).add_argument
+    add("-d", "--record", metavar="0|1", help="accepted, to say what to do instead")
+    command(helps, "help").add_argument("about", nargs="?", default="", metavar="COMMAND")
     add = command(sdf).add_argument
     add("-k", "--check", metavar="FILE", required=True)
     return top
@@ -165,7 +219,7 @@ def main(arguments: List[str]) -> int:
     """Exit code: 0 done, 1 refused, 2 wrong options."""
     options = parser().parse_args(arguments)
     try:
-        if options.run is not sdf:
+        if options.run not in (sdf, log, helps):
             if not rosgraph.is_master_online():
                 raise Failure(f"no ROS master at {rosgraph.get_master_uri()}; start the simulator first")
             node_signals.init_node("gz", anonymous=True, disable_rostime=True)

@@ -14,7 +14,7 @@ import subprocess
 import sys
 import tempfile
 import threading
-from typing import Optional
+from typing import Optional, Set
 
 import rospkg
 import roslaunch
@@ -100,6 +100,24 @@ def _find_place_for_logs() -> None:
               file=sys.stderr)
 
 
+_WINDOWS = ("rviz", "joint_state_publisher_gui", "image_view")  # rqt and turtlesim say so themselves
+_DISPLAYS = ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM")
+
+
+def _naming_windows_without_display(start):
+    """A window on a machine without a screen ends with a page of Qt's words; one line says what to do."""
+    told: Set[str] = set()
+
+    def checked(process):
+        package = str(process.package)
+        if package in _WINDOWS and package not in told and not any(map(os.environ.get, _DISPLAYS)):
+            told.add(package)
+            print(f"roslaunch: {package} opens a window and there is no display (DISPLAY is not set); put scripts/offscreen "
+                  "(or: rosrun rviz_offscreen offscreen) before the command for a virtual one", file=sys.stderr, flush=True)
+        return start(process)
+    return checked
+
+
 def main() -> None:
     signal.signal(signal.SIGINT, signal.SIG_DFL)  # nothing has been started yet; pmon takes over with its first process
     _find_place_for_logs()
@@ -107,5 +125,6 @@ def main() -> None:
     pmon.rl_signal = _on_signal
     core.Master.is_running = _unless_ending(core.Master.is_running)
     nodeprocess.LocalProcess._stop_unix = _master_first_by_sigterm(nodeprocess.LocalProcess._stop_unix)
+    nodeprocess.LocalProcess.start = _naming_windows_without_display(nodeprocess.LocalProcess.start)
     roslaunch.handle_exception = _silent_when_ending(roslaunch.handle_exception)
     roslaunch.main()
