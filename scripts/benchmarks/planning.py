@@ -93,11 +93,36 @@ def checks(model, count):
     return figures
 
 
-def plans(model, count):
-    """Random reachable free pose goals, from goal to timed trajectory."""
-    scene, goal_state = scene_of(model), model.state()
+def furnished(model, seed):
+    """A scene of one of three kinds, moved about a little: a table with things on it, a shelf, a cage of bars."""
+    random = np.random.default_rng(seed)
+    scene, boxes = motion.PlanningScene(model), []
+    state = scene.state
+    state.set_group("manipulator", [0.0, -1.57, 1.2, -1.2, -1.57, 0.0])
+    scene.set_state(state)
+    x, y, z = random.uniform((0.6, -0.2, 0.85), (0.7, 0.2, 0.95))
+    if seed % 3 == 0:
+        boxes = [((0.6, 1.2, 0.04), (x, y, z))] + [
+            (random.uniform(0.04, 0.15, 3), (x + dx, y + dy, z + 0.1)) for dx, dy in random.uniform((-0.25, -0.5), (0.25, 0.5), (8, 2))]
+    elif seed % 3 == 1:
+        boxes = [((0.3, 0.8, 0.03), (x + 0.1, y, z + 0.35 * level)) for level in range(3)] + [
+            ((0.3, 0.03, 0.73), (x + 0.1, y + side, z + 0.35)) for side in (-0.4, 0.4)] + [
+            (random.uniform(0.04, 0.12, 3), (x + 0.1, y + dy, z + 0.1 + 0.35 * (i % 2))) for i, dy in enumerate(random.uniform(-0.3, 0.3, 5))]
+    else:
+        boxes = [((0.04, 0.04, 1.6), (0.55 * np.cos(a), 0.55 * np.sin(a), 1.3)) for a in np.arange(6) * np.pi / 3 + random.uniform(0.3, 0.7)]
+    for size, at in boxes:
+        scene.add_object(f"box{len(scene.objects)}", [motion.Box(*size)], pose=(at, (0, 0, 0, 1)))
+        if scene.check():
+            scene.remove_object(f"box{len(scene.objects) - 1}")
+    return scene
+
+
+def plans(model, count, title, scene_for):
+    """Random reachable free pose goals, from goal to timed trajectory; ``scene_for(number)`` gives each one's scene."""
+    goal_state = model.state()
     pipeline, times, solved, seed = motion.Pipeline(), [], 0, 0
     while len(times) < count:
+        scene = scene_for(len(times))
         goal_state.randomize("manipulator", seed=seed)
         seed += 1
         if scene.check(goal_state, group="manipulator"):
@@ -107,7 +132,7 @@ def plans(model, count):
         result = pipeline.generate(scene, motion.MotionRequest("manipulator", goals=[goal], seed=seed, longest_valid_segment_fraction=0.005))
         times.append((time.thread_time() - start) * 1e3)
         solved += bool(result)
-    title = "pedestal UR5, table, post, 20 boxes: pose goal to timed trajectory"
+    title = f"{title}: pose goal to timed trajectory"
     return {f"{title}: solved, %": 100.0 * solved / count, f"{title}: p50, ms": float(np.percentile(times, 50)),
             f"{title}: p95, ms": float(np.percentile(times, 95))}
 
@@ -121,7 +146,9 @@ def main():
     model = pedestal_ur5()
     if model is not None:
         figures.update(checks(model, 2000 if arguments.quick else 20000))
-        figures.update(plans(model, 20 if arguments.quick else 100))
+        cluttered = scene_of(model)
+        figures.update(plans(model, 20 if arguments.quick else 100, "pedestal UR5, table, post, 20 boxes", lambda number: cluttered))
+        figures.update(plans(model, 21 if arguments.quick else 99, "pedestal UR5, tables, shelves, cages", lambda number: furnished(model, number)))
     for name, value in figures.items():
         print(f"{name:80} {value:10.4g}")
     if arguments.json:
