@@ -1,0 +1,1 @@
+"""Plugin of rqt: a web browser in the window."""
