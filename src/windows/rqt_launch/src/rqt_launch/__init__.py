@@ -1,0 +1,1 @@
+"""Plugin of rqt: starts and stops the nodes of a launch file one by one."""
