@@ -140,6 +140,8 @@ def clean(tree: Path) -> None:
 
 #: Folders of a package that are not installed as they stand: tests, C++ sources, what CMake and catkin handle.
 _NOT_INSTALLED = {"test", "core", "bindings", "osmesa", "env-hooks", "cmake", "include", "docs", "rosdep"}
+#: What a compiler takes; headers in include/ are CMake's business.
+_COMPILED = {".c", ".cc", ".cpp", ".cxx", ".h", ".hpp"}
 
 
 def not_installed(sources: Path, tree: Path) -> List[str]:
@@ -150,6 +152,8 @@ def not_installed(sources: Path, tree: Path) -> List[str]:
         for path in sorted(path for path in package.rglob("*") if path.is_file()):
             inside = path.relative_to(package)
             places = [share / inside]
+            if path.suffix in _COMPILED:
+                continue
             if len(inside.parts) == 1:
                 if path.suffix not in (".xml", ".yaml", ".launch"):
                     continue
@@ -157,7 +161,7 @@ def not_installed(sources: Path, tree: Path) -> List[str]:
                 continue
             elif inside.parts[0] == "src":
                 places = [tree / "lib/python3/dist-packages" / inside.relative_to("src")]
-            elif inside.parts[0] in ("scripts", "bin"):
+            elif inside.parts[0] in ("scripts", "nodes", "bin"):
                 places = [tree / "lib" / package.name / path.name, tree / "bin" / path.name]
             if not any(place.exists() for place in places):
                 missing.append(str(path.relative_to(sources / "src")))

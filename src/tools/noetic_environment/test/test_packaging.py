@@ -73,10 +73,11 @@ def test_the_same_commit_gives_the_same_bytes():
 def test_a_file_without_install_rule_is_found(tmp_path):
     sources, installed = tmp_path / "sources", tmp_path / "tree"
     package = sources / "src/tools/p"
-    for name in ("package.xml", "plugins.xml", "launch/a.launch", "worlds/w.world", "scripts/node", "src/p/m.py", "test/test_p.py", "README.md"):
+    for name in ("package.xml", "plugins.xml", "launch/a.launch", "worlds/w.world", "scripts/node", "nodes/turtle",
+                 "src/p/m.py", "src/core.cpp", "panel/gui.h", "test/test_p.py", "README.md"):
         (package / name).parent.mkdir(parents=True, exist_ok=True)
         (package / name).write_text("")
-    for name in ("share/p/package.xml", "share/p/plugins.xml", "share/p/launch/a.launch", "lib/p/node"):
+    for name in ("share/p/package.xml", "share/p/plugins.xml", "share/p/launch/a.launch", "lib/p/node", "lib/p/turtle"):
         (installed / name).parent.mkdir(parents=True, exist_ok=True)
         (installed / name).write_text("")
     assert tree.not_installed(sources, installed) == ["tools/p/src/p/m.py", "tools/p/worlds/w.world"]
