@@ -1,0 +1,1 @@
+"""Map, paths and footprint of a robot, for rqt."""

@@ -1,0 +1,1 @@
+"""The orientation of a pose as a box in space, for rqt."""
