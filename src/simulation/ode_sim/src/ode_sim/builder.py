@@ -6,8 +6,9 @@ from dataclasses import replace
 from typing import Any, List, Optional, Tuple
 
 from ode_sim import collision_meshes
+from ode_sim.core_numbers import flat, unlimited
 from ode_sim.description import model as d
-from ode_sim.handles import CollisionHandle, JointHandle, LinkHandle, ModelHandle, flat, unlimited
+from ode_sim.handles import CollisionHandle, JointHandle, LinkHandle, ModelHandle
 from ode_sim.inertia import usable_inertia, usable_mass
 from ode_sim.math3 import compose, cross, dot, norm, unit
 from ode_sim.physics import BOUNDS

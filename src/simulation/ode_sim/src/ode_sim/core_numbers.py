@@ -1,0 +1,48 @@
+"""Numbers on their way into the core and out of it."""
+from __future__ import annotations
+
+import math
+from typing import Tuple
+
+from ode_sim.description.model import FARTHEST, Pose
+from ode_sim.math3 import quat_normalize
+
+
+def finite(values, what: str) -> None:
+    """Refuse NaN and infinity where they would poison the physics.
+
+    :raises ValueError: one line that names ``what``.
+    """
+    if not all(math.isfinite(v) for v in values):
+        raise ValueError(f"{what} must be finite numbers, not {tuple(values)}")
+
+
+def flat(pose: Pose, what: str = "pose") -> Tuple[float, ...]:
+    """Seven floats for the core.
+
+    :raises ValueError: not finite, or further than :data:`FARTHEST` from the origin of its frame.
+    """
+    values = (*pose.p, *pose.q)
+    finite(values, what)
+    far = max(map(abs, values[:3]))
+    if far > FARTHEST:
+        raise ValueError(f"{what} lies {far:g} m away; stay within {FARTHEST:g} m")
+    return values
+
+
+def unit_pose(pose: Pose) -> Pose:
+    """With a quaternion of unit length; one that has it already is left as it is, to the last bit."""
+    if abs(sum(v * v for v in pose.q) - 1.0) < 1e-9:
+        return pose
+    largest = max(map(abs, pose.q)) or 1.0  # squares of 1e200 overflow
+    return Pose(pose.p, quat_normalize([v / largest for v in pose.q]))
+
+
+def pose_of(values) -> Pose:
+    """A :class:`Pose` of the core's seven floats."""
+    return Pose(tuple(values[:3]), tuple(values[3:]))
+
+
+def unlimited(limit: float) -> float:
+    """Limits of 1e8 and beyond (1e9 and 1e16 are common) mean none."""
+    return math.copysign(math.inf, limit) if abs(limit) >= 1e8 else float(limit)
