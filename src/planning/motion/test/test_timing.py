@@ -155,3 +155,38 @@ def test_trajectory_tools(model):
     assert any("velocity" in line for line in fast.joint_limits_exceeded())
     with pytest.raises(motion.InvalidInputError, match="shape"):
         motion.Trajectory(model, "arm", model.state(), [[0, 1]])
+
+
+@pytest.mark.parametrize("method", motion.timing_methods())
+@pytest.mark.parametrize("jerk", [10.0, 60.0])
+def test_jerks_are_limited(method, jerk):
+    limits = {name: {**entry, "has_jerk_limits": True, "max_jerk": jerk} for name, entry in LIMITS.items()}
+    model = motion.load_model(*robots.arm("ur5"), joint_limits=limits)
+    timed = motion.time_parameterize(model, path(model), method)
+    smooth = motion.limit_jerk(timed)
+    step = np.diff(smooth.times)[:, None]
+    assert (np.abs(np.diff(smooth.accelerations, axis=0) / step) <= jerk * 1.001).all()
+    v_max = np.array([LIMITS[n]["max_velocity"] for n in smooth.variables])
+    assert (np.abs(smooth.velocities) <= v_max * 1.1).all()
+    # velocities and accelerations are those of the positions
+    middle = np.diff(smooth.positions, axis=0) / step
+    np.testing.assert_allclose(middle, (smooth.velocities[1:] + smooth.velocities[:-1]) / 2, atol=step[0, 0] ** 2 * jerk / 6)
+    for rows in (smooth.velocities, smooth.accelerations):
+        np.testing.assert_allclose(rows[[0, -1]], 0, atol=1e-6)
+    np.testing.assert_allclose(smooth.positions[[0, -1]], timed.positions[[0, -1]], atol=1e-9)
+    assert timed.duration < smooth.duration < timed.duration + 2 * 20 / jerk + 0.1
+    # it stays on the way: each point is near the straight pieces of the old one
+    dense = np.concatenate([np.linspace(a, b, 50) for a, b in zip(timed.positions, timed.positions[1:])])
+    assert max(np.abs(dense - point).max(axis=1).min() for point in smooth.positions) < 4.0 * (8 / jerk) ** 2 / 24 + 0.02
+
+
+def test_the_adapter_limits_jerks_and_times_what_is_untimed():
+    model = motion.load_model(*robots.arm("ur5"), joint_limits=LIMITS)
+    scene = motion.PlanningScene(model)
+    request = motion.MotionRequest("arm", goals=[motion.joint_goal(model, "arm", [0.5, -0.5, 0.5, 0.1, 0.2, 0.3])], seed=1)
+    for adapters in (["AddRuckigTrajectorySmoothing", "AddTimeOptimalParameterization"], ["AddRuckigTrajectorySmoothing"]):
+        pipeline = motion.Pipeline(["default_planner_request_adapters/" + name for name in adapters])
+        assert pipeline.warnings == []
+        trajectory = pipeline.generate(scene, request).trajectory
+        jerks = np.diff(trajectory.accelerations, axis=0) / np.diff(trajectory.times)[:, None]
+        assert 20.0 < np.abs(jerks).max() <= 100.1

@@ -13,7 +13,7 @@ from motion.pilz import CartesianLimits, SequenceResult, pilz_plan, pilz_sequenc
 from motion.pipeline import Pipeline
 from motion.planning import CODES, MotionRequest, PlanResult, joint_goal, named_goal, plan, planner_problem, pose_goal
 from motion.pose import Pose
-from motion.timing import limit_cartesian_speed, time_parameterize, timing_methods
+from motion.timing import limit_cartesian_speed, limit_jerk, time_parameterize, timing_methods
 from motion.trajectory import Trajectory
 
 # What is written in Python reads as methods too.

@@ -9,7 +9,7 @@ import numpy as np
 from motion import _core
 from motion.cartesian import explain, path_valid
 from motion.planning import MotionRequest, PlanResult, plan
-from motion.timing import limit_cartesian_speed, time_parameterize
+from motion.timing import limit_cartesian_speed, limit_jerk, time_parameterize
 from motion.trajectory import Trajectory
 
 Planner = Callable[[_core.PlanningScene, MotionRequest, Optional[_core.CancelToken]], PlanResult]
@@ -125,6 +125,17 @@ def _timing(method: str):
     return adapter
 
 
+def _jerk(pipeline: Pipeline, inside: Planner, scene, request, cancel) -> PlanResult:
+    result = inside(scene, request, cancel)
+    if not result or result.trajectory is None:
+        return result
+    if result.trajectory.times is None:
+        result = _timing("time_optimal")(pipeline, lambda *_: result, scene, request, cancel)
+    if not result or result.added_prefix:  # what was put before is no part of the motion
+        return result
+    return replace(result, trajectory=limit_jerk(result.trajectory))
+
+
 def _cartesian_speed(pipeline: Pipeline, inside: Planner, scene, request, cancel) -> PlanResult:
     result = inside(scene, request, cancel)
     if result and result.trajectory is not None and request.cartesian_speed > 0:
@@ -197,6 +208,7 @@ _ADAPTERS = {
     "AddTimeParameterization": _timing("iterative_parabolic"),
     "AddIterativeSplineParameterization": _timing("iterative_spline"),
     "AddTimeOptimalParameterization": _timing("time_optimal"),
+    "AddRuckigTrajectorySmoothing": _jerk,
     "FixWorkspaceBounds": _workspace,
     "FixStartStateBounds": _start_bounds,
     "FixStartStateCollision": _start_collision,

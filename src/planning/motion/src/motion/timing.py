@@ -9,6 +9,7 @@ from motion import _core
 from motion.trajectory import Trajectory
 
 _METHODS = ("iterative_parabolic", "time_optimal", "iterative_spline")
+_JERK = 100.0  # rad/s^3 where a joint has no limit, as upstream
 _UNSET = 1.0  # rad/s, rad/s^2 (m for sliding joints) where the robot says nothing, as upstream
 
 
@@ -71,3 +72,57 @@ def limit_cartesian_speed(trajectory: Trajectory, link: str, speed: float) -> Tr
         times=trajectory.times[0] + np.concatenate([[0.0], np.cumsum(stretched)]),
         velocities=None if trajectory.velocities is None else trajectory.velocities / at_points,
         accelerations=None if trajectory.accelerations is None else trajectory.accelerations / at_points ** 2)
+
+
+def limit_jerk(trajectory: Trajectory) -> Trajectory:
+    """The timed trajectory with jerks inside the joints' limits (``max_jerk``; 100 rad/s^3 or m/s^3 where there is none).
+
+    Each joint's motion is averaged over the last T seconds. That keeps its limits of position, velocity and acceleration, makes
+    jerks at most the span of its accelerations divided by T, and takes T seconds longer; T is as short as the limits allow.
+    Corners are rounded by about the acceleration times T^2 / 24.
+    """
+    if trajectory.times is None or trajectory.velocities is None or len(trajectory) < 2 or trajectory.duration <= 0:
+        return trajectory
+    smooth = trajectory.replaced().unwind()
+    keep = np.concatenate([[True], np.diff(smooth.times) > 1e-9])
+    times, points, speeds = smooth.times[keep] - smooth.times[0], smooth.positions[keep], smooth.velocities[keep]
+    limits = [smooth.model.variable_limits(name) for name in smooth.variables]
+    jerks = np.array([limit.max_jerk if limit.has_jerk and limit.max_jerk > 0 else _JERK for limit in limits])
+    ends = _accelerations(times, points, speeds)
+    span = np.maximum(ends.max(axis=0), 0.0) - np.minimum(ends.min(axis=0), 0.0)
+    window = float((span / jerks).max())
+    if window < 1e-4:
+        return trajectory
+    count = max(2, int(np.ceil((times[-1] + window) / max(window / 2, 0.01))) + 1)
+    at = np.linspace(0.0, times[-1] + window, count)
+    whole, before = _motion(times, points, speeds, at), _motion(times, points, speeds, at - window)
+    positions = (whole[0] - before[0]) / window
+    positions[0], positions[-1] = points[0], points[-1]
+    return smooth.replaced(times=at + smooth.times[0], positions=positions, velocities=(whole[1] - before[1]) / window,
+                           accelerations=(whole[2] - before[2]) / window)
+
+
+def _accelerations(times: np.ndarray, points: np.ndarray, speeds: np.ndarray) -> np.ndarray:
+    """(2 (k - 1), n) accelerations at both ends of the segments of cubic splines."""
+    step, way = np.diff(times)[:, None], np.diff(points, axis=0)
+    return np.concatenate([(6 * way / step - 4 * speeds[:-1] - 2 * speeds[1:]) / step,
+                           (-6 * way / step + 2 * speeds[:-1] + 4 * speeds[1:]) / step])
+
+
+def _motion(times: np.ndarray, points: np.ndarray, speeds: np.ndarray, at: np.ndarray) -> Tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Integral of the positions since the first point, positions and velocities (m, n) of cubic splines at times ``at``; the
+    joints stand still before and after."""
+    step, way = np.diff(times)[:, None], np.diff(points, axis=0)
+    bend = (3 * way / step - 2 * speeds[:-1] - speeds[1:]) / step
+    twist = (-2 * way / step + speeds[:-1] + speeds[1:]) / step ** 2
+    areas = points[:-1] * step + speeds[:-1] * step ** 2 / 2 + bend * step ** 3 / 3 + twist * step ** 4 / 4
+    area = np.concatenate([np.zeros((1, points.shape[1])), np.cumsum(areas, axis=0)])
+    part = np.clip(np.searchsorted(times, at, side="right") - 1, 0, len(times) - 2)
+    inside = np.clip(at, 0.0, times[-1])
+    dt = (inside - times[part])[:, None]
+    q, v, b, c = points[part], speeds[part], bend[part], twist[part]
+    outside = (at - inside)[:, None]  # below 0 before the start, above 0 after the end
+    place = q + v * dt + b * dt ** 2 + c * dt ** 3
+    moving = (outside == 0)
+    return (area[part] + q * dt + v * dt ** 2 / 2 + b * dt ** 3 / 3 + c * dt ** 4 / 4 + place * outside, place,
+            np.where(moving, v + 2 * b * dt + 3 * c * dt ** 2, 0.0))
