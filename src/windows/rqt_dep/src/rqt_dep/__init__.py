@@ -1,0 +1,1 @@
+"""Packages and their dependencies as a graph."""

@@ -1,0 +1,1 @@
+"""The frames of tf as a tree."""
