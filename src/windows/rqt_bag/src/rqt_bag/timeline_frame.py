@@ -8,7 +8,7 @@ from typing import List, Optional, Tuple
 import genpy
 import numpy as np
 from python_qt_binding.QtCore import QPointF, QRectF, QSize, Qt, Signal
-from python_qt_binding.QtGui import QColor, QFont, QFontMetrics, QPainter, QPolygonF
+from python_qt_binding.QtGui import QColor, QFont, QFontMetrics, QPainter, QPolygonF, QTextOption
 from python_qt_binding.QtWidgets import QSizePolicy, QWidget
 
 from rqt_bag.loading import load_plugins, views_of
@@ -16,6 +16,7 @@ from rqt_bag.loading import load_plugins, views_of
 _MARGIN = 4
 _TIME_HEIGHT = 28  # of the strip above the rows
 _ROW_HEIGHT = 16
+_COMBINE = 1.5  # px: messages that are closer are one bar
 _MOST_NAME_WIDTH = 0.35  # of the window
 _CLOSEST, _FARTHEST = 1e-7, 1.2  # s per pixel at least; spans of all messages at most
 _ZOOM = 0.8  # per notch of the wheel: 20 % nearer
@@ -292,21 +293,22 @@ class TimelineFrame(QWidget):
         painter.setFont(font)
         width = self._history_left - 3 * _MARGIN
         name = QFontMetrics(font).elidedText(topic, Qt.TextElideMode.ElideMiddle, width)
-        painter.drawText(QRectF(_MARGIN, y, width, height), int(Qt.AlignmentFlag.AlignVCenter), name)
+        painter.drawText(QRectF(_MARGIN, y, width, height), name, QTextOption(Qt.AlignmentFlag.AlignVCenter))
         renderer = self._renderer(topic)
-        combine = renderer.msg_combine_px if renderer else 1.5
-        for begin, end in self._segments(topic, combine):
+        for begin, end in self._segments(topic, _COMBINE):
             x, right = self.map_stamp_to_x(begin), self.map_stamp_to_x(end)
-            drawn = renderer is not None and self._draw_by(renderer, painter, topic, begin, end, x, y, right - x, height)
-            if not drawn:
-                renderer = self._renderer(topic)  # one that failed is gone
-                painter.fillRect(QRectF(x, y + 2, max(1.0, right - x), height - 4), type_color(datatype))
+            painter.fillRect(QRectF(x, y + 2, max(1.0, right - x), height - 4), type_color(datatype))
+        for begin, end in self._segments(topic, renderer.msg_combine_px) if renderer else ():
+            x, right = self.map_stamp_to_x(begin), self.map_stamp_to_x(end)
+            if not self._draw_by(renderer, painter, topic, begin, end, x, y, right - x, height):
+                break
 
     def _draw_by(self, renderer, painter: QPainter, topic: str, begin: float, end: float, x: float, y: int, width: float,
                  height: int) -> bool:
         painter.save()
         try:
-            return renderer.draw_timeline_segment(painter, topic, begin, end, int(x), y, max(1, int(width)), height)
+            renderer.draw_timeline_segment(painter, topic, begin, end, int(x), y, max(1, int(width)), height)
+            return True
         except Exception as error:  # renderers of others: one that fails must not fail forty times a second
             self._rendered_topics.discard(topic)
             self._timeline.problem.emit(f"thumbnails of {topic} are switched off: {type(error).__name__}: {error}")

@@ -5,8 +5,8 @@ from typing import Optional
 
 import cv2
 import numpy as np
-from python_qt_binding.QtCore import QSize, Qt, Signal
-from python_qt_binding.QtGui import QImage, QPainter
+from python_qt_binding.QtCore import QRectF, QSize, Qt, Signal
+from python_qt_binding.QtGui import QImage, QPainter, QTextOption
 from python_qt_binding.QtWidgets import QSizePolicy, QWidget
 
 from rqt_image_view.pictures import invert_grid, rotated, unrotated_point
@@ -75,7 +75,7 @@ class Canvas(QWidget):
     def paintEvent(self, _event) -> None:
         painter = QPainter(self)
         if self.picture is None:
-            painter.drawText(self.rect(), int(Qt.AlignmentFlag.AlignCenter) | int(Qt.TextFlag.TextWordWrap), self.message)
+            painter.drawText(QRectF(self.rect()), self.message, QTextOption(Qt.AlignmentFlag.AlignCenter))
         else:
             left, top, width, height = self._target()
             if self._scaled is None or (self._scaled.width(), self._scaled.height()) != (width, height):

@@ -5,7 +5,7 @@ from itertools import zip_longest
 from typing import List
 
 from python_qt_binding.QtCore import QRectF, Qt
-from python_qt_binding.QtGui import QImage, QPainter
+from python_qt_binding.QtGui import QImage, QPainter, QTextOption
 
 SIZE = 1280, 1024  #: pixels of a picture
 
@@ -31,7 +31,7 @@ def _draw(painter: QPainter, cell: QRectF, panel) -> None:
     background, foreground = panel.view._background, panel.view._foreground
     painter.fillRect(cell, background)
     painter.setPen(foreground)
-    painter.drawText(QRectF(cell.x(), cell.y(), cell.width(), title), int(Qt.AlignmentFlag.AlignCenter), panel.plot.title)
+    painter.drawText(QRectF(cell.x(), cell.y(), cell.width(), title), panel.plot.title, QTextOption(Qt.AlignmentFlag.AlignCenter))
     panel.view.render(painter, QRectF(cell.x(), cell.y() + title, cell.width(), cell.height() - title), panel.view.rect(),
                       Qt.AspectRatioMode.IgnoreAspectRatio)
 

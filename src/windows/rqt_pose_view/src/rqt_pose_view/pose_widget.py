@@ -4,8 +4,8 @@ from __future__ import annotations
 from typing import Optional
 
 import numpy as np
-from python_qt_binding.QtCore import QPointF, QSize, Qt
-from python_qt_binding.QtGui import QColor, QPainter, QPen, QPolygonF
+from python_qt_binding.QtCore import QPointF, QRectF, QSize, Qt
+from python_qt_binding.QtGui import QColor, QPainter, QPen, QPolygonF, QTextOption
 from python_qt_binding.QtWidgets import QMenu, QWidget
 
 from rqt_pose_view.poses import FACES, Camera, face_corners
@@ -54,7 +54,7 @@ class PoseWidget(QWidget):
             painter.drawLine(*self._points(((0, 0, 0), 2.5 * np.array(axis))))
         self._draw_box(painter)
         painter.setPen(QColor("white"))
-        painter.drawText(self.rect().adjusted(8, 8, -8, -8), int(Qt.AlignmentFlag.AlignBottom), self._text)
+        painter.drawText(QRectF(self.rect().adjusted(8, 8, -8, -8)), self._text, QTextOption(Qt.AlignmentFlag.AlignBottom))
         painter.end()
 
     def _draw_box(self, painter: QPainter) -> None:
