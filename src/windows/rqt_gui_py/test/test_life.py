@@ -223,3 +223,9 @@ def test_what_is_no_number_is_refused_as_before(workspace):
             slider.setValue(wrong)
     with pytest.raises(TypeError, match="too many arguments"):
         slider.setValue(1, 2.0)
+
+
+def test_window_of_a_plugin_alone_has_the_size_that_its_widget_was_given(workspace):
+    workspace.make("rqt_it", code().replace("context.add_widget", "self.edit.resize(500, 320); context.add_widget"))
+    with open_plugin("rqt_it", providers=workspace.providers()) as gui:
+        assert gui.window.width() >= 500 and gui.window.height() >= 320

@@ -66,13 +66,16 @@ class Gui(QObject):
                 self.perspectives.set_perspective(options.perspective)
         else:
             self.perspectives.set_perspective(alone, hide_and_without_plugin_changes=True)
+            new = not window.has_stored_geometry()
             if not self.plugins.load_plugin(alone, 0, options.plugin_args):
                 raise UsageError("")  # its reason is on the terminal already
             handler = self.plugins.running()[0]
             if handler.docks() and handler.docks()[0].windowTitle():
                 window.setWindowTitle(handler.docks()[0].windowTitle() + " - rqt")
-            if not window.has_stored_geometry():
+            if new:
                 window.adjustSize()
+                screen = QApplication.primaryScreen().availableSize() * 0.9
+                window.resize(window.size().expandedTo(handler.wanted_size).boundedTo(screen))
         window.show()
 
     def _fill_menus(self):

@@ -1,5 +1,5 @@
 """One running plugin: its instance, its docks and toolbars, its settings."""
-from python_qt_binding.QtCore import QEvent, QObject, Qt, Signal, qCritical, qWarning
+from python_qt_binding.QtCore import QEvent, QObject, QSize, Qt, Signal, qCritical, qWarning
 from python_qt_binding.QtWidgets import QDockWidget, QToolBar
 
 from qt_gui.dock_widget import DockWidget, DockWidgetContainer
@@ -27,6 +27,7 @@ class PluginHandler(QObject):
         self._argv = list(argv or [])
         self._plugin = None
         self._docks = {}  # widget -> dock
+        self.wanted_size = QSize()  # that its widgets were given before they were docked
         self._toolbars = []
         self._check_close_later.connect(self._check_close, Qt.ConnectionType.QueuedConnection)
 
@@ -107,6 +108,8 @@ class PluginHandler(QObject):
         if widget in self._docks:
             qWarning(f"plugin '{self._instance_id}' adds its widget '{widget.objectName()}' twice")
             return
+        if widget.testAttribute(Qt.WidgetAttribute.WA_Resized):
+            self.wanted_size = self.wanted_size.expandedTo(widget.size())
         dock = DockWidget(self._window.containers, hide_title=self._options.hide_title)
         self._prepare(dock)
         title_bar = dock.titleBarWidget()

@@ -19,8 +19,10 @@ def describe(error: BaseException) -> str:
     """One line: class and text of ``error`` and the line of code that raised it; with --verbose its traceback below."""
     text = " ".join(str(error).split())[:300]
     line = f"{type(error).__name__}: {text}" if text else type(error).__name__
-    frames = traceback.extract_tb(error.__traceback__)
-    if frames:
+    frames = [frame for frame in traceback.extract_tb(error.__traceback__) if not frame.filename.startswith("<frozen ")]
+    if isinstance(error, SyntaxError) and error.filename:
+        line = f"{type(error).__name__}: {error.msg} ({error.filename}, line {error.lineno})"
+    elif frames:
         line += f" ({frames[-1].filename}, line {frames[-1].lineno}, in {frames[-1].name})"
     if _options["verbose"]:
         line += "\n" + "".join(traceback.format_exception(type(error), error, error.__traceback__)).rstrip()
@@ -46,6 +48,13 @@ def _on_exception(kind, error, trace) -> None:
         QtCore.qCritical(f"a plugin raised {describe(error.with_traceback(trace))}{hint}{more}")
 
 
+def _on_unraisable(unraisable) -> None:
+    """For destructors of plugins. Qt's objects go before Python's at the end: that is no news."""
+    error = unraisable.exc_value
+    if not (isinstance(error, RuntimeError) and "wrapped C/C++ object" in str(error)) and error is not None:
+        QtCore.qWarning(f"a plugin raised while it was deleted: {describe(error)}")
+
+
 def _on_message(kind, _context, text) -> None:
     level = getattr(kind, "value", kind)  # 0 debug, 1 warning, 2 critical, 3 fatal, 4 info in every binding
     if level in (0, 4) and not _options["verbose"] or text.startswith(_NOISE):
@@ -62,4 +71,5 @@ def install(verbose: bool = False) -> None:
     """From here on exceptions in slots and Qt's messages are lines on stderr, coloured on a terminal."""
     _options["verbose"] = verbose
     sys.excepthook = _on_exception
+    sys.unraisablehook = _on_unraisable
     QtCore.qInstallMessageHandler(_on_message)
