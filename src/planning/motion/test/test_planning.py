@@ -61,6 +61,7 @@ def test_no_corner_is_cut_between_way_points(scene, model):
         assert result, result.message
         fine = np.concatenate([np.linspace(a, b, 80)[:-1] for a, b in zip(result.path, result.path[1:])])
         assert not np.any(scene.check_states("arm", fine)), seed
+        assert len(result.path) < 40, "closer looks must not leave more way points to be timed"
 
 
 def test_pose_goal_from_several_families(scene, model):

@@ -26,7 +26,7 @@ class Marker(unittest.TestCase):
         cls.arm = MoveGroupCommander("manipulator", wait_for_servers=PATIENCE)
         cls.scene = PlanningSceneInterface()
         cls.publisher = rospy.Publisher("goal_marker/feedback", InteractiveMarkerFeedback, queue_size=10)
-        cls.marker = wait_for("goal_marker/update_full", InteractiveMarkerInit).markers[0]
+        cls.marker = wait_for("goal_marker/update_full", InteractiveMarkerInit, lambda message: message.markers).markers[0]
         while not cls.publisher.get_num_connections():
             rospy.sleep(0.01)
         rospy.sleep(1.5)  # a marker's server takes no feedback from a client in the marker's first second

@@ -190,12 +190,15 @@ def plan(scene: _core.PlanningScene, request: MotionRequest, cancel: Optional[_c
     :param cancel: ends the search from another thread.
     """
     end, result = time.monotonic() + request.planning_time, _plan_once(scene, request, cancel)
+    spacing = np.abs(np.diff(result.path, axis=0)).sum(axis=1).max(initial=0.0)
     for _ in range(_FINER):
         if not result or _first_hit(scene, result) is None or (cancel is not None and cancel.cancelled):
             return result
         left = max(end - time.monotonic(), min(1.0, request.planning_time))
         request = replace(request, longest_valid_segment_fraction=request.longest_valid_segment_fraction / 4, planning_time=left)
         earlier, result = result, _plan_once(scene, request, cancel)
+        if result:
+            result.trajectory = result.trajectory.replaced(positions=_thinned(result.path, spacing))
         result.planning_time += earlier.planning_time
         result.states += earlier.states
     hit = _first_hit(scene, result) if result else None
@@ -218,6 +221,17 @@ def _plan_once(scene: _core.PlanningScene, request: MotionRequest, cancel: Optio
     trajectory = Trajectory(scene.model, request.group, start, path) if found["status"] == "solved" else None
     found["warnings"] = warnings + found["warnings"]
     return PlanResult(trajectory=trajectory, start=start, **found)
+
+
+def _thinned(path: np.ndarray, spacing: float) -> np.ndarray:
+    """The path without way points that lie on a straight line between others, at most ``spacing`` (sum over the joints) apart."""
+    kept = [0]
+    for i in range(1, len(path) - 1):
+        before, after = path[i] - path[kept[-1]], path[i + 1] - path[kept[-1]]
+        along = float(before @ after) / max(float(after @ after), 1e-18)
+        if np.abs(before - along * after).max() > 1e-6 or np.abs(after).sum() > spacing * 1.001:
+            kept.append(i)
+    return path[kept + [len(path) - 1]] if len(path) > 1 else path
 
 
 def _first_hit(scene: _core.PlanningScene, result: PlanResult) -> Optional[int]:
