@@ -302,6 +302,10 @@ void World::follow_servos() {
         if (c.root) all.push_back(&c);
   std::vector<BodyState> start;
   for (Cluster* c : all) start.push_back(state_of(c->root->body));
+  for (auto& m : models_)
+    if (touched.count(m.get()))
+      for (auto& l : m->links)
+        if (l->carrier) start.push_back(state_of(l->body));
   std::vector<std::pair<dBodyID, dMass>> held;
   for (Cluster* c : all) {
     const dBodyID b = c->root->body;
@@ -354,7 +358,7 @@ void World::follow_servos() {
       }
   for (auto& [body, mass] : held) dBodySetMass(body, &mass);
   recall_bodies(start);
-  for (Cluster* c : all) dBodyDisable(c->root->body);
+  for (auto& s : start) dBodyDisable(s.body);
   dWorldSetGravity(world_, gravity.x, gravity.y, gravity.z);
   dWorldSetCFM(world_, std::max(cfm, 1e-10));
   if (!said.empty()) return;
