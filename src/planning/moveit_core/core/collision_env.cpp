@@ -1,0 +1,194 @@
+// The checks of a scene under the name of MoveIt's detector.
+#include <moveit/collision_detection/collision_env.h>
+
+#include <moveit/planning_scene/planning_scene.h>
+
+#include "motion/planning_scene.hpp"
+
+namespace collision_detection
+{
+using moveit::core::RobotState;
+using planning_scene::PlanningScene;
+
+void CollisionEnv::checkSelfCollision(const CollisionRequest& req, CollisionResult& res, const RobotState& state) const
+{
+  scene_.check(PlanningScene::SELF, padded_, req, res, state, AllowedCollisionMatrix());
+}
+
+void CollisionEnv::checkSelfCollision(const CollisionRequest& req, CollisionResult& res, const RobotState& state,
+                                      const AllowedCollisionMatrix& acm) const
+{
+  scene_.check(PlanningScene::SELF, padded_, req, res, state, acm);
+}
+
+void CollisionEnv::checkRobotCollision(const CollisionRequest& req, CollisionResult& res, const RobotState& state) const
+{
+  scene_.check(PlanningScene::WORLD, padded_, req, res, state, AllowedCollisionMatrix());
+}
+
+void CollisionEnv::checkRobotCollision(const CollisionRequest& req, CollisionResult& res, const RobotState& state,
+                                       const AllowedCollisionMatrix& acm) const
+{
+  scene_.check(PlanningScene::WORLD, padded_, req, res, state, acm);
+}
+
+void CollisionEnv::checkCollision(const CollisionRequest& req, CollisionResult& res, const RobotState& state) const
+{
+  checkCollision(req, res, state, AllowedCollisionMatrix());
+}
+
+void CollisionEnv::checkCollision(const CollisionRequest& req, CollisionResult& res, const RobotState& state,
+                                  const AllowedCollisionMatrix& acm) const
+{
+  scene_.check(PlanningScene::SELF | PlanningScene::WORLD, padded_, req, res, state, acm);
+}
+
+double CollisionEnv::distanceSelf(const RobotState& state) const
+{
+  return distanceSelf(state, AllowedCollisionMatrix());
+}
+
+double CollisionEnv::distanceSelf(const RobotState& state, const AllowedCollisionMatrix& acm) const
+{
+  motion::PlanningScene alone(scene_.core());
+  alone.clearObjects();
+  alone.setOctomap(nullptr, motion::Transform::Identity());
+  alone.setAcm(acm.core());
+  return alone.distance(state.core(), "", std::numeric_limits<double>::infinity()).distance;
+}
+
+double CollisionEnv::distanceRobot(const RobotState& state, bool /*verbose*/) const
+{
+  return distanceRobot(state, AllowedCollisionMatrix());
+}
+
+double CollisionEnv::distanceRobot(const RobotState& state, const AllowedCollisionMatrix& acm, bool /*verbose*/) const
+{
+  // All parts of the robot may touch each other: what is left is the world.
+  std::vector<std::string> bodies = scene_.robot_model_->getLinkModelNamesWithCollisionGeometry();
+  for (const auto& body : state.core().attached())
+    bodies.push_back(body.first);
+  motion::AllowedCollisionMatrix world_only = acm.core();
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    for (std::size_t j = i + 1; j < bodies.size(); ++j)
+      world_only.setEntry(bodies[i], bodies[j], motion::AllowedCollisionMatrix::Allowed);
+  motion::PlanningScene scene(scene_.core());
+  scene.setAcm(world_only);
+  if (!padded_)
+  {
+    scene.setPadding({});
+    scene.setScale({});
+  }
+  return scene.distance(state.core(), "", std::numeric_limits<double>::infinity()).distance;
+}
+
+const WorldPtr& CollisionEnv::getWorld()
+{
+  return scene_.world_;
+}
+
+const moveit::core::RobotModelConstPtr& CollisionEnv::getRobotModel() const
+{
+  return scene_.robot_model_;
+}
+
+// ---------------------------------------------------------------- padding and scale
+
+void CollisionEnv::setPadding(double padding)
+{
+  std::map<std::string, double> all;
+  for (const std::string& name : scene_.robot_model_->getLinkModelNamesWithCollisionGeometry())
+    all[name] = padding;
+  scene_.core_->setPadding(all);
+}
+
+void CollisionEnv::setScale(double scale)
+{
+  std::map<std::string, double> all;
+  for (const std::string& name : scene_.robot_model_->getLinkModelNamesWithCollisionGeometry())
+    all[name] = scale;
+  scene_.core_->setScale(all);
+}
+
+void CollisionEnv::setLinkPadding(const std::string& link_name, double padding)
+{
+  setLinkPadding(std::map<std::string, double>{ { link_name, padding } });
+}
+
+void CollisionEnv::setLinkPadding(const std::map<std::string, double>& padding)
+{
+  std::map<std::string, double> all = scene_.core_->padding();
+  for (const auto& item : padding)
+    all[item.first] = item.second;
+  scene_.core_->setPadding(all);
+}
+
+void CollisionEnv::setLinkScale(const std::string& link_name, double scale)
+{
+  setLinkScale(std::map<std::string, double>{ { link_name, scale } });
+}
+
+void CollisionEnv::setLinkScale(const std::map<std::string, double>& scale)
+{
+  std::map<std::string, double> all = scene_.core_->scale();
+  for (const auto& item : scale)
+    all[item.first] = item.second;
+  scene_.core_->setScale(all);
+}
+
+double CollisionEnv::getLinkPadding(const std::string& link_name) const
+{
+  const auto found = getLinkPadding().find(link_name);
+  return found == getLinkPadding().end() ? 0.0 : found->second;
+}
+
+double CollisionEnv::getLinkScale(const std::string& link_name) const
+{
+  const auto found = getLinkScale().find(link_name);
+  return found == getLinkScale().end() ? 1.0 : found->second;
+}
+
+const std::map<std::string, double>& CollisionEnv::getLinkPadding() const
+{
+  return scene_.core_->padding();
+}
+
+const std::map<std::string, double>& CollisionEnv::getLinkScale() const
+{
+  return scene_.core_->scale();
+}
+
+void CollisionEnv::setPadding(const std::vector<moveit_msgs::LinkPadding>& padding)
+{
+  for (const auto& item : padding)
+    setLinkPadding(item.link_name, item.padding);
+}
+
+void CollisionEnv::setScale(const std::vector<moveit_msgs::LinkScale>& scale)
+{
+  for (const auto& item : scale)
+    setLinkScale(item.link_name, item.scale);
+}
+
+void CollisionEnv::getPadding(std::vector<moveit_msgs::LinkPadding>& padding) const
+{
+  padding.clear();
+  for (const auto& item : getLinkPadding())
+  {
+    padding.emplace_back();
+    padding.back().link_name = item.first;
+    padding.back().padding = item.second;
+  }
+}
+
+void CollisionEnv::getScale(std::vector<moveit_msgs::LinkScale>& scale) const
+{
+  scale.clear();
+  for (const auto& item : getLinkScale())
+  {
+    scale.emplace_back();
+    scale.back().link_name = item.first;
+    scale.back().scale = item.second;
+  }
+}
+}  // namespace collision_detection

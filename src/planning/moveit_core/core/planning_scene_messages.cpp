@@ -1,0 +1,523 @@
+// Scenes: objects and messages.
+#include <geometric_shapes/shapes.h>
+#include <moveit/planning_scene/planning_scene.h>
+#include <tf2_eigen/tf2_eigen.h>
+
+#include <moveit/robot_state/conversions.h>
+#include <moveit/utils/message_checks.h>
+
+#include "motion/planning_scene.hpp"
+#include "object_messages.hpp"
+
+namespace planning_scene
+{
+using collision_detection::World;
+using moveit_msgs::CollisionObject;
+using Components = moveit_msgs::PlanningSceneComponents;
+
+namespace
+{
+constexpr char LOGNAME[] = "planning_scene";
+
+moveit::core::ObjectParts partsOf(const World::Object& object)
+{
+  moveit::core::ObjectParts parts;
+  parts.pose = object.pose_;
+  parts.shapes = object.shapes_;
+  parts.shape_poses = object.shape_poses_;
+  parts.subframes = object.subframe_poses_;
+  return parts;
+}
+}  // namespace
+
+// ---------------------------------------------------------------- objects
+
+bool PlanningScene::shapesAndPosesFromCollisionObjectMessage(const CollisionObject& object,
+                                                             Eigen::Isometry3d& object_pose_in_header_frame,
+                                                             std::vector<shapes::ShapeConstPtr>& shapes,
+                                                             EigenSTL::vector_Isometry3d& shape_poses)
+{
+  moveit::core::ObjectParts parts;
+  if (!moveit::core::readObject(object, parts))
+    return false;
+  object_pose_in_header_frame = parts.pose;
+  shapes = parts.shapes;
+  shape_poses = parts.shape_poses;
+  return true;
+}
+
+bool PlanningScene::processCollisionObjectMsg(const CollisionObject& object)
+{
+  if (object.id == OCTOMAP_NS)
+  {
+    ROS_ERROR_NAMED(LOGNAME, "The ID '%s' cannot be used for collision objects (name reserved)", OCTOMAP_NS.c_str());
+    return false;
+  }
+  switch (object.operation)
+  {
+    case CollisionObject::ADD:
+    case CollisionObject::APPEND:
+      return addObject(object);
+    case CollisionObject::MOVE:
+      return moveObject(object);
+    case CollisionObject::REMOVE:
+      if (object.id.empty())
+      {
+        removeAllCollisionObjects();
+        return true;
+      }
+      removeObjectColor(object.id);
+      removeObjectType(object.id);
+      if (world_->removeObject(object.id))
+        return true;
+      ROS_WARN_NAMED(LOGNAME, "Tried to remove world object '%s', but it does not exist in this scene.", object.id.c_str());
+      return false;
+    default:
+      ROS_ERROR_NAMED(LOGNAME, "Unknown collision object operation: %d", object.operation);
+      return false;
+  }
+}
+
+bool PlanningScene::addObject(const CollisionObject& object)
+{
+  if (!knowsFrameTransform(object.header.frame_id))
+  {
+    ROS_ERROR_NAMED(LOGNAME, "Unknown frame: %s", object.header.frame_id.c_str());
+    return false;
+  }
+  moveit::core::ObjectParts parts;
+  if (object.id.empty() || (object.primitives.empty() && object.meshes.empty() && object.planes.empty()) ||
+      !moveit::core::readObject(object, parts) || parts.shapes.empty())
+  {
+    ROS_ERROR_NAMED(LOGNAME, "There are no shapes specified in the collision object message of '%s'", object.id.c_str());
+    return false;
+  }
+  if (object.operation == CollisionObject::ADD)
+    world_->removeObject(object.id);
+  world_->addToObject(object.id, getFrameTransform(object.header.frame_id) * parts.pose, parts.shapes, parts.shape_poses);
+  if (!parts.subframes.empty())
+    world_->setSubframesOfObject(object.id, parts.subframes);
+  if (!object.type.key.empty() || !object.type.db.empty())
+    setObjectType(object.id, object.type);
+  return true;
+}
+
+bool PlanningScene::moveObject(const CollisionObject& object)
+{
+  const World::ObjectConstPtr known = world_->getObject(object.id);
+  if (!known || !knowsFrameTransform(object.header.frame_id))
+  {
+    ROS_ERROR_NAMED(LOGNAME, "World object '%s' does not exist, or the frame '%s' does not. Cannot move.", object.id.c_str(),
+                    object.header.frame_id.c_str());
+    return false;
+  }
+  if (!object.primitives.empty() || !object.meshes.empty() || !object.planes.empty())
+    ROS_WARN_NAMED(LOGNAME, "Move operation for object '%s' ignores the geometry specified in the message.", object.id.c_str());
+  EigenSTL::vector_Isometry3d poses;
+  for (const auto* list : { &object.primitive_poses, &object.mesh_poses, &object.plane_poses })
+    for (const geometry_msgs::Pose& pose : *list)
+      poses.push_back(moveit::core::poseFromMessage(pose));
+  Eigen::Isometry3d pose = moveit::core::poseFromMessage(object.pose);
+  if (poses.size() == 1 && known->shapes_.size() == 1 && moveit::core::isEmpty(object.pose))
+    std::swap(pose, poses[0]);
+  if (!poses.empty() && !world_->moveShapesInObject(object.id, poses))
+  {
+    ROS_ERROR_NAMED(LOGNAME, "Number of supplied poses (%zu) for object '%s' does not match number of shapes (%zu). Not moving.",
+                    poses.size(), object.id.c_str(), known->shapes_.size());
+    return false;
+  }
+  return world_->setObjectPose(object.id, getFrameTransform(object.header.frame_id) * pose);
+}
+
+bool PlanningScene::processAttachedCollisionObjectMsg(const moveit_msgs::AttachedCollisionObject& object)
+{
+  const std::string& id = object.object.id;
+  if (object.object.operation == CollisionObject::REMOVE)
+  {
+    std::vector<const moveit::core::AttachedBody*> bodies;
+    if (!id.empty() && robot_state_->hasAttachedBody(id))
+      bodies.push_back(robot_state_->getAttachedBody(id));
+    else if (id.empty() && object.link_name.empty())
+      robot_state_->getAttachedBodies(bodies);
+    else if (id.empty() && robot_model_->hasLinkModel(object.link_name))
+      robot_state_->getAttachedBodies(bodies, robot_model_->getLinkModel(object.link_name));
+    if (bodies.empty() && !id.empty())
+    {
+      ROS_WARN_NAMED(LOGNAME, "Cannot remove attached body '%s': there is none", id.c_str());
+      return false;
+    }
+    // What was carried is put down where it is.
+    for (const moveit::core::AttachedBody* body : bodies)
+    {
+      const std::string name = body->getName();
+      if (world_->hasObject(name))
+        ROS_WARN_NAMED(LOGNAME, "The collision world already has an object with the same name as the body about to be detached: '%s'",
+                       name.c_str());
+      else
+      {
+        world_->addToObject(name, body->getGlobalPose(), body->getShapes(), body->getShapePoses());
+        world_->setSubframesOfObject(name, body->getSubframes());
+      }
+      robot_state_->clearAttachedBody(name);
+    }
+    return true;
+  }
+  moveit_msgs::AttachedCollisionObject whole = object;
+  if (!robot_model_->hasLinkModel(object.link_name))
+  {
+    ROS_ERROR_NAMED(LOGNAME, "Robot state is not compatible with robot model: there is no link '%s' to attach '%s' to.",
+                    object.link_name.c_str(), id.c_str());
+    return false;
+  }
+  const World::ObjectConstPtr from_world = world_->getObject(id);
+  if (whole.object.primitives.empty() && whole.object.meshes.empty() && whole.object.planes.empty())
+  {
+    if (!from_world)
+    {
+      ROS_ERROR_NAMED(LOGNAME, "Attempting to attach object '%s' to link '%s' but no geometry specified and such an object does "
+                               "not exist in the collision world",
+                      id.c_str(), object.link_name.c_str());
+      return false;
+    }
+    moveit::core::writeObject(partsOf(*from_world), whole.object);
+    whole.object.header.frame_id = getPlanningFrame();
+  }
+  whole.object.operation = CollisionObject::ADD;
+  if (whole.touch_links.empty())
+    whole.touch_links.push_back(object.link_name);
+  moveit_msgs::RobotState change;
+  change.is_diff = true;
+  change.attached_collision_objects.push_back(whole);
+  moveit::core::robotStateMsgToRobotState(*transforms_, change, *robot_state_);
+  if (!robot_state_->hasAttachedBody(id))
+    return false;
+  if (from_world)
+    world_->removeObject(id);
+  return true;
+}
+
+bool PlanningScene::processPlanningSceneWorldMsg(const moveit_msgs::PlanningSceneWorld& world)
+{
+  bool good = true;
+  for (const CollisionObject& object : world.collision_objects)
+    good = processCollisionObjectMsg(object) && good;
+  processOctomapMsg(world.octomap);
+  return good;
+}
+
+void PlanningScene::removeAllCollisionObjects()
+{
+  for (const std::string& id : world_->getObjectIds())
+  {
+    if (id == OCTOMAP_NS)
+      continue;
+    world_->removeObject(id);
+    removeObjectColor(id);
+    removeObjectType(id);
+  }
+}
+
+void PlanningScene::processOctomapMsg(const octomap_msgs::Octomap& map)
+{
+  octomap_msgs::OctomapWithPose placed;
+  placed.header = map.header;
+  placed.octomap = map;
+  placed.origin.orientation.w = 1.0;
+  processOctomapMsg(placed);
+}
+
+void PlanningScene::processOctomapMsg(const octomap_msgs::OctomapWithPose& map)
+{
+  if (map.octomap.data.empty())
+    return;
+  try
+  {
+    const auto shape = motion::OcTreeShape::fromMessage(std::string(map.octomap.data.begin(), map.octomap.data.end()),
+                                                        map.octomap.resolution, map.octomap.binary, map.octomap.id);
+    const std::string& frame = map.header.frame_id.empty() ? getPlanningFrame() : map.header.frame_id;
+    processOctomapPtr(shape->tree, getFrameTransform(frame) * moveit::core::poseFromMessage(map.origin));
+  }
+  catch (const motion::Error& error)
+  {
+    ROS_ERROR_NAMED(LOGNAME, "the octomap is left out: %s", error.what());
+  }
+}
+
+void PlanningScene::processOctomapPtr(const std::shared_ptr<const octomap::OcTree>& octree, const Eigen::Isometry3d& t)
+{
+  world_->removeObject(OCTOMAP_NS);
+  if (octree)
+    world_->addToObject(OCTOMAP_NS, t, std::make_shared<shapes::OcTree>(octree), Eigen::Isometry3d::Identity());
+}
+
+void PlanningScene::setAttachedBodyUpdateCallback(const moveit::core::AttachedBodyCallback& callback)
+{
+  robot_state_->setAttachedBodyUpdateCallback(callback);
+}
+
+void PlanningScene::setCollisionObjectUpdateCallback(const World::ObserverCallbackFn& callback)
+{
+  if (observed_)
+    world_->removeObserver(observer_);
+  observed_ = static_cast<bool>(callback);
+  if (observed_)
+    observer_ = world_->addObserver(callback);
+}
+
+const std_msgs::ColorRGBA& PlanningScene::getObjectColor(const std::string& id) const
+{
+  static const std_msgs::ColorRGBA none;
+  const auto found = colors_.find(id);
+  return found == colors_.end() ? none : found->second;
+}
+
+const object_recognition_msgs::ObjectType& PlanningScene::getObjectType(const std::string& id) const
+{
+  static const object_recognition_msgs::ObjectType none;
+  const auto found = types_.find(id);
+  return found == types_.end() ? none : found->second;
+}
+
+void PlanningScene::printKnownObjects(std::ostream& out) const
+{
+  out << "Collision World Objects:\n";
+  for (const std::string& id : world_->getObjectIds())
+    out << "\t- " << id << '\n';
+  out << "Attached Bodies:\n";
+  std::vector<const moveit::core::AttachedBody*> bodies;
+  robot_state_->getAttachedBodies(bodies);
+  for (const moveit::core::AttachedBody* body : bodies)
+    out << "\t- " << body->getName() << '\n';
+}
+
+// ---------------------------------------------------------------- into messages
+
+bool PlanningScene::getCollisionObjectMsg(CollisionObject& collision_obj, const std::string& ns) const
+{
+  const World::ObjectConstPtr object = world_->getObject(ns);
+  if (!object)
+    return false;
+  collision_obj = CollisionObject();
+  collision_obj.id = ns;
+  collision_obj.header.frame_id = getPlanningFrame();
+  collision_obj.operation = CollisionObject::ADD;
+  moveit::core::writeObject(partsOf(*object), collision_obj);
+  if (hasObjectType(ns))
+    collision_obj.type = getObjectType(ns);
+  return true;
+}
+
+void PlanningScene::getCollisionObjectMsgs(std::vector<CollisionObject>& collision_objs) const
+{
+  collision_objs.clear();
+  for (const std::string& id : world_->getObjectIds())
+    if (id != OCTOMAP_NS)
+    {
+      collision_objs.emplace_back();
+      getCollisionObjectMsg(collision_objs.back(), id);
+    }
+}
+
+bool PlanningScene::getAttachedCollisionObjectMsg(moveit_msgs::AttachedCollisionObject& attached_collision_obj,
+                                                  const std::string& ns) const
+{
+  std::vector<moveit_msgs::AttachedCollisionObject> all;
+  getAttachedCollisionObjectMsgs(all);
+  for (const auto& object : all)
+    if (object.object.id == ns)
+    {
+      attached_collision_obj = object;
+      return true;
+    }
+  return false;
+}
+
+void PlanningScene::getAttachedCollisionObjectMsgs(std::vector<moveit_msgs::AttachedCollisionObject>& attached_collision_objs) const
+{
+  std::vector<const moveit::core::AttachedBody*> bodies;
+  robot_state_->getAttachedBodies(bodies);
+  moveit::core::attachedBodiesToAttachedCollisionObjectMsgs(bodies, attached_collision_objs);
+}
+
+bool PlanningScene::getOctomapMsg(octomap_msgs::OctomapWithPose& octomap) const
+{
+  octomap.header.frame_id = getPlanningFrame();
+  octomap.octomap = octomap_msgs::Octomap();
+  const World::ObjectConstPtr object = world_->getObject(OCTOMAP_NS);
+  if (!object || object->shapes_.size() != 1 || object->shapes_[0]->type != shapes::OCTREE)
+    return false;
+  const motion::OcTreeShape tree(static_cast<const shapes::OcTree&>(*object->shapes_[0]).octree);
+  const std::string data = tree.message(false);
+  octomap.octomap.header = octomap.header;
+  octomap.octomap.id = "OcTree";
+  octomap.octomap.binary = false;
+  octomap.octomap.resolution = tree.resolution();
+  octomap.octomap.data.assign(data.begin(), data.end());
+  octomap.origin = tf2::toMsg(Eigen::Isometry3d(object->pose_ * object->shape_poses_[0]));
+  return true;
+}
+
+void PlanningScene::getObjectColorMsgs(std::vector<moveit_msgs::ObjectColor>& object_colors) const
+{
+  object_colors.clear();
+  for (const auto& color : colors_)
+  {
+    object_colors.emplace_back();
+    object_colors.back().id = color.first;
+    object_colors.back().color = color.second;
+  }
+}
+
+void PlanningScene::getPlanningSceneMsg(moveit_msgs::PlanningScene& scene) const
+{
+  scene = moveit_msgs::PlanningScene();
+  scene.name = name_;
+  scene.is_diff = false;
+  scene.robot_model_name = robot_model_->getName();
+  transforms_->copyTransforms(scene.fixed_frame_transforms);
+  moveit::core::robotStateToRobotStateMsg(*robot_state_, scene.robot_state);
+  acm_.getMessage(scene.allowed_collision_matrix);
+  env_->getPadding(scene.link_padding);
+  env_->getScale(scene.link_scale);
+  getObjectColorMsgs(scene.object_colors);
+  getCollisionObjectMsgs(scene.world.collision_objects);
+  getOctomapMsg(scene.world.octomap);
+}
+
+void PlanningScene::getPlanningSceneMsg(moveit_msgs::PlanningScene& scene, const Components& comp) const
+{
+  moveit_msgs::PlanningScene all;
+  getPlanningSceneMsg(all);
+  const auto wanted = [&comp](std::uint32_t part) { return (comp.components & part) != 0; };
+  scene = moveit_msgs::PlanningScene();
+  scene.is_diff = false;
+  if (wanted(Components::SCENE_SETTINGS))
+  {
+    scene.name = all.name;
+    scene.robot_model_name = all.robot_model_name;
+  }
+  if (wanted(Components::TRANSFORMS))
+    scene.fixed_frame_transforms = all.fixed_frame_transforms;
+  if (wanted(Components::ROBOT_STATE | Components::ROBOT_STATE_ATTACHED_OBJECTS))
+  {
+    scene.robot_state = all.robot_state;
+    if (!wanted(Components::ROBOT_STATE_ATTACHED_OBJECTS))
+      scene.robot_state.attached_collision_objects.clear();
+  }
+  if (wanted(Components::ALLOWED_COLLISION_MATRIX))
+    scene.allowed_collision_matrix = all.allowed_collision_matrix;
+  if (wanted(Components::LINK_PADDING_AND_SCALING))
+  {
+    scene.link_padding = all.link_padding;
+    scene.link_scale = all.link_scale;
+  }
+  if (wanted(Components::OBJECT_COLORS))
+    scene.object_colors = all.object_colors;
+  if (wanted(Components::WORLD_OBJECT_GEOMETRY))
+    scene.world.collision_objects = all.world.collision_objects;
+  else if (wanted(Components::WORLD_OBJECT_NAMES))
+    for (const CollisionObject& object : all.world.collision_objects)
+    {
+      scene.world.collision_objects.emplace_back();
+      scene.world.collision_objects.back().id = object.id;
+      scene.world.collision_objects.back().type = object.type;
+    }
+  if (wanted(Components::OCTOMAP))
+    scene.world.octomap = all.world.octomap;
+}
+
+// The whole of what may differ from the parent; of its objects those that do, and the removal of those that are gone.
+void PlanningScene::getPlanningSceneDiffMsg(moveit_msgs::PlanningScene& scene) const
+{
+  getPlanningSceneMsg(scene);
+  scene.is_diff = true;
+  scene.robot_state.is_diff = true;
+  scene.world = moveit_msgs::PlanningSceneWorld();
+  for (const auto& item : *world_)
+  {
+    if (parent_ && parent_->world_->getObject(item.first) == item.second)
+      continue;
+    if (item.first == OCTOMAP_NS)
+    {
+      getOctomapMsg(scene.world.octomap);
+      continue;
+    }
+    scene.world.collision_objects.emplace_back();
+    getCollisionObjectMsg(scene.world.collision_objects.back(), item.first);
+  }
+  if (!parent_)
+    return;
+  const auto removal = [](const std::string& id) {
+    CollisionObject object;
+    object.id = id;
+    object.operation = CollisionObject::REMOVE;
+    return object;
+  };
+  for (const auto& item : *parent_->world_)
+    if (!world_->hasObject(item.first))
+      scene.world.collision_objects.push_back(removal(item.first));
+  std::vector<const moveit::core::AttachedBody*> before;
+  parent_->robot_state_->getAttachedBodies(before);
+  for (const moveit::core::AttachedBody* body : before)
+    if (!robot_state_->hasAttachedBody(body->getName()))
+    {
+      moveit_msgs::AttachedCollisionObject gone;
+      gone.link_name = body->getAttachedLinkName();
+      gone.object = removal(body->getName());
+      scene.robot_state.attached_collision_objects.push_back(gone);
+    }
+}
+
+// ---------------------------------------------------------------- from messages
+
+bool PlanningScene::usePlanningSceneMsg(const moveit_msgs::PlanningScene& scene)
+{
+  return scene.is_diff ? setPlanningSceneDiffMsg(scene) : setPlanningSceneMsg(scene);
+}
+
+bool PlanningScene::setPlanningSceneMsg(const moveit_msgs::PlanningScene& scene)
+{
+  if (!scene.robot_model_name.empty() && scene.robot_model_name != robot_model_->getName())
+    ROS_WARN_NAMED(LOGNAME, "Setting the scene for model '%s' but model '%s' is loaded.", scene.robot_model_name.c_str(),
+                   robot_model_->getName().c_str());
+  decoupleParent();
+  name_ = scene.name;
+  removeAllCollisionObjects();
+  world_->removeObject(OCTOMAP_NS);
+  colors_.clear();
+  types_.clear();
+  moveit_msgs::PlanningScene difference = scene;
+  acm_ = collision_detection::AllowedCollisionMatrix(scene.allowed_collision_matrix);
+  difference.allowed_collision_matrix = moveit_msgs::AllowedCollisionMatrix();
+  return setPlanningSceneDiffMsg(difference);
+}
+
+bool PlanningScene::setPlanningSceneDiffMsg(const moveit_msgs::PlanningScene& scene)
+{
+  bool good = true;
+  if (!scene.name.empty())
+    name_ = scene.name;
+  transforms_->setTransforms(scene.fixed_frame_transforms);
+  if (!moveit::core::isEmpty(scene.robot_state))
+  {
+    // Attached objects may be those of the world: they are taken one by one.
+    moveit_msgs::RobotState state = scene.robot_state;
+    state.attached_collision_objects.clear();
+    if (!state.is_diff)
+      robot_state_->clearAttachedBodies();
+    if (!state.joint_state.name.empty() || !state.multi_dof_joint_state.joint_names.empty())
+      moveit::core::robotStateMsgToRobotState(*transforms_, state, *robot_state_, false);
+    for (const auto& object : scene.robot_state.attached_collision_objects)
+      good = processAttachedCollisionObjectMsg(object) && good;
+  }
+  if (!scene.allowed_collision_matrix.entry_names.empty() || !scene.allowed_collision_matrix.default_entry_names.empty())
+    acm_ = collision_detection::AllowedCollisionMatrix(scene.allowed_collision_matrix);
+  if (!scene.link_padding.empty())
+    env_->setPadding(scene.link_padding);
+  if (!scene.link_scale.empty())
+    env_->setScale(scene.link_scale);
+  for (const auto& color : scene.object_colors)
+    setObjectColor(color.id, color.color);
+  return processPlanningSceneWorldMsg(scene.world) && good;
+}
+}  // namespace planning_scene
