@@ -162,10 +162,28 @@ def test_curves_are_removed_by_the_menu(plot):
     assert plot.topics() == [] and not plot._update_plot_timer.isActive()
 
 
+def blues(widget):
+    """Columns with pixels of the first curve's colour, right of the legend."""
+    image = widget.grab().toImage()
+    return {x for x in range(image.width() // 2, image.width() - 30) for y in range(image.height())
+            if image.pixelColor(x, y).blue() > 200 and image.pixelColor(x, y).red() < 60}
+
+
+def test_a_curve_stays_in_sight_while_the_window_scrolls(plot):
+    plot.show()
+    plot.add_topic("/joints/position[0]")
+    for begin in (1000.0, 1050.0, 2000.0):
+        times = begin + np.arange(0, 12, 0.01)
+        send(plot, "/joints/position[0]", times, np.sin(times))
+        process_events()
+        assert len(blues(plot)) > 300
+
+
 @pytest.mark.parametrize("index, title", [(0, "PyQtGraph"), (1, "MatPlot")])
-def test_both_ways_of_drawing(plot, index, title):
+@pytest.mark.parametrize("markers", [False, True])
+def test_both_ways_of_drawing(plot, index, title, markers):
     data_plot = plot.data_plot
-    data_plot._switch_data_plot_widget(index, markers_on=True)
+    data_plot._switch_data_plot_widget(index, markers_on=markers)
     data_plot.add_curve("c", "curve", [0, 1, 2], [1, 2, 4])
     data_plot.vline(1.5, DataPlot.GREEN)
     data_plot.set_xlim([0, 2])
@@ -173,10 +191,7 @@ def test_both_ways_of_drawing(plot, index, title):
     process_events()
     assert data_plot.getTitle() == title and data_plot.get_xlim() == pytest.approx([0, 2])
     assert data_plot.get_ylim() == pytest.approx([0.85, 4.15])
-    image = plot.grab().toImage()
-    blue = sum(image.pixelColor(x, y).blue() > 200 and image.pixelColor(x, y).red() < 60
-               for x in range(0, image.width(), 2) for y in range(0, image.height(), 2))
-    assert blue > 30  # the first curve is blue
+    assert len(blues(plot)) > 200
     data_plot.remove_curve("c")
     with pytest.raises(DataPlotException):
         data_plot.update_values("c", [1], [1])

@@ -260,7 +260,7 @@ class TimelineFrame(QWidget):
         y, self._rows = _TIME_HEIGHT, []
         for topic in topics:
             renderer = self._renderer(topic)
-            height = (renderer.get_segment_height(topic) if renderer else None) or _ROW_HEIGHT
+            height = (renderer.get_segment_height(topic) if renderer else None) or max(_ROW_HEIGHT, metrics.height() + 2)
             self._rows.append((topic, y, height))
             y += height + 1
         if self.minimumHeight() != y + _MARGIN:

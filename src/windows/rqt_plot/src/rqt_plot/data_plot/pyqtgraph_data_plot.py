@@ -8,16 +8,22 @@ from python_qt_binding.QtGui import QColor
 from python_qt_binding.QtWidgets import QVBoxLayout, QWidget
 
 from rqt_plot.graphics import pyqtgraph
+from rqt_plot.series import limits
 
 
 class _Curve(pyqtgraph.PlotCurveItem):
-    """A curve whose extent nobody asks for: limits are set from outside, and to search it for them takes as long as to draw it."""
+    """A curve that is told its extent: to search it for that, once per axis and change of view, takes as long as to draw it."""
+
+    extent = ((0.0, 1.0), (0.0, 1.0))
+
+    def set_values(self, x, y) -> None:
+        x_limits, y_limits = limits(x), limits(y)
+        if x_limits and y_limits:
+            self.extent = x_limits, y_limits
+        self.setData(x, y)
 
     def dataBounds(self, ax, frac=1.0, orthoRange=None):
-        return None, None
-
-    def boundingRect(self):
-        return self.viewRect()
+        return self.extent[ax]
 
 
 class PyQtGraphDataPlot(QWidget):
@@ -62,8 +68,11 @@ class PyQtGraphDataPlot(QWidget):
             self._legend.setVisible(bool(self._curves))
 
     def set_values(self, curve_id: str, x, y) -> None:
-        if curve_id in self._curves:
-            self._curves[curve_id].setData(x, y)
+        curve = self._curves.get(curve_id)
+        if isinstance(curve, _Curve):
+            curve.set_values(x, y)
+        elif curve is not None:
+            curve.setData(x, y)
 
     def redraw(self) -> None:
         """Nothing to do: values repaint by themselves."""
