@@ -25,7 +25,8 @@ WANTED = [
     (r"arm with 800x800 camera: real-time factor", ">=", 0.99), (r"frame / bare draw", "<=", 1.5),
     (r"^IK of .* solved within 5 ms", ">=", 99.6), (r"^IK of .* median", "<", 0.4), (r"to timed trajectory: solved", ">=", 100.0),
     (r"to timed trajectory: p50", "<", 50.0), (r"to timed trajectory: p95", "<", 250.0), (r"1 000 objects, one added", "<", 2.0),
-    (r"motors: p99 cycle", "<", 1.5), (r"^mbot.*real-time factor, throttled$", ">=", 0.99),
+    (r"^rqt.* to its window, s", "<", 1.5), (r"^rqt_graph, .* drawn, s", "<", 1.0), (r"longest pause of the window", "<", 50.0),
+    (r"^rqt_image_view.*part of a core", "<", 0.25), (r"motors: p99 cycle", "<", 1.5), (r"^mbot.*real-time factor, throttled$", ">=", 0.99),
     (r"^mbot.*real-time factor, uncapped$", ">=", 10.0), (r"mbots: cost per mbot against one", "<=", 1.05),
 ]
 
@@ -182,6 +183,7 @@ SECTIONS = {
                lambda quick: section_script("planning.py", *(["--quick"] if quick else []))),
     "camera": ("pictures per second, and what one costs", camera),
     "rviz": ("time to a picture of RViz", rviz),
+    "windows": ("rqt: start, a large graph, fast topics", lambda quick: section_script("windows.py", *(["--quick"] if quick else []))),
     "can": ("cycles of rm_hw against the motor bench", lambda quick: section_script("can_loop.py", "--seconds", 5 if quick else 20)),
 }
 if os.path.exists(os.path.join(HERE, "mobile.py")):

@@ -100,3 +100,13 @@ def test_comments_before_the_graph_and_no_nodes():
 
 def test_pictures():
     assert render(DOT, "svg").startswith(b"<?xml") and render(DOT, "png").startswith(b"\x89PNG")
+
+
+def test_large_graph_with_clusters_and_labels_on_which_dot_gives_up():
+    """dot 2.42 ends with "trouble in init_rank" here."""
+    names = sorted(f"/ns{i % 5}/node_{i}" for i in range(50))
+    clusters = "".join(f"subgraph cluster_{k} {{ " + "".join(f'"{name}"; ' for name in names if f"ns{k}/" in name) + "}\n"
+                       for k in range(5))
+    edges = "".join(f'"{names[i % 50]}" -> "{names[(i * 7 + i // 50 + 1) % 50]}" [label="topic_{i}"];\n' for i in range(300))
+    graph = layout("digraph { rankdir=LR; compound=true;\n" + clusters + edges + "}")
+    assert len(graph.nodes) == 50 and len(graph.edges) == 300

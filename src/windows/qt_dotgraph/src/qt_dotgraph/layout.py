@@ -9,7 +9,10 @@ from typing import Dict, List, Optional, Tuple
 
 _PATIENCE = 20.0  # s; dot's search for few crossings has no end of its own
 _LARGE = 150  # edges from which on it is cut short, and edges are straight
-_QUICK = ["-Gnslimit=0.1", "-Gnslimit1=0.1", "-Gmclimit=0.05", "-Gsplines=line"]
+_QUICK = ["-Gnslimit=0.1", "-Gmclimit=0.05", "-Gsplines=line"]
+# Clusters with labelled edges between them can be too much for dot ("trouble in init_rank"): another way of ranking helps, and
+# without the boxes of clusters it always goes.
+_WAYS_OUT = (["-Gnewrank=true"], [*_QUICK, "-Gclusterrank=none"])
 _SHAPES = re.compile(r"^\s*(strict\s+)?(di)?graph\b", re.I)
 
 Point = Tuple[float, float]
@@ -94,18 +97,22 @@ def _has_positions(dot: str) -> bool:
 def _run(command: List[str], dot: str) -> bytes:
     if not _SHAPES.search(re.sub(r"/\*.*?\*/|//[^\n]*|^#[^\n]*", "", dot[:2000], flags=re.S | re.M)):
         raise LayoutError("this is not a graph in DOT (it begins with neither graph nor digraph)")
-    try:
-        done = subprocess.run(command, input=dot.encode(), capture_output=True, timeout=_PATIENCE)
-    except FileNotFoundError as error:
-        raise LayoutError("Graphviz is not installed; run scripts/setup (Debian package graphviz)") from error
-    except subprocess.TimeoutExpired:
-        if _QUICK[0] in command:
-            raise LayoutError(f"Graphviz finds no layout within {_PATIENCE:g} s; hide some nodes or topics") from None
-        return _run([*command, *_QUICK], dot)
-    if done.returncode != 0 or not done.stdout:
+    reason = ""
+    for further in ([], *_WAYS_OUT):
+        try:
+            done = subprocess.run([*command, *further], input=dot.encode(), capture_output=True, timeout=_PATIENCE)
+        except FileNotFoundError as error:
+            raise LayoutError("Graphviz is not installed; run scripts/setup (Debian package graphviz)") from error
+        except subprocess.TimeoutExpired:
+            reason = f"finds no layout within {_PATIENCE:g} s; hide some nodes or topics"
+            continue
+        if done.returncode == 0 and done.stdout:
+            return done.stdout
         lines = done.stderr.decode(errors="replace").strip().splitlines() or ["no reason given"]
-        raise LayoutError(f"Graphviz refuses the graph: {lines[0][:200]}")
-    return done.stdout
+        reason = f"refuses the graph: {lines[0][:200]}"
+        if "syntax error" in lines[0]:
+            break
+    raise LayoutError(f"Graphviz {reason}")
 
 
 def _parse(data: bytes) -> Layout:

@@ -23,7 +23,26 @@ class _Call(QEvent):
 
 
 class _Runner(QObject):
-    """Runs calls in the thread of the widgets."""
+    """Runs calls in the thread of the widgets, and measures the longest time that this thread did not come back to Qt."""
+
+    _PULSE = 5  # ms
+
+    def __init__(self):
+        super().__init__()
+        self._last, self._longest = None, 0.0
+
+    def timerEvent(self, _event):
+        now = time.monotonic()
+        if self._last is not None:
+            self._longest = max(self._longest, now - self._last - self._PULSE / 1000)
+        self._last = now
+
+    def pause(self):
+        """The longest pause in ms since the last such question; the first begins the measuring."""
+        if self._last is None:
+            self.startTimer(self._PULSE)
+        longest, self._longest = self._longest * 1000, 0.0
+        return longest
 
     def event(self, event):
         if event.type() == _KIND:
@@ -110,7 +129,7 @@ def _serve(path):
         connection, _ = server.accept()
         with connection, connection.makefile("rw") as stream:
             question = json.loads(stream.readline())
-            call = _Call(lambda: _answer(question))
+            call = _Call(runner.pause if question["what"] == "pause" else lambda: _answer(question))
             QCoreApplication.postEvent(runner, call)
             call.done.wait(10)
             stream.write(json.dumps(call.answer) + "\n")
