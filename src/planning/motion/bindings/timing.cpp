@@ -29,8 +29,8 @@ void bindTiming(py::module_& m)
   });
   m.def("_cartesian_path", [](const PlanningScene& scene, const RobotState& start, const std::string& group, const std::string& link,
                               const std::vector<Transform>& waypoints, double max_step, double jump, double prismatic, double revolute,
-                              bool avoid_collisions, double timeout, const Constraints* constraints) {
-    CartesianRequest request{group, link, waypoints, max_step, jump, prismatic, revolute, avoid_collisions, timeout};
+                              bool avoid_collisions, double timeout, const Constraints* constraints, bool position_only) {
+    CartesianRequest request{group, link, waypoints, max_step, jump, prismatic, revolute, avoid_collisions, timeout, position_only};
     CartesianPath path;
     {
       py::gil_scoped_release release;

@@ -116,7 +116,7 @@ private:
         why = "the robot would collide";
       return why.empty();
     };
-    const IkTarget target{frame_.link, pose * frame_.pose.inverse(), true, true};
+    const IkTarget target{frame_.link, pose * frame_.pose.inverse(), true, !request_.position_only};
     IkResult found = solver_.solve(state_, {target}, options);
     if (found.solutions.empty() && why.empty())
       found = fromBeside(target, options);

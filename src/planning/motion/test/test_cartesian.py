@@ -259,3 +259,23 @@ def test_an_arm_that_is_quite_straight_can_be_drawn_in(name, way):
                                  avoid_collisions=False)
     assert line, line.message
     assert np.abs(np.diff(line.trajectory.positions, axis=0)).max() < 0.5
+
+
+def test_an_arm_of_four_joints_follows_positions():
+    """It cannot keep the orientation of its hand; with position_only it need not."""
+    links = "".join(f'<link name="l{i}"/>' for i in range(6))
+    joints = "".join(f'<joint name="j{i}" type="revolute"><parent link="l{i}"/><child link="l{i + 1}"/><origin xyz="0 0 {0.3 if i else 0.1}"/>'
+                     f'<axis xyz="{axis}"/><limit lower="-2.5" upper="2.5" velocity="1" effort="1"/></joint>'
+                     for i, axis in enumerate(("0 0 1", "0 1 0", "0 1 0", "0 1 0")))
+    model = motion.load_model(f'<robot name="small">{links}{joints}<joint name="end" type="fixed"><parent link="l4"/><child link="l5"/>'
+                              '<origin xyz="0 0 0.2"/></joint></robot>',
+                              '<robot name="small"><group name="arm"><chain base_link="l0" tip_link="l5"/></group></robot>')
+    scene = motion.PlanningScene(model)
+    state = scene.state
+    state.set_group("arm", [0.3, 0.5, 1.0, 0.4])
+    here = state.pose("l5")
+    goal = (here.position + (0.0, 0.1, 0.05), here.quaternion)
+    assert motion.cartesian_path(scene, "arm", [goal], start=state).fraction < 0.5
+    line = motion.cartesian_path(scene, "arm", [goal], start=state, position_only=True)
+    assert line.fraction == 1.0
+    assert off_line(places(line.trajectory, "l5"), here.position, goal[0]).max() < 2e-5

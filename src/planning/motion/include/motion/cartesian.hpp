@@ -16,6 +16,7 @@ struct CartesianRequest
   double prismatic_jump = 0, revolute_jump = 0;  // largest step of a joint, m and rad; 0 = any
   bool avoid_collisions = true;
   double timeout = 0;  // s for restarts of a step's inverse kinematics; 0 = from the last step alone
+  bool position_only = false;  // the way points' orientations do not matter: arms with few joints
 };
 
 struct CartesianPath

@@ -32,7 +32,8 @@ class CartesianResult:
 def cartesian_path(scene: _core.PlanningScene, group: str, waypoints: Sequence[AnyPose], *, link: str = "",
                    start: Optional[_core.RobotState] = None, max_step: float = 0.01, jump_threshold: float = 0.0,
                    prismatic_jump: float = 0.0, revolute_jump: float = 0.0, avoid_collisions: bool = True,
-                   constraints: Optional[_core.Constraints] = None, relative: bool = False, timeout: float = 0.0) -> CartesianResult:
+                   constraints: Optional[_core.Constraints] = None, relative: bool = False, timeout: float = 0.0,
+                   position_only: bool = False) -> CartesianResult:
     """Joint values that bring a link from way point to way point along straight lines.
 
     :param waypoints: poses of the link in the model frame, or in the link's start frame if ``relative``.
@@ -41,6 +42,7 @@ def cartesian_path(scene: _core.PlanningScene, group: str, waypoints: Sequence[A
     :param jump_threshold: the path ends before a joint-space step above this many times the mean one; 0 = any step will do.
     :param prismatic_jump: the same as an absolute step of a sliding joint, m. ``revolute_jump``: of a turning one, rad.
     :param timeout: s that a step may search from other joint values when the last ones do not lead on; 0 = it may not.
+    :param position_only: the link's orientation is free: arms with few joints.
     """
     state = start if start is not None else scene.state
     link = link or scene.model.group(group).tip_link or scene.model.group(group).links[-1]
@@ -49,7 +51,7 @@ def cartesian_path(scene: _core.PlanningScene, group: str, waypoints: Sequence[A
         origin = state.pose(link)
         poses = [origin * Pose(*(np.asarray(part, float) for part in pose)) for pose in poses]
     fraction, points, message = _core._cartesian_path(scene, state, group, link, poses, max_step, jump_threshold, prismatic_jump,
-                                                      revolute_jump, avoid_collisions, timeout, constraints)
+                                                      revolute_jump, avoid_collisions, timeout, constraints, position_only)
     return CartesianResult(fraction, Trajectory(scene.model, group, state, points), message)
 
 

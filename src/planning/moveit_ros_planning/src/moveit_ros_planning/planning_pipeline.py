@@ -194,11 +194,24 @@ class Pipeline:
                                 "the request has no goal: set a pose, joint or named target first (a target that was "
                                 "cleared is none)")
         group = self.model.group(message.group_name)
+        self._loosen(message.group_name, goals)
         for goal in goals:
             full = {constraint.joint for constraint in goal.joint} >= set(group.active_joints)
             if (goal.position or goal.orientation) and not full and not self.has_kinematics(message.group_name):
                 raise PlanningError(MoveItErrorCodes.FAILURE, _no_kinematics(message.group_name, self._description))
         return goals
+
+    def _loosen(self, group: str, goals: List[motion.Constraints]) -> None:
+        """Where kinematics.yaml says position_only_ik, a pose goal is its position: such an arm cannot keep the rest."""
+        settings = self._description.kinematics.get(group)
+        if settings is None or not settings.position_only:
+            return
+        for goal in goals:
+            placed = {constraint.link for constraint in goal.position}
+            kept = [constraint for constraint in goal.orientation if constraint.link not in placed]
+            if len(kept) < len(goal.orientation):
+                rospy.loginfo("group '%s' has position_only_ik: the orientation of the goal is not looked at", group)
+                goal.orientation = kept
 
     def has_kinematics(self, group: str) -> bool:
         """Whether kinematics.yaml gives the group, or groups in it, a solver."""

@@ -31,6 +31,8 @@ class GoalMarker:
     def __init__(self, robot, group):
         self._robot, self._group = robot, group
         self._model, self._link = robot.model, group.get_end_effector_link()
+        settings = robot.description.kinematics.get(group.get_name())
+        self._position_only = settings is not None and settings.position_only
         self._lock = threading.Lock()
         self._busy = threading.Lock()
         self._plan = None
@@ -82,7 +84,7 @@ class GoalMarker:
         with self._lock:
             try:
                 found = motion.ik(self._model, self._group.get_name(), convert.pose(pose), link=self._link,
-                                  seed=self._state, timeout=0.05)
+                                  seed=self._state, timeout=0.05, position_only=self._position_only)
             except (motion.MotionError, ValueError) as error:
                 rospy.logwarn_throttle(5, f"goal: {error}")
                 return

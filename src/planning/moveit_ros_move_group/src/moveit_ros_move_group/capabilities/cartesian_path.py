@@ -48,10 +48,12 @@ class CartesianPath(Capability):
         rospy.loginfo("Attempting to follow %d waypoints for link '%s' using a step of %f m and jump threshold %f (in "
                       "%s reference frame)",
                       len(poses), link, request.max_step, request.jump_threshold, "link" if relative else "global")
+        settings = self.context.description.kinematics.get(request.group_name)
         found = motion.cartesian_path(scene, request.group_name, poses, link=link, start=state,
                                       max_step=request.max_step,
                                       jump_threshold=request.jump_threshold, avoid_collisions=request.avoid_collisions,
-                                      constraints=None if limits.empty() else limits, relative=relative)
+                                      constraints=None if limits.empty() else limits, relative=relative,
+                                      position_only=settings is not None and settings.position_only)
         response.fraction, response.error_code.val = found.fraction, codes.SUCCESS
         self._finish(request, response, found)
 
