@@ -99,6 +99,12 @@ def test_real_files():
         with pytest.raises(LaunchError, match=said) as error:
             launched_node.load("turtlesim", file, "")
         assert "\n" not in str(error.value)
+    nodes[1].node.type = "draw_square"
+    ends = []
+    thread = threading.Thread(target=lambda: (nodes[1].start(), ends.append(nodes[1].state()), nodes[1].stop(), ends.append(nodes[1].state())))
+    thread.start()
+    thread.join(60)
+    assert ends == ["running", "stopped"] and nodes[1].starts == 1
     nodes[0].node.type = "no_such_node"
     with pytest.raises(LaunchError, match="/turtlesim1/sim: .*no_such_node"):
         nodes[0].start()

@@ -117,7 +117,9 @@ def test_apply_sends_all_at_once(client):
 
 def test_changes_from_elsewhere(client):
     widget = client()
-    FakeClient.made[-1].callback(Config({**VALUES, "p": 7.5, "groups": {"Limits": {"name": "Limits", "state": False, "groups": {}}}}))
+    FakeClient.made[-1].callback(Config({**VALUES, "p": 7.5, "groups": Config(
+        {"id": 0, "parent": 0, "name": "Default", "type": "", "state": True, "parameters": Config({}), "groups": Config({
+            "Limits": Config({"id": 1, "parent": 0, "name": "Limits", "state": False, "groups": Config({})})})})}))
     wait_until(lambda: editors(widget)["p"].slider.value() == 75)
     assert not widget.group.groups[0].box.isChecked()
 

@@ -1,5 +1,5 @@
 """The console: table, buttons, rules."""
-from python_qt_binding.QtCore import Qt
+from python_qt_binding.QtCore import QSize, Qt
 from python_qt_binding.QtGui import QIcon
 from python_qt_binding.QtWidgets import (QApplication, QDialog, QDialogButtonBox, QFileDialog, QHBoxLayout, QHeaderView, QLabel, QMenu,
                                          QMessageBox, QPushButton, QSplitter, QTableView, QTextEdit, QToolButton, QVBoxLayout, QWidget)
@@ -31,6 +31,9 @@ class ConsoleWidget(QWidget):
         self._arrange()
         self.model.counts_changed.connect(self._show_counts)
         self._show_counts()
+
+    def sizeHint(self) -> QSize:
+        return QSize(1000, 640)
 
     def take(self, messages) -> None:
         """Show new messages, unless paused."""

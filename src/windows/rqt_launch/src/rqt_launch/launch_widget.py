@@ -1,7 +1,7 @@
 """Choose a launch file; start and stop its nodes."""
 import time
 
-from python_qt_binding.QtCore import QTimer
+from python_qt_binding.QtCore import QSize, QTimer
 from python_qt_binding.QtGui import QBrush, QColor, QIcon
 from python_qt_binding.QtWidgets import (QComboBox, QHBoxLayout, QHeaderView, QLabel, QLineEdit, QPushButton, QTableWidget,
                                          QTableWidgetItem, QVBoxLayout, QWidget)
@@ -55,6 +55,9 @@ class LaunchWidget(QWidget):
         self._timer.timeout.connect(lambda: self.refresh(time.monotonic()))
         self._timer.start(PERIOD)
         self._background.run("packages", self._launching.packages, self._show_packages)
+
+    def sizeHint(self) -> QSize:
+        return QSize(850, 420)
 
     def _button(self, name: str, text: str, icon: str, call) -> QPushButton:
         button = QPushButton(QIcon.fromTheme(icon), text)

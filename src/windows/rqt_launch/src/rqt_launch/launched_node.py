@@ -9,12 +9,14 @@ import rospy
 import rosgraph
 import roslaunch.config
 import roslaunch.nodeprocess
+import roslaunch.pmon
 import roslaunch.substitution_args
 import rospkg
 from roslaunch import RLException
 from roslaunch.core import Node
 from rqt_py_common.rqt_roscomm_util import RqtRoscommUtil
 
+roslaunch.pmon._sig_initialized = True  # a process must not take over the signals: they are the window's
 PATIENCE = 5.0, 2.0  # s after SIGINT, after SIGTERM
 
 

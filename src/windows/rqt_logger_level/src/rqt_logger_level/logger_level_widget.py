@@ -1,4 +1,5 @@
 """Three lists: nodes, loggers, levels."""
+from python_qt_binding.QtCore import QSize
 from python_qt_binding.QtGui import QIcon
 from python_qt_binding.QtWidgets import QGridLayout, QLabel, QListWidget, QPushButton, QWidget
 from rqt_py_common.background import Background
@@ -40,6 +41,9 @@ class LoggerLevelWidget(QWidget):
         self.node_list.currentTextChanged.connect(self._node_changed)
         self.logger_list.currentTextChanged.connect(self._logger_changed)
         self.level_list.currentTextChanged.connect(self._level_changed)
+
+    def sizeHint(self) -> QSize:
+        return QSize(750, 350)
 
     def refresh_nodes(self) -> None:
         self._background.run("nodes", self._caller.get_node_names, self._show_nodes, self._failed)

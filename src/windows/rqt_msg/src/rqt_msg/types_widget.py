@@ -1,5 +1,5 @@
 """Browsers of types: messages here, services and actions in packages of their own."""
-from python_qt_binding.QtCore import Qt
+from python_qt_binding.QtCore import QSize, Qt
 from python_qt_binding.QtGui import QIcon
 from python_qt_binding.QtWidgets import (QComboBox, QDialog, QHBoxLayout, QLabel, QPlainTextEdit, QPushButton, QSizePolicy,
                                          QVBoxLayout, QWidget)
@@ -98,6 +98,9 @@ class TypesWidget(QWidget):
         layout.addWidget(self.tree)
         layout.addWidget(self.error_label)
         self._background.run("types", lambda: installed_types(mode), self._set_types)
+
+    def sizeHint(self) -> QSize:
+        return QSize(700, 450)
 
     def _set_types(self, types) -> None:
         self._types = types

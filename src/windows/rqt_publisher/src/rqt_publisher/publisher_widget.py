@@ -1,5 +1,5 @@
 """What is seen of the publishers."""
-from python_qt_binding.QtCore import Qt, Signal
+from python_qt_binding.QtCore import QSize, Qt, Signal
 from python_qt_binding.QtGui import QIcon
 from python_qt_binding.QtWidgets import (QComboBox, QHBoxLayout, QLabel, QMenu, QPushButton, QSizePolicy, QTreeWidgetItem, QVBoxLayout,
                                          QWidget)
@@ -75,6 +75,9 @@ class PublisherWidget(QWidget):
         button.setToolTip(tip)
         button.clicked.connect(lambda: call())
         bar.addWidget(button)
+
+    def sizeHint(self) -> QSize:
+        return QSize(850, 450)
 
     def set_topics(self, topics) -> None:
         """Offer (name, type) pairs."""

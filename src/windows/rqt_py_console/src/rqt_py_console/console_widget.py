@@ -4,7 +4,7 @@ import contextlib
 import io
 import sys
 
-from python_qt_binding.QtCore import Qt
+from python_qt_binding.QtCore import QSize, Qt
 from python_qt_binding.QtGui import QFontDatabase, QTextCursor
 from python_qt_binding.QtWidgets import QPlainTextEdit
 
@@ -26,6 +26,9 @@ class PyConsoleWidget(QPlainTextEdit):
         self._history, self._place, self._lines = [], 0, []
         self.insertPlainText(f"Python {sys.version.split()[0]}; known: {', '.join(sorted(n for n in self._names if n[0] != '_'))}\n")
         self._prompt()
+
+    def sizeHint(self) -> QSize:
+        return QSize(640, 400)
 
     def _prompt(self) -> None:
         self._to_end()
@@ -105,7 +108,7 @@ class PyConsoleWidget(QPlainTextEdit):
             self._prompt()
         elif control and key == Qt.Key.Key_C:
             self.copy()
-        elif key in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
+        elif key in (Qt.Key.Key_Return, Qt.Key.Key_Enter) or event.text() in ("\r", "\n"):
             self.enter()
         elif key in (Qt.Key.Key_Up, Qt.Key.Key_Down) and self._history:
             self._place = min(max(self._place + (1 if key == Qt.Key.Key_Down else -1), 0), len(self._history))

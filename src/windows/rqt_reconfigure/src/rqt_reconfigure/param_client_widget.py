@@ -1,12 +1,12 @@
 """The editors of one server."""
 import rospy
-from dynamic_reconfigure.client import Client
 from python_qt_binding.QtCore import Qt, Signal
 from python_qt_binding.QtGui import QIcon
 from python_qt_binding.QtWidgets import QFileDialog, QHBoxLayout, QLabel, QPushButton, QToolButton, QVBoxLayout, QWidget
 from rqt_py_common.background import Background
 
 from . import saved_values
+from .dynamic import Client
 from .param_groups import GroupWidget
 
 PATIENCE = 3.0  # s that a server has to answer

@@ -7,6 +7,17 @@ from python_qt_binding.QtWidgets import QFormLayout, QGroupBox, QPushButton, QTa
 from .param_editors import Editor, make_editor
 
 
+def group_states(groups) -> Dict[str, bool]:
+    """Names of groups to their states, from the nested dictionaries of a configuration."""
+    found = {}
+    if isinstance(groups, dict):
+        if "state" in groups and isinstance(groups.get("name"), str):
+            found[groups["name"]] = bool(groups["state"])
+        for inner in groups.values():
+            found.update(group_states(inner))
+    return found
+
+
 class GroupWidget(QWidget):
     """A group with its editors and the groups within. ``changed`` has names and values to send together."""
 
@@ -66,17 +77,22 @@ class GroupWidget(QWidget):
 
     def show_values(self, config: dict) -> None:
         """What the server has now."""
-        for name, editor in self.editors.items():
-            if name in config and name not in self._pending:
+        for name, editor in self.all_editors().items():
+            if name in config and name not in self._all_pending():
                 editor.show_value(config[name])
-        states = {group.get("name", key): group for key, group in (config.get("groups") or {}).items()}
+        self._show_states(group_states(config.get("groups")))
+
+    def _show_states(self, states: Dict[str, bool]) -> None:
         for group in self.groups:
-            group.show_values({**config, "groups": states.get(group.name, {}).get("groups", {})})
-            state = states.get(group.name, {}).get("state")
-            if state is not None and group.kind == "collapse":
-                group.box.setChecked(bool(state))
-            elif state is not None and group.kind == "hide":
-                group.box.setVisible(bool(state))
+            if group.name in states and group.kind == "collapse":
+                group.box.setChecked(states[group.name])
+            elif group.name in states and group.kind == "hide":
+                group.box.setVisible(states[group.name])
+            group._show_states(states)
+
+    def _all_pending(self) -> set:
+        """What waits for an Apply button."""
+        return set(self._pending).union(*(group._all_pending() for group in self.groups))
 
     def all_editors(self) -> Dict[str, Editor]:
         found = dict(self.editors)

@@ -3,7 +3,7 @@ import re
 from typing import Dict
 
 import rosservice
-from python_qt_binding.QtCore import Qt
+from python_qt_binding.QtCore import QSize, Qt
 from python_qt_binding.QtGui import QBrush, QColor, QIcon
 from python_qt_binding.QtWidgets import (QHBoxLayout, QLabel, QLineEdit, QPushButton, QScrollArea, QSplitter, QTreeWidget,
                                          QTreeWidgetItem, QVBoxLayout, QWidget)
@@ -69,6 +69,9 @@ class ParamWidget(QWidget):
         QHBoxLayout(self).addWidget(self.splitter)
         self.resize(760, 480)
         self.refresh()
+
+    def sizeHint(self) -> QSize:
+        return QSize(850, 500)
 
     def refresh(self) -> None:
         """Ask the master for servers anew."""

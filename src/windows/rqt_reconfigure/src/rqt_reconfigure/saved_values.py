@@ -1,6 +1,7 @@
 """Values of a server's parameters in YAML files, as dynparam and rqt_reconfigure have always written them."""
 import yaml
-from dynamic_reconfigure.encoding import Config
+
+from .dynamic import Config
 
 _TAG = "tag:yaml.org,2002:python/object/new:dynamic_reconfigure.encoding.Config"
 

@@ -4,7 +4,7 @@ from collections import deque
 from typing import Dict
 
 from diagnostic_msgs.msg import DiagnosticStatus
-from python_qt_binding.QtCore import Qt, QTimer, Signal
+from python_qt_binding.QtCore import QSize, QTimer, Qt, Signal
 from python_qt_binding.QtGui import QColor, QIcon, QPainter
 from python_qt_binding.QtWidgets import (QDialog, QHBoxLayout, QLabel, QPlainTextEdit, QPushButton, QSplitter, QTreeWidget,
                                          QTreeWidgetItem, QVBoxLayout, QWidget)
@@ -91,6 +91,9 @@ class RobotMonitorWidget(QWidget):
         self._timer.timeout.connect(lambda: self.tell_age(time.monotonic()))
         self._timer.start(1000)
         self.tell_age(time.monotonic())
+
+    def sizeHint(self) -> QSize:
+        return QSize(650, 560)
 
     def stop(self) -> None:
         self._timer.stop()

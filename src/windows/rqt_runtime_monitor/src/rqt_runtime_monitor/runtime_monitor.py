@@ -33,6 +33,7 @@ class RuntimeMonitor(Plugin):
         self.tree.setObjectName("tree_widget")
         self.text.setObjectName("html_browser")
         self.tree.setHeaderHidden(True)
+        self.tree.setMinimumSize(450, 200)
         self.tree.itemSelectionChanged.connect(self._show_selected)
         self._widget.addWidget(self.tree)
         self._widget.addWidget(self.text)

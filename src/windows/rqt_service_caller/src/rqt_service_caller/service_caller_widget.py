@@ -1,5 +1,5 @@
 """What is seen: the request on one side, the response on the other."""
-from python_qt_binding.QtCore import Qt, Signal
+from python_qt_binding.QtCore import QSize, Qt, Signal
 from python_qt_binding.QtGui import QIcon
 from python_qt_binding.QtWidgets import (QHBoxLayout, QLabel, QPushButton, QSizePolicy, QSplitter, QTreeWidget, QTreeWidgetItem,
                                          QVBoxLayout, QWidget)
@@ -60,6 +60,9 @@ class ServiceCallerWidget(QWidget):
         layout.addLayout(bar)
         layout.addWidget(self.splitter)
         layout.addWidget(self.error_label)
+
+    def sizeHint(self) -> QSize:
+        return QSize(850, 450)
 
     def set_services(self, names) -> None:
         """Offer these; what is chosen stays, with its request."""

@@ -8,7 +8,7 @@ import termios
 import time
 
 import pyte
-from python_qt_binding.QtCore import QRectF, QSocketNotifier, Qt, QTimer, Signal
+from python_qt_binding.QtCore import QRectF, QSize, QSocketNotifier, Qt, QTimer, Signal
 from python_qt_binding.QtGui import QColor, QFontDatabase, QFontMetricsF, QPainter
 from python_qt_binding.QtWidgets import QApplication, QWidget
 
@@ -45,6 +45,9 @@ class TerminalWidget(QWidget):
         self._timer = QTimer(self)
         self._timer.setSingleShot(True)
         self._timer.timeout.connect(self.update)
+
+    def sizeHint(self) -> QSize:
+        return QSize(int(80.5 * self._width), int(24.5 * self._height))
 
     @staticmethod
     def _become(command) -> None:

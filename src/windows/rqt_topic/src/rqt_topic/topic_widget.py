@@ -2,7 +2,7 @@
 from typing import Dict
 
 import rospy
-from python_qt_binding.QtCore import QMimeData, Qt, QTimer
+from python_qt_binding.QtCore import QMimeData, QSize, QTimer, Qt
 from python_qt_binding.QtGui import QIcon
 from python_qt_binding.QtWidgets import QHeaderView, QMenu, QTreeWidget, QTreeWidgetItem, QVBoxLayout, QWidget
 from rqt_py_common.background import Background
@@ -76,6 +76,9 @@ class TopicWidget(QWidget):
         layout.addWidget(self.tree)
         self._timer = QTimer(self)
         self._timer.timeout.connect(self.refresh_topics)
+
+    def sizeHint(self) -> QSize:
+        return QSize(850, 450)
 
     def start(self) -> None:
         self._timer.start(PERIOD)
