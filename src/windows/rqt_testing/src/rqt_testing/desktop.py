@@ -30,7 +30,7 @@ from typing import Dict, List, Optional, Tuple
 
 from rviz_offscreen.display import private_display
 
-_TIMEOUT = 30.0  # s for anything to appear, on a machine that does other things too
+_TIMEOUT = 60.0  # s for anything to appear, on a machine that does other things too
 
 
 class Desktop:
@@ -52,7 +52,7 @@ class Desktop:
         self.environment = {**os.environ, **variables, "XDG_CONFIG_HOME": os.path.join(self.home, "config"),
                             "XDG_RUNTIME_DIR": os.path.join(self.home, "run"), "HOME": self.home, "NO_AT_BRIDGE": "1",
                             "ROS_HOME": os.environ.get("ROS_HOME", os.path.join(self.home, "ros"))}
-        for name in ("QT_QPA_PLATFORM", "WAYLAND_DISPLAY", "DBUS_SESSION_BUS_ADDRESS"):
+        for name in ("QT_QPA_PLATFORM", "WAYLAND_DISPLAY", "SESSION_MANAGER", "DBUS_SESSION_BUS_ADDRESS"):
             self.environment.pop(name, None)
         manager = subprocess.Popen(["openbox", "--config-file", self._openbox_settings()], env=self.environment,
                                    stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
