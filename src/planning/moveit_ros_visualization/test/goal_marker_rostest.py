@@ -6,6 +6,8 @@ import rospy
 import rostest
 from geometry_msgs.msg import PoseStamped
 from moveit_commander import MoveGroupCommander, PlanningSceneInterface
+from moveit_msgs.msg import DisplayTrajectory
+from sensor_msgs.msg import Joy
 from visualization_msgs.msg import InteractiveMarkerFeedback, InteractiveMarkerInit, MarkerArray
 
 PATIENCE = 60.0
@@ -62,6 +64,30 @@ class Marker(unittest.TestCase):
         wait_for("goal_marker/goal", MarkerArray, lambda m: m.markers[0].color.r == 1.0 and m.markers[0].color.g == 0.0)
         self.choose("home")
         wait_for("goal_marker/goal", MarkerArray, lambda m: m.markers[0].color.g > 0.0)
+
+    def test_a_joystick_moves_the_goal_and_the_robot(self):
+        joy = rospy.Publisher("joy", Joy, queue_size=1)
+        self.choose("current")
+        start = self.arm.get_current_pose().pose.position
+        wait_for("goal_marker/pose", PoseStamped, lambda m: abs(m.pose.position.x - start.x) < 1e-3)
+        end = rospy.get_time() + PATIENCE
+        while wait_for("goal_marker/pose", PoseStamped).pose.position.z > start.z - 0.05:
+            self.assertLess(rospy.get_time(), end, "the stick does not move the goal")
+            joy.publish(Joy(axes=[0.0, 0.0, 0.0, 0.0, -1.0, 0.0], buttons=[0] * 8))
+            rospy.sleep(0.05)
+        down = wait_for("goal_marker/pose", PoseStamped).pose.position.z
+        for button in (2, 1):  # plan, execute
+            joy.publish(Joy(axes=[0.0] * 6, buttons=[int(i == button) for i in range(8)]))
+            rospy.sleep(0.1)
+            joy.publish(Joy(axes=[0.0] * 6, buttons=[0] * 8))
+            if button == 2:
+                wait_for("move_group/display_planned_path", DisplayTrajectory, lambda m: abs(
+                    m.trajectory[0].joint_trajectory.points[0].positions[1]
+                    - m.trajectory[0].joint_trajectory.points[-1].positions[1]) > 0.01)
+                rospy.sleep(1.0)  # until the marker has the answer
+        while abs(self.arm.get_current_pose().pose.position.z - down) > 5e-3:
+            self.assertLess(rospy.get_time(), end, "the robot does not go where the joystick put the goal")
+            rospy.sleep(0.05)
 
     def test_objects_are_shown(self):
         pose = PoseStamped()

@@ -6,10 +6,10 @@ from typing import Callable, Optional
 
 import motion
 import rospy
-from geometry_msgs.msg import Pose, Quaternion
+from geometry_msgs.msg import Pose, PoseStamped, Quaternion
 from interactive_markers.interactive_marker_server import InteractiveMarkerServer
 from interactive_markers.menu_handler import MenuHandler
-from moveit_msgs.msg import Constraints
+from moveit_msgs.msg import Constraints, RobotState
 from moveit_msgs.srv import GetStateValidity
 from std_msgs.msg import ColorRGBA
 from std_srvs.srv import Empty
@@ -37,11 +37,60 @@ class GoalMarker:
         self._busy = threading.Lock()
         self._plan = None
         self._state: motion.RobotState = self._current()
+        self._pose_publisher = rospy.Publisher("goal_marker/pose", PoseStamped, queue_size=1, latch=True)
         self._publisher = rospy.Publisher("goal_marker/goal", MarkerArray, queue_size=1, latch=True)
         self._server = InteractiveMarkerServer("goal_marker")
         self._menu = self._make_menu()
         self._insert(self._state.pose(self._link))
         self._show()
+
+    @property
+    def link(self) -> str:
+        """The link whose goal this is."""
+        return self._link
+
+    # --- what the menu and the topics below /rviz/moveit do ---
+
+    def plan(self) -> None:
+        """Plan to the goal, in the background."""
+        self._in_background(self._do_plan)(None)
+
+    def execute(self) -> None:
+        """Execute what was planned last, in the background."""
+        self._in_background(self._do_execute)(None)
+
+    def stop(self) -> None:
+        """Stop the motion."""
+        self._group.stop()
+
+    def to_current(self) -> None:
+        """Set the goal to where the robot is."""
+        self._set(self._current())
+
+    def to_state(self, message: RobotState) -> None:
+        """Set the goal to the joint values of a message."""
+        state = self._state.copy()
+        try:
+            states.apply_robot_state(None, state, message)
+        except (motion.MotionError, ValueError) as error:
+            rospy.logwarn("goal: %s", error)
+            return
+        self._set(state)
+
+    def to_pose(self, message: PoseStamped) -> None:
+        """Set the goal to a pose in the model's frame."""
+        frame = message.header.frame_id.lstrip("/")
+        if frame not in ("", self._model.frame):
+            rospy.logwarn_throttle(5, f"goal: poses are expected in '{self._model.frame}', not in '{frame}'")
+            return
+        try:
+            pose = convert.pose_message(convert.pose(message.pose, "a goal"))
+        except (motion.MotionError, ValueError) as error:
+            rospy.logwarn_throttle(5, f"goal: {error}")
+            return
+        self._follow(pose)
+        self._server.setPose(_NAME, pose)
+        self._server.applyChanges()
 
     def shutdown(self) -> None:
         """Take the marker away."""
@@ -108,18 +157,20 @@ class GoalMarker:
         if problem:
             rospy.logwarn_throttle(2, f"goal: {problem}")
         with self._lock:
+            pose = PoseStamped(pose=convert.pose_message(self._state.pose(self._link)))
+            pose.header.frame_id, pose.header.stamp = self._model.frame, rospy.Time.now()
+            self._pose_publisher.publish(pose)
             self._publisher.publish(ghost(self._robot.description, self._state, RED if problem else ORANGE, "goal"))
 
     # --- the menu ---
 
     def _make_menu(self) -> MenuHandler:
         menu = MenuHandler()
-        for title, action in (("Plan", self._do_plan), ("Execute", self._do_execute), ("Plan && Execute",
-                                                                                       self._do_both)):
+        for title, action in (("Plan", self._do_plan), ("Execute", self._do_execute), ("Plan && Execute", self._do_both)):
             menu.insert(title, callback=self._in_background(action))
-        menu.insert("Stop", callback=lambda _feedback: self._group.stop())
+        menu.insert("Stop", callback=lambda _feedback: self.stop())
         goals = menu.insert("Set goal to")
-        menu.insert("current", parent=goals, callback=lambda _feedback: self._set(self._current()))
+        menu.insert("current", parent=goals, callback=lambda _feedback: self.to_current())
         menu.insert("random", parent=goals, callback=lambda _feedback: self._set_random())
         for name in self._model.group(self._group.get_name()).named_states:
             menu.insert(name, parent=goals, callback=lambda _feedback, name=name: self._set_named(name))

@@ -9,6 +9,7 @@ import rospy
 
 import node_signals
 from moveit_commander import MoveGroupCommander, RobotCommander
+from moveit_ros_visualization.external import ExternalTopics
 from moveit_ros_visualization.goal import GoalMarker
 from moveit_ros_visualization.path import PathGhost
 from moveit_ros_visualization.scene import SceneMarkers
@@ -27,7 +28,8 @@ def main() -> int:
     except RuntimeError as error:
         rospy.logerr("%s", error)
         return 1
-    parts = [GoalMarker(robot, group), PathGhost(robot, group.get_end_effector_link()), SceneMarkers()]
+    goal = GoalMarker(robot, group)
+    parts = [goal, ExternalTopics(goal), PathGhost(robot, group.get_end_effector_link()), SceneMarkers()]
     rospy.loginfo("Set the goal of group '%s' with the marker in RViz; its menu (right button) plans and moves", name)
     node_signals.spin()
     for part in parts:
