@@ -105,6 +105,7 @@ class ConsoleWidget(QWidget):
         for widget, share in ((self.table_view, 5), (self.exclude_box, 1), (below, 1)):
             self.splitter.addWidget(widget)
             self.splitter.setStretchFactor(self.splitter.count() - 1, share)
+        self.splitter.setSizes([380, 90, 120])
         layout = QVBoxLayout(self)
         layout.addLayout(top)
         layout.addWidget(self.splitter)
