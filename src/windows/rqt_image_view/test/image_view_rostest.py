@@ -10,8 +10,9 @@ from rqt_testing.in_process import errors, open_plugin, wait_until  # isort: ski
 import cv2
 from geometry_msgs.msg import Point
 from sensor_msgs.msg import CompressedImage, Image
-from theora_image_transport.encoder import Encoder
+from std_msgs.msg import Header
 from theora_image_transport.msg import Packet
+from theora_image_transport.publisher import TheoraPublisher
 
 from rqt_image_view.source import image_topics
 
@@ -46,23 +47,29 @@ class ImageView(unittest.TestCase):
         self.shows_orange("/camera/image/compressed", CompressedImage, iter(lambda: image, None))
 
     def test_theora(self):
-        def packets():
-            encoder, step = Encoder((120, 160), "rgb8"), 0
-            while True:  # heads again and again, as for each new subscriber
-                yield from (Packet(data=head.data, b_o_s=head.b_o_s) for head in encoder.headers)
-                for _ in range(5):
-                    step += 1
-                    picture = PICTURE.copy()
-                    picture[:20, step % 100:step % 100 + 20] = 255
-                    yield from (Packet(data=packet.data) for packet in encoder.encode(picture.tobytes()))
+        """The heads of a stream come once, in one burst with the first picture."""
+        with open_plugin("rqt_image_view", ["/scene/theora"]) as gui:
+            publisher = TheoraPublisher("/scene", "rgb8", (120, 160), 2)
+            wait_until(publisher.wanted)
+            canvas, step = gui.plugin._widget.canvas, [0]
 
-        self.shows_orange("/camera/image/theora", Packet, packets())
+            def seen():
+                picture = PICTURE.copy()
+                picture[:20, step[0] % 100:step[0] % 100 + 20] = 255
+                step[0] += 1
+                publisher.publish(Header(), picture.tobytes())
+                return canvas.picture is not None and canvas.picture.shape == PICTURE.shape
+
+            wait_until(seen)
+            self.assertLess(np.abs(canvas.picture[60, 80].astype(int) - (200, 60, 30)).max(), 12)
+            publisher.shutdown()
+        self.assertEqual(errors, [])
 
     def test_list_of_topics(self):
         kinds = (("/b/image", Image), ("/b/image/compressed", CompressedImage), ("/a/only/compressed", CompressedImage),
                  ("/b/image/theora", Packet), ("/point", Point))
         publishers = [rospy.Publisher(name, kind, queue_size=1) for name, kind in kinds]
-        listed = [name for name in image_topics() if not name.startswith("/camera")]  # of the other tests
+        listed = [name for name in image_topics() if not name.startswith(("/camera", "/scene"))]  # of the other tests
         self.assertEqual(listed, ["/b/image", "/b/image/compressed", "/b/image/theora", "/a/only/compressed"])
         for publisher in publishers:
             publisher.unregister()

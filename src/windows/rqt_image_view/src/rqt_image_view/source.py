@@ -58,7 +58,9 @@ class ImageSource:
         self._free = threading.Event()
         self._free.set()
         self._last = None  # message shown last, to be shown again with other settings
-        self._subscriber = rospy.Subscriber(topic, rospy.AnyMsg, self._receive, queue_size=1, buff_size=_BUFFER)
+        # Of images the newest is enough. A Theora stream needs all its packets, the heads first, which come in one burst.
+        queue_size = None if topic.endswith("/theora") else 1
+        self._subscriber = rospy.Subscriber(topic, rospy.AnyMsg, self._receive, queue_size=queue_size, buff_size=_BUFFER)
 
     def close(self) -> None:
         self._subscriber.unregister()
