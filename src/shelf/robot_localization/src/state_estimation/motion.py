@@ -1,0 +1,54 @@
+"""How a rigid body moves on by itself: constant acceleration in the body's axes. No ROS in it.
+
+State (15): x, y, z (m, world), roll, pitch, yaw (rad), vx, vy, vz (m/s, body), their angular rates (rad/s, body), ax, ay, az
+(m/s², body).
+"""
+import numpy as np
+
+SIZE = 15
+POSITION, ORIENTATION, VELOCITY, RATE, ACCELERATION = (slice(start, start + 3) for start in range(0, SIZE, 3))
+PLANAR_OUT = (2, 3, 4, 8, 9, 10, 14)  # what does not move on the ground: z, roll, pitch and what belongs to them
+_STEEP = 1e-6  # rad; nearer to straight up or down, roll and yaw cannot be told apart
+
+
+def wrap(angle):
+    """Angle or array of them, rad, into [-pi, pi)."""
+    return (angle + np.pi) % (2 * np.pi) - np.pi
+
+
+def rotation(rpy) -> np.ndarray:
+    """(3, 3): from the body's axes into the world's, for fixed-axis roll, pitch, yaw (REP-103). Or (N, 3) to (N, 3, 3)."""
+    (sr, sp, sy), (cr, cp, cy) = np.moveaxis(np.sin(rpy), -1, 0), np.moveaxis(np.cos(rpy), -1, 0)
+    rows = [[cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
+            [sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr],
+            [-sp, cp * sr, cp * cr]]
+    return np.moveaxis(np.array(rows), (0, 1), (-2, -1))
+
+
+def _rates(rpy) -> np.ndarray:
+    """(..., 3, 3): from the body's rates to those of roll, pitch and yaw."""
+    roll, pitch = rpy[..., 0], rpy[..., 1]
+    cp = np.cos(pitch)
+    cp = np.where(np.abs(cp) < _STEEP, np.copysign(_STEEP, cp), cp)
+    sr, cr, tp = np.sin(roll), np.cos(roll), np.sin(pitch) / cp
+    one, zero = np.ones_like(roll), np.zeros_like(roll)
+    rows = [[one, sr * tp, cr * tp], [zero, cr, -sr], [zero, sr / cp, cr / cp]]
+    return np.moveaxis(np.array(rows), (0, 1), (-2, -1))
+
+
+def moved(states: np.ndarray, dt: float) -> np.ndarray:
+    """(..., 15) states after dt seconds; angles are not wrapped."""
+    after = states.copy()
+    rpy = states[..., ORIENTATION]
+    way = states[..., VELOCITY] * dt + 0.5 * states[..., ACCELERATION] * dt ** 2
+    after[..., POSITION] += np.einsum("...ij,...j->...i", rotation(rpy), way)
+    after[..., ORIENTATION] += dt * np.einsum("...ij,...j->...i", _rates(rpy), states[..., RATE])
+    after[..., VELOCITY] += dt * states[..., ACCELERATION]
+    return after
+
+
+def jacobian(state: np.ndarray, dt: float) -> np.ndarray:
+    """(15, 15): d moved / d state, by central differences, which are exact to 1e-9 for these smooth functions."""
+    h = 1e-5
+    shifts = np.eye(SIZE) * h
+    return (moved(state + shifts, dt) - moved(state - shifts, dt)).T / (2 * h)
