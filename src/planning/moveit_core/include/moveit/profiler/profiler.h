@@ -1,0 +1,1 @@
+#error "moveit::tools::Profiler does not exist here: use perf or gprof (docs/differences.md, 'MoveIt in C++')"

@@ -1,0 +1,1 @@
+#error "Sensor managers do not exist here (docs/differences.md, 'MoveIt in C++')"

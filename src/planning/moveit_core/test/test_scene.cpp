@@ -1,0 +1,223 @@
+#include <geometric_shapes/shapes.h>
+#include <gtest/gtest.h>
+#include <ros/time.h>
+
+#include <moveit/kinematic_constraints/utils.h>
+#include <moveit/planning_scene/planning_scene.h>
+#include <moveit/trajectory_processing/iterative_time_parameterization.h>
+#include <moveit/trajectory_processing/time_optimal_trajectory_generation.h>
+
+#include "arm.hpp"
+
+using planning_scene::PlanningScene;
+using planning_scene::PlanningScenePtr;
+
+namespace
+{
+moveit_msgs::CollisionObject box(const std::string& id, double x, double y, double z, double edge)
+{
+  moveit_msgs::CollisionObject object;
+  object.header.frame_id = "floor";
+  object.id = id;
+  object.primitives.resize(1);
+  object.primitives[0].type = shape_msgs::SolidPrimitive::BOX;
+  object.primitives[0].dimensions.assign(3, edge);
+  object.primitive_poses.resize(1);
+  object.primitive_poses[0].position.x = x;
+  object.primitive_poses[0].position.y = y;
+  object.primitive_poses[0].position.z = z;
+  object.primitive_poses[0].orientation.w = 1.0;
+  object.pose.orientation.w = 1.0;
+  object.operation = moveit_msgs::CollisionObject::ADD;
+  return object;
+}
+
+PlanningScenePtr readyScene()
+{
+  const auto scene = std::make_shared<PlanningScene>(makeArm());
+  scene->getCurrentStateNonConst().setToDefaultValues("manipulator", "ready");
+  return scene;
+}
+}  // namespace
+
+TEST(Scene, objectsCollideUntilTheyAreAllowedToOrGone)
+{
+  const PlanningScenePtr scene = readyScene();
+  EXPECT_FALSE(scene->isStateColliding());
+  const Eigen::Vector3d elbow = scene->getCurrentState().getGlobalLinkTransform("lower").translation();
+  ASSERT_TRUE(scene->processCollisionObjectMsg(box("post", elbow.x(), elbow.y(), elbow.z(), 0.1)));
+  collision_detection::CollisionRequest request;
+  request.contacts = true;
+  request.max_contacts = 100;
+  collision_detection::CollisionResult result;
+  scene->checkCollision(request, result);
+  EXPECT_TRUE(result.collision);
+  EXPECT_EQ(result.contacts.count({ "lower", "post" }), 1u);
+  EXPECT_EQ(result.contacts.count({ "post", "upper" }), 1u);
+  std::vector<std::string> links;
+  scene->getCollidingLinks(links);
+  EXPECT_EQ(links, (std::vector<std::string>{ "lower", "upper" }));
+  result.clear();
+  scene->checkSelfCollision(request, result);
+  EXPECT_FALSE(result.collision);
+
+  collision_detection::AllowedCollisionMatrix allowed = scene->getAllowedCollisionMatrix();
+  allowed.setEntry("post", std::vector<std::string>{ "lower", "upper" }, true);
+  result.clear();
+  scene->checkCollision(request, result, scene->getCurrentState(), allowed);
+  EXPECT_FALSE(result.collision);
+  EXPECT_TRUE(scene->isStateColliding());  // the scene's own matrix is as it was
+  scene->getAllowedCollisionMatrixNonConst().setEntry("post", true);  // with all that have a row
+  EXPECT_FALSE(scene->isStateColliding());
+
+  scene->getAllowedCollisionMatrixNonConst().removeEntry("post");
+  EXPECT_TRUE(scene->isStateColliding());
+  scene->getWorldNonConst()->setObjectPose("post", Eigen::Isometry3d(Eigen::Translation3d(3, 0, 0)));
+  EXPECT_FALSE(scene->isStateColliding());
+}
+
+TEST(Scene, aFunctionMayDecideAboutContacts)
+{
+  const PlanningScenePtr scene = readyScene();
+  const Eigen::Vector3d elbow = scene->getCurrentState().getGlobalLinkTransform("lower").translation();
+  scene->processCollisionObjectMsg(box("post", elbow.x(), elbow.y(), elbow.z(), 0.1));
+  int asked = 0;
+  bool answer = true;
+  const collision_detection::DecideContactFn decide = [&](collision_detection::Contact&) { return ++asked, answer; };
+  scene->getAllowedCollisionMatrixNonConst().setEntry("post", "lower", decide);
+  scene->getAllowedCollisionMatrixNonConst().setEntry("post", "upper", decide);
+  EXPECT_FALSE(scene->isStateColliding());
+  EXPECT_GT(asked, 0);
+  answer = false;
+  EXPECT_TRUE(scene->isStateColliding());
+}
+
+TEST(Scene, diffsLeaveTheirParentAlone)
+{
+  const PlanningScenePtr scene = readyScene();
+  scene->processCollisionObjectMsg(box("far", 3, 0, 0, 0.1));
+  const PlanningScenePtr child = scene->diff();
+  const Eigen::Vector3d elbow = scene->getCurrentState().getGlobalLinkTransform("lower").translation();
+  child->processCollisionObjectMsg(box("post", elbow.x(), elbow.y(), elbow.z(), 0.1));
+  child->getWorldNonConst()->removeObject("far");
+  EXPECT_TRUE(child->isStateColliding());
+  EXPECT_FALSE(scene->isStateColliding());
+  EXPECT_TRUE(scene->knowsFrameTransform("far"));
+  moveit_msgs::PlanningScene message;
+  child->getPlanningSceneDiffMsg(message);
+  ASSERT_EQ(message.world.collision_objects.size(), 2u);
+  ASSERT_TRUE(scene->usePlanningSceneMsg(message));
+  EXPECT_TRUE(scene->isStateColliding());
+  EXPECT_FALSE(scene->knowsFrameTransform("far"));
+}
+
+TEST(Scene, messageAndBack)
+{
+  const PlanningScenePtr scene = readyScene();
+  scene->processCollisionObjectMsg(box("far", 3, 0, 1, 0.1));
+  scene->getCollisionEnvNonConst()->setLinkPadding("lower", 0.02);
+  moveit_msgs::AttachedCollisionObject attach;
+  attach.link_name = "hand";
+  attach.object.id = "far";
+  ASSERT_TRUE(scene->processAttachedCollisionObjectMsg(attach));
+  EXPECT_FALSE(scene->getWorld()->hasObject("far"));
+  EXPECT_TRUE(scene->getFrameTransform("far").translation().isApprox(Eigen::Vector3d(3, 0, 1), 1e-9));
+  moveit_msgs::PlanningScene message;
+  scene->getPlanningSceneMsg(message);
+  PlanningScene other(scene->getRobotModel());
+  ASSERT_TRUE(other.usePlanningSceneMsg(message));
+  EXPECT_TRUE(haveSameAttachedObjects(scene->getCurrentState(), other.getCurrentState()));
+  EXPECT_EQ(other.getCollisionEnv()->getLinkPadding("lower"), 0.02);
+  EXPECT_NEAR(other.getCurrentState().distance(scene->getCurrentState()), 0.0, 1e-9);
+  collision_detection::AllowedCollision::Type type;
+  EXPECT_TRUE(other.getAllowedCollisionMatrix().getEntry("left", "right", type));
+  attach.object.operation = moveit_msgs::CollisionObject::REMOVE;
+  ASSERT_TRUE(other.processAttachedCollisionObjectMsg(attach));
+  EXPECT_TRUE(other.getWorld()->hasObject("far"));
+}
+
+TEST(Scene, distanceToTheWorldIsNotThatToItself)
+{
+  const PlanningScenePtr scene = readyScene();
+  scene->processCollisionObjectMsg(box("far", 3, 0, 0.2, 0.2));
+  const double distance = scene->distanceToCollision(scene->getCurrentState());
+  EXPECT_GT(distance, 1.0);
+  EXPECT_LT(distance, 2.9);
+}
+
+TEST(Scene, feasibilityAndConstraints)
+{
+  const PlanningScenePtr scene = readyScene();
+  const auto& state = scene->getCurrentState();
+  EXPECT_TRUE(scene->isStateValid(state, "manipulator"));
+  scene->setStateFeasibilityPredicate(
+      [](const moveit::core::RobotState& s, bool) { return s.getVariablePosition("lift") < 0.4; });
+  EXPECT_FALSE(scene->isStateValid(state, "manipulator"));
+  scene->setStateFeasibilityPredicate(planning_scene::StateFeasibilityFn());
+
+  geometry_msgs::PoseStamped pose;
+  pose.header.frame_id = "base";
+  const Eigen::Isometry3d hand = state.getGlobalLinkTransform("hand");
+  pose.pose.position.x = hand.translation().x();
+  pose.pose.position.y = hand.translation().y();
+  pose.pose.position.z = hand.translation().z();
+  const Eigen::Quaterniond q(hand.linear());
+  pose.pose.orientation.x = q.x(), pose.pose.orientation.y = q.y(), pose.pose.orientation.z = q.z(), pose.pose.orientation.w = q.w();
+  const moveit_msgs::Constraints goal = kinematic_constraints::constructGoalConstraints("hand", pose, 1e-3, 1e-2);
+  EXPECT_TRUE(scene->isStateConstrained(state, goal));
+  kinematic_constraints::KinematicConstraintSet set(scene->getRobotModel());
+  ASSERT_TRUE(set.add(goal, scene->getTransforms()));
+  moveit::core::RobotState moved(state);
+  moved.setVariablePosition("turn", state.getVariablePosition("turn") + 0.005);
+  const auto verdict = set.decide(moved);
+  EXPECT_FALSE(verdict.satisfied);  // the hand is 4 mm away
+  EXPECT_GT(verdict.distance, 0.003);
+  moveit_msgs::Constraints unknown = goal;
+  unknown.position_constraints[0].link_name = "no_such";
+  EXPECT_FALSE(kinematic_constraints::KinematicConstraintSet(scene->getRobotModel()).add(unknown, scene->getTransforms()));
+}
+
+TEST(Trajectory, timedWithinTheLimitsAndSentAsAMessage)
+{
+  const auto model = makeArm();
+  moveit::core::RobotState state(model);
+  for (const bool optimal : { false, true })
+  {
+    robot_trajectory::RobotTrajectory path(model, "manipulator");
+    for (int i = 0; i <= 10; ++i)
+    {
+      state.setVariablePosition("lift", -0.5 + 0.1 * i);
+      state.setVariablePosition("bend", 0.2 * i);
+      path.addSuffixWayPoint(state, 0.0);
+    }
+    const trajectory_processing::TimeOptimalTrajectoryGeneration time_optimal;
+    const trajectory_processing::IterativeParabolicTimeParameterization parabolic;
+    const trajectory_processing::TimeParameterization& timing =
+        optimal ? static_cast<const trajectory_processing::TimeParameterization&>(time_optimal) : parabolic;
+    ASSERT_TRUE(timing.computeTimeStamps(path, 0.5, 1.0));
+    EXPECT_GT(path.getDuration(), 2.0 / (0.5 * 2.0));  // bend goes 2 rad at no more than half of 2 rad/s
+    for (std::size_t i = 0; i < path.getWayPointCount(); ++i)
+    {
+      EXPECT_LE(std::abs(path.getWayPoint(i).getVariableVelocity("bend")), 1.0 + 1e-3);
+      EXPECT_LE(std::abs(path.getWayPoint(i).getVariableAcceleration("bend")), 1.0 + 1e-2);
+    }
+    moveit_msgs::RobotTrajectory message;
+    path.getRobotTrajectoryMsg(message);
+    EXPECT_EQ(message.joint_trajectory.joint_names, (std::vector<std::string>{ "turn", "lift", "bend" }));
+    EXPECT_NEAR(message.joint_trajectory.points.back().time_from_start.toSec(), path.getDuration(), 1e-6);
+    robot_trajectory::RobotTrajectory again(model, "manipulator");
+    again.setRobotTrajectoryMsg(state, message);
+    EXPECT_EQ(again.getWayPointCount(), path.getWayPointCount());
+    auto between = std::make_shared<moveit::core::RobotState>(model);
+    ASSERT_TRUE(again.getStateAtDurationFromStart(path.getDuration() / 2.0, between));
+    EXPECT_GT(between->getVariablePosition("bend"), 0.5);
+    EXPECT_LT(between->getVariablePosition("bend"), 1.5);
+  }
+}
+
+int main(int argc, char** argv)
+{
+  testing::InitGoogleTest(&argc, argv);
+  ros::Time::init();
+  return RUN_ALL_TESTS();
+}

@@ -1,0 +1,1 @@
+#error "moveit_cpp::PlanningComponent does not exist here: use moveit/move_group_interface/move_group_interface.h (docs/differences.md, 'MoveIt in C++')"

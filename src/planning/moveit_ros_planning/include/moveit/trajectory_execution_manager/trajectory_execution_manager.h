@@ -1,0 +1,1 @@
+#error "trajectory_execution_manager does not exist in C++ here: move_group executes (moveit/move_group_interface/move_group_interface.h) (docs/differences.md, 'MoveIt in C++')"
