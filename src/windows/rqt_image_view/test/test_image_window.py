@@ -178,3 +178,10 @@ def test_settings_come_back(tmp_path):
         assert find(gui, "color_scheme_combo_box").currentText() == "Hot" and gui.plugin._widget.toolbar.isHidden()
         assert find(gui, "publish_click_location_topic_line_edit").text() == "/clicks"
     assert errors == []
+
+
+@pytest.mark.parametrize("topic, waiting", [("/camera/image_raw/theora", None), ("/camera/image_raw", 1)])
+def test_no_packet_of_a_stream_is_dropped(topic, waiting):
+    """Its heads come once, all in one read of the socket, of which a queue of one would leave the last."""
+    with open_plugin("rqt_image_view", [topic]) as gui:
+        assert gui.plugin._source._subscriber.impl.queue_size == waiting
