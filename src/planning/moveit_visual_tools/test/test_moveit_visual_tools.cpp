@@ -129,6 +129,34 @@ TEST_F(Tools, ShowEndEffectors) {
   EXPECT_FALSE(tools_.publishEEMarkers(pose, hand, {0.01, 0.01, 0.01}));
 }
 
+TEST_F(Tools, MarkContacts) {
+  Listener<visualization_msgs::MarkerArray> markers("/test_markers");
+  Listener<moveit_msgs::DisplayRobotState> states("/test_state");
+  tools_.loadRobotStatePub("/test_state");
+  planning_scene::PlanningScene scene(tools_.getRobotModel());
+  moveit::core::RobotState& state = scene.getCurrentStateNonConst();
+  state.setToDefaultValues(group_, "home");
+  state.update();
+  EXPECT_FALSE(tools_.checkAndPublishCollision(state, &scene));
+  EXPECT_TRUE(states.next().highlight_links.size() > 0);
+  CollisionObject box;
+  box.header.frame_id = "world";
+  box.id = "box";
+  box.primitives.resize(1);
+  box.primitives[0].type = shape_msgs::SolidPrimitive::BOX;
+  box.primitives[0].dimensions = {0.1, 0.1, 0.1};
+  box.primitive_poses.push_back(tools_.convertPose(state.getGlobalLinkTransform("hand")));
+  ASSERT_TRUE(scene.processCollisionObjectMsg(box));
+  EXPECT_TRUE(tools_.checkAndPublishCollision(state, &scene, rvt::RED, rvt::PURPLE));
+  const auto points = markers.next().markers;
+  ASSERT_FALSE(points.empty());
+  EXPECT_EQ(points[0].ns, "Collision");
+  const Eigen::Vector3d p_WH = state.getGlobalLinkTransform("hand").translation();
+  EXPECT_LT((tools_.convertPoint(points[0].pose.position) - p_WH).norm(), 0.2);
+  const auto links = states.next().highlight_links;
+  EXPECT_TRUE(std::any_of(links.begin(), links.end(), [](const auto& link) { return link.id == "hand"; }));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include <moveit/planning_scene/planning_scene.h>
 #include <moveit/robot_model_loader/robot_model_loader.h>
 #include <moveit/robot_state/robot_state.h>
 #include <moveit/robot_trajectory/robot_trajectory.h>
@@ -159,6 +160,18 @@ class MoveItVisualTools : public rviz_visual_tools::RvizVisualTools {
                              const std::string& name,
                              const rviz_visual_tools::colors& color = rviz_visual_tools::GREEN);
   bool publishWorkspaceParameters(const moveit_msgs::WorkspaceParameters& params);
+
+  /// @return whether the state collides
+  bool checkAndPublishCollision(const moveit::core::RobotState& robot_state,
+                                const planning_scene::PlanningScene* planning_scene,
+                                const rviz_visual_tools::colors& highlight_link_color = rviz_visual_tools::RED,
+                                const rviz_visual_tools::colors& contact_point_color = rviz_visual_tools::PURPLE);
+  bool publishContactPoints(const moveit::core::RobotState& robot_state,
+                            const planning_scene::PlanningScene* planning_scene,
+                            const rviz_visual_tools::colors& color = rviz_visual_tools::RED);
+  bool publishContactPoints(const collision_detection::CollisionResult::ContactMap& contacts,
+                            const planning_scene::PlanningScene* planning_scene,
+                            const rviz_visual_tools::colors& color = rviz_visual_tools::RED);
 
   bool publishTrajectoryPoint(const trajectory_msgs::JointTrajectoryPoint& trajectory_pt,
                               const std::string& planning_group, double display_time = 0.1);
