@@ -1,5 +1,5 @@
 """The title bar of a dock: icon, title, and the buttons D C R ? - O X."""
-from python_qt_binding.QtCore import QEvent, QSize, Qt
+from python_qt_binding.QtCore import QEvent, QSize, Qt, QTimer
 from python_qt_binding.QtGui import QIcon
 from python_qt_binding.QtWidgets import QDockWidget, QHBoxLayout, QLabel, QLineEdit, QMenu, QSizePolicy, QToolButton, QWidget
 
@@ -121,7 +121,8 @@ class DockWidgetTitleBar(QWidget):
 
     def _show_menu(self, position):
         menu = QMenu(self)
-        menu.addAction("Rename dock widget").triggered.connect(self._start_rename)
+        menu.addAction("Rename dock widget").triggered.connect(
+            lambda checked=False: QTimer.singleShot(0, self._start_rename))  # the menu, when it goes, gives the focus back
         for title, move in self._dock.other_places():
             menu.addAction(title).triggered.connect(lambda checked=False, move=move: move())
         menu.popup(self.mapToGlobal(position))

@@ -111,7 +111,11 @@ class Desktop:
 
     def type(self, text: str) -> None:
         """Type a text into what has the focus; a line feed presses Return."""
-        self.xdotool("type", "--clearmodifiers", "--delay", "8", text)
+        for index, line in enumerate(text.split("\n")):
+            if index:
+                self.keys("Return")  # xdotool types a line feed as a key that Qt does not take for one
+            if line:
+                self.xdotool("type", "--clearmodifiers", "--delay", "8", line)
 
     def screenshot(self, path: str) -> None:
         """The whole screen as PNG, by a program of its own, as no widget would draw itself otherwise than it is seen."""
@@ -163,7 +167,8 @@ class Program:
         return None if isinstance(answer, dict) and "error" in answer else answer
 
     def window(self, title: str = "", timeout: float = _TIMEOUT) -> list:
-        """Wait for a window of this program with ``title`` in its title: [title, class, x, y, width, height]."""
+        """Wait for a window of this program with ``title`` in its title, in its place and with the focus of the keyboard on the
+        program: [title, class, x, y, width, height]."""
         return self._wait(lambda: next((w for w in self.ask("windows") or [] if title in w[0]), None), f"window '{title}'", timeout)
 
     def rect(self, name: str) -> Tuple[int, int, int, int]:
@@ -176,19 +181,27 @@ class Program:
 
     def click(self, name: str, button: int = 1, times: int = 1, at: Optional[Tuple[float, float]] = None) -> None:
         """Click on the widget of that ``objectName``, in its middle or at a fraction of its width and height."""
-        self._click(self.rect(name), button, times, at)
+        self._click(lambda: self.ask("rect", name), f"widget {name}", button, times, at)
 
     def click_text(self, text: str, button: int = 1, times: int = 1) -> None:
         """Click on a menu entry, tab, row, button or label that says ``text``."""
-        self._click(self._wait(lambda: self.ask("entry", text), f"'{text}'"), button, times, None)
+        self._click(lambda: self.ask("entry", text), f"'{text}'", button, times, None)
 
     def choose(self, *texts: str) -> None:
         """Click through menus."""
         for text in texts:
             self.click_text(text)
 
-    def _click(self, rect, button, times, at) -> None:
-        x, y, width, height = rect
+    def _click(self, find, what, button, times, at) -> None:
+        """Click when the thing has come to rest: windows are moved by their manager, menus unfold."""
+        seen = [None, None]
+
+        def resting():
+            seen[:] = seen[1], find()
+            return seen[1] is not None and seen[0] == seen[1]
+
+        self._wait(resting, what)
+        x, y, width, height = seen[1]
         right, down = at or (0.5, 0.5)
         self._desktop.click_at(round(x + right * width), round(y + down * height), button, times)
 

@@ -77,7 +77,8 @@ def _answer(question):
     if what == "names":
         return sorted({w.objectName() for w in QApplication.allWidgets() if w.isVisible()} - {""})
     if what == "windows":
-        return [[w.windowTitle(), type(w).__name__, *_rect(w)] for w in QApplication.topLevelWidgets() if w.isVisible()]
+        shown = [w for w in QApplication.topLevelWidgets() if w.isVisible() and w.windowHandle() and w.windowHandle().isExposed()]
+        return [[w.windowTitle(), type(w).__name__, *_rect(w)] for w in shown] if QApplication.activeWindow() else []
     if what == "entry":  # of a menu, menu bar, tab bar or item view, by its text
         return _entry(name)
     found = _widgets(name)
