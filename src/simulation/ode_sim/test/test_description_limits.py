@@ -340,3 +340,10 @@ def test_max_contacts_of_a_collision():
         return m.links[0].collisions[0].max_contacts, bool(problems)
     assert [contacts(value) for value in ("0", "3", "-1", "4294967295", "1e20", "1e300", HUGE, "inf")] == [
         (0, False), (3, False)] + [(10, True)] * 6
+
+
+def test_names_made_unique_are_those_of_nobody_else():
+    names = ("c_1", "c", "c", "c_1", "c", "c_2")
+    read, problems = model("<link name='l'>" + "".join(f"<collision name='{name}'>{BOX}</collision>" for name in names) + "</link>")
+    assert [shape.name for shape in read.links[0].collisions] == ["c_1", "c", "c_3", "c_1_1", "c_4", "c_2"]
+    assert sum("used twice" in problem.message for problem in problems) == 3

@@ -167,15 +167,17 @@ class SdfModels(SdfShapes):
 
     def _unique(self, parent: ET.Element, tag: str, read) -> Iterator:
         """Children of one kind, with names made unique: Gazebo would drop the second of a name."""
+        items = [(element, read(element)) for element in parent.findall(tag)]
+        given = {item.name for _, item in items}
         seen: Dict[str, int] = {}
-        for element in parent.findall(tag):
-            item = read(element)
+        for element, item in items:
             count = seen.get(item.name, 0)
-            seen[item.name] = count + 1
             if count:
+                while f"{item.name}_{count}" in given:  # so is one that somebody else has
+                    count += 1
                 self.warn(element, f"the name is used twice in this link; renamed '{quoted(item.name)}_{count}'", "note")
-                item = replace(item, name=f"{item.name}_{count}")
-            yield item
+            seen[item.name] = count + 1
+            yield replace(item, name=f"{item.name}_{count}") if count else item
 
     def _inertial(self, element: Optional[ET.Element], in_link) -> Inertial:
         if element is None:
