@@ -110,14 +110,19 @@ def test_the_reason_of_an_empty_list_is_said(monkeypatch):
 
     from rqt_joint_trajectory_controller import controllers
 
+    parameters = {"/arm/robot_description": URDF, "/arm/arm/joints": ["c", "a"]}
     answer = type("Answer", (), {"controller": [ControllerState("arm", "running", "effort_controllers/JointTrajectoryController", [
         HardwareInterfaceResources("x", ["a", "c"])])]})
     monkeypatch.setattr(controllers.rospy, "ServiceProxy", lambda name, kind: lambda: answer)
     monkeypatch.setattr(controllers.rospy, "has_param", lambda name: name == "/arm/robot_description")
-    monkeypatch.setattr(controllers.rospy, "get_param", lambda name: URDF)
+    monkeypatch.setattr(controllers.rospy, "get_param", lambda name, default=None: parameters.get(name, default))
     finder = ControllerFinder()
     assert finder.controllers("/arm/controller_manager") == Found(
         {}, ("arm: robot_description has no limits of position and velocity for c",))
+    answer.controller[0].claimed_resources[0].resources = ["a", "b"]
+    assert list(finder.controllers("/arm/controller_manager").usable["arm"]) == ["a", "b"]
+    parameters["/arm/arm/joints"] = ["b", "a"]
+    assert list(finder.controllers("/arm/controller_manager").usable["arm"]) == ["b", "a"]
     monkeypatch.setattr(controllers.rospy, "has_param", lambda name: False)
     assert "there is no parameter /arm/robot_description" in finder.controllers("/arm/controller_manager").reasons[0]
 

@@ -35,7 +35,7 @@ class ControllerFinder:
             return Found({}, reasons)
         usable = {}
         for controller in running:
-            joints = list(dict.fromkeys(joint for claimed in controller.claimed_resources for joint in claimed.resources))
+            joints = self._in_order(manager, controller)
             missing = [joint for joint in joints if joint not in limits]
             if joints and not missing:
                 usable[controller.name] = {joint: limits[joint] for joint in joints}
@@ -43,6 +43,13 @@ class ControllerFinder:
                 reasons += (f"{controller.name}: robot_description has no limits of position and velocity for "
                             f"{', '.join(missing)}" if missing else f"{controller.name} claims no joints",)
         return Found(usable, reasons)
+
+    @staticmethod
+    def _in_order(manager: str, controller) -> List[str]:
+        """The claimed joints, as the controller's own parameter orders them: claims are sorted by name."""
+        claimed = list(dict.fromkeys(joint for entry in controller.claimed_resources for joint in entry.resources))
+        listed = rospy.get_param(f"{manager.rsplit('/', 1)[0]}/{controller.name}/joints", None)
+        return list(listed) if isinstance(listed, list) and sorted(map(str, listed)) == sorted(claimed) else claimed
 
     @staticmethod
     def _limits(namespace: str):
