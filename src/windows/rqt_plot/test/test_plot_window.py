@@ -3,6 +3,9 @@ import numpy as np
 import pytest
 from rqt_testing.in_process import application, errors, find, open_plugin, process_events, rospy_without_master, wait_until  # isort: skip
 import genpy
+from python_qt_binding.QtCore import Qt
+from python_qt_binding.QtGui import QImage
+from python_qt_binding.QtTest import QTest
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64, Header
 
@@ -164,9 +167,12 @@ def test_curves_are_removed_by_the_menu(plot):
 
 def blues(widget):
     """Columns with pixels of the first curve's colour, right of the legend."""
-    image = widget.grab().toImage()
-    return {x for x in range(image.width() // 2, image.width() - 30) for y in range(image.height())
-            if image.pixelColor(x, y).blue() > 200 and image.pixelColor(x, y).red() < 60}
+    image = widget.grab().toImage().convertToFormat(QImage.Format.Format_RGB32)
+    bits = image.constBits()
+    bits.setsize(image.bytesPerLine() * image.height())
+    blue, _, red, _ = np.moveaxis(np.frombuffer(bits, np.uint8).reshape(image.height(), -1, 4), 2, 0)
+    columns = np.flatnonzero(((blue > 200) & (red < 60)).any(axis=0))
+    return columns[(columns >= image.width() // 2) & (columns < image.width() - 30)]
 
 
 def test_a_curve_stays_in_sight_while_the_window_scrolls(plot):
@@ -206,3 +212,14 @@ def test_twenty_curves_of_ten_seconds_at_a_kilohertz_are_few_points_to_draw(plot
     widget = plot.data_plot._data_plot_widget
     drawn = [len(curve.getData()[0]) for curve in widget._curves.values()]
     assert max(drawn) <= 4 * widget.width() and min(drawn) > widget.width()
+
+
+def test_a_name_typed_and_return(plot):
+    plot.show()
+    wait_until(plot._topics.known.is_set)
+    plot.topic_edit.setFocus()
+    for index in range(3):
+        plot.topic_edit.selectAll()
+        QTest.keyClicks(plot.topic_edit, f"/joints/position[{index}]")
+        QTest.keyClick(plot.topic_edit, Qt.Key.Key_Return)
+    assert plot.topics() == [f"/joints/position[{index}]" for index in range(3)]

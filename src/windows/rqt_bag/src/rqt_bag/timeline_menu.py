@@ -3,6 +3,7 @@ from __future__ import annotations
 
 from typing import Optional
 
+from python_qt_binding.QtCore import QSize
 from python_qt_binding.QtWidgets import QMenu, QVBoxLayout, QWidget
 
 
@@ -17,6 +18,9 @@ class TopicPopupWidget(QWidget):
         self._timeline, self._topic = timeline, topic
         self.viewer = viewer_type(timeline, self, topic)
         self._listening = False
+
+    def sizeHint(self) -> QSize:
+        return QSize(440, 320)
 
     def showEvent(self, event) -> None:
         super().showEvent(event)
