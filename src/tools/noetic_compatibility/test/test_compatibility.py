@@ -60,6 +60,15 @@ def test_old_sources_build(package, standard):
     assert "global namespace is deprecated" not in ended.stdout + ended.stderr
 
 
+@pytest.mark.parametrize("header", ["class_loader.h", "class_loader.hpp"])
+def test_pluginlib_brings_what_noetics_brings(package, header):
+    ended = package("pluginlib roscpp", f"""
+        #include <pluginlib/{header}>
+        void told() {{ ROS_INFO("%s", ros::package::getPath("roscpp").c_str()); }}
+        """)
+    assert ended.returncode == 0, ended.stdout + ended.stderr
+
+
 def test_packages_of_catkin_make_find_the_old_headers_too(package, tmp_path):
     """catkin_make configures all packages in one run of CMake, with a find_package(catkin) of its own before theirs."""
     package("roscpp pluginlib", "#include <class_loader/class_loader.h>\n#include <pluginlib/class_list_macros.h>\n",
