@@ -79,7 +79,10 @@ class PlanningExecution(unittest.TestCase):
         self.arm.stop()
         mover.join(30)
         self.assertEqual(done, [False])
-        self.assertLess(self.arm.get_current_joint_values()[0], 1.0)
+        stopped = self.arm.get_current_joint_values()
+        self.assertLess(stopped[0], 1.0)
+        rospy.sleep(0.7)
+        np.testing.assert_allclose(self.arm.get_current_joint_values(), stopped, atol=2e-3, err_msg="it was still moving")
 
     def test_what_is_out_of_reach_fails_and_moves_nothing(self):
         self.go_home()

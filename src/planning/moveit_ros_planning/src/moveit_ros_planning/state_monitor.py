@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import threading
 import time
-from typing import Callable, Dict, List, Optional
+from typing import Callable, Dict, List, Optional, Sequence
 
 import motion
 import numpy as np
@@ -150,6 +150,18 @@ class CurrentStateMonitor:
             if left <= 0 or rospy.is_shutdown():
                 return False
             with self._lock:
+                self._news.wait(min(left, 0.05))
+        return True
+
+    def wait_for_next(self, joints: Sequence[str], timeout: float = 1.0) -> bool:
+        """Wait (wall seconds) until each of ``joints`` was heard of anew."""
+        end = time.monotonic() + timeout
+        with self._lock:
+            before = {name: self._stamps.get(name) for name in joints if name in self._single}
+            while any(self._stamps.get(name) == stamp for name, stamp in before.items()):
+                left = end - time.monotonic()
+                if left <= 0 or rospy.is_shutdown():
+                    return False
                 self._news.wait(min(left, 0.05))
         return True
 

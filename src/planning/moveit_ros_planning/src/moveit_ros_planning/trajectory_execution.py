@@ -294,7 +294,7 @@ class Execution:
                 if self._on_segment is not None and not self._on_segment(index):
                     status = ExecutionStatus.FAILED
                     break
-            if status and last is not None and not self._stopped.is_set():
+            if last is not None and (status or self._stopped.is_set()):
                 self._wait_for_rest(last)
         except Exception as error:  # a controller manager of a third party; the node must live on
             self.reason, status = f"{type(error).__name__}: {error}", ExecutionStatus.FAILED
@@ -385,17 +385,21 @@ class Execution:
         return ExecutionStatus.SUCCEEDED
 
     def _wait_for_rest(self, step: _Step) -> None:
-        """Success is told when the robot has come to rest: three states in a row without motion, one second at most."""
+        """The end is told when the robot has come to rest: three states in a row without motion, one second at most. After a
+        stop a controller still slows down, and who plans from there meanwhile starts where the robot no longer is.
+        """
+        stopped = self._stopped.is_set()
+        share = 0.1 if stopped else 1.0  # of the tolerance; slowing down is a small motion from state to state
         owner = self._owner
         if not owner.checks_start or not owner.config["wait_for_trajectory_completion"]:
             return
         joints = [name for part in step.parts for name in part.joint_trajectory.joint_names]
         end, still, before = time.monotonic() + 1.0, 0, owner.monitor.state()
-        while still < 3 and time.monotonic() < end and not self._stopped.is_set():
-            if not owner.monitor.wait_for_current(rospy.Time.now(), end - time.monotonic()):
+        while still < 3 and time.monotonic() < end and (stopped or not self._stopped.is_set()):
+            if not owner.monitor.wait_for_next(joints, end - time.monotonic()):
                 return
             now = owner.monitor.state()
-            moved = any(abs(now.get(name) - before.get(name)) > owner.tolerance(name, {}) for name in joints)
+            moved = any(abs(now.get(name) - before.get(name)) > share * owner.tolerance(name, {}) for name in joints)
             still, before = (0 if moved else still + 1), now
 
 
