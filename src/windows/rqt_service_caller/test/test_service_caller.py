@@ -109,6 +109,7 @@ def test_kept(calls, tmp_path):
         request(gui, "model_name").setText(2, "arm")
         gui.plugin.trigger_configuration()
     with open_plugin("rqt_service_caller", settings=settings) as gui:
+        gui.plugin.widget.set_services(["/other"])  # it is not there yet
         assert gui.plugin.widget.orientation() == "vertical" and find(gui, "services_combo_box").currentText() == "/set"
         gui.plugin.use("/set", SetModelState, "gazebo_msgs/SetModelState")
         assert request(gui, "model_name").text(2) == "arm"

@@ -65,14 +65,15 @@ class ServiceCallerWidget(QWidget):
         return QSize(850, 450)
 
     def set_services(self, names) -> None:
-        """Offer these; what is chosen stays, with its request."""
+        """Offer these; what is chosen stays, with its request, even if it is not there at the moment."""
         chosen, box = self.services_combo_box.currentText(), self.services_combo_box
+        names = list(names) + ([chosen] if chosen and chosen not in names else [])
         blocked = box.blockSignals(True)
         box.onSetItems(names)
         if chosen in names:
             box.setCurrentIndex(names.index(chosen))
         box.blockSignals(blocked)
-        if chosen not in names and names:
+        if not chosen and names:
             self.choose(box.currentText())
 
     def choose(self, service: str) -> None:
