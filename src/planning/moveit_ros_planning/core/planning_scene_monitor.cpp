@@ -1,0 +1,319 @@
+#include <moveit/planning_scene_monitor/planning_scene_monitor.h>
+
+#include <tf2_eigen/tf2_eigen.h>
+
+namespace planning_scene_monitor
+{
+namespace
+{
+constexpr char LOGNAME[] = "planning_scene_monitor";
+using Lock = boost::unique_lock<boost::shared_mutex>;
+}  // namespace
+
+const std::string PlanningSceneMonitor::DEFAULT_JOINT_STATES_TOPIC = "joint_states";
+const std::string PlanningSceneMonitor::DEFAULT_ATTACHED_COLLISION_OBJECT_TOPIC = "attached_collision_object";
+const std::string PlanningSceneMonitor::DEFAULT_COLLISION_OBJECT_TOPIC = "collision_object";
+const std::string PlanningSceneMonitor::DEFAULT_PLANNING_SCENE_WORLD_TOPIC = "planning_scene_world";
+const std::string PlanningSceneMonitor::DEFAULT_PLANNING_SCENE_TOPIC = "planning_scene";
+const std::string PlanningSceneMonitor::DEFAULT_PLANNING_SCENE_SERVICE = "get_planning_scene";
+const std::string PlanningSceneMonitor::MONITORED_PLANNING_SCENE_TOPIC = "monitored_planning_scene";
+
+PlanningSceneMonitor::PlanningSceneMonitor(const std::string& robot_description, const Buffer& tf_buffer, const std::string& name)
+  : PlanningSceneMonitor(planning_scene::PlanningScenePtr(), robot_description, tf_buffer, name)
+{
+}
+
+PlanningSceneMonitor::PlanningSceneMonitor(const robot_model_loader::RobotModelLoaderPtr& rml, const Buffer& tf_buffer,
+                                           const std::string& name)
+  : PlanningSceneMonitor(planning_scene::PlanningScenePtr(), rml, tf_buffer, name)
+{
+}
+
+PlanningSceneMonitor::PlanningSceneMonitor(const planning_scene::PlanningScenePtr& scene, const std::string& robot_description,
+                                           const Buffer& tf_buffer, const std::string& name)
+  : PlanningSceneMonitor(scene, std::make_shared<robot_model_loader::RobotModelLoader>(robot_description), tf_buffer, name)
+{
+}
+
+PlanningSceneMonitor::PlanningSceneMonitor(const planning_scene::PlanningScenePtr& scene,
+                                           const robot_model_loader::RobotModelLoaderPtr& rml, const Buffer& tf_buffer,
+                                           const std::string& name)
+  : name_(name.empty() ? "planning_scene_monitor" : name), loader_(rml), robot_model_(rml->getModel()), tf_buffer_(tf_buffer)
+{
+  nh_.setCallbackQueue(&queue_);
+  initialize(scene);
+  spinner_.reset(new ros::AsyncSpinner(1, &queue_));
+  spinner_->start();
+}
+
+PlanningSceneMonitor::~PlanningSceneMonitor()
+{
+  stopStateMonitor();
+  stopSceneMonitor();
+  stopWorldGeometryMonitor();
+  service_.shutdown();
+  spinner_->stop();
+}
+
+void PlanningSceneMonitor::initialize(const planning_scene::PlanningScenePtr& scene)
+{
+  scene_ = scene;
+  if (scene_ || !robot_model_)
+  {
+    if (!scene_)
+      ROS_ERROR_NAMED(LOGNAME, "Robot model not loaded: there is no planning scene");
+    return;
+  }
+  scene_ = std::make_shared<planning_scene::PlanningScene>(robot_model_);
+  const std::string prefix = getRobotDescription() + "_planning/default_robot_";
+  double padding = 0.0, scale = 1.0;
+  ros::param::get(prefix + "padding", padding);
+  ros::param::get(prefix + "scale", scale);
+  if (padding != 0.0)
+    scene_->getCollisionEnvNonConst()->setPadding(padding);
+  if (scale != 1.0)
+    scene_->getCollisionEnvNonConst()->setScale(scale);
+}
+
+template <typename Change>
+void PlanningSceneMonitor::change(SceneUpdateType type, const Change& what)
+{
+  if (!scene_)
+    return;
+  updateFrameTransforms();
+  {
+    const Lock lock(mutex_);
+    last_update_time_ = ros::Time::now();
+    what();
+  }
+  triggerSceneUpdateEvent(type);
+}
+
+// ---------------------------------------------------------------- states
+
+void PlanningSceneMonitor::startStateMonitor(const std::string& joint_states_topic, const std::string& attached_objects_topic)
+{
+  stopStateMonitor();
+  if (!scene_)
+  {
+    ROS_ERROR_NAMED(LOGNAME, "Cannot monitor robot state because planning scene is not configured");
+    return;
+  }
+  if (!states_)
+    states_ = std::make_shared<CurrentStateMonitor>(robot_model_, tf_buffer_, ros::NodeHandle());
+  states_->addUpdateCallback([this](const sensor_msgs::JointStateConstPtr&) {
+    if (ros::WallTime::now() - last_state_update_ < state_period_)
+      return;
+    last_state_update_ = ros::WallTime::now();
+    updateSceneWithCurrentState();
+  });
+  states_->startStateMonitor(joint_states_topic);
+  if (!attached_objects_topic.empty())
+    attached_subscriber_ = nh_.subscribe<moveit_msgs::AttachedCollisionObject>(
+        attached_objects_topic, 1024, [this](const moveit_msgs::AttachedCollisionObjectConstPtr& object) {
+          change(UPDATE_GEOMETRY, [&]() { scene_->processAttachedCollisionObjectMsg(*object); });
+        });
+}
+
+void PlanningSceneMonitor::stopStateMonitor()
+{
+  if (states_)
+  {
+    states_->clearUpdateCallbacks();
+    states_->stopStateMonitor();
+  }
+  attached_subscriber_.shutdown();
+}
+
+void PlanningSceneMonitor::setStateUpdateFrequency(double hz)
+{
+  state_period_ = ros::WallDuration(hz > 0.0 ? 1.0 / hz : 0.0);
+}
+
+void PlanningSceneMonitor::updateSceneWithCurrentState()
+{
+  if (!states_ || !scene_)
+  {
+    ROS_ERROR_THROTTLE_NAMED(1, LOGNAME, "State monitor is not active. Unable to set the planning scene state");
+    return;
+  }
+  {
+    const Lock lock(mutex_);
+    last_update_time_ = ros::Time::now();
+    states_->setToCurrentState(scene_->getCurrentStateNonConst());
+    scene_->getCurrentStateNonConst().update();
+  }
+  triggerSceneUpdateEvent(UPDATE_STATE);
+}
+
+bool PlanningSceneMonitor::waitForCurrentRobotState(const ros::Time& t, double wait_time)
+{
+  if (!states_)
+    return false;
+  const bool heard = states_->waitForCurrentState(t, wait_time);
+  updateSceneWithCurrentState();
+  if (!heard)
+    ROS_WARN_NAMED(LOGNAME, "Failed to fetch current robot state.");
+  return heard;
+}
+
+// ---------------------------------------------------------------- scenes and objects
+
+void PlanningSceneMonitor::startSceneMonitor(const std::string& scene_topic)
+{
+  stopSceneMonitor();
+  if (!scene_topic.empty())
+    scene_subscriber_ = nh_.subscribe<moveit_msgs::PlanningScene>(
+        scene_topic, 100, [this](const moveit_msgs::PlanningSceneConstPtr& scene) { newPlanningSceneMessage(*scene); });
+}
+
+bool PlanningSceneMonitor::newPlanningSceneMessage(const moveit_msgs::PlanningScene& scene)
+{
+  bool good = false;
+  change(UPDATE_SCENE, [&]() { good = scene_->usePlanningSceneMsg(scene); });
+  return good;
+}
+
+void PlanningSceneMonitor::startWorldGeometryMonitor(const std::string& collision_objects_topic,
+                                                     const std::string& planning_scene_world_topic,
+                                                     const bool /*load_octomap_monitor*/)
+{
+  stopWorldGeometryMonitor();
+  if (!collision_objects_topic.empty())
+    object_subscriber_ = nh_.subscribe<moveit_msgs::CollisionObject>(
+        collision_objects_topic, 1024, [this](const moveit_msgs::CollisionObjectConstPtr& object) {
+          change(UPDATE_GEOMETRY, [&]() { scene_->processCollisionObjectMsg(*object); });
+        });
+  if (!planning_scene_world_topic.empty())
+    world_subscriber_ = nh_.subscribe<moveit_msgs::PlanningSceneWorld>(
+        planning_scene_world_topic, 1, [this](const moveit_msgs::PlanningSceneWorldConstPtr& world) {
+          change(UPDATE_SCENE, [&]() {
+            scene_->getWorldNonConst()->clearObjects();
+            scene_->processPlanningSceneWorldMsg(*world);
+          });
+        });
+}
+
+void PlanningSceneMonitor::stopWorldGeometryMonitor()
+{
+  object_subscriber_.shutdown();
+  world_subscriber_.shutdown();
+}
+
+bool PlanningSceneMonitor::requestPlanningSceneState(const std::string& service_name)
+{
+  ros::ServiceClient client = ros::NodeHandle().serviceClient<moveit_msgs::GetPlanningScene>(service_name);
+  moveit_msgs::GetPlanningScene call;
+  using Components = moveit_msgs::PlanningSceneComponents;
+  call.request.components.components =
+      Components::SCENE_SETTINGS | Components::ROBOT_STATE | Components::ROBOT_STATE_ATTACHED_OBJECTS |
+      Components::WORLD_OBJECT_NAMES | Components::WORLD_OBJECT_GEOMETRY | Components::OCTOMAP | Components::TRANSFORMS |
+      Components::ALLOWED_COLLISION_MATRIX | Components::LINK_PADDING_AND_SCALING | Components::OBJECT_COLORS;
+  if (!client.waitForExistence(ros::Duration(5.0)) || !client.call(call))
+  {
+    ROS_INFO_NAMED(LOGNAME, "Failed to call service %s, have you launched move_group or called psm.providePlanningSceneService()?",
+                   service_name.c_str());
+    return false;
+  }
+  return newPlanningSceneMessage(call.response.scene);
+}
+
+void PlanningSceneMonitor::clearOctomap()
+{
+  change(UPDATE_GEOMETRY,
+         [&]() { scene_->getWorldNonConst()->removeObject(planning_scene::PlanningScene::OCTOMAP_NS); });
+}
+
+void PlanningSceneMonitor::getMonitoredTopics(std::vector<std::string>& topics) const
+{
+  topics.clear();
+  if (states_ && states_->isActive())
+    topics.push_back(states_->getMonitoredTopic());
+  for (const ros::Subscriber* subscriber : { &scene_subscriber_, &object_subscriber_, &world_subscriber_, &attached_subscriber_ })
+    if (*subscriber)
+      topics.push_back(subscriber->getTopic());
+}
+
+// All frames of TF that are no links.
+void PlanningSceneMonitor::updateFrameTransforms()
+{
+  if (!tf_buffer_ || !scene_)
+    return;
+  std::vector<std::string> frames;
+  tf_buffer_->_getFrameStrings(frames);
+  std::vector<geometry_msgs::TransformStamped> transforms;
+  for (const std::string& frame : frames)
+  {
+    if (frame == scene_->getPlanningFrame() || robot_model_->hasLinkModel(frame))
+      continue;
+    try
+    {
+      transforms.push_back(tf_buffer_->lookupTransform(scene_->getPlanningFrame(), frame, ros::Time(0)));
+    }
+    catch (const tf2::TransformException&)
+    {
+      continue;  // of another tree
+    }
+    transforms.back().child_frame_id = frame;
+  }
+  const Lock lock(mutex_);
+  scene_->getTransformsNonConst().setTransforms(transforms);
+}
+
+// ---------------------------------------------------------------- others
+
+void PlanningSceneMonitor::addUpdateCallback(const boost::function<void(SceneUpdateType)>& fn)
+{
+  const boost::recursive_mutex::scoped_lock lock(callbacks_mutex_);
+  if (fn)
+    callbacks_.push_back(fn);
+}
+
+void PlanningSceneMonitor::clearUpdateCallbacks()
+{
+  const boost::recursive_mutex::scoped_lock lock(callbacks_mutex_);
+  callbacks_.clear();
+}
+
+void PlanningSceneMonitor::triggerSceneUpdateEvent(SceneUpdateType update_type)
+{
+  const boost::recursive_mutex::scoped_lock lock(callbacks_mutex_);
+  for (const auto& callback : callbacks_)
+    callback(update_type);
+  if (!publisher_ || !(published_events_ & update_type) || publishing_frequency_ <= 0.0 ||
+      (update_type == UPDATE_STATE && ros::WallTime::now() - last_published_ < ros::WallDuration(1.0 / publishing_frequency_)))
+    return;
+  last_published_ = ros::WallTime::now();
+  moveit_msgs::PlanningScene message;
+  {
+    const boost::shared_lock<boost::shared_mutex> reading(mutex_);
+    scene_->getPlanningSceneMsg(message);
+  }
+  publisher_.publish(message);
+}
+
+void PlanningSceneMonitor::startPublishingPlanningScene(SceneUpdateType event, const std::string& planning_scene_topic)
+{
+  published_events_ = event;
+  publisher_ = nh_.advertise<moveit_msgs::PlanningScene>(planning_scene_topic, 100, true);
+  ROS_INFO_NAMED(LOGNAME, "Publishing maintained planning scene on '%s'", planning_scene_topic.c_str());
+  if (scene_)
+    triggerSceneUpdateEvent(UPDATE_SCENE);
+}
+
+void PlanningSceneMonitor::providePlanningSceneService(const std::string& service_name)
+{
+  const boost::function<bool(moveit_msgs::GetPlanningScene::Request&, moveit_msgs::GetPlanningScene::Response&)> answer =
+      [this](moveit_msgs::GetPlanningScene::Request& request, moveit_msgs::GetPlanningScene::Response& response) {
+        if (!scene_)
+          return false;
+        const boost::shared_lock<boost::shared_mutex> reading(mutex_);
+        if (request.components.components)
+          scene_->getPlanningSceneMsg(response.scene, request.components);
+        else
+          scene_->getPlanningSceneMsg(response.scene);
+        return true;
+      };
+  service_ = nh_.advertiseService<moveit_msgs::GetPlanningScene::Request, moveit_msgs::GetPlanningScene::Response>(service_name, answer);
+}
+}  // namespace planning_scene_monitor

@@ -1,0 +1,118 @@
+// A robot from parameters, and scenes that follow topics and each other.
+#include <gtest/gtest.h>
+#include <moveit/planning_scene_monitor/planning_scene_monitor.h>
+#include <ros/ros.h>
+
+#include <condition_variable>
+#include <mutex>
+
+using planning_scene_monitor::LockedPlanningSceneRO;
+using planning_scene_monitor::PlanningSceneMonitor;
+
+namespace
+{
+robot_model_loader::RobotModelLoaderPtr loader()
+{
+  static const auto made = std::make_shared<robot_model_loader::RobotModelLoader>("robot_description");
+  return made;
+}
+
+// Waits until `good`, asked after each update of the scene.
+template <typename Good>
+bool waitFor(const planning_scene_monitor::PlanningSceneMonitorPtr& monitor, const Good& good)
+{
+  std::mutex mutex;
+  std::condition_variable updated;
+  bool done = false;
+  monitor->addUpdateCallback([&](PlanningSceneMonitor::SceneUpdateType) {
+    const std::lock_guard<std::mutex> lock(mutex);
+    done = done || good(*LockedPlanningSceneRO(monitor).operator->());
+    updated.notify_all();
+  });
+  const bool already = good(*LockedPlanningSceneRO(monitor).operator->());
+  std::unique_lock<std::mutex> lock(mutex);
+  done = done || already;
+  const bool met = updated.wait_for(lock, std::chrono::seconds(20), [&]() { return done; });
+  lock.unlock();
+  monitor->clearUpdateCallbacks();
+  return met;
+}
+}  // namespace
+
+TEST(Loader, limitsAndSolversAreThoseOfTheParameters)
+{
+  const moveit::core::RobotModelPtr model = loader()->getModel();
+  ASSERT_TRUE(model);
+  EXPECT_EQ(model->getVariableBounds("joint_1").max_acceleration_, 4.0);
+  moveit::core::JointModelGroup* group = model->getJointModelGroup("manipulator");
+  ASSERT_TRUE(group->getSolverInstance());
+  EXPECT_EQ(group->getDefaultIKTimeout(), 0.05);
+  EXPECT_FALSE(model->getJointModelGroup("hand")->getSolverInstance());
+
+  moveit::core::RobotState state(model);
+  state.setToDefaultValues(group, "left");
+  const Eigen::Isometry3d tcp = state.getGlobalLinkTransform("tcp");
+  state.setToDefaultValues(group, "home");
+  ASSERT_TRUE(state.setFromIK(group, tcp, "tcp", 0.5));  // bolted to the tip that the solver knows
+  EXPECT_TRUE(state.getGlobalLinkTransform("tcp").isApprox(tcp, 1e-4));
+  Eigen::Isometry3d far = tcp;
+  far.translation().x() = 9.0;
+  EXPECT_FALSE(state.setFromIK(group, far, "tcp", 0.05));
+  int asked = 0;
+  EXPECT_FALSE(state.setFromIK(group, tcp, "tcp", 0.05,
+                               [&](moveit::core::RobotState*, const moveit::core::JointModelGroup*, const double*) {
+                                 return ++asked < 0;
+                               }));
+  EXPECT_GT(asked, 0);
+}
+
+TEST(Monitor, followsJointStatesAndObjectsAndHandsItsSceneOn)
+{
+  const auto monitor = std::make_shared<PlanningSceneMonitor>(loader());
+  ros::NodeHandle nh;
+  ros::Publisher objects = nh.advertise<moveit_msgs::CollisionObject>("collision_object", 1, true);
+  moveit_msgs::CollisionObject post;
+  post.id = "post";
+  post.header.frame_id = "world";
+  post.primitives.resize(1);
+  post.primitives[0].type = shape_msgs::SolidPrimitive::BOX;
+  post.primitives[0].dimensions.assign(3, 0.2);
+  post.primitive_poses.resize(1);
+  post.primitive_poses[0].position.x = 0.1;
+  post.primitive_poses[0].position.z = 0.5;
+  post.primitive_poses[0].orientation.w = post.pose.orientation.w = 1.0;
+  objects.publish(post);
+  monitor->startWorldGeometryMonitor();
+  EXPECT_TRUE(waitFor(monitor, [](const planning_scene::PlanningScene& scene) { return scene.getWorld()->hasObject("post"); }));
+  EXPECT_TRUE(LockedPlanningSceneRO(monitor)->isStateColliding());
+
+  ros::Publisher joints = nh.advertise<sensor_msgs::JointState>("joint_states", 1, true);
+  sensor_msgs::JointState state;
+  state.name = { "joint_1", "joint_2", "joint_3", "joint_4", "joint_5", "joint_6", "finger_joint" };
+  state.position = { 1.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.01 };
+  monitor->startStateMonitor();
+  const ros::WallTime since = ros::WallTime::now();
+  while (!joints.getNumSubscribers() && ros::WallTime::now() - since < ros::WallDuration(20))
+    ros::WallDuration(0.01).sleep();
+  state.header.stamp = ros::Time::now();
+  joints.publish(state);
+  ASSERT_TRUE(monitor->waitForCurrentRobotState(state.header.stamp, 10.0));
+  EXPECT_EQ(LockedPlanningSceneRO(monitor)->getCurrentState().getVariablePosition("joint_1"), 1.0);
+  EXPECT_EQ(LockedPlanningSceneRO(monitor)->getCurrentState().getVariablePosition("finger_mirror"), 0.01);
+
+  monitor->providePlanningSceneService("scene_of_the_test");
+  const auto other = std::make_shared<PlanningSceneMonitor>(loader());
+  ASSERT_TRUE(other->requestPlanningSceneState("scene_of_the_test"));
+  EXPECT_TRUE(LockedPlanningSceneRO(other)->getWorld()->hasObject("post"));
+  EXPECT_EQ(LockedPlanningSceneRO(other)->getCurrentState().getVariablePosition("joint_6"), 0.5);
+}
+
+int main(int argc, char** argv)
+{
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "test_monitor");
+  ros::NodeHandle node;
+  const int result = RUN_ALL_TESTS();
+  ros::shutdown();
+  return result;
+}
