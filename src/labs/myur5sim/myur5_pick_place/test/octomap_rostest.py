@@ -66,7 +66,7 @@ class SeenByTheCamera(unittest.TestCase):
         end = time.monotonic() + PATIENCE
         while abs(self.arm.get_current_joint_values()[0] - start) < 0.02:
             self.assertLess(time.monotonic(), end, "the arm does not move")
-        # the block floats up in front of the hand, where only the camera can see it
+        # the post jumps in front of the hand, where only the camera can see it
         hand = self.arm.get_current_pose().pose.position
         angle = np.arctan2(hand.y, hand.x) - 0.55
         state = ModelState(model_name="post", reference_frame="world")
