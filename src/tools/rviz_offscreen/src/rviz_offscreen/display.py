@@ -35,7 +35,7 @@ def private_display(size: str = "1280x800x24") -> Iterator[Dict[str, str]]:
         raise DisplayError("Xvfb is not installed; run scripts/setup (Debian package xvfb)")
     reading, writing = os.pipe()
     server = subprocess.Popen(
-        ["Xvfb", "-displayfd", str(writing), "-screen", "0", size, "-nolisten", "tcp", "+extension", "GLX"],
+        ["Xvfb", "-displayfd", str(writing), "-screen", "0", size, "-nolisten", "tcp", "-noreset", "+extension", "GLX"],
         pass_fds=[writing], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, preexec_fn=die_with_parent)
     os.close(writing)
     try:

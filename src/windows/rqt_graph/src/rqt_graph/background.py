@@ -39,8 +39,7 @@ class Latest(QObject):
 
     def _on_finished(self, result, error):
         self._busy = False
-        if self._next is not None:
-            work, self._next = self._next, None
+        work, self._next = self._next, None
+        if work is not None:
             self.run(work)
-        else:
-            self.done.emit(result, error)
+        self.done.emit(result, error)  # though a newer one is under way: with work that comes all the time nothing would be seen

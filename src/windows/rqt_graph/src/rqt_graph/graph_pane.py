@@ -55,7 +55,7 @@ class GraphPane(QWidget):
 
     def show_dot(self, text):
         """Lay out and draw, soon; what is there already stays as it is."""
-        if text != self._dot or not self.nodes:
+        if text != self._dot or not (self.nodes or self._worker.busy()):
             self._dot = text
             self._worker.run(lambda: (text, layout(text)))
 
