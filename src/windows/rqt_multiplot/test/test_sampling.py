@@ -102,7 +102,7 @@ def test_memory_is_bounded():
     block = np.zeros((200_000, 2))
     for _ in range(8):
         points.append(block, False)
-    assert len(points) == MOST_POINTS and points._data.size <= 2 * 2 * (MOST_POINTS + 200_000)
+    assert len(points) == MOST_POINTS and points._data.size <= 2 * (1.25 * MOST_POINTS + 200_000)
 
 
 def test_a_path_that_turns_is_drawn_whole():

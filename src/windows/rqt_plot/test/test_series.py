@@ -19,7 +19,7 @@ def test_memory_is_bounded():
         series.extend(np.arange(start, start + 70), np.arange(start, start + 70))
     assert len(series) == 1000 and series.x[-1] == series.y[-1] == 50_049 and series.x[0] == 49_050
     assert series.dropped == 49_050
-    assert series._data.size <= 2 * 2 * 1070
+    assert series._data.size <= 2 * (1250 + 70)
     series.extend(np.arange(5000.0) + 60_000, np.zeros(5000))
     assert len(series) == 1000 and series.x[-1] == 64_999
 

@@ -76,8 +76,11 @@ class Series:
         if self._end + count <= size:
             return
         kept = len(self)
-        # Twice what is kept: then each sample is moved once on average, however long the curve runs.
-        target = self._data if kept + count <= size // 2 else np.empty((2, 2 * (kept + count)))
+        # Twice what is kept, a quarter more than can be: each sample is moved a few times, however long the curve runs.
+        wanted = 2 * (kept + count)
+        if self.capacity is not None:
+            wanted = min(wanted, self.capacity + self.capacity // 4 + count)
+        target = self._data if kept + count <= 0.85 * size else np.empty((2, max(wanted, kept + count)))
         target[:, :kept] = self._data[:, self._begin:self._end].copy() if target is self._data else \
             self._data[:, self._begin:self._end]
         self._data, self._begin, self._end = target, 0, kept
