@@ -35,12 +35,18 @@ MoveItVisualTools::MoveItVisualTools() : RvizVisualTools("", rviz_visual_tools::
 }
 
 MoveItVisualTools::MoveItVisualTools(const std::string& base_frame, const std::string& marker_topic,
+                                     planning_scene_monitor::PlanningSceneMonitorPtr psm)
+    : RvizVisualTools(base_frame, marker_topic), psm_(std::move(psm)) {}
+
+MoveItVisualTools::MoveItVisualTools(const std::string& base_frame, const std::string& marker_topic,
                                      moveit::core::RobotModelConstPtr robot_model)
     : RvizVisualTools(base_frame, marker_topic), robot_model_(std::move(robot_model)) {}
 
 bool MoveItVisualTools::loadSharedRobotState() {
   if (shared_robot_state_)
     return true;
+  if (!robot_model_ && psm_)
+    robot_model_ = psm_->getRobotModel();
   if (!robot_model_) {
     rm_loader_ = std::make_shared<robot_model_loader::RobotModelLoader>(ROBOT_DESCRIPTION);
     robot_model_ = rm_loader_->getModel();

@@ -41,6 +41,11 @@ bool MoveItVisualTools::applyScene(const moveit_msgs::PlanningScene& diff) {
 
 bool MoveItVisualTools::triggerPlanningSceneUpdate() {
   pending_.is_diff = pending_.robot_state.is_diff = true;
+  if (psm_) {
+    const bool applied = psm_->newPlanningSceneMessage(pending_);
+    pending_ = moveit_msgs::PlanningScene();
+    return applied;
+  }
   if (!pub_planning_scene_) {
     pub_planning_scene_ = ros::NodeHandle().advertise<moveit_msgs::PlanningScene>(planning_scene_topic_, 100);
     waitForSubscriber(pub_planning_scene_);
@@ -48,6 +53,27 @@ bool MoveItVisualTools::triggerPlanningSceneUpdate() {
   pub_planning_scene_.publish(pending_);
   pending_ = moveit_msgs::PlanningScene();
   return true;
+}
+
+bool MoveItVisualTools::loadPlanningSceneMonitor() {
+  if (psm_) {
+    ROS_WARN_STREAM_NAMED(LOGNAME, "Will not load a new planning scene monitor when one has already been set for Visual Tools");
+    return false;
+  }
+  const auto monitor = std::make_shared<planning_scene_monitor::PlanningSceneMonitor>(ROBOT_DESCRIPTION);
+  if (!monitor->getPlanningScene()) {
+    ROS_ERROR_STREAM_NAMED(LOGNAME, "Planning scene not configured");
+    return false;
+  }
+  monitor->startPublishingPlanningScene(planning_scene_monitor::PlanningSceneMonitor::UPDATE_SCENE, planning_scene_topic_);
+  psm_ = monitor;
+  return true;
+}
+
+planning_scene_monitor::PlanningSceneMonitorPtr MoveItVisualTools::getPlanningSceneMonitor() {
+  if (!psm_)
+    loadPlanningSceneMonitor();
+  return psm_;
 }
 
 bool MoveItVisualTools::processCollisionObjectMsg(const CollisionObject& msg, const colors& color) {

@@ -115,6 +115,19 @@ TEST_F(Tools, SendObjectsToTheScene) {
   EXPECT_EQ(scene.robot_state.attached_collision_objects.at(0).link_name, "hand");
 }
 
+TEST_F(Tools, SendObjectsToTheMonitorThatIsThere) {
+  const auto monitor = std::make_shared<planning_scene_monitor::PlanningSceneMonitor>("robot_description");
+  moveit_visual_tools::MoveItVisualTools tools("world", "/test_markers", monitor);
+  EXPECT_EQ(tools.getRobotModel(), monitor->getRobotModel());
+  EXPECT_FALSE(tools.loadPlanningSceneMonitor());
+  EXPECT_TRUE(tools.publishCollisionBlock(tools.getIdentityPose(), "block", 0.2));
+  const planning_scene_monitor::LockedPlanningSceneRO scene(monitor);
+  std::vector<CollisionObject> objects;
+  scene->getCollisionObjectMsgs(objects);
+  ASSERT_EQ(objects.size(), 1u);
+  EXPECT_EQ(objects[0].id, "block");
+}
+
 TEST_F(Tools, ShowEndEffectors) {
   Listener<visualization_msgs::MarkerArray> markers("/test_markers");
   const moveit::core::JointModelGroup* hand = tools_.getRobotModel()->getEndEffector("gripper");

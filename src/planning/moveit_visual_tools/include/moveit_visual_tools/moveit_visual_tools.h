@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <moveit/planning_scene/planning_scene.h>
+#include <moveit/planning_scene_monitor/planning_scene_monitor.h>
 #include <moveit/robot_model_loader/robot_model_loader.h>
 #include <moveit/robot_state/robot_state.h>
 #include <moveit/robot_trajectory/robot_trajectory.h>
@@ -28,17 +29,25 @@ static const std::string DISPLAY_PLANNED_PATH_TOPIC = "/move_group/display_plann
 static const std::string DISPLAY_ROBOT_STATE_TOPIC = "display_robot_state";  // below the node's name
 static const std::string PLANNING_SCENE_TOPIC = "planning_scene";
 
-/// Poses and points are in the base frame, lengths in m. Collision objects go to move_group. A function that publishes answers whether it did.
+/// Poses and points are in the base frame, lengths in m. Collision objects go into the scene of the monitor that was given,
+/// else to move_group. A function that publishes answers whether it did.
 class MoveItVisualTools : public rviz_visual_tools::RvizVisualTools {
  public:
   /// The robot of the parameter robot_description, in its planning frame.
   MoveItVisualTools();
+  MoveItVisualTools(const std::string& base_frame, const std::string& marker_topic,
+                    planning_scene_monitor::PlanningSceneMonitorPtr psm);
   MoveItVisualTools(const std::string& base_frame,
                     const std::string& marker_topic = rviz_visual_tools::RVIZ_MARKER_TOPIC,
                     moveit::core::RobotModelConstPtr robot_model = moveit::core::RobotModelConstPtr());
 
   void setRobotStateTopic(const std::string& robot_state_topic) { robot_state_topic_ = robot_state_topic; }
   void setPlanningSceneTopic(const std::string& planning_scene_topic) { planning_scene_topic_ = planning_scene_topic; }
+
+  void setPlanningSceneMonitor(planning_scene_monitor::PlanningSceneMonitorPtr psm) { psm_ = std::move(psm); }
+  /// A monitor of the tools' own, which publishes its scene; false when there is one already, or no robot.
+  bool loadPlanningSceneMonitor();
+  planning_scene_monitor::PlanningSceneMonitorPtr getPlanningSceneMonitor();
 
   /// Collect changes of the scene until triggerPlanningSceneUpdate().
   void setManualSceneUpdating(bool enable_manual = true) { mannual_trigger_update_ = enable_manual; }
@@ -247,6 +256,7 @@ class MoveItVisualTools : public rviz_visual_tools::RvizVisualTools {
   Eigen::Isometry3d between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const;
 
  protected:
+  planning_scene_monitor::PlanningSceneMonitorPtr psm_;
   bool mannual_trigger_update_ = false;
   std::string robot_state_topic_ = DISPLAY_ROBOT_STATE_TOPIC;
   std::string planning_scene_topic_ = PLANNING_SCENE_TOPIC;
