@@ -189,3 +189,21 @@ def workspace_of_files(tmp_path):
 
     make.path = f"{workspace.folder}:{os.environ['ROS_PACKAGE_PATH']}"
     return make
+
+
+@pytest.mark.skipif(shutil.which("dbus-run-session") is None, reason="no dbus-run-session")
+def test_commands_over_dbus(environment, workspace_of_files):
+    workspace_of_files("rqt_watched", WATCHED)
+    master = Master()
+    script = """rqt & window=$!
+        for i in $(seq 300); do rqt --command-switch-perspective lab 2>/dev/null && break; sleep 0.1; done
+        rqt --command-start-plugin WATCHED; rqt --command-start-plugin no_such; rqt --command-pid 1 --command-start-plugin x
+        kill -INT $window; wait $window; echo ended $?; rqt --list-perspectives"""
+    try:
+        done = subprocess.run(["dbus-run-session", "--", "bash", "-c", script], capture_output=True, text=True, timeout=120,
+                              env={**environment, "ROS_MASTER_URI": master.uri, "ROS_PACKAGE_PATH": workspace_of_files.path})
+    finally:
+        master.stop()
+    assert done.stdout.splitlines() == ["switched to perspective 'lab'", "loaded", "started plugin 'rqt_watched/Plugin'", "shut down",
+                                        "ended 0", "Default", "lab"]
+    assert "found no plugin matching 'no_such'" in done.stderr and "no running rqt has been found with pid 1" in done.stderr
