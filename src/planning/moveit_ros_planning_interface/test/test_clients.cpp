@@ -47,7 +47,14 @@ class Clients : public testing::Test {
   }
 
   MoveGroupInterface arm_;
-  PlanningSceneInterface scene_;
+  PlanningSceneInterface scene_ = sharedScene();
+
+ private:
+  // One for all tests: a publisher that comes and goes within a second is not always connected again.
+  static PlanningSceneInterface& sharedScene() {
+    static PlanningSceneInterface* const scene = new PlanningSceneInterface;
+    return *scene;
+  }
 };
 
 moveit_msgs::CollisionObject box(const std::string& name, double x, double y, double z, double edge) {
