@@ -23,6 +23,7 @@ from sensor_msgs.msg import JointState
 from shape_msgs.msg import SolidPrimitive
 from std_msgs.msg import Header, String
 from std_srvs.srv import Empty
+from tf.transformations import quaternion_matrix
 
 Codes = MoveItErrorCodes
 
@@ -140,6 +141,31 @@ class Kinematics(unittest.TestCase):
             self.assertEqual(ik(there).error_code.val, Codes.SUCCESS)
         finally:
             clear()
+
+    def test_a_held_things_tip_is_moved_like_a_link(self):
+        start = state_of(HOME)
+        held = AttachedCollisionObject(link_name="hand", object=box("stick", 0, 0, 0, (0.02, 0.02, 0.1)), touch_links=["hand"])
+        held.object.header.frame_id = "hand"
+        held.object.subframe_names, held.object.subframe_poses = ["tip"], [pose(0.0, 0.05, 0.1)]
+        start.attached_collision_objects = [held]
+        hand = fk(start).pose_stamped[0].pose
+        turn = quaternion_matrix([getattr(hand.orientation, axis) for axis in "xyzw"])[:3, :3]
+        tip = np.array([hand.position.x, hand.position.y, hand.position.z]) + turn @ [0.0, 0.05, 0.1]
+        end = Pose(pose(tip[0], tip[1] + 0.05, tip[2]).position, hand.orientation)
+        wanted = GetCartesianPathRequest(group_name="manipulator", start_state=start, waypoints=[end], max_step=0.01,
+                                         avoid_collisions=False, link_name="stick/tip")
+        answer = call("compute_cartesian_path", GetCartesianPath, wanted)
+        self.assertEqual((answer.error_code.val, answer.fraction), (Codes.SUCCESS, 1.0))
+        there = fk(state_of(answer.solution.joint_trajectory.points[-1].positions)).pose_stamped[0].pose.position
+        np.testing.assert_allclose([there.x, there.y, there.z], [hand.position.x, hand.position.y + 0.05, hand.position.z], atol=1e-3)
+        target = PoseStamped(header=Header(frame_id="world"), pose=end)
+        found = ik(target, robot_state=start, ik_link_name="stick/tip")
+        self.assertEqual(found.error_code.val, Codes.SUCCESS)
+        there = fk(found.solution).pose_stamped[0].pose.position
+        np.testing.assert_allclose([there.x, there.y, there.z], [hand.position.x, hand.position.y + 0.05, hand.position.z], atol=1e-3)
+        wanted.link_name = "stick/top"
+        answer = call("compute_cartesian_path", GetCartesianPath, wanted)
+        self.assertEqual((answer.error_code.val, answer.fraction), (Codes.FAILURE, 0.0))
 
     def test_cartesian_path(self):
         start = fk(state_of(HOME)).pose_stamped[0].pose

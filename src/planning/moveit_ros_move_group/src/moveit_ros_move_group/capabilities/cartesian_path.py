@@ -31,8 +31,10 @@ class CartesianPath(Capability):
         merge_state(scene, state, request.start_state)
         scene.set_state(state)
         link = request.link_name or (group.links[-1] if group.links else "")
-        if not self.context.model.has_link(link):
-            raise PlanningError(codes.FAILURE, f"the robot has no link '{link}' to move along a line")
+        try:
+            state.frame_link(link)  # a link, an attached object or its subframe
+        except motion.UnknownNameError as error:
+            raise PlanningError(codes.FAILURE, f"the robot has no link '{link}' to move along a line") from error
         response.start_state = states.robot_state_message(state)
         if request.max_step < 1e-9:
             raise PlanningError(codes.FAILURE, "Maximum step to take between consecutive configurations along "

@@ -63,8 +63,11 @@ class Kinematics(Capability):
                                 f"{len(stamped)} poses and {len(links)} links were given; each pose needs its link")
         result = {}
         for message, link in zip(stamped, links):
-            if link and not self.context.model.has_link(link):
-                raise PlanningError(MoveItErrorCodes.INVALID_LINK_NAME, f"the robot has no link '{link}'")
+            try:
+                if link:
+                    scene.state.frame_link(link)  # a link, an attached object or its subframe
+            except motion.UnknownNameError as error:
+                raise PlanningError(MoveItErrorCodes.INVALID_LINK_NAME, f"the robot has no link '{link}'") from error
             pose = convert.pose(message.pose, "the pose", empty_is_identity=False)
             result[link or (group.tips[0] if group.tips else group.tip_link)] = self._in_model(scene,
                                                                                                message.header.frame_id,
