@@ -1,0 +1,1 @@
+"""Plugin of rqt: shows what rosmon launched; starts, stops and restarts it."""
