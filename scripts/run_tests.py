@@ -89,6 +89,8 @@ def run(job: Job, scratch: Path) -> Result:
     environment = dict(os.environ, ROS_HOME=str(home), ROS_TEST_RESULTS_DIR=str(home / "results"),
                        PYTHONDONTWRITEBYTECODE="1",
                        PYTHONUNBUFFERED="1")  # tests read what nodes print, as it is printed
+    if ROOT / "docs" in job.package.parents:  # an example to copy, which is not built here
+        environment["ROS_PACKAGE_PATH"] = f"{job.package}:{environment.get('ROS_PACKAGE_PATH', '')}"
     if job.kind == "pytest":
         command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "--durations=5", "--durations-min=2",
                    f"--junitxml={home / 'report.xml'}", str(job.path)]

@@ -15,20 +15,17 @@ source in your workspace (ros-planning/navigation, branch noetic-devel)."
   amcl base_local_planner carrot_planner clear_costmap_recovery costmap_2d dwa_local_planner fake_localization global_planner
   map_server move_base move_slow_and_clear nav_core navfn navigation robot_pose_ekf rotate_recovery voxel_grid)
 _noetic_absent("It makes maps or places robots in them, and is not supplied here; build it from source in your workspace."
-  cartographer_ros gmapping slam_gmapping hector_mapping hector_slam karto_slam robot_localization slam_toolbox)
-_noetic_absent("Windows of the rqt family are planned here, as Python packages under the same names; nothing of them has to be \
-compiled against." qt_gui qt_gui_core qt_gui_cpp rqt rqt_common_plugins rqt_gui rqt_gui_cpp rqt_gui_py rqt_robot_plugins
-  rqt_image_view rqt_plot rqt_multiplot turtlesim)
+  cartographer_ros gmapping slam_gmapping hector_mapping hector_slam karto_slam slam_toolbox)
 _noetic_absent("It is a C++ library of Gazebo Classic or made for it, which has ended and is not packaged; the simulator here takes \
-Python plugins (see the package gazebo_ros)." gazebo gazebo_ros_control_select_joints sdformat velodyne_gazebo_plugins
+Python plugins (see the package gazebo_ros)." gazebo gazebo_ros_control_select_joints sdformat
   hector_gazebo_plugins)
 _noetic_absent("It belongs to the tutorials of desktop-full, is not supplied here, and builds from source in your workspace."
-  actionlib_tutorials nodelet_tutorial_math pluginlib_tutorials roscpp_tutorials rospy_tutorials turtle_actionlib turtle_tf
-  turtle_tf2 urdf_tutorial urdf_sim_tutorial visualization_marker_tutorials librviz_tutorial rviz_plugin_tutorials stage stage_ros)
+  actionlib_tutorials nodelet_tutorial_math pluginlib_tutorials roscpp_tutorials rospy_tutorials
+  urdf_sim_tutorial visualization_marker_tutorials librviz_tutorial rviz_plugin_tutorials stage stage_ros)
 _noetic_absent("It is small, is not packaged by Debian, and builds from source in your workspace." costmap_converter ddynamic_reconfigure
   filters laser_assembler laser_filters image_transport_plugins compressed_image_transport compressed_depth_image_transport
-  joy teleop_twist_joy twist_mux teb_local_planner roslint smach smach_ros executive_smach geographic_msgs
-  serial rosserial rosserial_python rosbridge_server rosauth depthimage_to_laserscan pointcloud_to_laserscan imu_tools warehouse_ros)
+  teb_local_planner smach smach_ros executive_smach geographic_msgs
+  serial rosserial rosserial_python rosbridge_server rosauth pointcloud_to_laserscan imu_tools warehouse_ros)
 
 # _noetic_debian_packages(NAME VARIABLE): Debian's packages for a ROS package, from the rules that Debian ships for rosdep.
 function(_noetic_debian_packages name variable)
