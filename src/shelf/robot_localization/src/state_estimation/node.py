@@ -76,7 +76,7 @@ class Localization:
                           "to what is to be used of them.", own)
         rospy.Subscriber("set_pose", PoseWithCovarianceStamped, self.set_pose, queue_size=1)
         rospy.Service("set_pose", SetPose, lambda request: self.set_pose(request.pose) or SetPoseResponse())
-        rospy.Service("~enable", Empty, lambda _: self._toggle(True) and EmptyResponse() or EmptyResponse())
+        rospy.Service("~enable", Empty, self._enable)
         rospy.Service("~toggle", ToggleFilterProcessing, lambda request: ToggleFilterProcessingResponse(self._toggle(request.on)))
         rospy.Service("~get_state", GetState, self._get_state)
 
@@ -147,6 +147,10 @@ class Localization:
         with self._mutex:
             if self._running:
                 self._queue.append(measurement)
+
+    def _enable(self, _request) -> EmptyResponse:
+        self._toggle(True)
+        return EmptyResponse()
 
     def _toggle(self, on: bool) -> bool:
         with self._mutex:
