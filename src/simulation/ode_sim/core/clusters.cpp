@@ -236,6 +236,7 @@ void World::spread_twists(Cluster& c, bool servos) {
 
 void World::place_shapes(Link& link) {
   for (auto& s : link.shapes) {
+    if (s->infinite) continue;  // stays where it was made
     const Pose X = link.X_WL * s->X_LC;
     const bool out_of_reach = !within(X.p, kOutOfReach);
     if (s->out_of_reach != out_of_reach) {
@@ -243,11 +244,6 @@ void World::place_shapes(Link& link) {
       out_of_reach ? dGeomDisable(s->geom) : dGeomEnable(s->geom);
     }
     if (out_of_reach) continue;
-    if (s->infinite) {
-      const Vec3 n = rotate(X.q, s->plane_normal);
-      dGeomPlaneSetParams(s->geom, n.x, n.y, n.z, dot(n, X.p));
-      continue;
-    }
     const Quat q = s->field ? X.q * Quat{std::sqrt(0.5), 0, 0, std::sqrt(0.5)} : X.q;  // ODE's height fields have y up
     const dQuaternion r = {q.w, q.x, q.y, q.z};
     dGeomSetPosition(s->geom, X.p.x, X.p.y, X.p.z);

@@ -70,6 +70,8 @@ void World::set_link_twist(Link& link, const Vec3& v, const Vec3& w) {
 
 void World::zero_velocities(Model& model) {
   refresh();
+  forget_loads(model);
+  for (auto& j : model.joints) std::fill(std::begin(j->borne), std::end(j->borne), 0.0);
   for (auto& l : model.links) l->v = l->w = l->force = l->torque = {};
   for (auto& j : model.joints) {
     j->rate = j->previous_rate = 0;

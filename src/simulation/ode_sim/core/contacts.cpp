@@ -76,8 +76,8 @@ void World::collide() {
       c.normal = c.normal * (1 / length);
       contacts_.push_back(c);
     }
-    if (a->wheel) merge_tread(*a, first);
-    if (b->wheel) merge_tread(*b, first);
+    for (const Shape* wheel : {a, b})
+      if (wheel->wheel && !like_gazebo) merge_tread(*wheel, first);
     const int kept = static_cast<int>(contacts_.size() - first);
     for (size_t i = first; i < contacts_.size(); ++i) contacts_[i].count = kept;
   }
@@ -100,6 +100,7 @@ void World::merge_tread(const Shape& wheel, size_t first) {
         low = std::min(low, at);
         high = std::max(high, at);
         if (other.depth > c.depth) c.depth = other.depth, c.pos = other.pos;
+        c.merged += other.merged;
         contacts_.erase(contacts_.begin() + k);
       }
       c.pos += axis * ((low + high) / 2 - dot(axis, c.pos));
@@ -111,132 +112,114 @@ void World::merge_tread(const Shape& wheel, size_t first) {
 
 // ------------------------------------------------------------------------------------------------ contacts
 
-// N: the share of the lighter model's weight, taken as even; for what only needs its size.
-double World::borne_by_contact(const Link& a, const Link& b) const {
-  double least = dInfinity;
-  for (const Link* l : {&a, &b})
-    if (!l->model->is_static) least = std::min(least, l->model->mass / l->model->contact_count);
-  return std::isfinite(least) ? least * norm(gravity) : 0;
-}
-
 void World::make_contact_joints() {
   feedback_.clear();
-  size_t watched = 0;
+  gazebo_contacts_.clear();
   auto wanted = [](const Contact& c) { return c.a->watched || c.b->watched || c.a->link->weighed || c.b->link->weighed; };
-  for (auto& m : models_) m->contact_count = 0;
+  for (auto& m : models_) m->contact_count = 0, m->touches_others = false;
   for (auto& c : contacts_) {
-    watched += wanted(c);
-    ++c.a->link->model->contact_count;
-    ++c.b->link->model->contact_count;
+    Model &a = *c.a->link->model, &b = *c.b->link->model;
+    a.contact_count += c.merged;
+    b.contact_count += c.merged;
+    if (&a != &b && !a.is_static && !b.is_static) a.touches_others = b.touches_others = true;
   }
-  feedback_.resize(watched);
+  feedback_.resize(contacts_.size());
   size_t next = 0;
   // The body that a contact acts on. None where a kinematic one would not feel it: it connects nothing with anything.
   auto pushed = [&](const Link& l) -> dBodyID {
     const Cluster& c = cluster_of(l);
     return c.root && !c.root->kinematic ? c.root->body : nullptr;
   };
-  // Resting contacts must persist, or friction is lost every other step: this much overlap (m) is left alone.
-  constexpr double slack = 2e-5;
   for (auto& c : contacts_) {
-    const Surface &sa = c.a->surface, &sb = c.b->surface;
-    if (sa.collide_without_contact || sb.collide_without_contact) continue;
-    Link *la = c.a->link, *lb = c.b->link;
-    dBodyID ba = pushed(*la), bb = pushed(*lb);
+    if (c.a->surface.collide_without_contact || c.b->surface.collide_without_contact) continue;
+    dBodyID ba = pushed(*c.a->link), bb = pushed(*c.b->link);
     if (ba == bb) continue;
-
+    c.swapped = !ba;  // ODE's contact motion is only well defined with a first body
+    if (c.swapped) std::swap(ba, bb);
     dContact d{};
+    const Vec3 n = c.swapped ? -c.normal : c.normal;
     d.geom.pos[0] = c.pos.x; d.geom.pos[1] = c.pos.y; d.geom.pos[2] = c.pos.z;
-    Vec3 n = c.normal;
-    Link *l1 = la, *l2 = lb;
-    c.swapped = !ba;
-    if (c.swapped) {  // ODE's contact motion is only well defined with a first body
-      std::swap(ba, bb);
-      std::swap(l1, l2);
-      n = -n;
-    }
     d.geom.normal[0] = n.x; d.geom.normal[1] = n.y; d.geom.normal[2] = n.z;
-
-    const double kp = sa.kp > 0 && sb.kp > 0 ? 1 / (1 / sa.kp + 1 / sb.kp) : 0;
-    const double kd = sa.kd + sb.kd;
-    const double soft = dt * kp + kd;
-    const double soft_erp = soft > 0 ? dt * kp / soft : erp;
-    d.surface.mode = dContactMu2 | dContactSoftERP | dContactSoftCFM | dContactApprox1 | dContactFDir1 | dContactBounce |
-                     dContactSlip1 | dContactSlip2;
-    d.surface.mu = std::max(std::min(sa.mu, sb.mu), 0.0);
-    d.surface.mu2 = std::max(std::min(sa.mu2, sb.mu2), 0.0);
-    d.surface.soft_erp = soft_erp;
-    double inverse_mass = 0;
-    for (Link* l : {la, lb})
-      if (!l->model->is_static) inverse_mass += 1 / l->model->mass;
-    d.surface.soft_cfm = std::max(soft > 0 ? 1 / soft : 1e-9, contact_softness * dt * inverse_mass);
-    d.surface.slip1 = (sa.slip1 + sb.slip1) * c.count + friction_softness * dt * inverse_mass;
-    d.surface.slip2 = (sa.slip2 + sb.slip2) * c.count + friction_softness * dt * inverse_mass;
-    d.surface.bounce = std::min(sa.restitution, sb.restitution);
-    d.surface.bounce_vel = std::min(sa.bounce_threshold, sb.bounce_threshold);
-
-    // Depth beyond the tolerated one, cut so that it is corrected no faster than allowed. What the model's own weight presses
-    // in at this stiffness is no error to correct: cut as well, it would carry less than the weight, which then sinks and sinks.
-    double depth = std::max(c.depth - std::max(std::min(sa.min_depth, sb.min_depth), slack), 0.0);
-    double fastest = contact_max_vel;
-    for (double v : {sa.max_vel, sb.max_vel})
-      if (v >= 0) fastest = std::min(fastest, v);
-    const double pressed_in = kp > 0 && inverse_mass > 0 ? norm(gravity) / (inverse_mass * kp) : 0;
-    if (soft_erp > 0) depth = std::min(depth, fastest * dt / soft_erp + pressed_in);
-    d.geom.depth = depth;
-
-    // First friction direction, where friction is not the same all around: what a collision asks for (of two that do, the one
-    // with less friction), as seen in the contact plane; else any tangent.
-    Vec3 t1{};
-    const bool second = norm(sb.fdir1) > 0 && (norm(sa.fdir1) == 0 || sb.mu < sa.mu);
-    const Shape& directed = second ? *c.b : *c.a;
-    const bool isotropic = d.surface.mu == d.surface.mu2 && sa.slip1 + sb.slip1 == sa.slip2 + sb.slip2;
-    if (isotropic) {
-      // Where it slides, friction is to point against the motion, not along two fixed axes at once: fully along the slip, and
-      // across it in proportion (Coulomb), or a wheel that spins would still be held sideways like one that stands.
-      t1 = la->velocity_at(c.pos) - lb->velocity_at(c.pos);
-      t1 = t1 - n * dot(n, t1);
-      const double speed = norm(t1), load = borne_by_contact(*la, *lb);
-      if (speed < 1e-5) t1 = {};
-      else if (load > 0 && d.surface.mu > 0) d.surface.slip2 += speed / (d.surface.mu * load);
-    } else if (norm(directed.surface.fdir1) > 0) {
-      t1 = rotate(directed.link->X_WL.q * directed.X_LC.q, directed.surface.fdir1);
-      t1 = t1 - n * dot(n, t1);
-    }
-    if (norm(t1) < 1e-6) {
-      const dReal nn[3] = {n.x, n.y, n.z};
-      dReal p[3], q[3];
-      dPlaneSpace(nn, p, q);
-      t1 = vec(p);
-    }
-    t1 = t1 * (1 / norm(t1));
+    set_stiffness(c, d);
+    const Vec3 t1 = set_friction(c, n, d);
     d.fdir1[0] = t1.x; d.fdir1[1] = t1.y; d.fdir1[2] = t1.z;
-
-    // Surface speed that the bodies do not have: links moved by servo joints, and kinematic ones.
-    auto driven = [&](const Link* l) {
-      const Cluster& c = cluster_of(*l);
-      return l->moving || (c.root && c.root->kinematic) || (c.by && !cluster_of(*c.by).root->model->jump);
-    };
-    const bool driven1 = driven(l1), driven2 = driven(l2);
-    if (driven1 || driven2) {
-      auto slide = [&](Link* l, dBodyID body) {
-        Vec3 u = l->velocity_at(c.pos);
-        if (body) u = u - (vec(dBodyGetLinearVel(body)) + cross(vec(dBodyGetAngularVel(body)), c.pos - vec(dBodyGetPosition(body))));
-        return u;
-      };
-      const Vec3 u = (driven1 ? slide(l1, ba) : Vec3{}) - (driven2 ? slide(l2, bb) : Vec3{});
-      d.surface.mode |= dContactMotion1 | dContactMotion2 | dContactMotionN;
-      d.surface.motion1 = -dot(t1, u);
-      d.surface.motion2 = -dot(cross(n, t1), u);
-      d.surface.motionN = -dot(n, u);
-    }
+    set_surface_speed(c, n, t1, ba, bb, d);
     c.joint = dJointCreateContact(world_, contact_group_, &d);
     dJointAttach(c.joint, ba, bb);
-    if (wanted(c)) {
-      c.feedback = static_cast<int>(next);
-      dJointSetFeedback(c.joint, &feedback_[next++]);
+    if (like_gazebo) {
+      c.row = static_cast<int>(gazebo_contacts_.size());
+      gazebo_contacts_.push_back(d);
     }
+    c.told = wanted(c);
+    c.feedback = static_cast<int>(next);
+    dJointSetFeedback(c.joint, &feedback_[next++]);
   }
+}
+
+// How hard the contact is, and how fast overlap is undone.
+void World::set_stiffness(Contact& c, dContact& d) const {
+  // Resting contacts must persist, or friction is lost every other step: this much overlap (m) is left alone.
+  constexpr double slack = 2e-5, deep = 0.01;
+  const Surface &sa = c.a->surface, &sb = c.b->surface;
+  const double kp = sa.kp > 0 && sb.kp > 0 ? 1 / (1 / sa.kp + 1 / sb.kp) : 0;
+  const double soft = dt * kp + sa.kd + sb.kd;
+  const double soft_erp = soft > 0 ? dt * kp / soft : erp;
+  d.surface.mode = dContactMu2 | dContactSoftERP | dContactSoftCFM | dContactApprox1 | dContactFDir1 | dContactBounce |
+                   dContactSlip1 | dContactSlip2;
+  d.surface.soft_erp = soft_erp;
+  d.surface.bounce = std::min(sa.restitution, sb.restitution);
+  d.surface.bounce_vel = std::min(sa.bounce_threshold, sb.bounce_threshold);
+  double fastest = contact_max_vel;
+  for (double v : {sa.max_vel, sb.max_vel})
+    if (v >= 0) fastest = std::min(fastest, v);
+  c.fastest = fastest;
+  const double allowed = std::min(sa.min_depth, sb.min_depth);
+  if (like_gazebo) {
+    d.surface.soft_cfm = soft > 0 ? 1 / soft : 1e-9;
+    d.geom.depth = std::max(c.depth - allowed, 0.0);
+    return;
+  }
+  double inverse_mass = 0;
+  for (const Link* l : {c.a->link, c.b->link})
+    if (!l->model->is_static) inverse_mass += 1 / l->model->mass;
+  // A merged contact is as hard as those that it stands for.
+  d.surface.soft_cfm = std::max(soft > 0 ? 1 / soft : 1e-9, contact_softness * dt * inverse_mass) / c.merged;
+
+  // Depth beyond the tolerated one, cut so that it is corrected no faster than allowed, and no faster than gravity brings back
+  // what is pushed out: it would fly. What was put deep into the floor comes out just that fast. What the model's own weight
+  // presses in at this stiffness is no error to correct: cut as well, it would carry less than the weight, which then sinks
+  // and sinks.
+  double depth = std::max(c.depth - std::max(allowed, slack), 0.0);
+  const double g = norm(gravity), comes_back = std::sqrt(2 * g * depth);
+  if (g > 0) fastest = std::min(fastest, std::max(comes_back, 0.01));
+  const bool one_is_fixed = c.a->link->model->is_static != c.b->link->model->is_static;
+  if (depth > deep && one_is_fixed && (c.a->link->model->is_static ? dot(c.normal, gravity) : -dot(c.normal, gravity)) > 0.7 * g)
+    fastest = std::max(fastest, 0.9 * std::sqrt(2 * g * (depth - deep)));
+  const double pressed_in = kp > 0 && inverse_mass > 0 ? g / (inverse_mass * kp) : 0;
+  if (soft_erp > 0) depth = std::min(depth, fastest * dt / soft_erp + pressed_in);
+  d.geom.depth = depth;
+}
+
+// Surface speed that the bodies do not have: links moved by servo joints, and kinematic ones.
+void World::set_surface_speed(const Contact& c, const Vec3& n, const Vec3& t1, dBodyID first, dBodyID second, dContact& d) {
+  const Link *l1 = c.a->link, *l2 = c.b->link;
+  if (c.swapped) std::swap(l1, l2);
+  auto driven = [&](const Link* l) {
+    const Cluster& k = cluster_of(*l);
+    return l->moving || (k.root && k.root->kinematic) || (k.by && !cluster_of(*k.by).root->model->jump);
+  };
+  const bool driven1 = driven(l1), driven2 = driven(l2);
+  if (!driven1 && !driven2) return;
+  auto slide = [&](const Link* l, dBodyID body) {
+    Vec3 u = l->velocity_at(c.pos);
+    if (body) u = u - (vec(dBodyGetLinearVel(body)) + cross(vec(dBodyGetAngularVel(body)), c.pos - vec(dBodyGetPosition(body))));
+    return u;
+  };
+  const Vec3 u = (driven1 ? slide(l1, first) : Vec3{}) - (driven2 ? slide(l2, second) : Vec3{});
+  d.surface.mode |= dContactMotion1 | dContactMotion2 | dContactMotionN;
+  d.surface.motion1 = -dot(t1, u);
+  d.surface.motion2 = -dot(cross(n, t1), u);
+  d.surface.motionN = -dot(n, u);
 }
 
 std::vector<ContactRecord> World::contact_records() {
@@ -249,7 +232,7 @@ std::vector<ContactRecord> World::contact_records() {
     r.position[0] = c.pos.x; r.position[1] = c.pos.y; r.position[2] = c.pos.z;
     r.normal[0] = c.normal.x; r.normal[1] = c.normal.y; r.normal[2] = c.normal.z;
     r.depth = c.depth;
-    if (c.feedback >= 0 && c.feedback < static_cast<int>(feedback_.size())) {
+    if (c.told && c.feedback >= 0 && c.feedback < static_cast<int>(feedback_.size())) {
       // ODE gives what acts on its first body about that body's CoM; here: on the first link, about its CoM.
       const dJointFeedback& f = feedback_[c.feedback];
       Vec3 force = c.swapped ? -vec(f.f1) : vec(f.f1);

@@ -192,7 +192,7 @@ void World::update_axis(Joint& j, int i) {
     most = a.motor_force;
   } else if (a.friction > 0) {
     most = a.friction;
-  } else if (damping + stiffness > 0 && (j.implicit_spring_damper || stiff > 0.05) &&
+  } else if (damping + stiffness > 0 && (j.implicit_spring_damper || (stiff > 0.05 && !like_gazebo)) &&
              a.q - a.lower > kNearStop && a.upper - a.q > kNearStop) {
     // Implicit: a motor row whose softness is the damper, and whose speed is that at which the spring balances it. Not at a
     // stop, where ODE turns motors into torques of their greatest size.
@@ -203,7 +203,7 @@ void World::update_axis(Joint& j, int i) {
     damping = 0;
   }
   if (softness <= 1e-10) {
-    if (stiff > 0.05) damping /= 1 + stiff;
+    if (stiff > 0.05 && !like_gazebo) damping /= 1 + stiff;
     force += pull - damping * a.qd;
   }
   set_limot(j, i, dParamFMax, most);
@@ -257,7 +257,7 @@ void World::apply_forces() {
     for (auto& j : m->joints)
       if (j->joint)
         for (int i = 0; i < j->axis_count; ++i) update_axis(*j, i);
-    apply_inertial_forces(*m);
+    if (!like_gazebo || m->has_servo) apply_inertial_forces(*m);
   }
 }
 

@@ -257,7 +257,10 @@ PYBIND11_MODULE(_core, m) {
         shape->infinite = true;
         shape->plane_normal = in(normal);
         if (!(std::abs(norm(shape->plane_normal) - 1) < 1e-6)) throw std::invalid_argument("the normal of a plane must be a unit vector");
-        return world_of(&model).add_shape(l, X_LC, dCreatePlane(nullptr, 0, 0, 1, 0), shape);
+        // Upstream's rule: the normal is one of the world whatever the model's pose, through the height (not the place) at which
+        // the collision is made; nothing moves the plane after that. A wall sticker that lies on the floor is floor.
+        const Vec3 n = shape->plane_normal;
+        return world_of(&model).add_shape(l, X_LC, dCreatePlane(nullptr, n.x, n.y, n.z, (l.X_WL * X_LC).p.z), shape);
       }, py::keep_alive<0, 1>())
       .def("add_mesh", [](Model& model, Link& l, T7 X, std::shared_ptr<MeshData> data) {
         const Pose X_LC = in(X);
@@ -292,6 +295,7 @@ PYBIND11_MODULE(_core, m) {
       .def_readwrite("sor", &World::sor)
       .def_readwrite("iters", &World::iters)
       .def_readwrite("max_contacts", &World::max_contacts)
+      .def_readwrite("like_gazebo", &World::like_gazebo)
       .def_readwrite("contact_max_vel", &World::contact_max_vel)
       .def_readwrite("surface_layer", &World::surface_layer)
       .def_readwrite("contact_softness", &World::contact_softness)

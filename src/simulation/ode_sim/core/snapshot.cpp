@@ -12,7 +12,7 @@ namespace ode_sim {
 
 namespace {
 
-constexpr uint64_t kVersion = 0x346d69735f65646full;  // "ode_sim4"; counts up when what is written changes
+constexpr uint64_t kVersion = 0x356d69735f65646full;  // "ode_sim5"; counts up when what is written changes
 
 uint64_t digest(const char* data, size_t size) {  // FNV-1a
   uint64_t h = 0xcbf29ce484222325ull;
@@ -107,6 +107,7 @@ template <class F> void visit(F& f, Joint& j) {
   f.flag(j.watched);
   visit(f, j.feedback);
   for (auto& a : j.axes) visit(f, a);
+  for (double& v : j.borne) f.number(v);
 }
 template <class F> void visit(F& f, Link& l) {
   f.same(l.id, kOtherModels);
@@ -139,6 +140,7 @@ template <class F> void visit(F& f, Link& l) {
 // All that a snapshot holds, in its order, but for what depends on the plan of clusters: see restore.
 template <class F> void World::walk(F& f) {
   for (double* v : {&dt, &gravity.x, &gravity.y, &gravity.z, &erp, &cfm, &sor, &contact_max_vel, &surface_layer}) f.number(*v);
+  f.flag(like_gazebo);
   f.number(iters), f.number(max_contacts), f.number(seed), f.number(iterations), f.number(time_ns);
   f.same(static_cast<int>(models_.size()), kOtherModels);
   for (auto& m : models_) {
@@ -168,6 +170,7 @@ struct Relations {
     Vec3 carry_v, carry_w;
   };
   std::vector<SavedTie> ties;
+  std::vector<Borne> borne;
   std::vector<std::vector<std::pair<int, int>>> exempt;  // of each model
   std::map<int, int> leaders;                             // joint -> joint
   std::map<int, Rest> rest;                               // of the cluster with this root link
@@ -185,6 +188,8 @@ template <class F, class List> void visit_size(F& f, List& list, size_t least_by
 }
 
 template <class F> void visit(F& f, Relations& r) {
+  visit_size(f, r.borne, sizeof(int));
+  for (auto& b : r.borne) f.number(b.a), f.number(b.b), visit(f, b.pos), f.number(b.normal);
   visit_size(f, r.ties, sizeof(int));
   for (auto& t : r.ties) {
     f.number(t.parent), f.number(t.child);
@@ -217,6 +222,7 @@ template <class F> void visit(F& f, Relations& r) {
 std::string World::save() {
   refresh();
   Relations r;
+  r.borne = borne_;
   for (auto& t : ties_) r.ties.push_back({t.parent ? t.parent->id : -1, t.child->id, t.X_PC, t.feedback});
   for (auto& m : models_) {
     r.exempt.emplace_back(m->exempt.begin(), m->exempt.end());
@@ -272,6 +278,7 @@ void World::restore(const std::string& data, const std::vector<int>& tie_ids) {
   Reader take{data, true, sizeof version, end};
   walk(take);
   ties_ = std::move(ties);
+  borne_ = std::move(r.borne);
   for (int id : tie_ids) next_tie_ = std::max(next_tie_, id + 1);
   for (auto& [id, joint] : joints) {
     const auto leader = r.leaders.find(id);

@@ -122,14 +122,19 @@ void World::solve() {
   for (auto& island : islands_) {
     if (!island.awake) continue;
     for (Link* l : island.kinematic) kinematic.push_back(state_of(l->body));
-    if (island.contact_rows == 0 && island.rows <= kMostExactRows) {
+    bool iterate = like_gazebo;
+    if (like_gazebo) {
+      iterative.add(island);
+    } else if (island.contact_rows == 0 && island.rows <= kMostExactRows) {
       exact.add(island);
     } else if (island.rows + island.contact_rows <= (island.joints ? direct_rows : heap_rows)) {
       touching.add(island);
       touching_islands.push_back(&island);
     } else {
       iterative.add(island);
+      iterate = true;
     }
+    for (Cluster* c : island.clusters) c->iterative = iterate;
   }
   run_direct(exact, said);
   for (auto& s : said) report("ODE: " + s, island_names(exact.clusters));
@@ -141,7 +146,7 @@ void World::solve() {
       run_one_by_one(touching_islands, said);
     }
   }
-  run_iterative(iterative, iters, said);
+  like_gazebo ? run_like_gazebo(iterative) : run_iterative(iterative, iters, said);
   for (auto& start : kinematic)
     if (!on_the_map(start.body)) {
       BodyState still = start;
@@ -184,6 +189,7 @@ void World::run_one_by_one(const std::vector<const Island*>& islands, std::vecto
     run_direct(alone, said);
     if (said.empty()) continue;
     recall_bodies(start);
+    for (Cluster* c : alone.clusters) c->iterative = true;
     run_iterative(alone, std::max(iters, std::min(10 * iters, 10000)), said);  // small: more iterations than usual are affordable
     ++counters.fallbacks;
   }

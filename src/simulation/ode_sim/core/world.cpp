@@ -73,6 +73,7 @@ void World::remove_model(Model& model) {
   const auto gone = [&](const Contact& c) { return c.a->link->model == &model || c.b->link->model == &model; };
   contacts_.erase(std::remove_if(contacts_.begin(), contacts_.end(), gone), contacts_.end());
   pairs_.clear();
+  forget_loads(model);
   for (auto& j : model.joints)
     if (j->joint) dJointDestroy(j->joint), j->joint = nullptr;
   for (auto& link : model.links) {
@@ -256,6 +257,7 @@ void World::step(int n) {
 void World::abandon_step() {
   dJointGroupEmpty(contact_group_);
   contacts_.clear();
+  borne_.clear();
   for (auto& t : ties_) t.joint = nullptr;
   guard_nan();
   carried_.clear();
@@ -294,6 +296,7 @@ void World::step_once() {
   follow_servos();
   make_contact_joints();
   solve();
+  remember_loads();
   guard_nan();
   pull(false);
   keep_relations();
@@ -316,7 +319,8 @@ void World::step_once() {
     }
   }
   if (moved) carry_along();
-  for (auto& m : models_) project_joints(*m);
+  for (auto& m : models_)
+    if (!like_gazebo || m->has_servo) project_joints(*m);
   for (auto& m : models_) {
     for (auto& l : m->links) l->force = l->torque = {};
     for (auto& j : m->joints)

@@ -20,6 +20,7 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -27,6 +28,11 @@
 #include "math.hpp"
 
 namespace ode_sim {
+
+namespace gazebo_like {
+struct Body;
+struct Row;
+}  // namespace gazebo_like
 
 class World;
 struct Model;
@@ -72,11 +78,11 @@ struct Shape {
   std::shared_ptr<MeshData> mesh, faceted_mesh;
   dHeightfieldDataID field = nullptr;
   std::vector<double> heights;
-  bool infinite = false;  // a plane
+  bool infinite = false;  // a plane: fixed in the world
   bool wheel = false;     // a cylinder that turns on a hinge about its own axis
   bool out_of_reach = false;  // beyond where ODE can collide
   Pose X_LC;
-  Vec3 plane_normal{0, 0, 1};
+  Vec3 plane_normal{0, 0, 1};  // world axes
   Surface surface;
   int max_contacts = 10;
   bool watched = false;
@@ -179,6 +185,7 @@ struct Joint {
   bool sane = true;
   bool projected = false;  // the links were just put where q and qd say
   double inverse_inertia[2] = {0, 0};  // about the axis, of the two bodies taken alone
+  double borne[12] = {};  // by each row in the last step, as `solver: gazebo` starts from it
   bool catching_up = false;  // back from Motor mode but off its command: the way back is rate-limited
 
   bool merged() const { return (type == JointType::Fixed && !watched) || servo == ServoMode::Locked; }
@@ -202,6 +209,7 @@ struct Cluster {
   int idle_steps = 0;
   double idle_time = 0;
   int node = -1;  // of the island search
+  bool iterative = false;  // solved by iterations in this step
   bool moved = false;
   bool carriers = false;  // some member has a kinematic body
   // Carried: `at`, a member, hangs on `by`; pose and velocity of it in the frame of `by`, as ODE's joints have left them.
@@ -228,6 +236,7 @@ struct Model {
   bool is_static = false, self_collide = false, may_sleep = false;
   double mass = 0;  // kg, of all links
   int contact_count = 0;  // of this step
+  bool touches_others = false;  // that move, in this step
   bool dirty = true;
   bool finished = false;  // built, and part of the shared arrays
   bool has_servo = false;
@@ -258,9 +267,20 @@ struct Contact {
   Vec3 pos, normal;  // the normal points into a
   double depth = 0;
   int count = 1;     // contacts of this pair
+  int merged = 1;    // how many it stands for, side by side
   dJointID joint = nullptr;
   bool swapped = false;
   int feedback = -1;
+  bool told = false;  // who asks for forces is told this one
+  int row = -1;       // in gazebo_contacts_
+  double fastest = 0;  // m/s, of pushing apart
+};
+
+// What a contact of the last step bore, from which the next one's greatest friction follows.
+struct Borne {
+  int a = 0, b = 0;  // shapes
+  Vec3 pos;
+  double normal = 0;  // N
 };
 
 #pragma pack(push, 1)
@@ -282,6 +302,7 @@ class World {
   Vec3 gravity{0, 0, -9.8};
   double erp = 0.2, cfm = 0, sor = 1.3, contact_max_vel = 100, surface_layer = 0.001;
   int iters = 50, max_contacts = 20;
+  bool like_gazebo = false;  // `solver: gazebo`: one iterative solver, contacts and joints as Gazebo Classic has them
   uint64_t seed = 0;
   uint64_t iterations = 0;
   int64_t time_ns = 0;
@@ -341,6 +362,8 @@ class World {
   int next_model_ = 0, next_link_ = 0, next_joint_ = 0, next_shape_ = 0;
   std::vector<Contact> contacts_;
   std::vector<dJointFeedback> feedback_;
+  std::vector<Borne> borne_;  // in the order of the contacts
+  std::vector<dContact> gazebo_contacts_;
   std::vector<std::pair<Shape*, Shape*>> pairs_;
   std::map<std::string, int> message_counts_;
   std::vector<std::string> messages_;
@@ -390,10 +413,19 @@ class World {
   void apply_axis_force(Joint& joint, int axis, double force);
   void update_axis(Joint& joint, int axis);
   void make_contact_joints();
+  const Borne* borne_before(const Contact& contact) const;
+  void remember_loads();
+  void forget_loads(const Model& model);
   void make_tie_joints();
   bool tied(const Link& a, const Link& b) const;
   void solve();
   void run(bool direct, int iterations_wanted);
+  using Numbers = std::unordered_map<dBodyID, int>;
+  struct RowOwner {
+    dJointFeedback* feedback;
+    Joint* joint;
+    size_t from, to;
+  };
   void integrate_servos();
   void pull(bool servos = true);
   void publish();
@@ -408,7 +440,10 @@ class World {
   void guard_nan();
   void report(const std::string& text, const std::string& who);
   double axis_inverse_inertia(const Joint& joint, int axis) const;
-  double borne_by_contact(const Link& a, const Link& b) const;
+  double borne_by_contact(const Contact& contact) const;
+  void set_stiffness(Contact& contact, dContact& d) const;
+  Vec3 set_friction(const Contact& contact, const Vec3& n, dContact& d) const;
+  void set_surface_speed(const Contact& contact, const Vec3& n, const Vec3& t1, dBodyID first, dBodyID second, dContact& d);
   dBodyID body_of(const Link* link) const;
   Pose X_BL(const Link& link) const;
   std::vector<Link*> subtree(Joint& joint, bool* loop = nullptr);
@@ -446,6 +481,9 @@ class World {
   void run_direct(const Pass& pass, std::vector<std::string>& said);
   void run_iterative(const Pass& pass, int times, std::vector<std::string>& said);
   void run_one_by_one(const std::vector<const Island*>& islands, std::vector<std::string>& said);
+  void run_like_gazebo(const Pass& pass);
+  void gather_rows(const Numbers& number, std::vector<gazebo_like::Body>& bodies, std::vector<gazebo_like::Row>& rows,
+                   std::vector<RowOwner>& owners);
   std::vector<Island> islands_;
   std::vector<Cluster*> nodes_;
 };

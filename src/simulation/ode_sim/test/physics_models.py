@@ -1,7 +1,7 @@
 """Hand-made models for the physics tests."""
 from ode_sim.description.model import (
     Axis, Box, Collision, Cylinder, Inertial, Joint, Link, Model, Plane, Pose, Sphere, Surface)
-from ode_sim.math3 import quat_from_rpy
+from ode_sim.math3 import quat_from_rpy, quat_rotate
 
 
 def box_inertia(mass, size, pose=Pose()):
@@ -10,9 +10,9 @@ def box_inertia(mass, size, pose=Pose()):
 
 
 def ground(roll=0.0, pitch=0.0, surface=Surface(mu=100.0, mu2=50.0)):
-    """The ground plane, tilted if wanted."""
-    collision = Collision("plane", Pose(), Plane(), surface)
-    return Model("ground_plane", Pose(q=quat_from_rpy(roll, pitch, 0)), (Link("link", collisions=(collision,)),), static=True)
+    """The ground plane, tilted if wanted: by its normal, as the pose of a model does not turn a plane."""
+    collision = Collision("plane", Pose(), Plane(quat_rotate(quat_from_rpy(roll, pitch, 0), (0.0, 0.0, 1.0))), surface)
+    return Model("ground_plane", Pose(), (Link("link", collisions=(collision,)),), static=True)
 
 
 def box(name="box", at=(0, 0, 0.05), size=(0.1, 0.1, 0.1), mass=1.0, surface=Surface(), rpy=(0, 0, 0), static=False, **more):

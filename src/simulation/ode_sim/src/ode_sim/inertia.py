@@ -13,6 +13,8 @@ SMALLEST_MASS = 1e-6  # kg
 SMALLEST_GYRATION = 1e-4  # m, radius of gyration below which a body spins up without bound
 LARGEST_MASS = 1e15  # kg; the sums and products of larger ones would overflow
 LARGEST_MOMENT = 1e40  # kg m^2
+UNTOLD_MOMENT = 1.0  # kg m^2, where a tensor tells none (dBodySetMass: the inverse is the identity)
+_SINGULAR = 1e-12  # of the largest moment: what rounding leaves of 0
 
 
 def usable_mass(mass: float, where: str) -> Tuple[float, Optional[str]]:
@@ -29,8 +31,9 @@ def usable_mass(mass: float, where: str) -> Tuple[float, Optional[str]]:
 def usable_inertia(inertial: Inertial, mass: float, where: str) -> Tuple[Tuple[float, ...], Optional[str]]:
     """ixx, iyy, izz, ixy, ixz, iyz in link axes about the centre of mass (kg m^2), positive definite, and a problem if any.
 
-    A tensor up to :data:`LARGEST_MOMENT` is taken as it is; one that is not positive definite keeps its axes, and its moments are
-    raised to the smallest that a body of this mass may have.
+    A tensor up to :data:`LARGEST_MOMENT` is taken as it is, its moments raised to the smallest that a body of this mass may have.
+    One that is not positive definite becomes :data:`UNTOLD_MOMENT` about every axis: so does ODE in Gazebo, and arms whose tensors
+    were miscalculated stand there.
     """
     tensor = np.array([[inertial.ixx, inertial.ixy, inertial.ixz],
                        [inertial.ixy, inertial.iyy, inertial.iyz],
@@ -42,9 +45,11 @@ def usable_inertia(inertial: Inertial, mass: float, where: str) -> Tuple[Tuple[f
         problem = f"{where}: inertia holds {what}; {mass * 0.01:g} kg m^2 is used"
     moments, axes = np.linalg.eigh(tensor)
     least = max(mass * SMALLEST_GYRATION ** 2, moments[-1] * 1e-9)
-    if moments[0] < least:
-        if moments[0] <= 0.0:
-            problem = f"{where}: inertia is not positive definite; its moments {moments.round(9).tolist()} were raised to {least:g} kg m^2"
+    if moments[0] <= _SINGULAR * moments[-1]:
+        tensor = np.eye(3) * UNTOLD_MOMENT
+        problem = (f"{where}: inertia is not positive definite, its moments are {moments.round(9).tolist()}; {UNTOLD_MOMENT:g} kg m^2 "
+                   "about every axis is used, as Gazebo does")
+    elif moments[0] < least:
         tensor = axes @ np.diag(np.maximum(moments, least)) @ axes.T
     rotation = np.array(quat_to_matrix(inertial.pose.q))
     if inertial.pose.q != (0.0, 0.0, 0.0, 1.0):

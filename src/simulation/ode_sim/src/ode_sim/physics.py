@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import math
+import os
 from dataclasses import fields, replace
 from typing import Any, Dict, List, NamedTuple, Optional, Tuple
 
@@ -101,10 +102,16 @@ def usable_physics(physics: Physics) -> Tuple[Physics, List[str]]:
     return replace(physics, **changed), lines
 
 
+#: ``gazebo``: contacts, joints and friction as Gazebo Classic solves them, with its faults; any other name: this project's own solvers.
+GAZEBO = "gazebo"
+SOLVER_VARIABLE = "ODE_SIM_SOLVER"
+
+
 class PhysicsSettings:
     """The fields of :class:`ode_sim.description.model.Physics`; setting one takes effect in the next step.
 
-    A value that no world can run with raises ``ValueError`` and changes nothing.
+    ``solver`` is what the world file says in ``<physics><ode><solver><type>``; the environment variable ``ODE_SIM_SOLVER``, when
+    set, counts instead of what a world starts with. A value that no world can run with raises ``ValueError`` and changes nothing.
     """
 
     _IN_CORE = {"max_step_size": "dt", "max_contacts": "max_contacts", "iters": "iters", "sor": "sor", "cfm": "cfm", "erp": "erp",
@@ -114,7 +121,8 @@ class PhysicsSettings:
     def __init__(self, core, physics: Physics) -> None:
         object.__setattr__(self, "_core", core)
         object.__setattr__(self, "_others", {})
-        self.update(physics)
+        wanted = os.environ.get(SOLVER_VARIABLE, "").strip()
+        self.update(replace(physics, solver=wanted) if wanted else physics)
 
     def update(self, physics: Physics) -> None:
         """Take over all settings, or none.
@@ -134,6 +142,8 @@ class PhysicsSettings:
             setattr(self._core, self._IN_CORE[name], value)
         else:
             self._others[name] = value
+            if name == "solver":
+                self._core.like_gazebo = str(value).strip().lower() == GAZEBO
 
     def __getattr__(self, name: str) -> Any:
         if name in self._IN_CORE:

@@ -1,0 +1,139 @@
+"""Wheels and casters in ten layouts against statics: who carries what, and what dry friction holds at most."""
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import ode_sim
+from ode_sim.description.model import Axis, Collision, Cylinder, Inertial, Joint, Link, Model, Pose, Sphere, Surface
+from ode_sim.math3 import quat_from_rpy
+from physics_models import ground
+
+G, RADIUS = 9.8, 0.1
+BESIDE = ((0.0, 0.2), (0.0, -0.2))
+# name: places of wheels, places of casters, centre of mass of the base (m)
+LAYOUTS = {
+    "one caster behind": (BESIDE, ((-0.2, 0.0),), (-0.04, 0.0, 0.05)),
+    "casters before and behind": (BESIDE, ((-0.2, 0.0), (0.2, 0.0)), (0.0, 0.0, 0.05)),
+    "the same, nose-heavy": (BESIDE, ((-0.2, 0.0), (0.2, 0.0)), (0.05, 0.0, 0.05)),
+    "two casters behind": (BESIDE, ((-0.2, 0.1), (-0.2, -0.1)), (-0.05, 0.0, 0.05)),
+    "four casters": (BESIDE, ((-0.2, 0.1), (-0.2, -0.1), (0.2, 0.1), (0.2, -0.1)), (0.0, 0.0, 0.05)),
+    "tall": (BESIDE, ((-0.2, 0.0),), (-0.08, 0.0, 0.2)),
+    "front drive": (((0.15, 0.2), (0.15, -0.2)), ((-0.2, 0.0),), (0.05, 0.0, 0.05)),
+    "four wheels": (((0.15, 0.2), (0.15, -0.2), (-0.15, 0.2), (-0.15, -0.2)), (), (0.0, 0.0, 0.05)),
+    "six wheels": (((0.2, 0.2), (0.2, -0.2), (0.0, 0.2), (0.0, -0.2), (-0.2, 0.2), (-0.2, -0.2)), (), (0.02, 0.0, 0.05)),
+    "caster off the middle": (BESIDE, ((-0.2, 0.1),), (-0.04, 0.01, 0.05)),
+}
+BASE_MASS, WHEEL_MASS, CASTER_MU = 10.0, 1.0, 0.5
+
+
+def rover(wheels, casters, com):
+    balls = tuple(Collision(f"c{i}", Pose((x, y, 0.03 - RADIUS)), Sphere(0.03), Surface(mu=CASTER_MU, mu2=CASTER_MU))
+                  for i, (x, y) in enumerate(casters))
+    links = [Link("base", Pose((0, 0, RADIUS)), Inertial(BASE_MASS, Pose(com), 0.2, 0, 0, 0.3, 0, 0.4), balls)]
+    joints = []
+    tyre = Collision("tyre", Pose(q=quat_from_rpy(math.pi / 2, 0, 0)), Cylinder(RADIUS, 0.05))
+    for i, (x, y) in enumerate(wheels):
+        links.append(Link(f"w{i}", Pose((x, y, RADIUS)), Inertial(WHEEL_MASS, Pose(), 0.003, 0, 0, 0.005, 0, 0.003), (tyre,)))
+        joints.append(Joint(f"w{i}", "revolute", "base", f"w{i}", axes=(Axis((0, 1, 0)),)))
+    return Model("rover", Pose(), tuple(links), tuple(joints))
+
+
+def built(name):
+    world = ode_sim.World()
+    world.spawn(ground())
+    model = world.spawn(rover(*LAYOUTS[name]))
+    for link in model.links.values():
+        for collision in link.collisions.values():
+            world.watch_contacts(collision)
+    return world, model
+
+
+def forces(world):
+    """{wheel or caster: (normal force, friction)}, N."""
+    out = {}
+    for contact in world.contacts():
+        handle = world.collision(contact["collision2"])
+        key = handle.name if handle.link.name == "base" else handle.link.name
+        normal, friction = out.get(key, (0.0, 0.0))
+        force = contact["force"]
+        out[key] = (normal - force[2], friction + math.hypot(force[0], force[1]))
+    return out
+
+
+def shares(wheels, casters, com):
+    """Loads of a stiff body on points that give way alike: a wheel has two (both edges of its tread), a caster one."""
+    points = np.array([(1.0, x, y) for x, y in (*wheels, *casters)])
+    stiffness = np.array([2.0] * len(wheels) + [1.0] * len(casters))
+    weight = BASE_MASS * G * np.array((1.0, com[0], com[1])) + sum(WHEEL_MASS * G * np.array((1.0, x, y)) for x, y in wheels)
+    plane = np.linalg.solve(points.T @ (stiffness[:, None] * points), weight)
+    return stiffness * (points @ plane)
+
+
+@pytest.mark.parametrize("name", LAYOUTS)
+def test_standing_every_support_carries_its_share(name):
+    world, _ = built(name)
+    world.step(1000)
+    wheels, casters, com = LAYOUTS[name]
+    keys = [f"w{i}" for i in range(len(wheels))] + [f"c{i}" for i in range(len(casters))]
+    loads = forces(world)
+    weight = (BASE_MASS + WHEEL_MASS * len(wheels)) * G
+    assert [loads[key][0] for key in keys] == pytest.approx(shares(wheels, casters, com), abs=0.04 * weight)
+
+
+@pytest.mark.parametrize("name", LAYOUTS)
+def test_driven_turned_and_braked_nobody_holds_more_than_friction_allows(name):
+    world, model = built(name)
+    world.step(500)
+    over, count = [], 0
+    for forward, turn in ((0.3, 0.0), (0.0, 1.0), (0.3, 1.0), (-0.3, 0.0), (0.0, 0.0)):
+        for i, (_, y) in enumerate(LAYOUTS[name][0]):
+            model.joints[f"w{i}"].set_motor((forward - turn * y) / RADIUS, 2.0)
+        world.step(50)
+        for _ in range(60):
+            world.step(10)
+            for key, (normal, friction) in forces(world).items():
+                count += 1
+                if friction > 1.1 * (CASTER_MU if key[0] == "c" else 1.0) * normal + 0.5:
+                    over.append((key, round(normal, 1), round(friction, 1)))
+    assert len(over) < 0.02 * count, over[:10]
+
+
+def test_a_robot_whose_wheels_outpull_its_casters_drives_turns_and_drives_again():
+    """Wheels with 2/3 of the load and 10 N m pull 100 N, the casters hold 82 N at most: 25 kg between two rigid balls."""
+    balls = tuple(Collision(f"c{i}", Pose((x, 0, -0.05)), Sphere(0.05)) for i, x in enumerate((-0.15, 0.15)))
+    links = [Link("base", Pose((0, 0, 0.1)), Inertial(15.1, Pose((0, 0, 0.1)), 0.1, 0, 0, 0.1, 0, 0.1), balls)]
+    joints = []
+    tyre = Collision("tyre", Pose(q=quat_from_rpy(0, 1.5707, 1.5707)), Cylinder(0.1, 0.05))
+    for name, y in (("left", 0.15), ("right", -0.15)):
+        links.append(Link(name, Pose((0, y, 0.1)), Inertial(5.0, Pose(), 0.1, 0, 0, 0.1, 0, 0.1), (tyre,)))
+        joints.append(Joint(name, "revolute", "base", name, axes=(Axis((0, 1, 0)),)))
+    world = ode_sim.World()
+    world.spawn(ground())
+    model = world.spawn(Model("mybot", Pose(), tuple(links), tuple(joints)))
+    world.step(500)
+    for forward, turn in ((0.3, 0.0), (0.0, 1.0), (0.3, 0.0)):
+        for name, y in (("left", 0.15), ("right", -0.15)):
+            model.joints[name].set_motor((forward - turn * y) / 0.1, 10.0)
+        world.step(1500)
+        assert math.hypot(*model.twist().linear[:2]) == pytest.approx(forward, abs=0.03)
+        assert model.twist().angular[2] == pytest.approx(turn, abs=0.08)
+
+
+@pytest.mark.parametrize("max_vel", [0.01, 100.0])
+@pytest.mark.parametrize("depth", [0.03, 0.09])
+def test_put_into_the_floor_it_comes_out_without_being_thrown(depth, max_vel):
+    world = ode_sim.World()
+    world.spawn(ground(surface=Surface(max_vel=100.0)))
+    description = rover(*LAYOUTS["one caster behind"])
+    links = tuple(replace(link, collisions=tuple(replace(c, surface=Surface(max_vel=max_vel)) for c in link.collisions))
+                  for link in description.links)
+    model = world.spawn(replace(description, links=links), pose=Pose((0, 0, -depth)))
+    highest = fastest = 0.0
+    for _ in range(400):
+        world.step(5)
+        highest = max(highest, model.pose.p[2])
+        fastest = max(fastest, np.linalg.norm(model.twist().linear))
+    assert highest < 0.02 and fastest < 1.5
+    assert model.pose.p == pytest.approx((0, 0, 0), abs=5e-3) and np.linalg.norm(model.twist().linear) < 1e-3
