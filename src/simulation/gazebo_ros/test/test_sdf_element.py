@@ -44,11 +44,17 @@ def test_a_text_that_must_not_be_empty(text, value):
 
 
 @pytest.mark.parametrize("text, default", [
-    ("<a>fast</a>", 2.0), ("<a>...</a>", 2.0), ("<a>1 2</a>", (0.0, 0.0, 0.0)), ("<a>inf</a>", 3), ("<a>nan</a>", 3)])
+    ("<a>fast</a>", 2.0), ("<a>...</a>", 2.0), ("<a>x 1</a>", (1.0, 2.0)), ("<a>inf</a>", 3), ("<a>nan</a>", 3)])
 def test_unreadable_value_gives_the_default_and_a_warning(text, default):
     sdf, warnings = element(text)
     assert sdf.get("a", default) == default
     assert len(warnings) == 1 and "<a>" in warnings[0] and str(default) in warnings[0]
+
+
+def test_numbers_that_are_missing_are_those_of_the_default():
+    sdf, warnings = element("<a>1 2</a>")
+    assert sdf.get("a", (7.0, 8.0, 9.0)) == (1.0, 2.0, 9.0)
+    assert len(warnings) == 1 and "3 numbers expected, using (1.0, 2.0, 9.0)" in warnings[0]
 
 
 def test_children_and_attributes():

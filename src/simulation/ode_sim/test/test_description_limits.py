@@ -3,6 +3,7 @@ import time
 
 import pytest
 
+from ode_sim import math3
 from ode_sim.description import DescriptionError, ResourceFinder, load_world, read_model, read_sdf_model, read_urdf
 from ode_sim.description import xmlsource
 from ode_sim.description.model import FARTHEST, Physics
@@ -347,3 +348,25 @@ def test_names_made_unique_are_those_of_nobody_else():
     read, problems = model("<link name='l'>" + "".join(f"<collision name='{name}'>{BOX}</collision>" for name in names) + "</link>")
     assert [shape.name for shape in read.links[0].collisions] == ["c_1", "c", "c_3", "c_1_1", "c_4", "c_2"]
     assert sum("used twice" in problem.message for problem in problems) == 3
+
+
+@pytest.mark.parametrize("written, xyz, rpy", [
+    ("1 2 3 0.1 0.2", (1, 2, 3), (0.1, 0.2, 0)), ("1 2", (1, 2, 0), (0, 0, 0)), ("1 2 3", (1, 2, 3), (0, 0, 0)),
+    ("1 2 3 0.1 0.2 0.3 0.4", (1, 2, 3), (0.1, 0.2, 0.3)), ("1 2 3m 0.1 0 0", (1, 2, 3), (0, 0, 0)),
+    ("1,2,3,0,0,0", (1, 0, 0), (0, 0, 0))])
+def test_numbers_that_stand_first_in_a_pose_count(written, xyz, rpy):
+    w, problems = load_world(f"<sdf version='1.6'><world name='w'><model name='m'><pose>{written}</pose>"
+                             "<link name='l'/></model></world></sdf>")
+    pose = w.models[0].pose
+    assert pose.p == pytest.approx(xyz) and math3.to_rpy(pose) == pytest.approx(rpy)
+    short = len(written.split()) not in (3, 6, 7) or "m" in written
+    assert short == ("is not 6 numbers; using" in " ".join(map(str, problems)))
+
+
+def test_missing_numbers_of_other_elements_are_the_defaults():
+    w, problems = load_world("<sdf version='1.6'><world name='w'><gravity>1 2</gravity><model name='m'><link name='l'>"
+                             "<collision name='c'><geometry><box><size>0.5 0.6cm</size></box></geometry></collision>"
+                             "</link></model></world></sdf>")
+    assert w.gravity == (1.0, 2.0, -9.8)
+    assert w.models[0].links[0].collisions[0].geometry.size == (0.5, 0.6, 1.0)
+    assert len(problems) == 2

@@ -20,13 +20,13 @@ import rospkg
 import rospy
 from node_signals import master_watch
 from ode_sim.description import DescriptionError, Problem, ResourceFinder, load_world
-from plugin_loader import exported_values
 from rospy.names import load_mappings
 from std_msgs.msg import Bool
 
 from gazebo_ros import command_line
 from gazebo_ros.api.clock import ClockPublisher
 from gazebo_ros.api.forces import ForceJobs
+from gazebo_ros.api.joint_commands import JointCommands
 from gazebo_ros.api.joints import JointServices
 from gazebo_ros.api.lights import LightServices
 from gazebo_ros.api.metrics import MetricsPublisher
@@ -36,6 +36,8 @@ from gazebo_ros.api.pictures import PictureServices
 from gazebo_ros.api.spawning import SpawnServices
 from gazebo_ros.api.states import StatePublishers
 from gazebo_ros.api.stepping import SteppingServices
+from gazebo_ros.api.view import ViewServices
+from gazebo_ros.finding import make_finder
 from gazebo_ros.plugin_host import PluginHost, library_key
 from gazebo_ros.server import Server
 
@@ -162,21 +164,6 @@ def _runs_already() -> bool:
     return True
 
 
-def make_finder(rospack: rospkg.RosPack) -> ResourceFinder:
-    """Search paths: the environment's, then what packages export for gazebo_ros."""
-    def package(name: str) -> Optional[str]:
-        try:
-            return rospack.get_path(name)
-        except rospkg.ResourceNotFound:
-            return None
-
-    def exported(attribute: str) -> List[str]:
-        values = exported_values("gazebo_ros", attribute, rospack)
-        return [path for value in values for path in value.split(":") if path]
-
-    return ResourceFinder(exported("gazebo_model_path"), exported("gazebo_media_path"), package)
-
-
 def _load_world(name: str, finder: ResourceFinder) -> Tuple[object, List[Problem]]:
     """The description of a world; the empty one, with one line, when that cannot be had."""
     try:
@@ -215,6 +202,8 @@ def _offer_api(server: Server) -> None:
     SpawnServices(server)
     SteppingServices(server)
     PictureServices(server)
+    ViewServices(server)
+    JointCommands(server)
     physics = PhysicsServices(server)
     rospy.loginfo("Finished loading Gazebo ROS API Plugin.")
     physics.start_reconfigure()

@@ -1,12 +1,10 @@
 """Lenient reading of an SDF element, as plugins of Gazebo Classic read theirs."""
 from __future__ import annotations
 
-import re
 import xml.etree.ElementTree as ET
 from typing import Callable, Dict, List, Optional
 
-_NUMBER = r"[-+]?(?:\d+\.?\d*(?:[eE][-+]?\d+)?|\.\d+(?:[eE][-+]?\d+)?|inf(?:inity)?|nan)"
-_LEADING_NUMBER = re.compile(r"\s*(" + _NUMBER + ")", re.IGNORECASE)
+from ode_sim.description.xmlsource import leading_numbers
 
 
 class SdfElement:
@@ -53,9 +51,9 @@ class SdfElement:
         """Value of the first child ``tag``, converted to the type of ``default``.
 
         Numbers may be followed by anything, as a C++ stream reads them (``0.3m`` is 0.3); a bool is true for ``true``
-        and ``1`` in any case, else false; a tuple default of n floats reads n numbers. With ``default=None`` the text,
-        or None. A missing or empty element gives the default (an empty one the empty string when a text is wanted); an
-        unreadable one gives it with a warning.
+        and ``1`` in any case, else false; a tuple default of n floats reads n numbers, and stands in for those that are
+        missing. With ``default=None`` the text, or None. A missing or empty element gives the default (an empty one the
+        empty string when a text is wanted); an unreadable one gives it with a warning.
 
         >>> SdfElement(ET.fromstring("<plugin><rate> 30.0 </rate></plugin>")).get("rate", 0.0)
         30.0
@@ -71,13 +69,14 @@ class SdfElement:
         if isinstance(default, bool):
             return text.lower() in ("true", "1")
         count = len(default) if isinstance(default, tuple) else 1
-        numbers = _leading_numbers(text, count)
+        numbers = leading_numbers(text, count)
         if len(numbers) < count:
             wanted = "a number" if count == 1 else f"{count} numbers"
-            self._warn(f"<{tag}>{text}</{tag}>: {wanted} expected, using {default}")
-            return default
+            used = numbers + default[len(numbers):] if isinstance(default, tuple) else default
+            self._warn(f"<{tag}>{text}</{tag}>: {wanted} expected, using {used}")
+            return used
         if isinstance(default, tuple):
-            return tuple(numbers)
+            return numbers
         if isinstance(default, int):
             try:
                 return int(numbers[0])
@@ -85,16 +84,3 @@ class SdfElement:
                 self._warn(f"<{tag}>{text}</{tag}>: a whole number expected, using {default}")
                 return default
         return numbers[0]
-
-
-def _leading_numbers(text: str, count: int) -> List[float]:
-    """Up to ``count`` numbers from the start of ``text``, separated by white space."""
-    numbers: List[float] = []
-    position = 0
-    while len(numbers) < count:
-        match = _LEADING_NUMBER.match(text, position)
-        if not match:
-            break
-        numbers.append(float(match.group(1)))
-        position = match.end()
-    return numbers

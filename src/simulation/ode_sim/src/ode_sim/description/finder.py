@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
-from typing import Callable, Iterable, Iterator, List, Optional, Tuple
+from typing import Callable, Dict, Iterable, Iterator, List, Optional, Tuple
 from urllib.parse import unquote
 
 from ode_sim.description.model import DescriptionError, quoted
@@ -176,6 +176,18 @@ class ResourceFinder:
         if os.path.isabs(best) or _leads_up(best) or not os.path.isfile(file):
             raise DescriptionError(f"{config}: names '{quoted(best)}', which is not there")
         return file
+
+    def models(self) -> Dict[str, str]:
+        """Models of the model path: name of the folder -> its SDF file. Of two of a name the first one counts."""
+        found: Dict[str, str] = {}
+        for path in self.model_paths:
+            for config in sorted(Path(path).glob("*/model.config")):
+                if config.parent.name not in found:
+                    try:
+                        found[config.parent.name] = self._sdf_of_config(str(config))
+                    except DescriptionError:
+                        continue  # whoever asks for it by name is told
+        return found
 
     def stock_models(self) -> List[str]:
         """Names of the models that come with the simulator."""

@@ -8,7 +8,7 @@ from typing import List, Optional, Sequence, Set, Tuple
 from ode_sim import math3
 from ode_sim.description.finder import ResourceFinder
 from ode_sim.description.model import FARTHEST, DescriptionError, Pose, Problem, Source, quoted
-from ode_sim.description.xmlsource import is_true, source_of, text_of
+from ode_sim.description.xmlsource import is_true, leading_numbers, source_of, text_of
 
 LONGEST = 1e100  # of vectors that only tell a direction; the square of a longer one is infinite
 _BRIGHTEST = 1e6  # of colours, which are 0..1
@@ -41,7 +41,8 @@ class SdfValues:
 
     def numbers(self, element: Optional[ET.Element], default: Sequence[float], nan: bool = False,
                 most: float = math.inf) -> Tuple[float, ...]:
-        """As many numbers as ``default`` has; the default (with a warning) when they cannot be read.
+        """As many numbers as ``default`` has. As in Gazebo, numbers that stand first count, whatever follows them; those
+        that are missing are taken from the default, with a warning.
 
         :param nan: the caller deals with values that are not a number; otherwise they are refused.
         :param most: the largest that makes sense, of either sign; beyond it the default is taken, with a warning.
@@ -49,21 +50,18 @@ class SdfValues:
         text = text_of(element)
         if not text:
             return tuple(default)
-        words = text.split(None, len(default))
-        try:
-            values = tuple(float(word) for word in words[:len(default)])
-        except ValueError:
-            values = ()
+        values = leading_numbers(text, len(default))
         if not nan and any(math.isnan(value) for value in values):
             raise DescriptionError(f"{source_of(element)}: '{quoted(text)}' is not a number; give finite values")
-        if len(values) < len(default):
+        if most < math.inf and any(abs(value) > most for value in values):
+            problem, values = f"is beyond {most:g}", tuple(default)
+        elif len(values) < len(default):
             problem = f"is not {len(default)} number{'s' * (len(default) > 1)}"
-        elif most < math.inf and any(abs(value) > most for value in values):
-            problem = f"is beyond {most:g}"
+            values += tuple(default)[len(values):]
         else:
             return values
-        self.warn(element, f"'{quoted(text)}' {problem}; using {' '.join(f'{v:g}' for v in default)}")
-        return tuple(default)
+        self.warn(element, f"'{quoted(text)}' {problem}; using {' '.join(f'{v:g}' for v in values)}")
+        return values
 
     def number(self, parent: Optional[ET.Element], path: str, default: float, nan: bool = False,
                most: float = math.inf) -> float:

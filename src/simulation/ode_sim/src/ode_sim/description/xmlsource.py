@@ -1,8 +1,9 @@
 """XML text to elements that know their line, with the tolerance of Gazebo's own parser."""
 from __future__ import annotations
 
+import re
 import xml.etree.ElementTree as ET
-from typing import List, Optional, Union
+from typing import List, Optional, Tuple, Union
 from xml.parsers import expat
 
 from ode_sim.description.model import DescriptionError, Source, one_line, quoted
@@ -11,6 +12,7 @@ from ode_sim.description.model import DescriptionError, Source, one_line, quoted
 #: to be read, and every reader behind this one may go down the tree by recursion.
 MOST_BYTES, MOST_ELEMENTS, DEEPEST = 64_000_000, 500_000, 100
 _BUFFER = 1 << 20  # bytes of text that reach the reader in one piece
+_NUMBER = re.compile(r"\s*([-+]?(?:\d+\.?\d*(?:[eE][-+]?\d+)?|\.\d+(?:[eE][-+]?\d+)?|inf(?:inity)?|nan))", re.IGNORECASE)
 
 
 class Element(ET.Element):
@@ -183,3 +185,18 @@ def joint_end(joint: ET.Element, tag: str) -> str:
 def is_true(text: str) -> bool:
     """SDF and URDF extension booleans: true, yes, 1 in any case."""
     return text.strip().lower() in ("true", "yes", "1")
+
+
+def leading_numbers(text: str, count: int) -> Tuple[float, ...]:
+    """Up to ``count`` numbers from the start of ``text``, as a C++ stream reads them: what follows is left alone (``0.3m``
+    is 0.3), the first word that is no number ends the row.
+    """
+    numbers: List[float] = []
+    position = 0
+    while len(numbers) < count:
+        match = _NUMBER.match(text, position)
+        if not match:
+            break
+        numbers.append(float(match.group(1)))
+        position = match.end()
+    return tuple(numbers)

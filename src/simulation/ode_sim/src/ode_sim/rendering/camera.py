@@ -9,6 +9,7 @@ from typing import Optional, Tuple
 import numpy as np
 
 from ode_sim.description.model import FARTHEST, Pose, Vec3, one_line, quoted
+from ode_sim.description.xmlsource import leading_numbers
 from ode_sim.math3 import compose, from_rpy
 
 MAX_SIZE = 8192  # pixels along a side; llvmpipe's largest texture is 16384, and a frame of 8192x8192 is 268 MB
@@ -110,10 +111,10 @@ def _number(element: Optional[ET.Element], path: str, default: float) -> float:
     text = element.findtext(path) if element is not None else None
     if text is None or not text.strip():
         return default
-    try:
-        return float(text.split()[0])
-    except ValueError:
-        raise CameraError(f"<{path.rpartition('/')[2]}> is '{quoted(text)}', not a number") from None
+    values = leading_numbers(text, 1)
+    if not values:
+        raise CameraError(f"<{path.rpartition('/')[2]}> is '{quoted(text)}', not a number")
+    return values[0]
 
 
 def _pixels(element: Optional[ET.Element], path: str, default: int) -> int:
@@ -125,10 +126,7 @@ def _pixels(element: Optional[ET.Element], path: str, default: int) -> int:
 
 def _pose(text: Optional[str]) -> Pose:
     """Of the six numbers of a ``<pose>`` (m, rad); missing ones are 0."""
-    try:
-        values = [float(word) for word in (text or "").split()][:6]
-    except ValueError:
-        raise CameraError(f"<pose> is '{quoted(text)}'; six numbers are needed") from None
+    values = leading_numbers(text or "", 6)
     if not all(abs(value) <= FARTHEST for value in values):
         raise CameraError(f"<pose> is '{quoted(text)}'; six finite numbers are needed, of at most {FARTHEST:g}")
     return from_rpy(*values)
@@ -136,12 +134,10 @@ def _pose(text: Optional[str]) -> Pose:
 
 def read_distortion(element: Optional[ET.Element]) -> Distortion:
     """From a ``<distortion>`` element (None: no distortion)."""
-    center = ((element.findtext("center") if element is not None else None) or "0.5 0.5").split()
-    try:
-        cx, cy = (float(word) for word in center[:2])
-    except ValueError:
-        raise CameraError(f"<distortion><center> is '{quoted(' '.join(center))}'; two numbers are needed") from None
-    return Distortion(*(_number(element, key, 0.0) for key in ("k1", "k2", "k3", "p1", "p2")), center=(cx, cy))
+    text = (element.findtext("center") if element is not None else None) or "0.5 0.5"
+    center = leading_numbers(text, 2)
+    center += (0.5, 0.5)[len(center):]
+    return Distortion(*(_number(element, key, 0.0) for key in ("k1", "k2", "k3", "p1", "p2")), center=center)
 
 
 def read_camera(element: ET.Element, sensor_pose: Pose = Pose(), link: str = "", name: str = "",

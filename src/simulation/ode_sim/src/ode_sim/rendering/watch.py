@@ -24,15 +24,19 @@ class SceneWatch:
         """Whoever keeps the scene has lost it: :meth:`news` tells it again."""
         self._changed = True
 
-    def news(self) -> Optional[SceneDescription]:
-        """The scene if it is another one than at the last call, else None. Physics thread."""
+    def changed(self) -> bool:
+        """Whether the scene is another one than at the last call. Physics thread."""
         world = self._world()
         settings = (world.scene, *world.lights.values(), *(
             light for model in world.models.values() for link in model.links.values() for light in link.lights.values()))
         if not self._changed and settings == self._settings:
-            return None
+            return False
         self._changed, self._settings = False, settings
-        return describe(world)
+        return True
+
+    def news(self) -> Optional[SceneDescription]:
+        """The scene if it :meth:`changed`, else None. Physics thread."""
+        return describe(self._world()) if self.changed() else None
 
     def close(self) -> None:
         world = self._world()

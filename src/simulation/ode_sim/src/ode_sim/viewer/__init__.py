@@ -1,0 +1,36 @@
+"""A window onto a world, in a web browser: drawn, played, paused and edited there.
+
+::
+
+    from ode_sim import World
+    from ode_sim.viewer import LocalSimulation, Page
+    with Page(LocalSimulation(World.load("arm.world"))) as page:
+        print(page.address)
+        page.run()
+
+======================  =========================================================================================
+``simulation``          what the page wants of a simulator: :class:`Simulation`, its records
+``local``               a world in this process as a simulation
+``website``             the web server: who may open the page (loopback, token, origin)
+``page``                the page: draws, and joins the parts below
+``drawing``             models and lights
+``overlays``            collisions, centres of mass, inertias, joints, frames, labels
+``selection``           what is picked, its gizmo, copy, delete, undo
+``panels``              one module for each tab
+======================  =========================================================================================
+
+Needs the PyPI package viser (scripts/requirements.txt).
+"""
+from importlib import import_module
+
+from ode_sim.viewer.simulation import Frame, ModelRecord, Refused, Simulation, WorldRecord
+
+__all__ = ["Frame", "LocalSimulation", "ModelRecord", "Page", "Refused", "Simulation", "WorldRecord"]
+
+_LATER = {"LocalSimulation": "local", "Page": "page"}  # a server that only describes its world loads no web server
+
+
+def __getattr__(name: str):
+    if name not in _LATER:
+        raise AttributeError(f"module '{__name__}' has no attribute '{name}'")
+    return getattr(import_module(f"{__name__}.{_LATER[name]}"), name)

@@ -1,0 +1,235 @@
+"""The world in the page: models and lights, moved by the frames of the stream."""
+from __future__ import annotations
+
+import math
+from typing import Callable, Dict, List, Optional, Tuple
+
+import numpy as np
+
+from ode_sim.description import model as d
+from ode_sim.math3 import quat_between, quat_multiply
+from ode_sim.rendering.assets import Assets, Look, Part
+from ode_sim.viewer.simulation import Frame, ModelRecord, WorldRecord
+
+_MOST_TEXTURE = 1024  # pixels along a side that a page is sent
+_STILL = 1e-6  # m, and of a quaternion's parts: what moves less is not sent
+_FULL = math.pi  # three.js divides by it: a light of this intensity shows a surface in its own colour
+_GRID_LIFT = 0.002  # m, so that the grid is seen on a ground plane
+
+
+def wxyz(q: d.Quat) -> Tuple[float, float, float, float]:
+    """viser's order of a quaternion x y z w."""
+    return (q[3], q[0], q[1], q[2])
+
+
+def rgb255(colour) -> Tuple[int, int, int]:
+    return tuple(int(round(255 * min(1.0, max(0.0, c)))) for c in colour[:3])
+
+
+class ModelDrawing:
+    """The nodes of one model: ``/m<serial>/l<link>/v<visual>_<part>``; names that people chose stay out of them."""
+
+    def __init__(self, root: str, record: ModelRecord):
+        self.root = root
+        self.record = record
+        self.links: Dict[int, object] = {}  # row -> frame
+        self.meshes: List[object] = []
+        self.handles: List[object] = []  # all, in the order to remove them
+
+
+class Drawing:
+    """Draws a :class:`WorldRecord` with viser and keeps it up to date. One thread at a time.
+
+    :ivar problems: lines about what cannot be drawn, drained by the caller
+    """
+
+    def __init__(self, server, on_pick: Callable[[str, str, object], None]):
+        """:param on_pick: ``f(model, link, event)``, a click on it."""
+        self._server = server
+        self._scene = server.scene
+        self._on_pick = on_pick
+        self._assets = Assets()
+        self._textures: Dict[str, Optional[object]] = {}
+        self._models: Dict[str, ModelDrawing] = {}
+        self._lights: List[object] = []
+        self._lit: Tuple = ()
+        self._serial = 0
+        self._shown: Optional[np.ndarray] = None
+        self._rows: Dict[int, object] = {}
+        self.transparent = False
+        self.wireframe = False
+        self.shadows = True
+        self.grid = self._scene.add_grid("/grid", width=20.0, height=20.0, cell_size=1.0, cell_thickness=0.6,
+                                         section_size=10.0, section_thickness=0.8, position=(0.0, 0.0, _GRID_LIFT),
+                                         cell_color=(120, 120, 120), section_color=(80, 80, 80), shadow_opacity=0.0)
+        self._scene.configure_environment_map(hdri=None)  # those of viser come from the internet
+        self._scene.configure_default_lights(enabled=False)
+
+    @property
+    def problems(self) -> List[str]:
+        return self._assets.problems
+
+    # ------------------------------------------------------------------------------------------ what is there
+
+    def update(self, world: WorldRecord) -> None:
+        """Draw what is new, take away what has gone."""
+        wanted = {model.name: model for model in world.models}
+        for name in [name for name, drawn in self._models.items()
+                     if name not in wanted or drawn.record.description != wanted[name].description]:
+            self._remove(name)
+        with self._server.atomic():
+            for name, record in wanted.items():
+                if name in self._models:
+                    self._models[name].record = record
+                else:
+                    self._models[name] = self._draw(record)
+            self._light(world)
+        self.grid.visible = world.scene.grid
+        self._scene.world_axes.visible = False
+        self._rows = {}
+        for drawn in self._models.values():
+            nodes = list(drawn.links.values())
+            drawn.links = dict(zip(drawn.record.links.values(), nodes))
+            self._rows.update(drawn.links)
+        self._shown = None
+
+    def redraw(self, world: WorldRecord) -> None:
+        """All anew, after a change of how things are drawn."""
+        for name in list(self._models):
+            self._remove(name)
+        self._lit = ()
+        self.update(world)
+
+    def model_root(self, name: str) -> Optional[ModelDrawing]:
+        return self._models.get(name)
+
+    def _remove(self, name: str) -> None:
+        for handle in reversed(self._models.pop(name).handles):
+            handle.remove()
+
+    def _draw(self, record: ModelRecord) -> ModelDrawing:
+        self._serial += 1
+        drawn = ModelDrawing(f"/m{self._serial}", record)
+        links = {link.name: link for link in record.description.links}
+        for number, (name, row) in enumerate(record.links.items()):
+            node = f"{drawn.root}_l{number}"
+            drawn.links[row] = self._scene.add_frame(node, show_axes=False)
+            drawn.handles.append(drawn.links[row])
+            link = links.get(name)
+            for at, visual in enumerate(link.visuals if link else ()):
+                scoped = f"{record.name}::{name}::{visual.name}"
+                for part_number, part in enumerate(self._assets.parts(visual, scoped)):
+                    mesh = self._mesh(f"{node}/v{at}_{part_number}", part, visual, scoped)
+                    drawn.meshes.append(mesh)
+                    drawn.handles.append(mesh)
+                    mesh.on_click(lambda event, model=record.name, link=name: self._on_pick(model, link, event))
+        return drawn
+
+    def _mesh(self, node: str, part: Part, visual: d.Visual, scoped: str):
+        look, mesh = part.look, self._assets.meshes[part.key]
+        alpha = look.alpha * (0.4 if self.transparent else 1.0)
+        shadow = visual.cast_shadows and alpha > 0.99
+        place = dict(position=part.pose.p, wxyz=wxyz(part.pose.q))
+        image = self._image(look.texture, scoped) if look.texture and mesh.uv is not None else None
+        if image is not None and not self.wireframe:
+            return self._scene.add_mesh_trimesh(node, _textured(
+                mesh, part, image, look, alpha), cast_shadow=shadow, **place)
+        # a flat thing of nothing but its scale has one side, as in Gazebo; files are shown from both
+        side = "double" if isinstance(part.key, tuple) else "front"
+        return self._scene.add_mesh_simple(
+            node, np.asarray(mesh.vertices, np.float32), np.asarray(mesh.triangles, np.uint32),
+            color=rgb255(_seen(look)), opacity=alpha if alpha < 0.995 else None, wireframe=self.wireframe, side=side,
+            scale=tuple(float(s) for s in part.scale), cast_shadow=shadow, **place)
+
+    def _image(self, file: str, scoped: str):
+        if file not in self._textures:
+            from PIL import Image
+            pixels = self._assets.texture(file, scoped, _MOST_TEXTURE)
+            self._textures[file] = None if pixels is None else Image.fromarray(np.ascontiguousarray(pixels[::-1]))
+        return self._textures[file]
+
+    # ------------------------------------------------------------------------------------------ light
+
+    def _light(self, world: WorldRecord) -> None:
+        carried = tuple((model.links.get(link.name), light) for model in world.models
+                        for link in model.description.links for light in link.lights)
+        lit = (world.lights, carried, world.scene, self.shadows)
+        if lit == self._lit:
+            return
+        self._lit = lit
+        for handle in self._lights:
+            handle.remove()
+        shadows = world.scene.shadows and self.shadows
+        self._lights = [self._scene.add_light_ambient("/light_ambient", color=rgb255(world.scene.ambient),
+                                                      intensity=_FULL)]
+        for number, light in enumerate(world.lights):
+            self._lights.append(self._lamp(f"/light{number}", light, shadows))
+        for number, (row, light) in enumerate(carried):
+            frame = next((m.links[row] for m in self._models.values() if row in m.links), None)
+            if frame is not None:
+                self._lights.append(self._lamp(f"{frame.name}/light{number}", light, False))
+        self._server.scene.set_background_image(
+            np.full((2, 2, 3), rgb255(world.scene.background), np.uint8), format="png")
+
+    def _lamp(self, node: str, light: d.Light, shadows: bool):
+        common = dict(color=rgb255(light.diffuse), cast_shadow=shadows and light.cast_shadows)
+        turn = quat_between((0.0, 0.0, -1.0), light.direction)
+        if light.type == "directional":
+            # three.js: from its place towards the origin of its parent
+            away = np.array(light.direction) / (np.linalg.norm(light.direction) or 1.0)
+            place = tuple(float(v) for v in -away)
+            return self._scene.add_light_directional(node, intensity=_FULL * 0.8, position=place, **common)
+        decay = 2.0 if light.quadratic > 0.0 else 1.0 if light.linear > 0.0 else 0.0
+        strength = _FULL / max(light.constant if decay == 0.0 else light.linear if decay ==
+                               1.0 else light.quadratic, 0.05)
+        options = dict(
+    intensity=min(
+        strength,
+        30.0),
+        distance=light.range,
+        decay=decay,
+        position=light.pose.p,
+         **common)
+        if light.type == "spot":
+            return self._scene.add_light_spot(
+                node, angle=min(max(light.spot[1] / 2, 0.01), math.pi / 2), penumbra=0.5, direction=(0.0, 0.0, -1.0),
+                wxyz=wxyz(quat_multiply(light.pose.q, turn)), **options)
+        return self._scene.add_light_point(node, **options)
+
+    # ------------------------------------------------------------------------------------------ what moves
+
+    def move(self, frame: Frame) -> int:
+        """Put every link where ``frame`` has it; returns how many moved."""
+        poses = frame.poses
+        if self._shown is None or self._shown.shape != poses.shape:
+            rows = range(len(poses))
+        else:
+            rows = np.flatnonzero((np.abs(poses - self._shown) > _STILL).any(axis=1))
+        moved = 0
+        with self._server.atomic():
+            for row in rows:
+                node = self._rows.get(int(row))
+                if node is not None:
+                    x, y, z, qx, qy, qz, qw = poses[row].tolist()
+                    node.position = (x, y, z)
+                    node.wxyz = (qw, qx, qy, qz)
+                    moved += 1
+        self._shown = poses.copy()
+        return moved
+
+
+def _seen(look: Look) -> Tuple[float, ...]:
+    return tuple(max(a, b) for a, b in zip(look.diffuse, look.emissive))
+
+
+def _textured(mesh, part: Part, image, look: Look, alpha: float):
+    import trimesh
+    material = trimesh.visual.material.PBRMaterial(
+        baseColorTexture=image, baseColorFactor=[*rgb255(look.diffuse), int(255 * alpha)], metallicFactor=0.0,
+        roughnessFactor=1.0, doubleSided=True, alphaMode="BLEND" if alpha < 0.995 else "MASK", alphaCutoff=0.02)
+    made = trimesh.Trimesh(np.asarray(mesh.vertices, float) * part.scale, np.asarray(mesh.triangles, np.int64),
+                           vertex_normals=np.asarray(mesh.normals, float), process=False)
+    made.visual = trimesh.visual.TextureVisuals(uv=np.asarray(mesh.uv, float), material=material)
+    return made
+
+

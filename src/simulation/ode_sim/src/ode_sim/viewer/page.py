@@ -1,0 +1,219 @@
+"""The page: draws the world, follows it, and joins the panels."""
+from __future__ import annotations
+
+import logging
+import queue
+import threading
+import time
+from typing import Any, Callable, List, Optional, Sequence
+
+from ode_sim.description.model import one_line
+from ode_sim.viewer.drawing import Drawing
+from ode_sim.viewer.overlays import Overlays
+from ode_sim.viewer.panels import STANDARD
+from ode_sim.viewer.panels.base import Panel
+from ode_sim.viewer.selection import Selection
+from ode_sim.viewer.simulation import Frame, Refused, Simulation, WorldRecord
+from ode_sim.viewer.website import DEFAULT_PORT, Website
+
+_PERIOD = 1.0 / 30.0  # wall s between two looks at the simulation
+_IDLE_PERIOD = 0.25  # the same while no browser shows it
+_TEXT_PERIOD = 0.2  # wall s between two updates of numbers
+_log = logging.getLogger("viewer")
+
+
+class Page:
+    """Shows a simulation until :meth:`close`; a context manager.
+
+    :param panels: classes of more :class:`~ode_sim.viewer.panels.base.Panel`, behind the standard ones
+    :param say: where lines for the user go who started it
+    :raises ode_sim.viewer.website.Unavailable: no page can be served
+    """
+
+    def __init__(self, simulation: Simulation, port: int = DEFAULT_PORT, listen: bool = False, title: str = "Gazebo",
+                 panels: Sequence[type] = (), say: Callable[[str], None] = _log.warning):
+        self.simulation = simulation
+        self.website = Website(port, listen)
+        self.server = self.website.viser
+        self.world = WorldRecord()
+        self.frame: Optional[Frame] = None
+        self._say = say
+        self._jobs: queue.SimpleQueue = queue.SimpleQueue()
+        self._ended = threading.Event()
+        self._holder: Optional[int] = None  # the page that holds the controls
+        self._pages = 0
+        self._next_text = 0.0
+        self._absent = False
+        self.server.gui.configure_theme(control_width="medium", show_logo=False, show_share_button=False)
+        self.server.gui.main_panel.dock_right()
+        self.server.gui.set_panel_label(title)
+        self.server.initial_camera.position = (5.0, -5.0, 2.5)
+        self.server.initial_camera.look_at = (0.0, 0.0, 0.4)
+        self.drawing = Drawing(self.server, self._picked)
+        self.overlays = Overlays(self)
+        self.selection = Selection(self)
+        self.panels: List[Panel] = []
+        self._build([*STANDARD, *panels])
+        self.server.on_client_connect(self._on_connect)
+        self.server.on_client_disconnect(self._on_disconnect)
+
+    def __enter__(self) -> "Page":
+        return self
+
+    def __exit__(self, *_: Any) -> None:
+        self.close()
+
+    @property
+    def address(self) -> str:
+        """What to type into a browser."""
+        return self.website.address
+
+    @property
+    def pages(self) -> int:
+        """How many browsers show it."""
+        return self._pages
+
+    def close(self) -> None:
+        """End :meth:`run` and the web server. Any thread, more than once."""
+        if not self._ended.is_set():
+            self._ended.set()
+            self._jobs.put(lambda: None)
+            self.simulation.close()
+            self.website.close()
+
+    # ------------------------------------------------------------------------------------------ what panels use
+
+    def later(self, f: Callable[[], None]) -> None:
+        """Call ``f()`` in the thread that draws. Any thread."""
+        self._jobs.put(f)
+
+    def attempt(self, event: Any, f: Callable[[], Any]) -> Any:
+        """Do what a page asked for: ``f()``, unless another page holds the controls; a refusal is shown on that page.
+
+        :param event: viser's; one without a client was made by the program and is not acted upon
+        :returns: what ``f`` returns; None when it was refused
+        """
+        who = getattr(event, "client_id", None)
+        if who is None:
+            return None
+        if self._holder not in (None, who):
+            self.tell(event, "Another page holds the controls; take them there, or wait until it lets go.")
+            return None
+        try:
+            return f()
+        except Refused as error:
+            self.tell(event, str(error))
+        except Exception as error:  # a page may send anything; the others go on
+            _log.debug("a request of a page failed", exc_info=True)
+            self.tell(event, f"{type(error).__name__}: {error}")
+        return None
+
+    def tell(self, event: Any, text: str) -> None:
+        """A line on the page that asked."""
+        client = getattr(event, "client", None)
+        if client is not None:
+            client.add_notification("", one_line(text, 400), auto_close_seconds=8.0, color="red")
+
+    def hold(self, event: Any, on: bool) -> bool:
+        """Take or let go of the controls; whether it was done."""
+        who = getattr(event, "client_id", None)
+        if who is None or self._holder not in (None, who):
+            self.tell(event, "Another page holds the controls already.")
+            return False
+        self._holder = who if on else None
+        return True
+
+    # ------------------------------------------------------------------------------------------ the loop
+
+    def run(self, ended: Callable[[], bool] = lambda: False) -> None:
+        """Draw until :meth:`close`, or until ``ended()``."""
+        while not self._ended.is_set() and not ended():
+            begin = time.monotonic()
+            try:
+                self.turn()
+            except Exception as error:  # a bug in one part must not end the window
+                _log.debug("the page stumbled", exc_info=True)
+                self._say(f"{type(error).__name__}: {one_line(error, 200)}")
+                time.sleep(1.0)
+            spent = time.monotonic() - begin
+            self._ended.wait(max((_PERIOD if self._pages else _IDLE_PERIOD) - spent, spent))  # half a core at most
+
+    def turn(self) -> None:
+        """One look at the simulation."""
+        self._do_jobs()
+        frame = self.simulation.frame()
+        if frame is None:
+            if not self._absent:
+                self._absent = True
+                self._each(lambda panel: panel.on_absent())
+            return
+        if frame is self.frame and not self._absent:
+            return
+        if frame.revision != self.world.revision or self._absent:
+            self._absent = False
+            self._take(self.simulation.describe())
+        self.frame = frame
+        if frame.revision == self.world.revision:  # else the rows are of another world: the next frame has them
+            self.drawing.move(frame)
+            self.overlays.move(frame)
+        now = time.monotonic()
+        if now >= self._next_text:
+            self._next_text = now + _TEXT_PERIOD
+            self.selection.on_frame(frame)
+            self._each(lambda panel: panel.on_frame(frame))
+
+    def redraw(self) -> None:
+        """All anew, after a change of how things are drawn. Drawing thread."""
+        self.drawing.redraw(self.world)
+        self.overlays.update(self.world)
+        self.frame = None
+
+    def _take(self, world: WorldRecord) -> None:
+        self.world = world
+        self.drawing.update(world)
+        self.overlays.update(world)
+        self.selection.update(world)
+        self._each(lambda panel: panel.on_world(world))
+        for line in self.drawing.problems:
+            self._say(line)
+        self.drawing.problems.clear()
+
+    def _do_jobs(self) -> None:
+        while True:
+            try:
+                job = self._jobs.get_nowait()
+            except queue.Empty:
+                return
+            try:
+                job()
+            except Refused as error:
+                self._say(str(error))
+
+    def _each(self, f: Callable[[Panel], None]) -> None:
+        for panel in self.panels:
+            f(panel)
+
+    def _build(self, kinds: Sequence[type]) -> None:
+        gui = self.server.gui
+        for kind in kinds:
+            if not kind.title:  # above the tabs
+                self.panels.append(kind(self))
+        tabs = gui.add_tab_group()
+        for kind in kinds:
+            if kind.title:
+                with tabs.add_tab(kind.title):
+                    self.panels.append(kind(self))
+
+    def _picked(self, model: str, link: str, event: Any) -> None:
+        self.attempt(event, lambda: self.later(lambda: self.selection.select(model, link)))
+
+    def _on_connect(self, client: Any) -> None:
+        self._pages += 1
+        self.simulation.look(True)
+
+    def _on_disconnect(self, client: Any) -> None:
+        self._pages = max(0, self._pages - 1)
+        if self._holder == client.client_id:
+            self._holder = None
+        if not self._pages:
+            self.simulation.look(False)

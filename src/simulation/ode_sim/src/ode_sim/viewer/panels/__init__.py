@@ -1,0 +1,10 @@
+"""The tabs of the page; each is a :class:`~ode_sim.viewer.panels.base.Panel` in a module of its own."""
+from ode_sim.viewer.panels.insert import InsertPanel
+from ode_sim.viewer.panels.joints import JointsPanel
+from ode_sim.viewer.panels.physics import PhysicsPanel
+from ode_sim.viewer.panels.play import PlayPanel
+from ode_sim.viewer.panels.record import RecordPanel
+from ode_sim.viewer.panels.view import ViewPanel
+from ode_sim.viewer.panels.world import WorldPanel
+
+STANDARD = (PlayPanel, WorldPanel, InsertPanel, JointsPanel, PhysicsPanel, ViewPanel, RecordPanel)

@@ -1,0 +1,84 @@
+"""Joints of the picked model: put, or driven by force, position or velocity, as Gazebo's joint tab."""
+from __future__ import annotations
+
+import math
+from typing import Any, Dict, List
+
+from ode_sim.description import model as d
+from ode_sim.viewer.panels.base import Panel
+from ode_sim.viewer.simulation import JOINT_MODES, Frame
+
+_MOST = 24  # sliders
+_MODES = ("set", *JOINT_MODES)
+
+
+class JointsPanel(Panel):
+    title = "Joints"
+
+    def __init__(self, page: Any):
+        super().__init__(page)
+        self._mode = self.gui.add_dropdown(
+            "Slider", _MODES, hint="set: put the joint there at once. force, position, velocity: drive it from now on. "
+                                   "none: let go")
+        with self.gui.add_folder("PID of position and velocity", expand_by_default=False):
+            self._p = self.gui.add_number("p", 100.0, step=1.0)
+            self._i = self.gui.add_number("i", 0.0, step=0.1)
+            self._d = self.gui.add_number("d", 5.0, step=0.1)
+        self._force = self.gui.add_number("Largest force (N m, N)", 10.0, min=0.001, step=1.0)
+        self._folder = self.gui.add_folder("Pick a model first")
+        self._sliders: Dict[str, Any] = {}
+        self._made: List[Any] = []
+        self._model = ""
+        page.selection.on_change.append(self._on_select)
+        for control in (self._mode, self._force):
+            control.on_update(lambda event: event.client_id is not None and page.later(self._build))
+
+    def on_frame(self, frame: Frame) -> None:
+        record = self.page.world.model(self._model)
+        if record is None or frame.revision != self.page.world.revision or self._mode.value not in ("set", "none"):
+            return
+        for name, slider in self._sliders.items():
+            row = record.joints.get(name)
+            if row is not None:
+                slider.value = min(slider.max, max(slider.min, round(float(frame.joints[row]), 3)))
+
+    def _on_select(self) -> None:
+        if self.page.selection.model != self._model:
+            self._model = self.page.selection.model
+            self._build()
+
+    def _build(self) -> None:
+        for handle in self._made:
+            handle.remove()
+        self._made, self._sliders = [], {}
+        record = self.page.world.model(self._model)
+        movable = [joint for joint in record.description.joints if joint.name in record.joints] if record else []
+        self._folder.label = (f"{self._model}: {len(movable)} joints" if record else "Pick a model first")
+        mode = self._mode.value
+        with self._folder:
+            for joint in movable[:_MOST]:
+                low, high = self._range(joint, mode)
+                slider = self.gui.add_slider(joint.name, low, high, (high - low) / 1000, max(low, min(high, 0.0)))
+                self.on_update(slider, lambda value, name=joint.name: self._command(name, float(value)))
+                self._sliders[joint.name] = slider
+                self._made.append(slider)
+
+    def _range(self, joint: d.Joint, mode: str) -> tuple:
+        axis = joint.axes[0]
+        if mode == "force":
+            most = axis.effort if 0.0 < axis.effort < 1e6 else float(self._force.value)
+            return -min(most, float(self._force.value)), min(most, float(self._force.value))
+        if mode == "velocity":
+            most = axis.velocity if 0.0 < axis.velocity < 100.0 else 2.0
+            return -most, most
+        low = axis.lower if axis.lower > -1e3 else -math.pi if joint.type != "prismatic" else -1.0
+        high = axis.upper if axis.upper < 1e3 else math.pi if joint.type != "prismatic" else 1.0
+        return (float(low), float(high)) if high > low else (float(low), float(low) + 1e-3)
+
+    def _command(self, joint: str, value: float) -> None:
+        mode = self._mode.value
+        if mode == "set":
+            self.simulation.set_joint_position(self._model, joint, value)
+        else:
+            gains = (float(self._p.value), float(self._i.value), float(self._d.value))
+            self.simulation.command_joint(self._model, joint, mode, value, gains)

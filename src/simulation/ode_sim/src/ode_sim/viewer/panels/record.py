@@ -1,0 +1,50 @@
+"""Save the world, a screenshot, a replay."""
+from __future__ import annotations
+
+import time
+from typing import Any, Optional
+
+from ode_sim.viewer.panels.base import Panel
+from ode_sim.viewer.simulation import Frame, Refused
+
+
+class RecordPanel(Panel):
+    title = "Record"
+
+    def __init__(self, page: Any):
+        super().__init__(page)
+        self._save = self.gui.add_button("Save world", hint="a world file of everything as it is now")
+        self._shot = self.gui.add_button("Screenshot", hint="what this page shows, as PNG")
+        self._replay = self.gui.add_button("Record", hint="a page that plays by itself, without a simulator")
+        self._save.on_click(lambda event: page.attempt(event, lambda: event.client.send_file_download(
+            f"{page.world.name or 'world'}.world", self.simulation.save().encode())))
+        self._shot.on_click(lambda event: page.attempt(event, lambda: self._screenshot(event.client)))
+        self._replay.on_click(lambda event: page.attempt(event, lambda: self._toggle(event.client)))
+        self._recording: Optional[Any] = None
+        self._last = 0.0
+
+    def on_frame(self, frame: Frame) -> None:
+        if self._recording is not None:
+            now = time.monotonic()
+            self._recording.insert_sleep(now - self._last)
+            self._last = now
+
+    def _screenshot(self, client: Any) -> None:
+        import cv2
+
+        width = max(64, min(int(client.camera.image_width or 1280), 3840))
+        height = max(64, min(int(client.camera.image_height or 720), 2160))
+        picture = client.get_render(height, width)
+        good, data = cv2.imencode(".png", picture[..., ::-1])
+        if not good:
+            raise Refused("The picture could not be written as PNG.")
+        client.send_file_download("screenshot.png", data.tobytes())
+
+    def _toggle(self, client: Any) -> None:
+        if self._recording is None:
+            self._recording, self._last = self.page.server.get_scene_serializer(), time.monotonic()
+            self._replay.label = "Stop and keep the recording"
+            return
+        recording, self._recording = self._recording, None
+        self._replay.label = "Record"
+        client.send_file_download("replay.html", recording.as_html().encode())

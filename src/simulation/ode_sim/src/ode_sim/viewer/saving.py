@@ -1,0 +1,34 @@
+"""A running world as a description that can be written down and started again."""
+from __future__ import annotations
+
+from dataclasses import replace
+
+from ode_sim.description import model as d
+
+
+def describe_now(world) -> d.World:
+    """The description of ``world`` (an :class:`ode_sim.World`) with what it has become: models, poses, velocities,
+    lights, settings. In the thread that steps it."""
+    models, states = [], []
+    for model in world.models.values():
+        pose = model.pose
+        models.append(replace(model.description, name=model.name, pose=pose, static=model.static,
+                              links=tuple(_link_now(model, link) for link in model.description.links)))
+        states.append(d.ModelState(model.name, pose, links=tuple(
+            d.LinkState(link.name, link.pose, _plain(link.com_velocity()), _plain(link.angular_velocity()))
+            for link in model.links.values())))
+    return replace(
+        world.description, gravity=tuple(world.gravity), physics=world.physics.record(), scene=world.scene,
+        models=tuple(models), lights=tuple(world.lights.values()),
+        state=d.WorldState(world.time, world.iterations, tuple(states)))
+
+
+def _link_now(model, link: d.Link) -> d.Link:
+    handle = model.links.get(link.name)
+    if handle is None:
+        return link
+    return replace(link, gravity=bool(handle.gravity), lights=tuple(handle.lights.values()))
+
+
+def _plain(vector) -> d.Vec3:
+    return tuple(float(v) for v in vector)

@@ -1,0 +1,206 @@
+"""What is picked: its frame, gizmo, copy, delete; undo and redo of what was done to the world."""
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any, Callable, List, Optional, Tuple
+
+from ode_sim.description import model as d
+from ode_sim.description.sdf_writer import light_text, model_text
+from ode_sim.math3 import Pose
+from ode_sim.viewer.drawing import wxyz
+from ode_sim.viewer.panels.base import free_name
+from ode_sim.viewer.simulation import Frame, ModelRecord, Refused, WorldRecord
+
+_MOST_STEPS = 50  # that can be undone
+
+
+class History:
+    """Steps that can be undone: pairs of functions."""
+
+    def __init__(self):
+        self._done: List[Tuple[str, Callable[[], None], Callable[[], None]]] = []
+        self._undone: List[Tuple[str, Callable[[], None], Callable[[], None]]] = []
+
+    def do(self, what: str, forth: Callable[[], None], back: Callable[[], None]) -> None:
+        """Call ``forth()`` and remember ``back``.
+
+        :raises Refused: as ``forth`` does; then nothing is remembered
+        """
+        forth()
+        self.note(what, forth, back)
+
+    def note(self, what: str, forth: Callable[[], None], back: Callable[[], None]) -> None:
+        """Remember a step that was taken already."""
+        self._done = self._done[1 - _MOST_STEPS:] + [(what, forth, back)]
+        self._undone.clear()
+
+    def undo(self) -> str:
+        """What was undone."""
+        return self._turn(self._done, self._undone, 2, "undo")
+
+    def redo(self) -> str:
+        return self._turn(self._undone, self._done, 1, "do again")
+
+    @staticmethod
+    def _turn(source: List, target: List, which: int, verb: str) -> str:
+        if not source:
+            raise Refused(f"There is nothing to {verb}.")
+        step = source.pop()
+        step[which]()
+        target.append(step)
+        return step[0]
+
+
+class Selection:
+    """One model, link or light at a time, the same for all pages.
+
+    :ivar model: name, '' = nothing or a light. :ivar link: name, '' = the whole model. :ivar light: name or ''.
+    """
+
+    def __init__(self, page: Any):
+        self._page = page
+        self.history = History()
+        self.model = ""
+        self.link = ""
+        self.light = ""
+        self.on_change: List[Callable[[], None]] = []
+        self._dragged: Optional[Pose] = None  # where the drag began
+        self._gizmo_wanted = False
+        self._snap = 0.0
+        scene = page.server.scene
+        self._frame = scene.add_frame("/selected", axes_length=0.3, axes_radius=0.006, visible=False)
+        self._gizmo = scene.add_transform_controls("/gizmo", scale=0.7, visible=False, depth_test=False)
+        self._gizmo.on_update(self._on_drag)
+
+    # ------------------------------------------------------------------------------------------ picking
+
+    @property
+    def record(self) -> Optional[ModelRecord]:
+        return self._page.world.model(self.model) if self.model else None
+
+    @property
+    def light_record(self) -> Optional[d.Light]:
+        return next((light for light in self._page.world.lights if light.name == self.light), None)
+
+    def select(self, model: str = "", link: str = "", light: str = "") -> None:
+        """Drawing thread."""
+        self.model, self.link, self.light = model, link, light
+        self._show()
+        for f in self.on_change:
+            f()
+
+    def update(self, world: WorldRecord) -> None:
+        if self.model and world.model(self.model) is None or self.light and self.light_record is None:
+            self.select()
+
+    def pose(self) -> Optional[Pose]:
+        """X_W of what is picked, in the newest frame."""
+        frame, record = self._page.frame, self.record
+        if self.light_record is not None:
+            return self.light_record.pose
+        if record is None or frame is None or frame.revision != self._page.world.revision:
+            return None
+        return frame.pose(record.links[self.link]) if self.link in record.links else record.pose(frame)
+
+    def on_frame(self, frame: Frame) -> None:
+        self._show()
+
+    def gizmo(self, on: bool, snap: float = 0.0) -> None:
+        """Show the handles to move and rotate with; ``snap`` m, 0 = none. Drawing thread."""
+        self._gizmo_wanted, self._snap = on, snap
+        self._show()
+
+    def _show(self) -> None:
+        pose = self.pose()
+        self._frame.visible = pose is not None
+        movable = pose is not None and self._gizmo_wanted
+        self._gizmo.visible = movable
+        if pose is not None:
+            self._frame.position, self._frame.wxyz = pose.p, wxyz(pose.q)
+            record, frame = self.record, self._page.frame
+            whole = record.pose(frame) if record is not None and frame is not None else pose
+            if self._dragged is None:
+                self._gizmo.position, self._gizmo.wxyz = whole.p, wxyz(whole.q)
+
+    # ------------------------------------------------------------------------------------------ acting
+
+    async def _on_drag(self, event: Any) -> None:
+        """In the order of the hand: the event loop calls it, the work is done in the drawing thread."""
+        position = tuple(float(v) for v in event.target.position)
+        w, x, y, z = (float(v) for v in event.target.wxyz)
+        self._page.later(lambda: self._drag(event, Pose(position, (x, y, z, w)), event.phase))
+
+    def _drag(self, event: Any, pose: Pose, phase: str) -> None:
+        record, frame = self.record, self._page.frame
+        if phase == "start" or self._dragged is None:
+            self._dragged = self.light_record.pose if self.light_record else record.pose(
+                frame) if record and frame else None
+        if self._snap > 0.0:
+            pose = replace(pose, p=tuple(round(v / self._snap) * self._snap for v in pose.p))
+        begin = self._dragged
+        if begin is not None:
+            name = self.model or self.light
+            self._page.attempt(event, lambda: self._put(pose))
+            if phase == "end" and pose != begin:
+                self.history.note(
+    f"move {name}", lambda: self._put_named(
+        name, pose), lambda: self._put_named(
+            name, begin))
+        if phase == "end":
+            self._dragged = None
+
+    def _put(self, pose: Pose) -> None:
+        self._put_named(self.model or self.light, pose)
+
+    def _put_named(self, name: str, pose: Pose) -> None:
+        light = next((light for light in self._page.world.lights if light.name == name), None)
+        if self._page.world.model(name) is not None or light is None:
+            self._page.simulation.set_pose(name, pose)
+        else:
+            self._page.simulation.set_light(replace(light, pose=pose))
+
+    def move(self, pose: Pose) -> None:
+        """Put what is picked at ``pose``; a model as a whole.
+
+        :raises Refused: nothing is picked
+        """
+        record, frame, name = self.record, self._page.frame, self.model or self.light
+        if record is not None and frame is not None:
+            begin = record.pose(frame)
+        elif self.light_record is not None:
+            begin = self.light_record.pose
+        else:
+            raise Refused("Pick a model or light first.")
+        self.history.do(f"move {name}", lambda: self._put_named(name, pose), lambda: self._put_named(name, begin))
+
+    def delete(self) -> None:
+        """:raises Refused: nothing is picked."""
+        name, text, pose = self._text()
+        simulation = self._page.simulation
+        self.history.do(f"delete {name}", lambda: simulation.delete(name), lambda: simulation.insert(name, text, pose))
+
+    def copy(self) -> str:
+        """Put a copy beside it; its name.
+
+        :raises Refused: nothing is picked
+        """
+        name, text, pose = self._text()
+        return self.insert(name.rstrip("0123456789").rstrip("_") or name, text,
+                           replace(pose, p=(pose.p[0] + 1.0, pose.p[1], pose.p[2])))
+
+    def insert(self, wanted: str, text: str, pose: Pose) -> str:
+        """A model or light from text, under a free name; the name."""
+        world, simulation = self._page.world, self._page.simulation
+        name = free_name(wanted, {model.name for model in world.models} | {light.name for light in world.lights})
+        self.history.do(f"insert {name}", lambda: simulation.insert(name, text, pose), lambda: simulation.delete(name))
+        return name
+
+    def _text(self) -> Tuple[str, str, Pose]:
+        """(name, SDF text about the origin, pose) of what is picked."""
+        record, frame, light = self.record, self._page.frame, self.light_record
+        if light is not None:
+            return light.name, light_text(replace(light, pose=Pose())), light.pose
+        if record is None or frame is None:
+            raise Refused("Pick a model or light first: click on it, or on its name in the tree.")
+        description = replace(record.description, name=record.name, static=record.static, pose=Pose())
+        return record.name, model_text(description), record.pose(frame)

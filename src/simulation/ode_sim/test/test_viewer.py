@@ -1,0 +1,305 @@
+"""The page without a browser: who may open it, what is drawn and what clicks do. A world of this process, no ROS."""
+import http.client
+import types
+
+import numpy as np
+import pytest
+from ode_sim import World, math3
+from ode_sim.description import model as d
+from ode_sim.math3 import Pose
+
+viser = pytest.importorskip("viser")
+
+from ode_sim.viewer import LocalSimulation, Page, Refused  # noqa: E402
+from ode_sim.viewer.overlays import Overlays, inertia_box  # noqa: E402
+from ode_sim.viewer.panels.base import escaped, free_name  # noqa: E402
+from ode_sim.viewer.panels.insert import shape_model  # noqa: E402
+from ode_sim.viewer.panels.play import clock  # noqa: E402
+from ode_sim.viewer.selection import History  # noqa: E402
+from ode_sim.viewer.website import Guard, Website  # noqa: E402
+
+EVIL = "<img src=x onerror=alert(1)>"
+
+
+class Client:
+    """A page that clicks."""
+
+    def __init__(self, client_id=1):
+        self.client_id = client_id
+        self.told = []
+        self.files = {}
+
+    def add_notification(self, title, body, **_):
+        self.told.append(body)
+
+    def send_file_download(self, name, content):
+        self.files[name] = content
+
+
+def event(client, value=None):
+    return types.SimpleNamespace(client=client, client_id=client.client_id, target=types.SimpleNamespace(value=value))
+
+
+def use(handle, client, value=None):
+    """What viser does when a page clicks or changes something."""
+    if value is not None:
+        handle._impl.value = value
+    for callback in list(handle._impl.update_cb):
+        callback(types.SimpleNamespace(client=client, client_id=client.client_id, target=handle))
+
+
+@pytest.fixture
+def page():
+    world = World(d.World(lights=(d.Light("sun", "directional"),), models=(
+        shape_model("box", d.Box()), shape_model(EVIL, d.Sphere(0.5)))))
+    world.models[EVIL].pose = Pose((3.0, 0.0, 0.5))
+    page = Page(LocalSimulation(world, paused=True), port=0)
+    wait(page, lambda: page.frame is not None)
+    yield page
+    page.close()
+
+
+def wait(page, condition, turns=500):
+    import time
+    for _ in range(turns):
+        page.turn()
+        if page.frame is not None and page.frame.revision == page.world.revision and condition():
+            return
+        time.sleep(0.02)
+    raise AssertionError("it did not come about")
+
+
+def panel(page, kind):
+    return next(p for p in page.panels if type(p).__name__ == kind)
+
+
+def position(page, model):
+    return page.world.model(model).pose(page.frame).p
+
+
+# ---------------------------------------------------------------------------------------------- who may open it
+
+def test_guard_of_the_loopback_page():
+    guard = Guard()
+    assert guard.refuse("/", {"Host": "localhost:1234"}) is None
+    assert guard.refuse("/", {"Host": "[::1]:1234", "Origin": "http://[::1]:1234"}) is None
+    assert guard.refuse("/", {"Host": "evil.example:1234"})[0] == 403  # a name that was made to lead here
+    assert guard.refuse("/", {"Host": "localhost:1234", "Origin": "http://evil.example"})[0] == 403
+    assert guard.refuse("/", {})[0] == 403
+
+
+def test_guard_with_a_token():
+    guard = Guard("secret")
+    host = {"Host": "robot:1234"}
+    assert guard.refuse("/", host)[0] == 403
+    assert guard.refuse("/?token=wrong", host)[0] == 403
+    status, headers, _ = guard.refuse("/?token=secret", host)
+    assert status == 303 and headers["Location"] == "/" and "HttpOnly" in headers["Set-Cookie"]
+    cookie = headers["Set-Cookie"].split(";")[0]
+    assert guard.refuse("/", {**host, "Cookie": cookie}) is None
+    assert guard.refuse("/", {**host, "Cookie": cookie, "Origin": "http://evil.example"})[0] == 403
+    assert guard.refuse("/", {**host, "Cookie": cookie.replace("secret", "wrong")})[0] == 403
+
+
+def test_the_guard_stands_before_every_request():
+    website = Website(port=0)
+    try:
+        def ask(path, **headers):
+            connection = http.client.HTTPConnection("127.0.0.1", website.port, timeout=30)
+            connection.request("GET", path, headers=headers)
+            answer = connection.getresponse()
+            return answer.status, answer.read()
+        assert ask("/")[0] == 200
+        assert ask("/", Host="evil.example")[0] == 403
+        upgrade = {"Connection": "Upgrade", "Upgrade": "websocket", "Sec-WebSocket-Version": "13",
+                   "Sec-WebSocket-Key": "AAAAAAAAAAAAAAAAAAAAAA==", "Origin": "http://evil.example"}
+        assert ask("/", **upgrade)[0] == 403
+        for path in ("/../../../../etc/passwd", "/%2e%2e/%2e%2e/etc/passwd", "/etc/passwd"):
+            assert ask(path)[0] == 404
+        handlers = website.viser._websock_server._incoming_handlers
+        assert not [kind for kind in handlers if kind.__name__.startswith("ShareUrl")]  # no tunnel into the internet
+    finally:
+        website.close()
+
+
+# ---------------------------------------------------------------------------------------------- what is drawn
+
+def test_models_are_drawn_and_follow(page):
+    drawn = page.drawing.model_root("box")
+    assert len(drawn.meshes) == 1 and len(drawn.links) == 1
+    page.simulation.set_pose("box", Pose((1.0, 2.0, 3.0), math3.quat_from_rpy(0.0, 0.0, 1.0)))
+    node = next(iter(drawn.links.values()))
+    wait(page, lambda: np.allclose(node.position, (1.0, 2.0, 3.0), atol=1e-5))
+    assert np.allclose(node.wxyz, (np.cos(0.5), 0.0, 0.0, np.sin(0.5)), atol=1e-5)
+
+
+def test_what_stands_still_is_not_sent(page):
+    page.drawing.move(page.frame)
+    assert page.drawing.move(page.frame) == 0
+
+
+def test_names_of_people_stay_out_of_nodes_and_markup(page):
+    assert not any("<" in name for name in page.server.scene._handle_from_node_name)
+    assert escaped(EVIL) == "&lt;img src=x onerror=alert(1)&gt;"
+
+
+def test_models_come_and_go(page):
+    client = Client()
+    insert = panel(page, "InsertPanel")
+    use(insert._shapes, client, "Sphere")
+    wait(page, lambda: page.world.model("unit_sphere") is not None)
+    assert page.drawing.model_root("unit_sphere") is not None and not client.told
+    page.simulation.delete("unit_sphere")
+    wait(page, lambda: page.world.model("unit_sphere") is None)
+    assert page.drawing.model_root("unit_sphere") is None
+
+
+@pytest.mark.parametrize("kind", Overlays.KINDS)
+def test_overlays_are_drawn_and_taken_away(page, kind):
+    before = set(page.server.scene._handle_from_node_name)
+    page.overlays.show(kind, True)
+    added = set(page.server.scene._handle_from_node_name) - before
+    page.overlays.show(kind, False)
+    assert set(page.server.scene._handle_from_node_name) == before
+    assert added or kind == "joints"  # these models have none
+
+
+def test_box_of_an_inertia():
+    pose, size = inertia_box(shape_model("b", d.Box((1.0, 2.0, 3.0)), mass=5.0).links[0].inertial)
+    extents = np.abs(np.array(math3.quat_to_matrix(pose.q)) @ np.array(size))
+    np.testing.assert_allclose(sorted(extents), (1.0, 2.0, 3.0), rtol=1e-6)
+    assert inertia_box(d.Inertial(1.0, ixx=1e8, iyy=1.0, izz=1.0)) is None  # no body has it
+
+
+# ---------------------------------------------------------------------------------------------- what clicks do
+
+def test_play_pause_step_reset(page):
+    client, play = Client(), panel(page, "PlayPanel")
+    use(play._count, client, 5)
+    use(play._run, client, "Step")
+    wait(page, lambda: page.frame.iterations == 5)
+    use(play._run, client, "Play")
+    wait(page, lambda: page.frame.iterations > 20 and not page.frame.paused)
+    use(play._run, client, "Pause")
+    wait(page, lambda: page.frame.paused)
+    use(play._reset, client, "All")
+    wait(page, lambda: page.frame.iterations == 0)
+    assert not client.told
+
+
+def test_one_page_may_hold_the_controls(page):
+    one, two, play = Client(1), Client(2), panel(page, "PlayPanel")
+    use(play._hold, one, True)
+    use(play._run, two, "Step")
+    assert page.frame.iterations == 0 and "holds the controls" in two.told[0]
+    use(play._run, one, "Step")
+    wait(page, lambda: page.frame.iterations == 1)
+    page._on_disconnect(one)
+    use(play._run, two, "Step")
+    wait(page, lambda: page.frame.iterations == 2)
+
+
+def test_pick_move_copy_delete_undo(page):
+    client, world = Client(), panel(page, "WorldPanel")
+    page.selection.select("box")
+    world._properties.position._impl.value = (4.0, 0.0, 2.0)
+    use(world._properties.position, client)
+    wait(page, lambda: np.allclose(position(page, "box"), (4.0, 0.0, 2.0), atol=1e-5))
+    use(world._edit, client, "Copy")
+    wait(page, lambda: page.world.model("box_0") is not None)
+    assert np.allclose(position(page, "box_0"), (5.0, 0.0, 2.0), atol=1e-5)
+    use(world._edit, client, "Delete")
+    wait(page, lambda: page.world.model("box") is None)
+    use(world._history, client, "Undo")  # the delete
+    wait(page, lambda: page.world.model("box") is not None)
+    assert np.allclose(position(page, "box"), (4.0, 0.0, 2.0), atol=1e-5)
+    use(world._history, client, "Undo")  # the copy
+    wait(page, lambda: page.world.model("box_0") is None)
+    use(world._history, client, "Redo")
+    wait(page, lambda: page.world.model("box_0") is not None)
+    assert not client.told
+
+
+def test_mass_and_light_are_set(page):
+    client, world = Client(), panel(page, "WorldPanel")
+    page.selection.select("box")
+    use(world._properties.mass, client, 4.0)
+    now = page.simulation.link_properties("box", "link")
+    assert now.mass == 4.0 and now.inertia[0] == pytest.approx(4.0 / 6)
+    page.selection.select(light="sun")
+    use(world._properties.diffuse, client, (255, 0, 0))
+    wait(page, lambda: page.world.lights[0].diffuse == (1.0, 0.0, 0.0, 1.0))
+
+
+def test_a_refusal_is_told_to_the_page_that_asked(page):
+    client, world = Client(), panel(page, "WorldPanel")
+    use(world._edit, client, "Delete")
+    assert client.told == ["Pick a model or light first: click on it, or on its name in the tree."]
+    physics = panel(page, "PhysicsPanel")
+    use(physics._gravity, client, (float("nan"), 0.0, 0.0))
+    assert len(client.told) == 2 and page.simulation.physics()[1] == (0.0, 0.0, -9.8)
+
+
+def test_joints_are_put_and_driven():
+    arm = d.Model("arm", links=(d.Link("base"), d.Link("tip", inertial=d.Inertial(1.0, ixx=0.1, iyy=0.1, izz=0.1))),
+                  joints=(d.Joint("fix", "fixed", "world", "base"),
+                          d.Joint("hinge", "revolute", "base", "tip", axes=(d.Axis((0.0, 0.0, 1.0), -2.0, 2.0),))))
+    page = Page(LocalSimulation(World(d.World(models=(arm,))), paused=True), port=0)
+    try:
+        client = Client()
+        wait(page, lambda: page.frame is not None)
+        page.selection.select("arm")
+        joints = panel(page, "JointsPanel")
+        slider = joints._sliders["hinge"]
+        assert (slider.min, slider.max) == (-2.0, 2.0)
+        use(slider, client, 0.5)
+        row = page.world.model("arm").joints["hinge"]
+        wait(page, lambda: abs(page.frame.joints[row] - 0.5) < 1e-5)
+        page.simulation.command_joint("arm", "hinge", "position", -1.0, (40.0, 0.0, 5.0))
+        page.simulation.step(4000)
+        wait(page, lambda: abs(page.frame.joints[row] + 1.0) < 0.01)
+        assert not client.told
+    finally:
+        page.close()
+
+
+def test_save_gives_a_world_that_can_be_started(page):
+    client, record = Client(), panel(page, "RecordPanel")
+    use(record._save, client)
+    saved = World.load(client.files["default.world"].decode())
+    assert list(saved.models) == ["box", EVIL] and saved.models[EVIL].pose.p == (3.0, 0.0, 0.5)
+
+
+def test_a_recording_plays_by_itself(page):
+    client, record = Client(), panel(page, "RecordPanel")
+    use(record._replay, client)
+    page.simulation.set_pose("box", Pose((0.0, 0.0, 9.0)))
+    wait(page, lambda: position(page, "box")[2] > 8.9)
+    use(record._replay, client)
+    assert b"__VISER_EMBED_DATA__" in client.files["replay.html"]
+
+
+def test_history_forgets_what_was_refused_and_what_is_old():
+    history, log = History(), []
+    with pytest.raises(Refused):
+        history.undo()
+
+    def refuse():
+        raise Refused("no")
+    with pytest.raises(Refused):
+        history.do("x", refuse, lambda: log.append("back"))
+    with pytest.raises(Refused):
+        history.undo()
+    for number in range(60):
+        history.note(str(number), lambda: None, lambda: None)
+    undone = 0
+    with pytest.raises(Refused):
+        while True:
+            history.undo()
+            undone += 1
+    assert undone == 50 and not log
+
+
+def test_names_and_times():
+    assert free_name("a", {"b"}) == "a" and free_name("a", {"a", "a_0"}) == "a_1"
+    assert clock(93784.0625) == "01 02:03:04.062"

@@ -1,0 +1,78 @@
+"""A window of the desktop that shows the page: a browser of the system, without its bars."""
+from __future__ import annotations
+
+import os
+import shutil
+import signal
+import subprocess
+import tempfile
+from typing import List, Optional
+
+from node_signals.children import end_with_parent
+
+#: Those that show one page in a window of its own, in the order of preference.
+_APPS = ("chromium", "chromium-browser", "google-chrome", "microsoft-edge", "brave-browser")
+_OTHERS = ("firefox-esr", "firefox", "xdg-open")
+_PATIENCE = 3.0  # s for the window to close by itself
+
+
+def available() -> bool:
+    """There is a display to open a window on."""
+    return bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
+
+
+def command(address: str, profile: str) -> Optional[List[str]]:
+    """What to run; None where there is no browser.
+
+    :param profile: folder of its own, so that the window is a process of its own
+    """
+    for name in _APPS:
+        program = shutil.which(name)
+        if program:
+            return [program, f"--app={address}", f"--user-data-dir={profile}", "--no-first-run",
+                    "--no-default-browser-check", "--disable-background-networking", "--disable-component-update",
+                    "--disable-sync",
+                    "--class=gzclient",
+                    "--window-size=1280,800", "--enable-unsafe-swiftshader",
+                    *(["--no-sandbox"] if os.geteuid() == 0 else [])]  # which it refuses to run with as root
+    for name in _OTHERS:
+        program = shutil.which(name)
+        if program:
+            return [program, address] if name == "xdg-open" else [program, "--no-remote", "--profile", profile, address]
+    return None
+
+
+class Window:
+    """The browser with the page; a context manager.
+
+    :ivar process: None where there is none that could be watched
+    """
+
+    def __init__(self, address: str):
+        self._folder = tempfile.TemporaryDirectory(prefix="gzclient_", ignore_cleanup_errors=True)
+        self.process: Optional[subprocess.Popen] = None
+        words = command(address, self._folder.name)
+        if words is None:
+            return
+        process = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.DEVNULL,
+                                   start_new_session=True, preexec_fn=end_with_parent)
+        if not words[0].endswith("xdg-open"):  # which has gone while the window stays
+            self.process = process
+
+    @property
+    def closed(self) -> bool:
+        return self.process is not None and self.process.poll() is not None
+
+    def close(self) -> None:
+        if self.process is not None and self.process.poll() is None:
+            for number in (signal.SIGTERM, signal.SIGKILL):
+                try:
+                    os.killpg(self.process.pid, number)
+                    self.process.wait(_PATIENCE)
+                    break
+                except ProcessLookupError:
+                    break
+                except subprocess.TimeoutExpired:
+                    continue
+        self._folder.cleanup()
