@@ -1,0 +1,211 @@
+"""A MoveIt configuration package as data: what the screens edit, what the generator writes, what a package on disk holds."""
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Dict, List, Optional
+
+import yaml
+
+from moveit_setup_assistant.errors import AssistantError
+from moveit_setup_assistant.robot_source import Robot, RobotSource
+from moveit_setup_assistant.semantics import Semantics
+
+MARKER = ".setup_assistant"
+SOLVERS = ("kdl_kinematics_plugin/KDLKinematicsPlugin", "lma_kinematics_plugin/LMAKinematicsPlugin",
+           "cached_ik_kinematics_plugin/CachedKDLKinematicsPlugin", "cached_ik_kinematics_plugin/CachedTRACKinematicsPlugin",
+           "trac_ik_kinematics_plugin/TRAC_IKKinematicsPlugin", "srv_kinematics_plugin/SrvKinematicsPlugin")
+TRAJECTORY_TYPES = ("effort_controllers/JointTrajectoryController", "position_controllers/JointTrajectoryController",
+                    "velocity_controllers/JointTrajectoryController")
+ACTION_TYPES = {"FollowJointTrajectory": "follow_joint_trajectory", "GripperCommand": "gripper_action"}
+
+
+@dataclass
+class Kinematics:
+    """One group's entry of kinematics.yaml; ``solver`` "" means that poses of the group are not solved."""
+
+    solver: str = ""
+    search_resolution: float = 0.005
+    timeout: float = 0.005
+    goal_joint_tolerance: float = 1e-4
+    goal_position_tolerance: float = 1e-4
+    goal_orientation_tolerance: float = 1e-3
+    parameters_file: str = ""
+    others: Dict[str, Any] = field(default_factory=dict)  # keys of solvers that this program does not know
+
+    _KEYS = {"kinematics_solver": "solver", "kinematics_solver_search_resolution": "search_resolution",
+             "kinematics_solver_timeout": "timeout", "goal_joint_tolerance": "goal_joint_tolerance",
+             "goal_position_tolerance": "goal_position_tolerance", "goal_orientation_tolerance": "goal_orientation_tolerance"}
+
+    @classmethod
+    def from_mapping(cls, values: Dict[str, Any]) -> "Kinematics":
+        """The entry of kinematics.yaml."""
+        made = cls()
+        for key, value in values.items():
+            if key in cls._KEYS:
+                setattr(made, cls._KEYS[key], value)
+            else:
+                made.others[key] = value
+        return made
+
+    def to_mapping(self) -> Dict[str, Any]:
+        """The entry of kinematics.yaml."""
+        return {**{key: getattr(self, name) for key, name in self._KEYS.items()}, **self.others}
+
+
+@dataclass
+class Controller:
+    """One controller: of ros_control, or an action that somebody else serves (a type of ACTION_TYPES)."""
+
+    name: str
+    type: str
+    joints: List[str] = field(default_factory=list)
+
+    @property
+    def is_action(self) -> bool:
+        """Whether move_group only calls it, and nobody here starts it."""
+        return self.type in ACTION_TYPES
+
+
+@dataclass
+class Configuration:
+    """Everything a configuration package says of one robot."""
+
+    source: RobotSource
+    robot: Robot
+    semantics: Semantics
+    kinematics: Dict[str, Kinematics] = field(default_factory=dict)
+    default_planners: Dict[str, str] = field(default_factory=dict)
+    controllers: List[Controller] = field(default_factory=list)
+    sensors: List[Dict[str, Any]] = field(default_factory=list)
+    gazebo_urdf: str = ""
+    author_name: str = ""
+    author_email: str = ""
+    srdf_path: str = ""  # below the package; "" for config/<robot>.srdf
+    generated_timestamp: int = 0
+    warnings: List[str] = field(default_factory=list)
+
+    @classmethod
+    def new(cls, source: RobotSource) -> "Configuration":
+        """An empty configuration of the robot.
+
+        :raises AssistantError: the description cannot be loaded.
+        """
+        robot = source.load()
+        return cls(source, robot, Semantics(robot.name), warnings=list(robot.warnings))
+
+    @classmethod
+    def load(cls, package: Path) -> "Configuration":
+        """The configuration that a package of MoveIt's assistant, or of this one, holds.
+
+        :raises AssistantError: the folder is no such package, or one of its files cannot be read.
+        """
+        package = Path(package)
+        marker = package / MARKER
+        if not marker.is_file():
+            raise AssistantError(f"'{package}' has no file {MARKER}: it is no package that a setup assistant made")
+        values = _read(marker).get("moveit_setup_assistant_config") or {}
+        urdf, author = values.get("URDF") or {}, values.get("CONFIG") or {}
+        srdf = (values.get("SRDF") or {}).get("relative_path") or ""
+        made = cls.new(RobotSource(urdf.get("package") or "", urdf.get("relative_path") or "", str(urdf.get("xacro_args") or "")))
+        made.srdf_path = srdf
+        made.semantics = Semantics.load(package / made.srdf_file)
+        made.author_name, made.author_email = str(author.get("author_name") or ""), str(author.get("author_email") or "")
+        made.generated_timestamp = written_at(package)
+        made._load_yaml(package / "config")
+        return made
+
+    def _load_yaml(self, config: Path) -> None:
+        kinematics = _read(config / "kinematics.yaml", optional=True)
+        self.kinematics = {name: Kinematics.from_mapping(values) for name, values in kinematics.items() if isinstance(values, dict)}
+        planning = _read(config / "ompl_planning.yaml", optional=True)
+        self.default_planners = {group.name: str(planning[group.name]["default_planner_config"]) for group in self.semantics.groups
+                                 if isinstance(planning.get(group.name), dict)
+                                 and planning[group.name].get("default_planner_config")}
+        self.sensors = [s for s in _read(config / "sensors_3d.yaml", optional=True).get("sensors") or [] if isinstance(s, dict) and s]
+        actions = _read(config / "simple_moveit_controllers.yaml", optional=True).get("controller_list") or []
+        running = _read(config / "ros_controllers.yaml", optional=True)
+        listed = [*actions, *(running.get("controller_list") or [])]
+        self.controllers = [Controller(str(c["name"]), str(c["type"]), list(c.get("joints") or [])) for c in listed
+                            if isinstance(c, dict) and c.get("name") and c.get("type")]
+        self.controllers += [Controller(name, str(c["type"]), list(c.get("joints") or [])) for name, c in running.items()
+                             if isinstance(c, dict) and "joints" in c and "type" in c]
+        gazebo = config / f"gazebo_{self.robot.name}.urdf"
+        self.gazebo_urdf = gazebo.read_text(encoding="utf-8") if gazebo.is_file() else ""
+
+    @property
+    def srdf_file(self) -> str:
+        """The SRDF's path below the package."""
+        return self.srdf_path or f"config/{self.robot.name}.srdf"
+
+    def model(self):
+        """The robot with these groups, states and end effectors.
+
+        :raises AssistantError: the SRDF does not fit.
+        """
+        return self.robot.with_srdf(self.semantics.to_text())
+
+    def add_default_controllers(self, kind: str = TRAJECTORY_TYPES[0]) -> None:
+        """One trajectory controller for every group that moves joints which no controller moves yet."""
+        model = self.model()
+        taken = {joint for controller in self.controllers for joint in controller.joints}
+        for group in self.semantics.groups:
+            if not model.has_group(group.name):
+                continue
+            joints = list(model.group(group.name).active_joints)
+            if joints and not taken.intersection(joints):
+                taken.update(joints)
+                self.controllers.append(Controller(f"{group.name}_controller", kind, joints))
+
+    def problems(self) -> List[str]:
+        """What must be mended before a package can be written, one line each."""
+        found = self.semantics.problems(self.robot.model)
+        if not self.author_name.strip() or "@" not in self.author_email.strip("@ "):
+            found.append("the author's name and e-mail address are missing: package.xml needs both")
+        joints = set(self.robot.model.joints)
+        for controller in self.controllers:
+            found += [f"controller '{controller.name}' names the joint '{joint}', which the robot does not have"
+                      for joint in controller.joints if joint not in joints]
+            if any(c.isspace() for c in controller.name) or not controller.name:
+                found.append(f"controller '{controller.name}' has a name with blanks, or none; use letters, digits and _")
+        for group in self.semantics.groups:
+            if not group.name or any(c.isspace() for c in group.name):
+                found.append(f"group '{group.name}' has a name with blanks, or none; use letters, digits and _")
+        return found
+
+    def incomplete(self) -> List[str]:
+        """What most robots need and this one lacks; a package can be written all the same."""
+        found = [] if self.semantics.groups else ["There is no planning group: nothing can be planned."]
+        if not self.semantics.disable_collisionss:
+            found.append("No collisions are disabled: planning is slow, and touching links may forbid every motion.")
+        if not self.semantics.end_effectors:
+            found.append("There is no end effector; pick and place, and RViz's marker at a gripper, want one.")
+        if not self.semantics.virtual_joints:
+            found.append("There is no virtual joint; the robot's root link is then the planning frame.")
+        return found
+
+
+def written_at(package: Path) -> int:
+    """When an assistant last wrote the package, seconds since 1970; 0 if that is not known."""
+    values = _read(package / MARKER, optional=True).get("moveit_setup_assistant_config") or {}
+    try:
+        return int((values.get("CONFIG") or {}).get("generated_timestamp") or 0)
+    except (TypeError, ValueError, AttributeError):
+        return 0
+
+
+def _read(path: Path, optional: bool = False) -> Dict[str, Any]:
+    """The mapping of a YAML file; ``{}`` if an optional one is missing."""
+    try:
+        values: Optional[Any] = yaml.safe_load(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        if optional:
+            return {}
+        raise AssistantError(f"'{path}' cannot be read: {error.strerror}") from error
+    except (yaml.YAMLError, UnicodeDecodeError) as error:
+        raise AssistantError(f"'{path}' is no YAML: {' '.join(str(error).split())[:200]}") from error
+    if values is None:
+        return {}
+    if not isinstance(values, dict):
+        raise AssistantError(f"'{path}' holds no mapping at its top")
+    return values

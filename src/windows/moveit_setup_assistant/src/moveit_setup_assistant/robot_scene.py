@@ -1,0 +1,99 @@
+"""A robot's shapes for drawing: one row of poses per link, highlighted links in a colour of their own."""
+from __future__ import annotations
+
+import xml.etree.ElementTree as ET
+from dataclasses import replace
+from typing import Dict, Iterable, List, Optional, Tuple
+
+import numpy as np
+from motion.files import resolve
+from ode_sim.description import model as d
+from ode_sim.math3 import from_rpy
+from ode_sim.rendering.scene import WORLD_FRAME, SceneDescription, SceneLight, SceneVisual
+
+from moveit_setup_assistant.robot_source import Robot
+
+HIGHLIGHT = (0.9, 0.1, 0.1, 1.0)
+_PLAIN = (0.6, 0.6, 0.65, 1.0)
+
+
+class RobotScene:
+    """What :class:`ode_sim.rendering.Renderer` draws of a robot; links keep the order of ``links``."""
+
+    def __init__(self, robot: Robot) -> None:
+        root = ET.fromstring(robot.urdf)
+        colours = {m.get("name"): _colour(m) for m in root.findall("material")}
+        self.links: Tuple[str, ...] = tuple(robot.model.links)
+        self._visuals: List[SceneVisual] = []
+        for element in root.findall("link"):
+            name = element.get("name")
+            if name in self.links:
+                self._visuals += list(_visuals_of(element, self.links.index(name), colours))
+        sun = d.Light("sun", "directional", direction=(-0.4, 0.3, -0.9), diffuse=(0.7, 0.7, 0.7, 1.0))
+        self._lights = (SceneLight(WORLD_FRAME, sun),)
+        self._background = d.Scene(ambient=(0.5, 0.5, 0.5, 1.0), background=(0.94, 0.95, 0.97, 1.0))
+
+    def description(self, highlighted: Iterable[str] = ()) -> SceneDescription:
+        """The scene with the links of these names in :data:`HIGHLIGHT`."""
+        rows = {self.links.index(name) for name in highlighted if name in self.links}
+        red = d.Material(ambient=HIGHLIGHT, diffuse=HIGHLIGHT)
+        visuals = tuple(replace(seen, visual=replace(seen.visual, material=red)) if seen.link in rows else seen
+                        for seen in self._visuals)
+        return SceneDescription(self.links, visuals, self._lights, self._background)
+
+    def poses(self, state) -> np.ndarray:
+        """(L, 7) x y z qx qy qz qw of the links in a ``motion`` state, model frame, m."""
+        found = state.poses(list(self.links))
+        return np.array([[*found[name].position, *found[name].quaternion] for name in self.links])
+
+
+def _visuals_of(link: ET.Element, row: int, colours: Dict[Optional[str], Optional[Tuple]]) -> Iterable[SceneVisual]:
+    """The link's visuals; its collision shapes if it has none."""
+    for index, element in enumerate(link.findall("visual") or link.findall("collision")):
+        shape = _shape(element.find("geometry"))
+        if shape is None:
+            continue
+        material = element.find("material")
+        colour = None
+        if material is not None:
+            colour = _colour(material) or colours.get(material.get("name"))
+        if colour is None and not isinstance(shape, d.Mesh):
+            colour = _PLAIN
+        look = d.Material(ambient=colour, diffuse=colour) if colour else None
+        name = f"{link.get('name')}::{index}"
+        yield SceneVisual(row, f"robot::{name}", d.Visual(name, _origin(element), shape, look))
+
+
+def _numbers(text: Optional[str], default: Tuple[float, ...]) -> Tuple[float, ...]:
+    try:
+        values = tuple(float(word) for word in (text or "").split())
+    except ValueError:
+        return default
+    return values if len(values) == len(default) and np.isfinite(values).all() else default
+
+
+def _origin(element: ET.Element) -> d.Pose:
+    origin = element.find("origin")
+    if origin is None:
+        return d.Pose()
+    return from_rpy(*_numbers(origin.get("xyz"), (0.0,) * 3), *_numbers(origin.get("rpy"), (0.0,) * 3))
+
+
+def _colour(material: ET.Element) -> Optional[Tuple[float, ...]]:
+    colour = material.find("color")
+    return None if colour is None else _numbers(colour.get("rgba"), _PLAIN)
+
+
+def _shape(geometry: Optional[ET.Element]):
+    for element in geometry if geometry is not None else ():
+        if element.tag == "box":
+            return d.Box(_numbers(element.get("size"), (0.1,) * 3))
+        if element.tag == "sphere":
+            return d.Sphere(_numbers(element.get("radius"), (0.05,))[0])
+        if element.tag == "cylinder":
+            return d.Cylinder(_numbers(element.get("radius"), (0.05,))[0], _numbers(element.get("length"), (0.1,))[0])
+        if element.tag == "mesh":
+            uri = element.get("filename") or ""
+            path = resolve(uri)
+            return d.Mesh(path, uri, _numbers(element.get("scale"), (1.0,) * 3)) if path else None
+    return None

@@ -1,0 +1,138 @@
+"""Where a robot's description comes from, and the robot that it describes."""
+from __future__ import annotations
+
+import shlex
+import xml.etree.ElementTree as ET
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Callable, Dict, List, Optional
+
+import motion
+import rospkg
+
+from moveit_setup_assistant.errors import AssistantError
+
+
+@dataclass
+class RobotSource:
+    """A URDF or xacro file: ``relative_path`` below ``package``, or an absolute path if it lies in no package."""
+
+    package: str = ""
+    relative_path: str = ""
+    xacro_args: str = ""
+
+    @classmethod
+    def from_file(cls, path, xacro_args: str = "") -> "RobotSource":
+        """The source that names ``path`` by the package around it, so that it is found on other machines too.
+
+        :raises AssistantError: there is no such file.
+        """
+        path = Path(path).expanduser().resolve()
+        if not path.is_file():
+            raise AssistantError(f"robot description '{path}': there is no such file")
+        for folder in path.parents:
+            manifest = folder / "package.xml"
+            if manifest.is_file():
+                return cls(_package_name(manifest), str(path.relative_to(folder)), xacro_args)
+        return cls("", str(path), xacro_args)
+
+    def file(self) -> Path:
+        """The file's absolute path.
+
+        :raises AssistantError: the package is not found (source the workspace that holds it), or lacks the file.
+        """
+        if not self.package:
+            path = Path(self.relative_path)
+            where = ""
+        else:
+            try:
+                path = Path(rospkg.RosPack().get_path(self.package)) / self.relative_path
+            except rospkg.ResourceNotFound as error:
+                raise AssistantError(f"the robot description is in package '{self.package}', which is not found; source the "
+                                     f"setup.bash of the workspace that holds it") from error
+            where = f" of package '{self.package}'"
+        if not path.is_file():
+            raise AssistantError(f"robot description '{self.relative_path}'{where}: there is no such file")
+        return path
+
+    @property
+    def is_xacro(self) -> bool:
+        """Whether the file goes through xacro: by its name, or because it says so inside."""
+        path = Path(self.relative_path)
+        if path.suffix == ".xacro" or self.xacro_args:
+            return True
+        try:
+            return "xmlns:xacro" in self.file().read_text(encoding="utf-8", errors="replace")
+        except (OSError, AssistantError):
+            return False
+
+    def load(self, progress: Optional[Callable[[str], None]] = None) -> "Robot":
+        """Read, expand and parse the description.
+
+        :raises AssistantError: the file, an argument or the XML cannot be used.
+        """
+        path = self.file()
+        if progress:
+            progress(f"reading {path}")
+        text = _expand(path, self.xacro_args) if self.is_xacro else path.read_text(encoding="utf-8", errors="replace")
+        return Robot.from_text(text, str(path))
+
+
+def _package_name(manifest: Path) -> str:
+    try:
+        return (ET.parse(manifest).getroot().findtext("name") or "").strip() or manifest.parent.name
+    except ET.ParseError:
+        return manifest.parent.name
+
+
+def _expand(path: Path, arguments: str) -> str:
+    import xacro  # late: a plain URDF does without
+
+    mappings: Dict[str, str] = {}
+    for word in shlex.split(arguments):
+        if word in ("--inorder", "-i"):
+            continue
+        name, separator, value = word.partition(":=")
+        if not separator:
+            raise AssistantError(f"xacro argument '{word}' has no ':='; write name:=value")
+        mappings[name] = value
+    try:
+        return xacro.process_file(str(path), mappings=mappings).toxml()
+    except SystemExit as error:
+        raise AssistantError(f"xacro cannot expand '{path}'; run  xacro {path} {arguments}  to see why") from error
+    except Exception as error:  # xacro raises many kinds; all of them say what is wrong in their text
+        raise AssistantError(f"xacro cannot expand '{path}': {' '.join(str(error).split())[:300]}") from error
+
+
+@dataclass
+class Robot:
+    """A parsed description. ``warnings``: what was left out, one line each (missing meshes, for one)."""
+
+    name: str
+    urdf: str
+    model: "motion.RobotModel"
+    warnings: List[str] = field(default_factory=list)
+
+    @classmethod
+    def from_text(cls, urdf: str, origin: str) -> "Robot":
+        """:raises AssistantError: the text is no robot; ``origin`` names it in the message."""
+        try:
+            model = motion.load_model(urdf)
+        except motion.MotionError as error:
+            raise AssistantError(f"'{origin}' is no robot description: {error}") from error
+        return cls(model.name, urdf, model, list(model.warnings))
+
+    def with_srdf(self, srdf: str) -> "motion.RobotModel":
+        """The model with the groups of an SRDF text.
+
+        :raises AssistantError: the text cannot be used with this robot.
+        """
+        try:
+            return motion.load_model(self.urdf, srdf)
+        except motion.MotionError as error:
+            raise AssistantError(f"the SRDF does not fit the robot: {error}") from error
+
+    @property
+    def movable_joints(self) -> List[str]:
+        """Joints that somebody can move: neither fixed nor mimicking another."""
+        return list(self.model.active_joints)

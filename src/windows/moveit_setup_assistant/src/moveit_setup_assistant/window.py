@@ -1,0 +1,226 @@
+"""The assistant's window: the list of screens on the left, the screen in the middle, the robot on the right."""
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+from typing import Iterable, List, Optional, Tuple
+
+import motion
+from node_signals.display import missing_display
+from python_qt_binding.QtCore import QTimer
+from python_qt_binding.QtWidgets import (QApplication, QHBoxLayout, QLabel, QListWidget, QMainWindow, QSplitter, QStackedWidget,
+                                         QVBoxLayout, QWidget)
+
+from moveit_setup_assistant.configuration import Configuration
+from moveit_setup_assistant.errors import AssistantError
+from moveit_setup_assistant.robot_view import RobotView
+from moveit_setup_assistant.screens import ALL
+
+
+class Session:
+    """What the screens share: the configuration, the package's folder, the robot's model with its groups, and the picture."""
+
+    def __init__(self, window: "Window") -> None:
+        self._window = window
+        self.config: Optional[Configuration] = None
+        self.package: Optional[Path] = None
+        self._model = None
+
+    def open(self, config: Configuration, package: Optional[Path]) -> None:
+        """Edit this configuration from now on. ``package``: the folder it came from."""
+        self.config, self.package = config, package
+        self.model_changed()
+        self._window.robot_changed()
+        for line in config.warnings:
+            self.say(line, bad=True)
+        self.say(f"{config.robot.name}: {len(config.robot.model.links)} links, {len(config.robot.movable_joints)} joints that move"
+                 + (f"; {len(config.warnings)} warnings above" if config.warnings else ""))
+
+    def say(self, text: str, bad: bool = False) -> None:
+        """One line for the user."""
+        self._window.say(text, bad)
+
+    def model_changed(self) -> None:
+        """The groups are no longer those of the model."""
+        self._model = None
+
+    def model(self):
+        """The robot with its groups as they are now; without them while they do not fit."""
+        if self._model is None:
+            try:
+                self._model = self.config.model()
+            except AssistantError as error:
+                self.say(str(error), bad=True)
+                self._model = self.config.robot.model
+        return self._model
+
+    def links_of(self, group: str) -> List[str]:
+        """The links of a group; none if there is no such group."""
+        model = self.model()
+        return list(model.group(group).links) if model.has_group(group) else []
+
+    def joints_of(self, group: str) -> List[str]:
+        """The joints that a group moves; none if there is no such group."""
+        model = self.model()
+        return list(model.group(group).active_joints) if model.has_group(group) else []
+
+    def child_of(self, joint: str) -> str:
+        """The link that a joint moves."""
+        model = self.config.robot.model
+        return model.joint(joint).child_link if model.has_joint(joint) else ""
+
+    def highlight(self, links: Iterable[str]) -> None:
+        """Light up these links in the picture."""
+        self._window.view.highlight(links)
+
+    def show_state(self, state) -> None:
+        """Show the robot in this state."""
+        self._window.view.set_state(state)
+
+    def collisions(self, state) -> List[Tuple[str, str]]:
+        """Pairs of links that touch in this state and are checked."""
+        found = motion.PlanningScene(self.model()).check(state, contacts=20, world=False)
+        return sorted({(contact.body_1, contact.body_2) for contact in found.contacts})
+
+    def rename_group(self, group, name: str) -> None:
+        """Give a group another name, everywhere."""
+        document, old = self.config.semantics, group.name
+        for thing in (*document.group_states, *document.end_effectors):
+            if thing.group == old:
+                thing.group = name
+        for effector in document.end_effectors:
+            if effector.parent_group == old:
+                effector.parent_group = name
+        for other in document.groups:
+            for member in other.groups:
+                member.name = name if member.name == old else member.name
+        for table in (self.config.kinematics, self.config.default_planners):
+            if old in table:
+                table[name] = table.pop(old)
+        group.name = name
+        self._groups_changed()
+
+    def remove_group(self, group) -> None:
+        """Take a group out, with its poses and end effectors, and out of other groups."""
+        document, name = self.config.semantics, group.name
+        document.groups.remove(group)
+        document.group_states[:] = [state for state in document.group_states if state.group != name]
+        document.end_effectors[:] = [e for e in document.end_effectors if e.group != name]
+        for other in document.groups:
+            other.groups[:] = [member for member in other.groups if member.name != name]
+        for table in (self.config.kinematics, self.config.default_planners):
+            table.pop(name, None)
+        self._groups_changed()
+
+    def _groups_changed(self) -> None:
+        self.config.semantics.group_map = {group.name: group for group in self.config.semantics.groups}
+        self.model_changed()
+
+
+class Window(QMainWindow):
+    """The whole window."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.setObjectName("moveit_setup_assistant")
+        self.setWindowTitle("MoveIt Setup Assistant")
+        self.resize(1180, 760)
+        self.session = Session(self)
+        self.view = RobotView()
+        self.view.problem.connect(lambda text: self.say(text, bad=True))
+        self.list = QListWidget()
+        self.list.setObjectName("screens")
+        self.list.setMaximumWidth(170)
+        self.stack = QStackedWidget()
+        self.screens = [make(self.session) for make in ALL]
+        for screen in self.screens:
+            self.list.addItem(screen.title)
+            self.stack.addWidget(screen)
+        self._said = QLabel()
+        self._said.setObjectName("said")
+        self._said.setWordWrap(True)
+        splitter = QSplitter()
+        splitter.addWidget(self.stack)
+        splitter.addWidget(self.view)
+        splitter.setSizes([640, 360])
+        middle, page = QVBoxLayout(), QWidget()
+        middle.addWidget(splitter, 1)
+        middle.addWidget(self._said)
+        row = QHBoxLayout(page)
+        row.addWidget(self.list)
+        row.addLayout(middle, 1)
+        self.setCentralWidget(page)
+        self._current = 0
+        self.list.setCurrentRow(0)
+        self.list.currentRowChanged.connect(self._go)
+        self._allow()
+
+    def say(self, text: str, bad: bool = False) -> None:
+        """One line below the screen, on the terminal too if it is bad news."""
+        self._said.setText(text)
+        self._said.setStyleSheet("color: #a00000" if bad else "")
+        if bad:
+            print(f"moveit_setup_assistant: {text}", file=sys.stderr)
+
+    def robot_changed(self) -> None:
+        """Another robot was loaded: show it, and open the other screens."""
+        self.view.set_robot(self.session.config.robot)
+        self._allow()
+
+    def edit(self, package: str) -> None:
+        """Load a package, as the first screen's button does."""
+        self.screens[0].show_package(package)
+        QTimer.singleShot(0, self.screens[0].load)
+
+    def _allow(self) -> None:
+        for row in range(1, self.list.count()):
+            item = self.list.item(row)
+            item.setHidden(self.session.config is None)
+
+    def _go(self, row: int) -> None:
+        if row < 0 or row == self._current:
+            return
+        if self.session.config is not None:
+            refused = self.screens[self._current].leave()
+            if refused:
+                self.list.blockSignals(True)
+                self.list.setCurrentRow(self._current)
+                self.list.blockSignals(False)
+                self.say(refused, bad=True)
+                return
+            self.session.model_changed()
+            self.view.highlight([])
+        self.say("")
+        self._current = row
+        self.stack.setCurrentIndex(row)
+        if self.session.config is not None:
+            self.screens[row].enter()
+
+    def closeEvent(self, event) -> None:
+        if self.session.config is not None:
+            self.screens[self._current].leave()
+        self.view.close_renderer()
+        super().closeEvent(event)
+
+
+def main(words: List[str]) -> int:
+    """Open the window; the exit code of the program."""
+    import rospy
+    parser = argparse.ArgumentParser(prog="moveit_setup_assistant", description="Make or edit a MoveIt configuration package.")
+    parser.add_argument("--config_pkg", "--config-pkg", "-c", default="", help="package, or its folder, to edit")
+    parser.add_argument("--urdf_path", "--urdf-path", "-u", default="", help="robot description to begin with")
+    parser.add_argument("--debug", "-g", action="store_true", help="accepted; there is nothing to switch")
+    options = parser.parse_args(rospy.myargv([parser.prog, *words])[1:])
+    problem = missing_display()
+    if problem:
+        print(f"moveit_setup_assistant: {problem}; 'rosrun moveit_setup_assistant generate' needs no window", file=sys.stderr)
+        return 1
+    app = QApplication([parser.prog])
+    window = Window()
+    if options.config_pkg:
+        window.edit(options.config_pkg)
+    elif options.urdf_path:
+        window.screens[0].show_urdf(options.urdf_path)
+    window.show()
+    return app.exec_()
