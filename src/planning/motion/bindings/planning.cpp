@@ -10,7 +10,7 @@ const char* statusName(PlanStatus status)
 {
   static const char* names[] = {"solved", "approximate", "timeout", "cancelled", "invalid_start", "start_in_collision",
                                 "start_violates_path_constraints", "no_goal", "invalid_goal", "goal_in_collision",
-                                "goal_violates_path_constraints", "no_ik", "unknown_planner", "failed"};
+                                "goal_violates_path_constraints", "no_ik", "unknown_planner", "failed", "invalid_plan"};
   return names[static_cast<int>(status)];
 }
 
@@ -59,7 +59,7 @@ void bindPlanning(py::module_& m)
     {
       py::gil_scoped_release release;
       const PlanningScene own(*scene);  // whoever changes the scene meanwhile does not disturb
-      result = plan(own, start, request, flag);
+      result = planClosely(own, start, request, flag);
     }
     py::dict out;
     out["status"] = statusName(result.status);
@@ -72,6 +72,8 @@ void bindPlanning(py::module_& m)
     out["goals"] = result.goals;
     out["planner"] = result.planner;
     out["warnings"] = result.warnings;
+    if (result.hit >= 0)
+      out["invalid"] = std::vector<int>{result.hit};
     return out;
   });
   m.def("planners", &plannerParameters, "Planner name -> its parameters and their defaults, as text.");

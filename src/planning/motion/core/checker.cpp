@@ -7,12 +7,6 @@
 
 namespace motion
 {
-struct CollisionChecker::Scratch
-{
-  std::vector<Transform> poses;
-  std::vector<Aabb> bare, padded;
-};
-
 struct CollisionChecker::Search
 {
   const CollisionRequest* request = nullptr;  // null: only yes or no

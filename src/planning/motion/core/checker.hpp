@@ -89,7 +89,12 @@ private:
     int body;
     const World::Part* part;
   };
-  struct Scratch;
+  friend class PathWalk;
+  struct Scratch
+  {
+    std::vector<Transform> poses;
+    std::vector<Aabb> bare, padded;
+  };
   struct Search;
 
   void addRobot();

@@ -1,5 +1,7 @@
 #include "joint_space.hpp"
 
+#include "path_walk.hpp"
+
 #include <ompl/base/ProjectionEvaluator.h>
 #include <ompl/base/SpaceInformation.h>
 #include <ompl/util/RandomNumbers.h>
@@ -364,6 +366,51 @@ bool JointSpaceValidity::isValid(const ob::State* state) const
   RobotState& robot = *lease;
   robot.setGroup(space_.group(), JointSpace::values(state));
   return (!constraints_ || constraints_->satisfied(robot)) && free_(robot);
+}
+
+double CloseMotion::gone(const ob::State* a, const ob::State* b) const
+{
+  const double* from = JointSpace::values(a);
+  const double* to = JointSpace::values(b);
+  double largest = 1e-9;
+  for (std::size_t i = 0; i < space_.size(); ++i)
+    largest = std::max(largest, std::abs(to[i] - from[i]));  // of an endless joint at most too large: steps get smaller
+  StatePool::Lease lease(space_.pool());
+  RobotState& robot = *lease;
+  robot.setGroup(space_.group(), from);
+  PathWalk walk(checker_);
+  walk.start(robot);
+  ob::State* now = si_->allocState();
+  const double share = walk.go(
+      [&](double part) -> const RobotState& {
+        space_.interpolate(a, b, part, now);
+        robot.setGroup(space_.group(), JointSpace::values(now));
+        return robot;
+      },
+      std::min(1.0, 0.05 / largest));
+  si_->freeState(now);
+  return share;
+}
+
+bool CloseMotion::checkMotion(const ob::State* a, const ob::State* b) const
+{
+  const bool valid = si_->isValid(b) && gone(a, b) >= 1;
+  valid ? ++valid_ : ++invalid_;
+  return valid;
+}
+
+bool CloseMotion::checkMotion(const ob::State* a, const ob::State* b, std::pair<ob::State*, double>& last_valid) const
+{
+  last_valid.second = gone(a, b);
+  const bool valid = last_valid.second >= 1 && si_->isValid(b);
+  if (!valid)
+  {
+    last_valid.second = std::min(last_valid.second, 0.999);
+    if (last_valid.first)
+      space_.interpolate(a, b, last_valid.second, last_valid.first);
+  }
+  valid ? ++valid_ : ++invalid_;
+  return valid;
 }
 
 bool ProjectedMotion::walk(const ob::State* a, const ob::State* b, double& reached, ob::State* last) const

@@ -115,6 +115,24 @@ private:
   const ConstraintSet* constraints_;
 };
 
+// Motions that are looked at all along.
+class CloseMotion : public ompl::base::MotionValidator
+{
+public:
+  CloseMotion(const ompl::base::SpaceInformationPtr& si, const JointSpace& space, std::shared_ptr<const CollisionChecker> checker)
+    : MotionValidator(si), space_(space), checker_(std::move(checker))
+  {
+  }
+  bool checkMotion(const ompl::base::State* a, const ompl::base::State* b) const override;
+  bool checkMotion(const ompl::base::State* a, const ompl::base::State* b,
+                   std::pair<ompl::base::State*, double>& last_valid) const override;
+
+private:
+  double gone(const ompl::base::State* a, const ompl::base::State* b) const;
+  const JointSpace& space_;
+  std::shared_ptr<const CollisionChecker> checker_;
+};
+
 // Motions along projected states: they must not jump from one sheet of the constraint to another.
 class ProjectedMotion : public ompl::base::MotionValidator
 {

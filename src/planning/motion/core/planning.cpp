@@ -88,6 +88,29 @@ std::shared_timed_mutex& seeding()
   return mutex;
 }
 
+// What the caller asks of states, too.
+class FeasibleValidity : public JointSpaceValidity
+{
+public:
+  FeasibleValidity(const ob::SpaceInformationPtr& si, const JointSpace& space, const CollisionFree& free,
+                   const ConstraintSet* constraints, const std::function<bool(const RobotState&)>& feasible)
+    : JointSpaceValidity(si, space, free, constraints), joints_(space), feasible_(feasible)
+  {
+  }
+  bool isValid(const ob::State* state) const override
+  {
+    if (!JointSpaceValidity::isValid(state))
+      return false;
+    StatePool::Lease lease(joints_.pool());
+    (*lease).setGroup(joints_.group(), JointSpace::values(state));
+    return feasible_(*lease);
+  }
+
+private:
+  const JointSpace& joints_;
+  const std::function<bool(const RobotState&)>& feasible_;
+};
+
 class Planning
 {
 public:
@@ -178,6 +201,11 @@ private:
       fail(PlanStatus::StartInCollision, "the start state is in collision: " + touching(start_));
       return false;
     }
+    if (request_.feasible && !request_.feasible(start_))
+    {
+      fail(PlanStatus::InvalidStart, "the start state is not feasible for the scene's own test");
+      return false;
+    }
     const std::string broken = path_.problem(start_);
     if (!broken.empty())
     {
@@ -210,7 +238,8 @@ private:
       any = true;
       GoalSampler sampler(scene_, start_, group_, goal, path_, free_);
       for (auto& values : sampler.sample(wanted, random_, [this]() { return stopped(); }))
-        goals_.push_back(std::move(values));
+        if (feasible(values))
+          goals_.push_back(std::move(values));
       if (sampler.refusals().reached >= refusals.reached)
         refusals = sampler.refusals();
     }
@@ -238,6 +267,15 @@ private:
     goals_ = std::move(sorted);
     result_.goals = static_cast<int>(goals_.size());
     return true;
+  }
+
+  bool feasible(const std::vector<double>& values) const
+  {
+    if (!request_.feasible)
+      return true;
+    RobotState state(start_);
+    state.setGroup(group_, values.data());
+    return request_.feasible(state);
   }
 
   void explainGoal(const GoalSampler::Refusals& refusals)
@@ -272,11 +310,17 @@ private:
       space_->projectOnto(&path_);
     space_->setProjection(request_.projection);
     si_ = std::make_shared<ob::SpaceInformation>(space_);
-    validity_ = std::make_shared<JointSpaceValidity>(si_, *space_, free_, path_.empty() ? nullptr : &path_);
+    const ConstraintSet* constraints = path_.empty() ? nullptr : &path_;
+    if (request_.feasible)
+      validity_ = std::make_shared<FeasibleValidity>(si_, *space_, free_, constraints, request_.feasible);
+    else
+      validity_ = std::make_shared<JointSpaceValidity>(si_, *space_, free_, constraints);
     si_->setStateValidityChecker(validity_);
     si_->setStateValidityCheckingResolution(request_.segment_fraction);
     if (space_->projects())
       si_->setMotionValidator(std::make_shared<ProjectedMotion>(si_));
+    else if (request_.closely && !request_.feasible && path_.empty())  // of other conditions only states can be asked
+      si_->setMotionValidator(std::make_shared<CloseMotion>(si_, *space_, scene_.checker(start_, group_.name)));
     si_->setup();
     problem_ = std::make_shared<ob::ProblemDefinition>(si_);
     ob::State* start = si_->allocState();

@@ -59,7 +59,7 @@ def test_no_corner_is_cut_between_way_points(scene, model):
     for seed in range(1, 21):
         result = motion.plan(scene, request(model, seed=seed, longest_valid_segment_fraction=0.01))
         assert result, result.message
-        fine = np.concatenate([np.linspace(a, b, 80)[:-1] for a, b in zip(result.path, result.path[1:])])
+        fine = np.concatenate([np.linspace(a, b, 600)[:-1] for a, b in zip(result.path, result.path[1:])])
         assert not np.any(scene.check_states("arm", fine)), seed
         assert len(result.path) < 40, "closer looks must not leave more way points to be timed"
 
@@ -211,9 +211,10 @@ def test_joint_requests_that_are_odd(scene, model, change, status, code, said):
     (motion.pose_goal("tool", ((0.4, 0.2, 0.4), (0, 1, 0, 0)), frame="moon"), "unknown_frame", "no frame 'moon'"),
     (motion.Constraints(), "no_goal", "no goal")])
 def test_goals_that_cannot_be(scene, goal, status, said):
-    result = motion.plan(scene, motion.MotionRequest("arm", goals=[goal], seed=1, planning_time=20.0))
+    spent = time.thread_time()
+    result = motion.plan(scene, motion.MotionRequest("arm", goals=[goal], seed=1, planning_time=120.0))
     assert result.status == status and said in result.message and result.trajectory is None
-    assert result.planning_time < 15
+    assert time.thread_time() - spent < 15  # of the processor: the machine may be busy with other things
 
 
 def test_starts_that_cannot_be(scene, model):

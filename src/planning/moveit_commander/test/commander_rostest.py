@@ -20,6 +20,8 @@ from moveit_msgs.msg import (Constraints, DisplayTrajectory, MoveItErrorCodes, O
                              RobotState)
 from sensor_msgs.msg import JointState
 
+from moveit_ros_warehouse.storage import Warehouse
+
 JOINTS = [f"joint_{number}" for number in range(1, 7)]
 HOME = [0.0, -0.6, 1.6, 0.0, 1.0, 0.0]
 
@@ -198,6 +200,24 @@ class Motions(Commander):
         plan = self.arm.plan([1.0] + HOME[1:])[1]
         self.assertAlmostEqual(plan.joint_trajectory.points[0].positions[0], 0.0, places=3)
 
+    def test_constraints_of_the_warehouse(self):
+        with self.assertRaisesRegex(MoveItCommanderException, "set_constraints_database"):
+            self.arm.set_path_constraints("upright")
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "w.sqlite")
+            stored = Warehouse(file).constraints
+            stored.save("upright", Constraints(orientation_constraints=[OrientationConstraint(link_name="hand")]), robot="arm",
+                        planning_group="manipulator")
+            stored.save("of another", Constraints(), robot="other", planning_group="manipulator")
+            self.arm.set_constraints_database(file, 33829)
+            self.assertEqual(self.arm.get_known_constraints(), ["upright"])
+            self.arm.set_path_constraints("upright")
+            self.assertEqual(self.arm.construct_motion_plan_request().path_constraints.orientation_constraints[0].link_name, "hand")
+            with self.assertRaisesRegex(MoveItCommanderException, "there are: .*upright"):
+                self.arm.set_path_constraints("tilted")
+        self.arm.set_path_constraints(None)
+        self.assertFalse(self.arm.get_path_constraints().orientation_constraints)
+
     def test_path_constraints_are_sent(self):
         keep = OrientationConstraint(link_name="hand", weight=1.0,
                                      orientation=self.arm.get_current_pose().pose.orientation)
@@ -297,12 +317,13 @@ class Scene(Commander):
         self.assertTrue(self.arm.plan([0.3] + HOME[1:])[0])  # touching the hand is allowed
 
     def test_the_other_way_through_topics(self):
-        other = PlanningSceneInterface(synchronous=False)
-        while not other._pub_co.get_num_connections():
-            rospy.sleep(0.01)
-        other.add_box("sent", stamped(2, 0, 0))
-        while self.scene.get_known_object_names() != ["sent"]:
-            rospy.sleep(0.01)
+        for name in ("sent", "again"):  # by an interface that was just made, also in place of one that was closed
+            other = PlanningSceneInterface(synchronous=False)
+            other.add_box(name, stamped(2, 0, 0))
+            while name not in self.scene.get_known_object_names():
+                rospy.sleep(0.01)
+            other._pub_co.unregister()
+            other._pub_aco.unregister()
 
 
 class CommandLine(Commander):

@@ -49,8 +49,9 @@ class ActionQueue : public ros::CallbackQueue {
   std::thread thread_;  // the last one: it uses the others
 };
 
-/// A message that is published while nobody has connected yet is lost: give move_group a moment, after the start.
-inline void waitForSubscriber(const ros::Publisher& publisher, double patience = 1.0) {
+/// A message that is published while nobody has connected yet is lost: give move_group a moment, after the start. To a publisher
+/// that was closed and made again, rospy comes back half a second, one and two seconds after it has noticed.
+inline void waitForSubscriber(const ros::Publisher& publisher, double patience = 5.0) {
   for (const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(patience);
        publisher.getNumSubscribers() == 0 && ros::ok() && ros::WallTime::now() < end;)
     ros::WallDuration(0.005).sleep();

@@ -26,9 +26,12 @@ class Warehouse(unittest.TestCase):
         self.assertFalse(call("save_robot_state", SaveRobotStateToWarehouse, "", "arm", state).success)
         self.assertEqual(self.names(), ["away", "home", "homely"])
         self.assertEqual(self.names("home.*"), ["home", "homely"])
-        self.assertEqual(self.names("["), [])
+        self.assertEqual(call("list_robot_state", ListRobotStatesInWarehouse, "home.*", "arm").states, ["home", "homely"])
+        with self.assertRaisesRegex(rospy.ServiceException, "is no regular expression"):
+            self.names("[")
         self.assertEqual(call("get_robot_state", GetRobotStateFromWarehouse, "home", "arm").state.joint_state.position, (0.5,))
-        self.assertFalse(call("get_robot_state", GetRobotStateFromWarehouse, "ghost", "arm").state.joint_state.name)
+        with self.assertRaisesRegex(rospy.ServiceException, "there is no state 'ghost' of robot 'arm'; there are: away, home, homely"):
+            call("get_robot_state", GetRobotStateFromWarehouse, "ghost", "arm")
         call("rename_robot_state", RenameRobotStateInWarehouse, "away", "far away", "arm")
         self.assertEqual(self.names(), ["far away", "home", "homely"])
         call("delete_robot_state", DeleteRobotStateFromWarehouse, "home", "arm")

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -28,11 +29,13 @@ struct PlanRequest
   double segment_fraction = 0.01;           // of the space's extent, between checked states
   double maximum_waypoint_distance = 0.0;  // 0 = as far apart as states are checked
   int minimum_waypoints = 2;
+  bool closely = false;  // motions are looked at all along, not only at states `segment_fraction` apart; slower
   std::string projection;  // "joints(a,b)" or "link(l)"
   int goal_samples = 10;
   int threads = 0;  // 0 = up to four
   bool has_workspace = false;
   Vector3 workspace_min = Vector3::Zero(), workspace_max = Vector3::Zero();
+  std::function<bool(const RobotState&)> feasible;  // what else a state must be; asked from several threads; may be empty
 };
 
 enum class PlanStatus
@@ -50,7 +53,8 @@ enum class PlanStatus
   GoalViolatesPathConstraints,
   NoIk,
   UnknownPlanner,
-  Failed
+  Failed,
+  InvalidPath
 };
 
 struct PlanResult
@@ -63,10 +67,19 @@ struct PlanResult
   int attempts = 0, goals = 0;
   std::string planner;
   std::vector<std::string> warnings;
+  int hit = -1;  // the way point after which the path touches something, when that is its fault (InvalidPath)
 };
 
 // Throws UnknownName and InvalidInput for what cannot be asked; whatever else fails is in the result's status.
 PlanResult plan(const PlanningScene& scene, const RobotState& start, const PlanRequest& request, const CancelFlag& cancel);
+
+// As `plan`, and the path is looked at closely in the end: a planner looks at states that are `segment_fraction` apart, and a path
+// may cut a corner between them. One that does is planned again, with `closely`.
+PlanResult planClosely(const PlanningScene& scene, const RobotState& start, const PlanRequest& request, const CancelFlag& cancel);
+
+// The first way point after which the straight line to the next one touches something; -1 if none does.
+int firstHit(const PlanningScene& scene, const RobotState& start, const JointModelGroup& group,
+             const std::vector<std::vector<double>>& path);
 
 // Planner name -> its parameters and their defaults.
 std::map<std::string, std::map<std::string, std::string>> plannerParameters();

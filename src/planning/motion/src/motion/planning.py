@@ -1,8 +1,7 @@
 """Planning requests, their results, and goals made easily."""
 from __future__ import annotations
 
-import time
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Dict, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
@@ -19,10 +18,6 @@ CODES: Dict[str, int] = {
     "goal_in_collision": -27, "goal_violates_path_constraints": -27, "no_ik": -27, "unknown_link": -16, "unknown_frame": -21,
     "unknown_planner": -1, "invalid_plan": -2, "invalid_request": -16, "failed": -1, "no_ik_solution": -31,
     "conversion_failed": 99999}
-
-
-_CLOSE = 0.01  # rad or m of any joint between two looks at a finished path
-_FINER = 3  # times that a path which cuts a corner is planned again
 
 
 @dataclass
@@ -189,27 +184,6 @@ def plan(scene: _core.PlanningScene, request: MotionRequest, cancel: Optional[_c
 
     :param cancel: ends the search from another thread.
     """
-    end, result = time.monotonic() + request.planning_time, _plan_once(scene, request, cancel)
-    spacing = np.abs(np.diff(result.path, axis=0)).sum(axis=1).max(initial=0.0)
-    for _ in range(_FINER):
-        if not result or _first_hit(scene, result) is None or (cancel is not None and cancel.cancelled):
-            return result
-        left = max(end - time.monotonic(), min(1.0, request.planning_time))
-        request = replace(request, longest_valid_segment_fraction=request.longest_valid_segment_fraction / 4, planning_time=left)
-        earlier, result = result, _plan_once(scene, request, cancel)
-        if result:
-            result.trajectory = result.trajectory.replaced(positions=_thinned(result.path, spacing))
-        result.planning_time += earlier.planning_time
-        result.states += earlier.states
-    hit = _first_hit(scene, result) if result else None
-    if hit is None:
-        return result
-    return replace(result, status="invalid_plan", invalid=[hit], message=f"each path that was found touches something between "
-                   f"its way points, the last one after way point {hit + 1} of {len(result.trajectory)}; plan again, with more "
-                   f"time or a smaller longest_valid_segment_fraction")
-
-
-def _plan_once(scene: _core.PlanningScene, request: MotionRequest, cancel: Optional[_core.CancelToken]) -> PlanResult:
     start = request.start if request.start is not None else scene.state
     try:
         compiled = _compiled(request)
@@ -218,34 +192,6 @@ def _plan_once(scene: _core.PlanningScene, request: MotionRequest, cancel: Optio
     except _core.MotionError as error:
         return PlanResult(_refusal(error), message=str(error), start=start, planner=request.planner)
     path = found.pop("path")
-    trajectory = Trajectory(scene.model, request.group, start, path) if found["status"] == "solved" else None
+    trajectory = Trajectory(scene.model, request.group, start, path) if found["status"] in ("solved", "invalid_plan") else None
     found["warnings"] = warnings + found["warnings"]
     return PlanResult(trajectory=trajectory, start=start, **found)
-
-
-def _thinned(path: np.ndarray, spacing: float) -> np.ndarray:
-    """The path without way points that lie on a straight line between others, at most ``spacing`` (sum over the joints) apart."""
-    kept = [0]
-    for i in range(1, len(path) - 1):
-        before, after = path[i] - path[kept[-1]], path[i + 1] - path[kept[-1]]
-        along = float(before @ after) / max(float(after @ after), 1e-18)
-        if np.abs(before - along * after).max() > 1e-6 or np.abs(after).sum() > spacing * 1.001:
-            kept.append(i)
-    return path[kept + [len(path) - 1]] if len(path) > 1 else path
-
-
-def _first_hit(scene: _core.PlanningScene, result: PlanResult) -> Optional[int]:
-    """The first way point after which the straight line to the next one touches something; None if none does."""
-    trajectory = result.trajectory
-    model = scene.model
-    joints = [model.joint(name) for name in model.group(trajectory.group).active_joints]
-    if len(trajectory) < 2 or any(len(joint.variables) != 1 for joint in joints):
-        return None  # planar and floating joints do not go straight in their variables
-    steps = np.diff(trajectory.positions, axis=0)
-    turning = np.array([joint.type == "continuous" for joint in joints])
-    steps[:, turning] -= 2 * np.pi * np.round(steps[:, turning] / (2 * np.pi))
-    counts = np.minimum(np.ceil(np.abs(steps).max(axis=1) / _CLOSE).astype(int), 1000)
-    owner = np.repeat(np.arange(len(steps)), counts)
-    share = np.concatenate([np.arange(count) / count for count in counts])
-    hits = scene.check_states(trajectory.group, trajectory.positions[owner] + share[:, None] * steps[owner], state=result.start)
-    return int(owner[np.argmax(hits)]) if np.any(hits) else None

@@ -18,7 +18,7 @@ from std_msgs.msg import String
 from moveit_core.errors import code_name
 from moveit_ros_planning import robot_model
 
-from .session import Action, Session
+from .session import Action, Session, publish
 from .targets import Targets
 
 
@@ -180,7 +180,7 @@ class GroupRequests:
         """Ask move_group to attach an object of the scene."""
         message = AttachedCollisionObject(link_name=link, touch_links=list(touch_links) or [link])
         message.object.id, message.object.operation = name, CollisionObject.ADD
-        self._publish_attached(message)
+        publish(self._attach, message)
         return True
 
     def detach(self, name: str, links: Sequence[str]) -> bool:
@@ -194,14 +194,8 @@ class GroupRequests:
             targets += [AttachedCollisionObject(link_name=link) for link in links]
         for message in targets:
             message.object.operation = CollisionObject.REMOVE
-            self._publish_attached(message)
+            publish(self._attach, message)
         return bool(targets)
-
-    def _publish_attached(self, message: AttachedCollisionObject) -> None:
-        end = time.monotonic() + 1.0
-        while self._attach.get_num_connections() == 0 and time.monotonic() < end:
-            time.sleep(0.01)  # a message that is sent before anybody listens is lost
-        self._attach.publish(message)
 
     def pick(self, name: str, grasps: Sequence, plan_only: bool) -> int:
         """Pick an object; the error code."""

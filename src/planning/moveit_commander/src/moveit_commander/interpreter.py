@@ -33,7 +33,9 @@ _HELP = """Known commands:
   help                             show this text
   allow looking|replanning <true|false>
   constrain                        clear path constraints
+  constrain <name>                 constrain paths by what the database has under a name
   current                          show the current state of the group
+  database [<file>|<host> <port>]  open a database of constraints, or list what it has
   group_state                      the current state, to paste into an SRDF
   delete <name>                    forget the joint values <name>
   eef                              name of the end effector link
@@ -263,15 +265,26 @@ class MoveGroupCommandInterpreter:
     def _do_eef(self, g, _words) -> Answer:
         return (MoveGroupInfoLevel.INFO, g.get_end_effector_link() or "There is no end effector defined")
 
-    def _do_database(self, _g, _words) -> Answer:
-        return (MoveGroupInfoLevel.WARN, "Not connected to a database: constraints are not stored in one here")
+    def _do_database(self, g, words) -> Answer:
+        if len(words) > 1:
+            try:
+                g.set_constraints_database(words[1], int(words[2]) if len(words) > 2 else 33829)
+            except (MoveItCommanderException, ValueError) as error:
+                return (MoveGroupInfoLevel.WARN, f"Not connected to a database: {error}")
+        known = g.get_known_constraints()
+        return (MoveGroupInfoLevel.INFO, "Constraints of the database: " + ", ".join(known) if known else
+                "Not connected to a database, or it has no constraints for this group")
 
     def _do_0_constrain(self, g, _words) -> Answer:
         g.clear_path_constraints()
         return (MoveGroupInfoLevel.SUCCESS, "Cleared path constraints")
 
-    def _do_1_constrain(self, _g, _words) -> Answer:
-        return (MoveGroupInfoLevel.WARN, "Not connected to a database.")
+    def _do_1_constrain(self, g, words) -> Answer:
+        try:
+            g.set_path_constraints(words[1])
+        except MoveItCommanderException as error:
+            return (MoveGroupInfoLevel.WARN, str(error))
+        return (MoveGroupInfoLevel.SUCCESS, f"Constraining paths by {words[1]}")
 
     def _do_0_tolerance(self, g, _words) -> Answer:
         return (MoveGroupInfoLevel.INFO,

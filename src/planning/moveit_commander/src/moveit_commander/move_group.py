@@ -54,6 +54,7 @@ class MoveGroupCommander(TargetCommands):
             raise RuntimeError(f"Group '{name}' was not found. The robot '{self._model.name}' has the groups: "
                                + (", ".join(self._model.groups) or "none; is the SRDF loaded?"))
         self._name = name
+        self._warehouse = None
         self._group = self._model.group(name)
         settings = self._session.description.kinematics.get(name)
         self._targets = Targets(self._model, name, *((settings.joint_tolerance, settings.position_tolerance,
@@ -194,18 +195,20 @@ class MoveGroupCommander(TargetCommands):
         self._requests.replan = bool(value)
 
     def get_known_constraints(self) -> List[str]:
-        """Stored constraints: none, as there is no database."""
-        return []
+        """Names of the constraints that the warehouse has for this group; see :meth:`set_constraints_database`."""
+        return self._warehouse.names() if self._warehouse else []
 
     def get_path_constraints(self) -> Constraints:
         return self._requests.path_constraints or Constraints()
 
-    def set_path_constraints(self, value: Optional[Constraints]) -> None:
-        """Constraints that hold all along the path; None clears them."""
+    def set_path_constraints(self, value: Union[Constraints, str, None]) -> None:
+        """Constraints that hold all along the path, or their name in the warehouse; None clears them."""
         if value is not None and not isinstance(value, Constraints):
-            raise MoveItCommanderException(f"Unable to set path constraints {value}: constraints are not stored by "
-                                           f"name here, give a "
-                                           "moveit_msgs/Constraints")
+            if self._warehouse is None:
+                raise MoveItCommanderException(f"Unable to set path constraints {value}: names are those of a warehouse, "
+                                               f"which set_constraints_database(host, port) opens; or give a "
+                                               f"moveit_msgs/Constraints")
+            value = self._warehouse.load(str(value))
         self._requests.path_constraints = value
 
     def clear_path_constraints(self) -> None:
@@ -223,8 +226,12 @@ class MoveGroupCommander(TargetCommands):
         self._requests.trajectory_constraints = None
 
     def set_constraints_database(self, host: str, port: int) -> None:
-        rospy.logwarn("constraints are not stored in a database here (%s:%s was named): give set_path_constraints a "
-                      "message", host, port)
+        """Take names of constraints from the warehouse that runs, or from the database file that ``host`` names.
+
+        :raises MoveItCommanderException: there is none.
+        """
+        from .constraints import StoredConstraints
+        self._warehouse = StoredConstraints(host, self._model.name, self._name)
 
     def set_planning_time(self, seconds: float) -> None:
         if seconds > 0:

@@ -19,6 +19,7 @@ from moveit_core import convert
 from . import conversions
 from .exception import MoveItCommanderException
 from .roscpp_initializer import ensure_node
+from .session import publish
 
 
 class PlanningSceneInterface:
@@ -58,7 +59,7 @@ class PlanningSceneInterface:
 
     def _submit(self, message, attach: bool = False) -> None:
         if not self._synchronous:
-            (self._pub_aco if attach else self._pub_co).publish(message)
+            publish(self._pub_aco if attach else self._pub_co, message)
             return
         scene = PlanningScene(is_diff=True)
         scene.robot_state.is_diff = True

@@ -125,3 +125,12 @@ class Action:
         if self._goal is None or self._goal.get_goal_status() == GoalStatus.SUCCEEDED:
             return ""
         return " ".join(self._goal.get_goal_status_text().split())
+
+
+def publish(publisher: rospy.Publisher, message, patience: float = 5.0) -> None:
+    """Publish once somebody listens, or after ``patience`` wall seconds: what is sent before is lost. To a publisher that
+    was closed and made again, rospy comes back half a second, one and two seconds after it has noticed."""
+    end = time.monotonic() + patience
+    while publisher.get_num_connections() == 0 and time.monotonic() < end and not rospy.is_shutdown():
+        time.sleep(0.01)
+    publisher.publish(message)

@@ -39,7 +39,8 @@ class SceneEditor:
         try:
             return self._collision_object(message)
         except (ValueError, motion.MotionError) as error:
-            self._warn(f"object '{message.id}': {error}")
+            text, name = str(error), f"object '{message.id}'"
+            self._warn(text if name in text else f"{name}: {text}")
             return False
 
     def _collision_object(self, message: CollisionObject) -> bool:

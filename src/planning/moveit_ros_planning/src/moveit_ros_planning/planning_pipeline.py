@@ -95,8 +95,9 @@ class Pipeline:
                           result.trajectory.duration,
                           len(result.trajectory), message.group_name, took, result.planner or self.title)
         else:
-            rospy.logerr("No motion plan for group '%s': %s (%s, after %.3f s)", message.group_name, result.message,
-                         code_name(result.code), took)
+            log = rospy.loginfo if result.code == MoveItErrorCodes.PREEMPTED else rospy.logerr
+            log("No motion plan for group '%s': %s (%s, after %.3f s)", message.group_name, result.message,
+                code_name(result.code), took)
         return result
 
     def _pilz(self, scene, request, cancel=None):
@@ -195,11 +196,26 @@ class Pipeline:
                                 "cleared is none)")
         group = self.model.group(message.group_name)
         self._loosen(message.group_name, goals)
+        for constraint in {entry.joint: entry for goal in goals for entry in goal.joint}.values():
+            self._warn_beyond(constraint)
         for goal in goals:
             full = {constraint.joint for constraint in goal.joint} >= set(group.active_joints)
             if (goal.position or goal.orientation) and not full and not self.has_kinematics(message.group_name):
                 raise PlanningError(MoveItErrorCodes.FAILURE, _no_kinematics(message.group_name, self._description))
         return goals
+
+    def _warn_beyond(self, constraint: motion.JointConstraint) -> None:
+        """Say where a joint goal lies beyond the limits; planning takes the limit, as upstream does."""
+        if not self.model.has_joint(constraint.joint):
+            return
+        joint = self.model.joint(constraint.joint)
+        bounds = joint.limits[0] if len(joint.variables) == 1 else None
+        if bounds is None or joint.type == "continuous" or not bounds.has_position:
+            return
+        if constraint.position > bounds.max_position + 1e-9 or constraint.position < bounds.min_position - 1e-9:
+            limit = bounds.max_position if constraint.position > bounds.max_position else bounds.min_position
+            rospy.logwarn("Joint %s is constrained to be at %.4g, beyond its limits %.4g to %.4g. Assuming %.4g instead.",
+                          constraint.joint, constraint.position, bounds.min_position, bounds.max_position, limit)
 
     def _loosen(self, group: str, goals: List[motion.Constraints]) -> None:
         """Where kinematics.yaml says position_only_ik, a pose goal is its position: such an arm cannot keep the rest."""

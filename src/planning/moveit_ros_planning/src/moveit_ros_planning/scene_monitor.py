@@ -179,6 +179,16 @@ class SceneMonitor:
         self.edit(change, GEOMETRY, {scene_messages.OCTOMAP})
 
     @property
+    def scene_name(self) -> str:
+        """The scene's name; "(noname)" until one came."""
+        with self._lock:
+            return self._scene.name
+
+    def topics(self) -> List[str]:
+        """What the monitor listens to."""
+        return [self.states.topic, *(subscriber.resolved_name for subscriber in self._subscribers)]
+
+    @property
     def octomap(self):
         with self._lock:
             return self._scene.octomap

@@ -1,1 +1,1 @@
-"""Robot states by name, in a local file: :mod:`.storage`, and the services that offer it: :mod:`.services`."""
+"""Scenes, requests, constraints and robot states by name, in a local file: :mod:`.storage`; which file: :mod:`.location`."""

@@ -1,7 +1,6 @@
 """The node ``moveit_warehouse_services``: robot states by name, as services."""
 from __future__ import annotations
 
-import os
 from typing import Callable
 
 import rospy
@@ -10,35 +9,38 @@ from moveit_msgs.srv import (CheckIfRobotStateExistsInWarehouse, DeleteRobotStat
 
 import node_signals
 
-from .storage import StateStorage, StorageError
+from .location import connect
+from .storage import StorageError, Warehouse
 
 
 def main() -> int:
-    """Run the node; the exit code. ``~database_path`` is the file, or the folder that warehouse.launch names."""
+    """Run the node; the exit code."""
     node_signals.init_node("moveit_warehouse_services")
-    path = str(rospy.get_param("~database_path", "")).strip() or "~/.ros/warehouse.sqlite"
-    if os.path.isdir(os.path.expanduser(path)) or not os.path.splitext(path)[1]:
-        path = os.path.join(path, "warehouse.sqlite")
+    patience = float(rospy.get_param("warehouse_db_connection_timeout", 5.0)) * int(rospy.get_param(
+        "warehouse_db_connection_retries", 5))
     try:
-        storage = StateStorage(path)
+        warehouse = connect(patience=patience)
+        known = warehouse.states.names()
     except StorageError as error:
         rospy.logfatal("%s", error)
         return 1
-    services = Services(storage)
-    rospy.loginfo("Robot states are kept in %s", storage.path)
+    services = Services(warehouse)
+    rospy.loginfo("Robot states are kept in %s. %s", warehouse.path,
+                  f"Previously stored robot states: {', '.join(known)}" if known else "There are no previously stored robot states")
     node_signals.spin()
     services.shutdown()
     return 0
 
 
 class Services:
-    """Upstream's six services on a StateStorage."""
+    """Upstream's six services on a warehouse."""
 
-    def __init__(self, storage: StateStorage):
-        self._storage = storage
+    def __init__(self, warehouse: Warehouse):
+        self._warehouse, self._states = warehouse, warehouse.states
         self._services = [self._serve(name, kind, handler) for name, kind, handler in (
             ("save_robot_state", SaveRobotStateToWarehouse, self._save),
-            ("list_robot_states", ListRobotStatesInWarehouse, self._list),
+            ("list_robot_states", ListRobotStatesInWarehouse, self._list),  # as Melodic calls it
+            ("list_robot_state", ListRobotStatesInWarehouse, self._list),  # Noetic
             ("get_robot_state", GetRobotStateFromWarehouse, self._get),
             ("has_robot_state", CheckIfRobotStateExistsInWarehouse, self._has),
             ("rename_robot_state", RenameRobotStateInWarehouse, self._rename),
@@ -48,7 +50,7 @@ class Services:
         """Withdraw the services and close the file."""
         for service in self._services:
             service.shutdown()
-        self._storage.close()
+        self._warehouse.close()
 
     @staticmethod
     def _serve(name: str, kind, handler: Callable) -> rospy.Service:
@@ -56,26 +58,28 @@ class Services:
             response = kind._response_class()
             try:
                 handler(request, response)
-            except StorageError as error:  # the services have no field for it
+            except StorageError as error:
                 rospy.logerr("%s: %s", name, error)
+                if not hasattr(response, "success"):  # no field for it: the call fails, with the reason
+                    raise rospy.ServiceException(str(error)) from error
             return response
         return rospy.Service(name, kind, answer)
 
     def _save(self, request, response) -> None:
-        self._storage.save(request.robot, request.name, request.state)
+        self._states.save(request.name, request.state, robot=request.robot)
         response.success = True
 
     def _list(self, request, response) -> None:
-        response.states = self._storage.names(request.robot, request.regex)
+        response.states = self._states.names(request.regex, robot=request.robot)
 
     def _get(self, request, response) -> None:
-        response.state = self._storage.load(request.robot, request.name)
+        response.state = self._states.load(request.name, robot=request.robot)
 
     def _has(self, request, response) -> None:
-        response.exists = request.name in self._storage.names(request.robot)
+        response.exists = self._states.has(request.name, robot=request.robot)
 
     def _rename(self, request, _response) -> None:
-        self._storage.rename(request.robot, request.old_name, request.new_name)
+        self._states.rename(request.old_name, request.new_name, robot=request.robot)
 
     def _delete(self, request, _response) -> None:
-        self._storage.remove(request.robot, request.name)
+        self._states.remove(request.name, robot=request.robot)

@@ -18,24 +18,21 @@ struct MotionPlanResponse
   moveit_msgs::RobotState start_state_;
   std::string planner_id_;
 
-  void getMessage(moveit_msgs::MotionPlanResponse& msg) const
-  {
-    msg.error_code = error_code_;
-    msg.planning_time = planning_time_;
-    if (!trajectory_ || trajectory_->empty())
-      return;
-    moveit::core::robotStateToRobotStateMsg(trajectory_->getFirstWayPoint(), msg.trajectory_start);
-    trajectory_->getRobotTrajectoryMsg(msg.trajectory);
-    msg.group_name = trajectory_->getGroupName();
-  }
+  void getMessage(moveit_msgs::MotionPlanResponse& msg) const;
   explicit operator bool() const { return static_cast<bool>(error_code_); }
 };
 
 struct MotionPlanDetailedResponse
 {
+  void getMessage(moveit_msgs::MotionPlanDetailedResponse& msg) const;
+
   std::vector<robot_trajectory::RobotTrajectoryPtr> trajectory_;
   std::vector<std::string> description_;
   std::vector<double> processing_time_;  // s
   moveit::core::MoveItErrorCode error_code_;
+  moveit_msgs::RobotState start_state_;
+  std::string planner_id_;
+
+  explicit operator bool() const { return static_cast<bool>(error_code_); }
 };
 }  // namespace planning_interface

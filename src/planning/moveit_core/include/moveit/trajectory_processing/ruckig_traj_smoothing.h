@@ -1,1 +1,0 @@
-#error "trajectory_processing::RuckigSmoothing does not exist in C++ here: use TimeOptimalTrajectoryGeneration (docs/differences.md, 'MoveIt in C++')"

@@ -1,1 +1,0 @@
-#error "Collision detectors in plug-ins do not exist here: planning_scene::PlanningScene checks with FCL (docs/differences.md, 'MoveIt in C++')"
