@@ -65,7 +65,7 @@ class TeleopTwistKeyboard(unittest.TestCase):
         ended = subprocess.run(["rosrun", "teleop_twist_keyboard", NODE, "_speed:=fast"], stdin=subprocess.DEVNULL,
                                capture_output=True, text=True, timeout=60)
         self.assertEqual((ended.returncode, ended.stderr), (1, "teleop_twist_keyboard: parameter /teleop_twist_keyboard/speed "
-                                                               "is 'fast', but must be a number, 0 or more\n"))
+                                                               "must be a number, 0 or more, but is 'fast'\n"))
 
 
 if __name__ == "__main__":

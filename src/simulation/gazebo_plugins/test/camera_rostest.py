@@ -343,6 +343,27 @@ class Cameras(unittest.TestCase):
             self.assertNotIn("\n", line)
         self.take("/eye/image_raw")
 
+    def test_two_cameras_of_one_name_both_send_and_the_first_one_is_served(self):
+        spawn = rospy.ServiceProxy("/gazebo/spawn_sdf_model", SpawnModel)
+        delete = rospy.ServiceProxy("/gazebo/delete_model", DeleteModel)
+        sensor = """<sensor name="{name}" type="camera"><update_rate>10</update_rate>
+            <camera><image><width>{width}</width><height>24</height></image></camera>
+            <plugin name="p" filename="libgazebo_ros_camera.so"><cameraName>twin</cameraName></plugin></sensor>"""
+        twins = ('<sdf version="1.6"><model name="twins"><static>true</static><link name="l">'
+                 + sensor.format(name="a", width=32) + sensor.format(name="b", width=48) + "</link></model></sdf>")
+        with Ear("/rosout", Log) as log:
+            self.assertTrue(spawn("twins", twins, "/", Pose(), "world").success)
+            until(lambda: any("[/twin/set_camera_info]" in m.msg for m in log.messages), "line about the second camera")
+        said = [m.msg for m in log.messages if "already advertised" in m.msg]
+        self.assertFalse([line for line in said if "\n" in line], said)
+        self.assertFalse([m.msg for m in log.messages if "model twins" in m.msg], "neither plugin may be inactive")
+        self.assertEqual(sorted(m.width for m in self.take("/twin/image_raw", count=2)), [32, 48])
+        info = CameraInfo(width=32, height=24)
+        self.assertTrue(rospy.ServiceProxy("/twin/set_camera_info", SetCameraInfo)(info).success)
+        self.assertEqual(dynamic_reconfigure.client.Client("/twin", timeout=20).get_configuration()["imager_rate"], 2.0)
+        self.assertTrue(delete("twins").success)
+        self.assertNotIn("/twin/image_raw", dict(rospy.get_published_topics()))
+
     def test_a_model_that_comes_is_seen_and_its_camera_goes_with_it(self):
         spawn = rospy.ServiceProxy("/gazebo/spawn_sdf_model", SpawnModel)
         delete = rospy.ServiceProxy("/gazebo/delete_model", DeleteModel)

@@ -462,6 +462,24 @@ class Plugins(unittest.TestCase):
         self.assertAlmostEqual(yaw_of(last) - yaw_of(first), 0.5, delta=1e-3)
         np.testing.assert_allclose(xyz(last.position), xyz(first.position), atol=2e-3)
 
+    def test_force_based_move(self):
+        """Hector's plugin pushes on with the last command, against friction; Nexus's copy is limited and stops after 0.25 s."""
+        body = link("base_footprint", (0, 0, 0.05), mass=10, inertia=0.3, shape=box(0.5, 0.3, 0.1), mu=0.1)
+        self.spawn("hauled", sdf(body, plugin("hector_gazebo_ros_force_based_move", robotNamespace="/hauled")), 0, 140)
+        odometry, first, last = self.drive("/hauled", 0.3, 0.0, "/hauled/odom", lambda t: t.linear.y < -0.39, -0.4)
+        np.testing.assert_allclose(xyz(last.position) - xyz(first.position), (0.3, -0.4, 0), atol=5e-3)
+        np.testing.assert_allclose(xyz(odometry.pose.pose.position) + (0, 140, 0), xyz(last.position), atol=0.03)
+        _, first, last = self.drive("/hauled", 0.0, 0.5, "/hauled/odom", lambda t: t.angular.z > 0.4)
+        self.assertAlmostEqual(yaw_of(last) - yaw_of(first), 0.5, delta=0.03)
+
+        body = link("base_footprint", (0, 0, 0.05), mass=10, inertia=0.3, shape=box(0.5, 0.3, 0.1), mu=0)
+        self.spawn("nexus", sdf(body, plugin("nexus_ros_force_based_move", robotNamespace="/nexus", x_velocity_p_gain=1e9,
+                                             cmdVelTimeOut=0.25)), 0, 115)
+        _, first, last = self.drive("/nexus", 2.0, 0.0, "/nexus/odom", lambda t: t.linear.x > 0.59)
+        self.assertLess(last.position.x - first.position.x, 0.26 * 0.6)
+        self.step(0.5)
+        self.assertAlmostEqual(self.pose("nexus").position.x, last.position.x, delta=1e-6)
+
     def test_tricycle(self):
         parts = sdf(self.base(left=(-0.2, 0.25), right=(-0.2, -0.25)), link("fork", (0.3, 0, 0.2)),
                     joint("front_steering_joint", "revolute", "base_link", "fork"), wheel("front", (0.3, 0, 0.1)),

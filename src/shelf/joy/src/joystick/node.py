@@ -10,6 +10,7 @@ from typing import Optional
 
 import node_signals
 import rospy
+from node_signals.parameters import number
 from sensor_msgs.msg import Joy
 
 from .state import EVENT, State
@@ -25,8 +26,8 @@ def main() -> int:
         device = str(rospy.get_param("~dev", "/dev/input/js0"))
         name = str(rospy.get_param("~dev_name", ""))
         sticky = bool(rospy.get_param("~sticky_buttons", False))
-        rate, pause = _number("autorepeat_rate", 0.0), _number("coalesce_interval", 0.001)
-        deadzone = _number("deadzone", 0.05)
+        rate, pause = number("~autorepeat_rate", 0.0, 0.0), number("~coalesce_interval", 0.001, 0.0)
+        deadzone = number("~deadzone", 0.05, 0.0)
         State(deadzone)
     except ValueError as error:
         print(f"joy_node: {error}", file=sys.stderr)
@@ -108,10 +109,3 @@ def _wait(duration: float) -> None:
     end = time.monotonic() + duration
     while time.monotonic() < end and not rospy.is_shutdown():
         time.sleep(_LOOK)
-
-
-def _number(name: str, default: float) -> float:
-    value = rospy.get_param("~" + name, default)
-    if type(value) not in (int, float) or not math.isfinite(value) or value < 0:
-        raise ValueError(f"parameter {rospy.resolve_name('~' + name)} is {value!r}, but must be a number, 0 or more")
-    return float(value)

@@ -10,19 +10,11 @@ from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Imu
 
 from .filters import Measurement
+from .messages import transform, vector
 from .sensors import GRAVITY, AccelerationInput, FrameMissing, Pose, PoseInput, Transform, TwistInput, flags, quaternion_matrix
 
 KINDS = ("odom", "pose", "twist", "imu")
 _WARN_PERIOD = 5.0  # s between two warnings of one sensor
-
-
-def _vector(message) -> np.ndarray:
-    return np.array([message.x, message.y, message.z])
-
-
-def _transform(pose) -> Transform:
-    turn = pose.orientation
-    return Transform(quaternion_matrix(turn.x, turn.y, turn.z, turn.w), _vector(pose.position))
 
 
 class Sensor:
@@ -94,13 +86,13 @@ class Sensor:
 
     def _pose(self, header, pose, covariance, measured: list) -> None:
         if self.pose:
-            made = self.pose.measure(Pose(header.frame_id, header.stamp, header.stamp.to_sec(), _transform(pose),
+            made = self.pose.measure(Pose(header.frame_id, header.stamp, header.stamp.to_sec(), transform(pose),
                                           np.reshape(covariance, (6, 6))))
             if made:
                 measured.append(made)
 
     def _velocity(self, frame, stamp, twist, covariance, measured: list) -> None:
-        measured.append(self.twist.measure(frame, stamp, stamp.to_sec(), _vector(twist.linear), _vector(twist.angular),
+        measured.append(self.twist.measure(frame, stamp, stamp.to_sec(), vector(twist.linear), vector(twist.angular),
                                            np.reshape(covariance, (6, 6))))
 
     def _inertial(self, message: Imu, measured: list) -> None:
@@ -116,10 +108,10 @@ class Sensor:
         if self.twist and message.angular_velocity_covariance[0] != -1:
             covariance = np.zeros((6, 6))
             covariance[3:, 3:] = np.reshape(message.angular_velocity_covariance, (3, 3))
-            measured.append(self.twist.measure(header.frame_id, header.stamp, time, np.zeros(3), _vector(message.angular_velocity),
+            measured.append(self.twist.measure(header.frame_id, header.stamp, time, np.zeros(3), vector(message.angular_velocity),
                                                covariance))
         if self.acceleration and message.linear_acceleration_covariance[0] != -1:
             orientation = quaternion_matrix(turn.x, turn.y, turn.z, turn.w) if oriented else None
             measured.append(self.acceleration.measure(
-                header.frame_id, header.stamp, time, _vector(message.linear_acceleration),
+                header.frame_id, header.stamp, time, vector(message.linear_acceleration),
                 np.reshape(message.linear_acceleration_covariance, (3, 3)), orientation, self._state_rpy()))

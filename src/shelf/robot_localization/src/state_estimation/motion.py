@@ -48,7 +48,22 @@ def moved(states: np.ndarray, dt: float) -> np.ndarray:
 
 
 def jacobian(state: np.ndarray, dt: float) -> np.ndarray:
-    """(15, 15): d moved / d state, by central differences, which are exact to 1e-9 for these smooth functions."""
-    h = 1e-5
-    shifts = np.eye(SIZE) * h
-    return (moved(state + shifts, dt) - moved(state - shifts, dt)).T / (2 * h)
+    """(15, 15): d moved / d state. Straight up or down it is that of the bound of the rates, see :func:`moved`."""
+    roll, pitch, yaw = state[ORIENTATION]
+    way = state[VELOCITY] * dt + 0.5 * state[ACCELERATION] * dt ** 2
+    _, q, r = state[RATE] * dt
+    (sr, sp, sy), (cr, cp, cy) = np.sin((roll, pitch, yaw)), np.cos((roll, pitch, yaw))
+    turn, rates = rotation(state[ORIENTATION]), _rates(state[ORIENTATION])
+    change = np.eye(SIZE)
+    change[POSITION, VELOCITY], change[POSITION, ACCELERATION] = turn * dt, turn * (0.5 * dt ** 2)
+    change[ORIENTATION, RATE] = rates * dt
+    change[VELOCITY, ACCELERATION] = np.eye(3) * dt
+    after = turn @ way
+    change[POSITION, 3] = turn[:, 2] * way[1] - turn[:, 1] * way[2]
+    change[POSITION, 4] = np.array([cy, sy, 0.0]) * after[2] - np.array([0.0, 0.0, cy * after[0] + sy * after[1]])
+    change[POSITION, 5] = -after[1], after[0], 0.0
+    cp = cp if abs(cp) >= _STEEP else np.copysign(_STEEP, cp)
+    aside, along = cr * q - sr * r, sr * q + cr * r
+    change[3:6, 3] += np.array([aside * sp / cp, -along, aside / cp])
+    change[3:6, 4] += np.array([along, 0.0, along * sp]) / cp ** 2
+    return change

@@ -13,14 +13,16 @@ import tf2_ros
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from geometry_msgs.msg import AccelWithCovarianceStamped, PoseWithCovarianceStamped, TransformStamped
 from nav_msgs.msg import Odometry
+from node_signals.parameters import number
 from robot_localization.srv import (GetState, GetStateResponse, SetPose, SetPoseResponse, ToggleFilterProcessing,
                                     ToggleFilterProcessingResponse)
 from std_srvs.srv import Empty, EmptyResponse
 
 from .filters import INITIAL_COVARIANCE, PROCESS_NOISE, Ekf, Ukf
 from .inputs import KINDS, Sensor
+from .messages import Lookup, every, fill, quaternion, transform
 from .motion import ORIENTATION, POSITION, RATE, SIZE, VELOCITY, rotation
-from .sensors import IDENTITY, FrameMissing, Transform, angles, matrix, quaternion_matrix
+from .sensors import FrameMissing, Transform, angles, matrix
 
 _LONGEST_GAP = 100.0  # s; a clock that jumps further starts the filter again
 _UNSUPPORTED = ("use_control", "smooth_lagged_data")
@@ -48,12 +50,11 @@ class Localization:
             if parameters.get(name):
                 rospy.logwarn("%s/%s has no effect in this robot_localization.", own, name)
         self.frames = self._frames()
-        self.rate = self._number("frequency", 30.0)
+        self.rate = number("~frequency", 30.0)
         if self.rate <= 0:
             raise ValueError(f"parameter {own}/frequency must be above zero")
-        self._timeout = self._number("sensor_timeout", 1.0 / self.rate)
-        self._offset = rospy.Duration(self._number("transform_time_offset", 0.0))
-        self._wait = rospy.Duration(self._number("transform_timeout", 0.0))
+        self._timeout = number("~sensor_timeout", 1.0 / self.rate)
+        self._offset = rospy.Duration(number("~transform_time_offset", 0.0))
         self._to_now = bool(parameters.get("predict_to_current_time", False))
         self._make_filter = self._filter_maker(kind)
         self.filter = self._make_filter()
@@ -61,8 +62,7 @@ class Localization:
         self._running = not parameters.get("disabled_at_startup", False)
         self._rejected = 0
         self._published = None  # s, stamp of the last estimate that went out
-        self._buffer = tf2_ros.Buffer()
-        self._listener = tf2_ros.TransformListener(self._buffer)
+        self._look_up = Lookup(rospy.Duration(number("~transform_timeout", 0.0)))
         self._broadcaster = tf2_ros.TransformBroadcaster() if parameters.get("publish_tf", True) else None
         self._odometry = rospy.Publisher("odometry/filtered", Odometry, queue_size=20)
         self._acceleration = (rospy.Publisher("accel/filtered", AccelWithCovarianceStamped, queue_size=20)
@@ -108,7 +108,7 @@ class Localization:
                        planar=bool(parameters.get("two_d_mode", False)),
                        dynamic_noise=bool(parameters.get("dynamic_process_noise_covariance", False)))
         if kind == "ukf":
-            options.update({name: self._number(name, default) for name, default in (("alpha", 0.001), ("kappa", 0.0), ("beta", 2.0))})
+            options.update({name: number("~" + name, default) for name, default in (("alpha", 0.001), ("kappa", 0.0), ("beta", 2.0))})
         initial = np.diag(given("initial_state", np.zeros((SIZE, SIZE)))).copy()
 
         def make() -> Ekf:
@@ -117,27 +117,6 @@ class Localization:
             return made
 
         return make
-
-    def _number(self, name: str, default: float) -> float:
-        value = self._parameters.get(name, default)
-        if type(value) not in (int, float) or not np.isfinite(value):
-            raise ValueError(f"parameter {rospy.get_name()}/{name} must be a number, but is {value!r:.40}")
-        return float(value)
-
-    def _look_up(self, target: str, source: str, stamp) -> Transform:
-        target, source = target.lstrip("/"), source.lstrip("/")
-        if target == source:
-            return IDENTITY
-        for when in (stamp, rospy.Time(0)):  # the newest there is, where that of the measurement is not there
-            try:
-                found = self._buffer.lookup_transform(target, source, when, self._wait if when is stamp else rospy.Duration(0))
-                break
-            except tf2_ros.TransformException as error:
-                missing = error
-        else:
-            raise FrameMissing(f"no transform from {source} to {target}: {missing}; its measurements are left out until there is")
-        turn, at = found.transform.rotation, found.transform.translation
-        return Transform(quaternion_matrix(turn.x, turn.y, turn.z, turn.w), np.array([at.x, at.y, at.z]))
 
     def _state_rpy(self) -> np.ndarray:
         with self._mutex:
@@ -161,11 +140,8 @@ class Localization:
     def set_pose(self, message: PoseWithCovarianceStamped) -> None:
         """The robot is said to stand there, at rest; what was measured before does not count any more."""
         try:
-            given = message.pose.pose
-            turn = given.orientation
-            pose = Transform(quaternion_matrix(turn.x, turn.y, turn.z, turn.w),
-                             np.array([given.position.x, given.position.y, given.position.z]))
-            pose = self._look_up(self.frames.world, message.header.frame_id or self.frames.world, message.header.stamp) @ pose
+            pose = (self._look_up(self.frames.world, message.header.frame_id or self.frames.world, message.header.stamp)
+                    @ transform(message.pose.pose))
         except (FrameMissing, ValueError) as error:
             rospy.logerr("set_pose: %s", error)
             return
@@ -208,7 +184,7 @@ class Localization:
             rospy.logwarn("The clock jumped from %.3f s to %.3f s; the filter starts again.", self.filter.time, now)
             self.filter, self._published = self._make_filter(), None
             self._queue.clear()
-            self._buffer.clear()
+            self._look_up.clear()
             for sensor in self.sensors:
                 sensor.forget()
 
@@ -219,16 +195,16 @@ class Localization:
         self._published = time
         message = Odometry(child_frame_id=self.frames.base)
         message.header.stamp, message.header.frame_id = rospy.Time(nsecs=round(time * 1e9)), self.frames.world
-        _fill(message.pose.pose.position, state[POSITION])
-        _fill(message.pose.pose.orientation, quaternion(rotation(state[ORIENTATION])), "xyzw")
-        _fill(message.twist.twist.linear, state[VELOCITY])
-        _fill(message.twist.twist.angular, state[RATE])
+        fill(message.pose.pose.position, state[POSITION])
+        fill(message.pose.pose.orientation, quaternion(rotation(state[ORIENTATION])), "xyzw")
+        fill(message.twist.twist.linear, state[VELOCITY])
+        fill(message.twist.twist.angular, state[RATE])
         message.pose.covariance, message.twist.covariance = covariance[:6, :6].ravel().tolist(), covariance[6:12, 6:12].ravel().tolist()
         self._odometry.publish(message)
         if self._acceleration:
             accelerated = AccelWithCovarianceStamped()
             accelerated.header.stamp, accelerated.header.frame_id = message.header.stamp, self.frames.base
-            _fill(accelerated.accel.accel.linear, state[12:])
+            fill(accelerated.accel.accel.linear, state[12:])
             wide = np.zeros((6, 6))
             wide[:3, :3] = covariance[12:, 12:]
             accelerated.accel.covariance = wide.ravel().tolist()
@@ -247,8 +223,8 @@ class Localization:
                 return
         sent = TransformStamped(child_frame_id=child)
         sent.header.stamp, sent.header.frame_id = message.header.stamp + self._offset, message.header.frame_id
-        _fill(sent.transform.translation, pose.translation)
-        _fill(sent.transform.rotation, quaternion(pose.rotation), "xyzw")
+        fill(sent.transform.translation, pose.translation)
+        fill(sent.transform.rotation, quaternion(pose.rotation), "xyzw")
         self._broadcaster.sendTransform(sent)
 
     def report(self) -> None:
@@ -267,21 +243,6 @@ class Localization:
         self._diagnostics.publish(message)
 
 
-def quaternion(turn: np.ndarray) -> np.ndarray:
-    """(4,): x, y, z, w of a rotation matrix, w not below 0."""
-    w = np.sqrt(max(0.0, 1 + turn[0, 0] + turn[1, 1] + turn[2, 2])) / 2
-    if w > 1e-3:
-        x, y, z = (turn[2, 1] - turn[1, 2]), (turn[0, 2] - turn[2, 0]), (turn[1, 0] - turn[0, 1])
-        return np.array([x / (4 * w), y / (4 * w), z / (4 * w), w])
-    values, axes = np.linalg.eigh(turn + turn.T)
-    return np.append(axes[:, -1], 0.0)
-
-
-def _fill(message, values, names: str = "xyz") -> None:
-    for name, value in zip(names, values):
-        setattr(message, name, float(value))
-
-
 def main(kind: str) -> int:
     node_signals.init_node(f"{kind}_localization_node")
     try:
@@ -289,19 +250,8 @@ def main(kind: str) -> int:
     except (TypeError, ValueError) as error:
         print(f"{rospy.get_name()}: {error}", file=sys.stderr)
         return 1
-    timers = [_every(1 / localization.rate, lambda: localization.step(rospy.get_time())), _every(1.0, localization.report)]
+    timers = [every(1 / localization.rate, lambda: localization.step(rospy.get_time())), every(1.0, localization.report)]
     node_signals.spin()
     for timer in timers:
         timer.shutdown()
     return 0
-
-
-def _every(period: float, work) -> rospy.Timer:
-    def tick(_event) -> None:
-        try:
-            work()
-        except rospy.ROSException:
-            if not rospy.is_shutdown():  # topics close while the node ends
-                raise
-
-    return rospy.Timer(rospy.Duration(period), tick, reset=True)

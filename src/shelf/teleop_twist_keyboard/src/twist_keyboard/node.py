@@ -1,5 +1,4 @@
 """The node teleop_twist_keyboard: keys in, cmd_vel out."""
-import math
 import os
 import select
 import sys
@@ -10,6 +9,7 @@ import tty
 import node_signals
 import rospy
 from geometry_msgs.msg import Twist, TwistStamped
+from node_signals.parameters import number
 
 from .driving import HELP, Driver
 
@@ -95,8 +95,9 @@ def main() -> int:
     node_signals.init_node("teleop_twist_keyboard")
     try:
         speed, turn, speed_limit, turn_limit, rate, key_timeout = (
-            _number(name, default) for name, default in (("speed", 0.5), ("turn", 1.0), ("speed_limit", 1000.0),
-                                                         ("turn_limit", 1000.0), ("repeat_rate", 0.0), ("key_timeout", 0.0)))
+            number("~" + name, default, least=0.0) for name, default in (
+                ("speed", 0.5), ("turn", 1.0), ("speed_limit", 1000.0), ("turn_limit", 1000.0), ("repeat_rate", 0.0),
+                ("key_timeout", 0.0)))
     except ValueError as error:
         print(f"teleop_twist_keyboard: {error}", file=sys.stderr)
         return 1
@@ -130,10 +131,3 @@ def _keys(keyboard: Keyboard, timeout: float):
         if key or timeout > 0 and waited >= timeout - 1e-9:
             waited = 0.0
             yield key
-
-
-def _number(name: str, default: float) -> float:
-    value = rospy.get_param("~" + name, default)
-    if type(value) not in (int, float) or not math.isfinite(value) or value < 0:
-        raise ValueError(f"parameter {rospy.resolve_name('~' + name)} is {value!r}, but must be a number, 0 or more")
-    return float(value)

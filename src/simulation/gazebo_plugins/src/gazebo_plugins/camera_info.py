@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import rospkg
 import rospy
 import yaml
+from node_signals import offers
 from ode_sim.rendering import Camera
 from sensor_msgs.msg import CameraInfo
 from sensor_msgs.srv import SetCameraInfo, SetCameraInfoResponse
@@ -56,7 +57,7 @@ class CameraInfoService:
     def __init__(self, namespace: str, name: str, info: CameraInfo):
         self.info = info
         self._name = name
-        self._service = rospy.Service(f"{namespace}/set_camera_info", SetCameraInfo, self._set)
+        self._service = offers.service(f"{namespace}/set_camera_info", SetCameraInfo, self._set)
 
     def _set(self, request):
         info = request.camera_info

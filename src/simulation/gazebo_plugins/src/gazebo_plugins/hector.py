@@ -2,12 +2,13 @@
 from __future__ import annotations
 
 import math
-from typing import List, Tuple
+from typing import Tuple
 
 import numpy as np
 from geometry_msgs.msg import Quaternion, Vector3, Vector3Stamped
 from gazebo_ros.plugin import ModelPlugin, SensorPlugin
 from ode_sim import math3
+from ode_sim.description.xmlsource import leading_numbers
 from sensor_msgs.msg import Imu, MagneticField, NavSatFix, NavSatStatus, Range as RangeMsg
 from std_srvs.srv import Empty, EmptyResponse
 
@@ -28,12 +29,7 @@ class DriftingError:
     def __init__(self, sdf, prefix: str, size: int, rng):
         def read(name: str, default: float) -> np.ndarray:
             tag = prefix + name if prefix else name[0].lower() + name[1:]
-            numbers: List[float] = []
-            for word in sdf.get(tag, "").split()[:size]:
-                try:
-                    numbers.append(float(word))
-                except ValueError:
-                    break
+            numbers = leading_numbers(sdf.get(tag, ""), size)
             return np.full(size, default) if not numbers else np.resize(np.array(numbers), size)
 
         self.offset, self.drift = read("Offset", 0.0), read("Drift", 0.0)

@@ -2,16 +2,17 @@
 from __future__ import annotations
 
 from functools import lru_cache
-from typing import Dict, Optional, Tuple
+from typing import TYPE_CHECKING, Dict, Optional, Tuple
 
 import rospy
 from dynamic_parameters import Parameter, Server
 from ode_sim.rendering import Frame
 from sensor_msgs.msg import CompressedImage
-from theora_image_transport.encoder import available as theora_available
-from theora_image_transport.publisher import TheoraPublisher
 
 from gazebo_plugins.image_message import Image
+
+if TYPE_CHECKING:
+    from theora_image_transport.publisher import TheoraPublisher
 
 COMPRESSED = (
     Parameter("format", str, "jpeg", description="Compression format",
@@ -44,7 +45,12 @@ class _NotADepth(rospy.SubscribeListener):
 @lru_cache(maxsize=1)
 def _theora() -> bool:
     """Whether there can be theora topics; says once why not."""
-    if not theora_available():
+    try:
+        from theora_image_transport.encoder import available
+    except ImportError:  # scripts/demo builds without it, for it is compiled against much that the demo does not need
+        rospy.loginfo("cameras offer no theora topics: theora_image_transport is not built; scripts/setup builds it")
+        return False
+    if not available():
         rospy.logwarn("cameras offer no theora topics: PyAV is missing; install python3-av")
         return False
     return True
@@ -73,6 +79,7 @@ class ImageTopics:
             self._parameters = (Server(f"{topic}/compressed", COMPRESSED, self._configure),
                                 Server(f"{topic}/compressedDepth", COMPRESSED_DEPTH, lambda config, level: None))
             if _theora():
+                from theora_image_transport.publisher import TheoraPublisher
                 self._theora = TheoraPublisher(topic, encoding, shape, queue_size)
 
     def _configure(self, config: Dict, _level: int) -> None:

@@ -6,6 +6,7 @@ from typing import Dict, Tuple
 import rospy
 from gazebo_ros.plugin import PluginError, WorldPlugin
 from gazebo_ros_link_attacher.srv import Attach, AttachRequest, AttachResponse
+from node_signals import offers
 from ode_sim import Attachment
 
 Pair = Tuple[str, str]
@@ -17,7 +18,7 @@ class LinkAttacher(WorldPlugin):
     def load(self, server, sdf) -> None:
         self.server = server
         self.attachments: Dict[Pair, Attachment] = {}
-        self.services = [rospy.Service(f"/link_attacher_node/{name}", Attach, handler)
+        self.services = [offers.service(f"/link_attacher_node/{name}", Attach, handler)
                          for name, handler in (("attach", self._attach), ("detach", self._detach))]
 
     def _attach(self, request: AttachRequest) -> AttachResponse:

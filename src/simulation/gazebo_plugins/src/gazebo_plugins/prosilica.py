@@ -6,6 +6,7 @@ import threading
 import rospy
 from gazebo_ros.names import join
 from gazebo_ros.plugin import PluginError
+from node_signals import offers
 from ode_sim.rendering import Frame
 from polled_camera.srv import GetPolledImage, GetPolledImageResponse
 from sensor_msgs.msg import CameraInfo, Image
@@ -32,7 +33,7 @@ class Prosilica(Camera):
         self._streams = mode == "streaming"
         if not self._streams:
             name = join(namespace, sdf.text_or("pollServiceName", "request_image"))
-            self._service = rospy.Service(name, GetPolledImage, self._poll)
+            self._service = offers.service(name, GetPolledImage, self._poll)
 
     @staticmethod
     def _mode(namespace: str) -> str:

@@ -6,6 +6,7 @@ from typing import Any, Callable, Dict, List, Optional, Sequence
 import rospy
 import tf2_ros
 from geometry_msgs.msg import Point, Pose as PoseMsg, Quaternion, Transform, TransformStamped, Vector3
+from node_signals import offers
 from ode_sim.description.model import Pose
 from plugin_loader import PluginError
 
@@ -35,18 +36,18 @@ class Topics:
         return names.resolve_frame(self._prefix, name)
 
     def publisher(self, name: str, kind: type, queue_size: int = 1, latch: bool = False) -> rospy.Publisher:
-        return self._keep(rospy.Publisher(self.resolve(name), kind, queue_size=queue_size, latch=latch))
+        return self._keep(offers.publisher(self.resolve(name), kind, queue_size=queue_size, latch=latch))
 
     def subscriber(self, name: str, kind: type, callback: Callable[[Any], None],
                    queue_size: int = 1) -> rospy.Subscriber:
-        return self._keep(rospy.Subscriber(self.resolve(name), kind, callback, queue_size=queue_size, tcp_nodelay=True))
+        return self._keep(offers.subscriber(self.resolve(name), kind, callback, queue_size=queue_size, tcp_nodelay=True))
 
     def service(self, name: str, kind: type, handler: Callable[[Any], Any]) -> rospy.Service:
-        return self._keep(rospy.Service(self.resolve(name), kind, handler))
+        return self._keep(offers.service(self.resolve(name), kind, handler))
 
     def close(self) -> None:
         for thing in self._made:
-            if isinstance(thing, rospy.Service):
+            if hasattr(thing, "shutdown"):
                 thing.shutdown("the plugin is unloaded")
             else:
                 thing.unregister()

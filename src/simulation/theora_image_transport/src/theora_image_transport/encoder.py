@@ -68,7 +68,7 @@ class Encoder:
             else:
                 context.bit_rate = settings.bitrate
             context.open()
-        except (av.AVError, ValueError) as error:
+        except (av.error.FFmpegError, ValueError) as error:
             raise ValueError(f"no theora stream of {shape[1]}x{shape[0]} with {settings}: {error}") from None
         info, *others = _split(bytes(context.extradata))
         self.headers = [Packet(data, int(not i), 0, i) for i, data in enumerate((_with_picture(info, shape), *others))]
@@ -90,7 +90,7 @@ class Encoder:
         frame.pts = self._frames
         try:
             return [self._packet(bytes(packet)) for packet in self._context.encode(frame)]
-        except self._av.AVError as error:
+        except self._av.error.FFmpegError as error:
             raise ValueError(f"a picture could not be encoded: {error}") from None
 
     def _packet(self, data: bytes) -> Packet:
