@@ -6,6 +6,7 @@ from python_qt_binding.QtWidgets import QGraphicsScene
 from qt_dotgraph.dot_to_qt import DotToQtGenerator
 from qt_dotgraph.layout import LayoutError, layout, render
 from qt_dotgraph.pydotfactory import PydotFactory
+from qt_dotgraph.pygraphvizfactory import PygraphvizFactory
 
 DOT = r'''digraph g { rankdir=LR;
   subgraph cluster_ns { label="/ns"; a [label="/ns/a" tooltip="tip of a"]; t [label="/ns/t" shape=box3d color=red]; }
@@ -60,8 +61,8 @@ def test_without_highlighting_the_neighbours_stay():
     assert nodes["b"].color().name() == edges["a_TO_b"][0].color().name() == "#000000"
 
 
-def test_factory_of_pydot_and_its_text_with_positions():
-    factory = PydotFactory()
+@pytest.mark.parametrize("factory", (PydotFactory(), PygraphvizFactory()), ids=("pydot", "pygraphviz"))
+def test_factories_and_their_text_with_positions(factory):
     graph = factory.get_graph(rankdir="LR")
     cluster = factory.add_subgraph_to_graph(graph, "/my ns")
     factory.add_node_to_graph(cluster, "/my-node/a%", "a \"quoted\" label", shape="ellipse", url="topic:/x", color="orange")
@@ -69,12 +70,17 @@ def test_factory_of_pydot_and_its_text_with_positions():
     factory.add_edge_to_graph(graph, "/my-node/a%", "node", label="line one\\nline two", color=[1, 2, 3], penwidth=2)
     with pytest.raises(ValueError, match="Empty Node name"):
         factory.add_node_to_graph(graph, "")
+    with pytest.raises(ValueError, match="Empty subgraph name"):
+        factory.add_subgraph_to_graph(graph, "")
     text = factory.create_dot(graph)
     assert "pos=" in text
     nodes, edges = DotToQtGenerator().dotcode_to_qt_items(text, 3)
-    name = factory.escape_name("/my-node/a%")
-    assert nodes[name].text() == 'a "quoted" label' and nodes[name].toolTip() == "topic:/x" and nodes["node_"].text() == "node_"
-    (edge,) = next(items for key, items in edges.items() if key.startswith(name))
+    labels = {node.text(): node for node in nodes.values()}
+    node = labels['a "quoted" label']
+    assert node.toolTip() == "topic:/x" and node.color().name() == "#ffa500" and {"/my ns"} < set(labels)
+    assert labels["/my ns"].sceneBoundingRect().contains(node.sceneBoundingRect())
+    assert (factory.escape_name("node") if hasattr(factory, "escape_name") else "node") in nodes
+    (edge,) = next(iter(edges.values()))
     assert edge.text() == "line one\nline two" and edge.color().getRgb()[:3] == (1, 2, 3)
 
 

@@ -5,6 +5,7 @@ import sys
 import tempfile
 import unittest
 
+import rosgraph
 import rospy
 import rostest
 from rqt_testing.in_process import errors, open_plugin, wait_until  # isort: skip
@@ -34,12 +35,16 @@ class Bag(unittest.TestCase):
         self.assertEqual(errors, [])
 
     def publishes(self, timeline, frame):
+        # Recorder, player and this test are one node: what is still being taken back would be shared with what comes now.
+        wait_until(lambda: not any(name == "/speed" for kind in rosgraph.Master("/bag_rostest").getSystemState()[:2] for name, _ in kind))
         got, clock = [], []
         subscriber = rospy.Subscriber("/speed", Float64, lambda message: got.append(message.data))
         clocks = rospy.Subscriber("/clock", Clock, lambda message: clock.append(message.clock.to_sec()))
         timeline.start_publishing("/speed")
         timeline.navigate_end()
         wait_until(lambda: subscriber.get_num_connections() and clocks.get_num_connections())
+        player = timeline._player  # whose side of a connection comes a moment after the listener's
+        wait_until(lambda: all(sender and sender.get_num_connections() for sender in (player._clock, *player._publishers.values())))
         timeline.navigate_start()
         wait_until(lambda: not timeline._player.busy)
         got.clear()

@@ -1,11 +1,13 @@
 """Rows, rules, files and settings of the console."""
+import json
 import time
 
 import genpy
 import pytest
-from rqt_testing.in_process import application, errors, find, open_plugin, process_events, rospy_without_master
+from rqt_testing.in_process import application, errors, find, open_gui, open_plugin, process_events, rospy_without_master
 
 from python_qt_binding.QtCore import Qt
+from python_qt_binding.QtWidgets import QDialog
 from rosgraph_msgs.msg import Log
 from rqt_console import saved_messages
 from rqt_console.console_widget import ConsoleWidget
@@ -141,6 +143,85 @@ def test_in_the_window(tmp_path):
         gui.plugin.widget.exclude_box.add("node", {"selected": ["/n"]})
         gui.plugin._configure("/rosout", 500)
     with open_plugin("rqt_console", settings=settings) as gui:
-        assert gui.plugin.widget.exclude_box.state() == [["node", True, {"selected": ["/n"]}]]
+        assert [rule for rule in gui.plugin.widget.exclude_box.state() if rule[0] != "severity"] == [
+            ["node", True, {"selected": ["/n"]}]]
         assert (gui.plugin._topic, gui.plugin._limit) == ("/rosout", 500)
     assert errors == []
+
+
+def group(**keys):
+    """A group of a perspective file, values as Noetic's window writes them."""
+    return {"keys": {name: {"type": "repr", "repr": repr(value)} for name, value in keys.items()}, "groups": {}}
+
+
+RULES = [["severity", True, {"selected": [Log.DEBUG, Log.WARN]}], ["message", False, {"text": "a.*b", "regex": True}],
+         ["node", True, {"selected": ["/one"]}], ["topic", True, {"selected": []}],
+         ["location", True, {"text": "x.py", "regex": False}],
+         ["time", True, {"start": 1500000000.25, "stop": 1500000009.0, "stop_enabled": False}],
+         ["custom", True, {"message": {"text": "t", "regex": False}, "severity": {"selected": [Log.FATAL]},
+                           "node": {"selected": ["/a", "/b"]}, "topic": {"selected": []}}]]
+
+
+def test_rules_of_a_perspective_file_of_noetic_are_kept(tmp_path):
+    from python_qt_binding.QtCore import QDateTime
+    from qt_gui import perspective_file
+
+    def stamp(seconds):
+        return QDateTime.fromMSecsSinceEpoch(round(seconds * 1000)).toString("hh:mm:ss.zzz (yyyy-MM-dd)")
+
+    rospy_without_master()
+    plugin = group(settings_exist="true", exclude_filters=[rule[0] for rule in RULES] + ["of_tomorrow"],
+                   highlight_filters="message", show_highlighted_only="false", paused="true", message_limit="777")
+    plugin["groups"] = {f"exclude_filter_{i}": made for i, made in enumerate((
+        group(enabled="true", itemlist=["Debug", "Warn"]), group(enabled="false", text="a.*b", regex="true"),
+        group(enabled="true", itemlist="/one"), group(enabled="true", itemlist=""),
+        group(enabled="true", text="x.py", regex="false"),
+        group(enabled="true", start_time=stamp(1500000000.25), stop_time=stamp(1500000009.0), stop_time_enabled="false"),
+        group(enabled="true", text="t", regex="false", severityitemlist="Fatal", topicitemlist="", nodeitemlist=["/a", "/b"])))}
+    plugin["groups"]["highlight_filter_0"] = group(enabled="true", text="hello", regex="false")
+    manager = group(**{"running-plugins": {"rqt_console/Console": [1]}})
+    manager["groups"] = {"plugin__rqt_console__Console__1": {"keys": {}, "groups": {"plugin": plugin}}}
+    path, saved = str(tmp_path / "noetic.perspective"), str(tmp_path / "ours.perspective")
+    with open(path, "w") as file:
+        json.dump({"keys": {}, "groups": {"pluginmanager": manager}}, file)
+    with open_gui(["--perspective-file", path]) as gui:
+        widget = gui.plugins.running()[0].plugin().widget
+        assert widget.exclude_box.state() == RULES
+        assert widget.highlight_box.state() == [["message", True, {"text": "hello", "regex": False}]]
+        assert widget.paused and widget.model._limit == 777
+        gui.perspectives.export_perspective_to_file(saved)
+    assert errors == []
+    kept = perspective_file.read(saved)["groups"]["pluginmanager"]["groups"]["plugin__rqt_console__Console__1"]["groups"]["plugin"]
+    assert kept["keys"]["exclude_filters"] == [rule[0] for rule in RULES]
+    assert kept["groups"]["exclude_filter_5"]["keys"]["start_time"] == stamp(1500000000.25)
+    assert kept["groups"]["exclude_filter_6"]["keys"]["nodeitemlist"] == ["/a", "/b"]
+
+
+def test_dashboards_show_messages_of_their_own():
+    """As rqt_robot_dashboard does."""
+    import rospkg
+    import rospy
+    from rqt_console.console import Console
+    from rqt_console.message_data_model import MessageDataModel
+    from rqt_console.message_proxy_model import MessageProxyModel
+
+    rospy_without_master()
+    application()
+    model, proxy = MessageDataModel(), MessageProxyModel()
+    proxy.setSourceModel(model)
+    console = ConsoleWidget(proxy, rospkg.RosPack(), minimal=True)
+    now = rospy.Time.now()
+    for age, level in ((200, Log.FATAL), (20, Log.ERROR), (5, Log.WARN), (5, Log.WARN), (1, Log.INFO)):
+        log = Log(header=Header(stamp=now - rospy.Duration(age)), level=level, name="/n", msg=f"{age} s ago")
+        model.insert_rows([Console.convert_rosgraph_log_message(log)])
+    assert shown(console)[0] == "1 s ago" and not console._paused
+    console.exclude_box.add("severity", {"selected": [Log.INFO]})
+    assert shown(console)[0] == "5 s ago"
+    summary = console.get_message_summary(30.0)
+    assert (summary.fatal, summary.error, summary.warn, summary.info, summary.debug) == (0, 1, 2, 1, 0)
+    assert console.get_message_summary().fatal == 1
+    console.browse(model.messages())
+    console.cleanup_browsers_on_close()
+    process_events()
+    assert not any(dialog.isVisible() for dialog in console.findChildren(QDialog))
+    console.close()

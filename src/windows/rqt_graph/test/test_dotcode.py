@@ -2,8 +2,8 @@
 import re
 
 import pytest
-from rqt_graph.dotcode import NODE_TOPIC_ALL_GRAPH, NODE_TOPIC_GRAPH, Options, Statistics, generate_dot, matches_any, select, \
-    split_filter
+from rqt_graph.dotcode import (NODE_NODE_GRAPH, NODE_TOPIC_ALL_GRAPH, NODE_TOPIC_GRAPH, Options, Statistics, generate_dot,
+                               matches_any, select, split_filter)
 from rqt_graph.ros_state import State
 
 
@@ -149,3 +149,94 @@ def test_fifty_nodes_and_three_hundred_topics_take_no_time():
     state, start = system(*links), time.process_time()
     dot = generate_dot(state, Options(NODE_TOPIC_ALL_GRAPH))
     assert dot.count("->") == 600 and time.process_time() - start < 2
+
+
+class Factory:
+    """Notes what a generator draws, under the names of qt_dotgraph's factories."""
+
+    def __init__(self):
+        self.nodes, self.edges, self.clusters = {}, set(), []
+
+    def get_graph(self, rank, ranksep, simplify, rankdir):
+        self.rankdir = rankdir
+        return "graph"
+
+    def add_subgraph_to_graph(self, graph, name, rank, rankdir, simplify):
+        self.clusters.append((graph, name))
+        return name
+
+    def add_node_to_graph(self, graph, nodename, nodelabel, shape, url, color):
+        self.nodes[nodename] = graph, nodelabel, shape, url, color
+
+    def add_edge_to_graph(self, graph, start, end, label, url, penwidth, color):
+        self.edges.add((start, end, label, url, penwidth, color and tuple(color)))
+
+
+@pytest.fixture
+def ros_graph():
+    """What rosgraph finds for two nodes in a namespace, a dead one, an action and a console."""
+    from rosgraph.impl.graph import BadNode, Edge, Graph
+
+    graph = Graph()
+    graph.nn_nodes = {"/ns/talker", "/ns/listener", "/gone", "/rosout"}
+    graph.bad_nodes = {"/gone": BadNode("/gone", BadNode.DEAD, "no answer")}
+    graph.nn_edges.add(Edge("/ns/talker", "/ns/listener", "/ns/chatter"))
+    action = [f"/ns/do/{part}" for part in ("goal", "cancel", "status", "feedback", "result")]
+    for topic in ["/ns/chatter", "/rosout", *action]:
+        graph.nt_nodes.add(" " + topic)
+        for edge in (Edge("/ns/talker", " " + topic), Edge(" " + topic, "/rosout" if topic == "/rosout" else "/ns/listener")):
+            graph.nt_edges.add(edge)
+            graph.nt_all_edges.add(edge)
+    graph.nt_nodes.add(" /ns/unheard")
+    graph.nt_all_edges.add(Edge("/ns/talker", " /ns/unheard"))
+    return graph
+
+
+def generator():
+    from rqt_graph.dotcode import RosGraphDotcodeGenerator
+    from rqt_testing.in_process import rospy_without_master
+
+    rospy_without_master()
+    return RosGraphDotcodeGenerator()
+
+
+def test_generator_for_other_packages(ros_graph):
+    factory, made = Factory(), generator()
+    assert made.generate_dotgraph(ros_graph, "/", "/", NODE_NODE_GRAPH, factory, cluster_namespaces_level=1, quiet=True,
+                                  orientation="TB") == "graph"
+    assert factory.rankdir == "TB" and factory.clusters == [("graph", "/ns")]
+    assert factory.nodes == {"n_/ns/talker": ("/ns", "/ns/talker", "ellipse", "/ns/talker", None),
+                             "n_/ns/listener": ("/ns", "/ns/listener", "ellipse", "/ns/listener", None),
+                             "n_/gone": ("graph", "/gone", "ellipse", "/gone (DEAD)", "red")}
+    assert factory.edges == {("n_/ns/talker", "n_/ns/listener", "/ns/chatter", "topic:/ns/chatter", 1, None)}
+    factory = Factory()
+    made.generate_dotgraph(ros_graph, "/", "-/rosout", NODE_TOPIC_GRAPH, factory, unreachable=True)
+    assert set(factory.nodes) == {"n_/ns/talker", "n_/ns/listener", "n_/rosout", "t_/ns/chatter", "t_/ns/do/action_topics"}
+    assert factory.nodes["t_/ns/do/action_topics"][2] == "box3d"
+    factory = Factory()
+    made.generate_dotgraph(ros_graph, "-/rosout", "/", NODE_TOPIC_ALL_GRAPH, factory, accumulate_actions=False)
+    assert {"t_/ns/unheard", "t_/ns/do/goal"} < set(factory.nodes)
+    assert ("n_/ns/talker", "t_/ns/unheard", None, None, 1, None) in factory.edges
+
+
+def test_generator_shows_traffic_and_writes_text(ros_graph):
+    import genpy
+    from qt_dotgraph.pydotfactory import PydotFactory
+    from rosgraph_msgs.msg import TopicStatistics
+
+    made = generator()
+    made.statistics_callback(TopicStatistics(topic="/ns/chatter", node_pub="/ns/talker", node_sub="/ns/listener", traffic=1000000,
+                                             window_stop=genpy.Time(1), period_mean=genpy.Duration(0, 100000000)))
+    factory = Factory()
+    made.generate_dotgraph(ros_graph, "/", "/", NODE_NODE_GRAPH, factory)
+    assert [edge[2:5] for edge in factory.edges] == [("/ns/chatter\\n10.0 Hz", "topic:/ns/chatter", 5)]
+    text = made.generate_dotcode(ros_graph, "/", "/", NODE_TOPIC_GRAPH, PydotFactory(), quiet=True)
+    assert "pos=" in text and "label=\"/ns/listener\"" in text and "/rosout" not in text
+    assert made.generate_namespaces(ros_graph, NODE_NODE_GRAPH) == ["/", "/ns/"]
+
+
+def test_names_that_other_packages_import():
+    from rqt_graph.dotcode import QUIET_NAMES, NodeConnections, _conv
+
+    assert "/rosout" in QUIET_NAMES + ["/mine"] and NodeConnections().incoming == []
+    assert _conv("/a") == "n_/a" and _conv(" /a") == "t_/a"

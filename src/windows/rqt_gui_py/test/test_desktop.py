@@ -79,3 +79,29 @@ def test_perspective_is_made_and_chosen_by_its_menu(rqt):
     window.window("Default - rqt")
     window.rect("edit1")
     assert window.end() == 0 and window.output() == ""
+
+
+def test_dragged_dock_stays_where_it_was_put(rqt):
+    desktop, start = rqt
+    window = start()
+    left, top, width, height = window.window("Default - rqt")[2:]
+    for number in (1, 2):
+        window.choose("Plugins", "Topics", "The Edit")
+        window.rect(f"edit{number}")
+    x, y, *_ = begin = window.rect("edit1")
+    desktop.drag((x + 80, y - 11), (left + 5, top + height // 2))  # by its title, to the window's left edge
+    window.wait(lambda: window.ask("rect", "edit1") not in (None, begin), "dock in another area")
+    seen = [None, None]
+
+    def resting():
+        seen[:] = seen[1], [window.ask("rect", f"edit{number}") for number in (1, 2)]
+        return None not in seen[1] and seen[0] == seen[1]
+
+    window.wait(resting, "docks at rest")
+    (first, _, narrow, _), (second, _, wide, _) = placed = seen[1]
+    assert first < second and narrow < wide  # an area at the side takes no more than it needs, the other has the rest
+    assert window.end() == 0 and window.output() == ""
+    window = start()
+    window.window("Default - rqt")
+    window.wait(lambda: [window.ask("rect", f"edit{number}") for number in (1, 2)] == placed, f"docks at {placed}")
+    assert window.end() == 0

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from theora_image_transport.encoder import Encoder
 
-from rqt_image_view.pictures import (COLOR_SCHEMES, DepthView, PictureError, TheoraDecoder, from_compressed, from_raw,
+from rqt_image_view.pictures import (COLOR_SCHEMES, DepthView, PictureError, TheoraDecoder, decode_rvl, from_compressed, from_raw,
                                      invert_grid, rotated, show_depth, unrotated_point)
 
 RGB = np.zeros((4, 6, 3), np.uint8)
@@ -127,10 +127,51 @@ def test_compressed_depth():
     assert picture.shape == (1, 3) and abs(int(picture[0, 0]) - 63) < 2 and abs(int(picture[0, 1]) - 127) < 3 and picture[0, 2] == 0
 
 
+#: 5 columns, 1 row of the depths 0, 0, 5, 6, 0: two zeros, two others, +5, +1, one zero, no others
+RVL = struct.pack("<III", 5, 1, 0x22A12100)
+
+
+def rvl(pixels):
+    """Packs depths, number by number."""
+    nibbles, previous, values = [], 0, pixels.ravel().tolist()
+
+    def put(number):
+        while True:
+            number, low = number >> 3, number & 7
+            nibbles.append(low | (8 if number else 0))
+            if not number:
+                return
+
+    while values:
+        zeros = next((i for i, value in enumerate(values) if value), len(values))
+        others = next((i for i, value in enumerate(values[zeros:]) if not value), len(values) - zeros)
+        put(zeros)
+        put(others)
+        for value in values[zeros:zeros + others]:
+            put((value - previous) << 1 if value >= previous else ((previous - value) << 1) - 1)
+            previous = value
+        values = values[zeros + others:]
+    nibbles += [0] * (-len(nibbles) % 8)
+    words = [sum(nibble << 4 * (7 - i) for i, nibble in enumerate(nibbles[n:n + 8])) for n in range(0, len(nibbles), 8)]
+    return struct.pack(f"<II{len(words)}I", pixels.shape[1], pixels.shape[0], *words)
+
+
+def test_depth_compressed_with_rvl():
+    assert decode_rvl(RVL).tolist() == [[0, 0, 5, 6, 0]]
+    noise = np.random.default_rng(3)
+    depth = np.where(noise.random((48, 64)) < 0.3, 0, noise.integers(0, 65536, (48, 64))).astype(np.uint16)
+    assert np.array_equal(decode_rvl(rvl(depth)), depth)
+    metres = np.array([[0, 5000, 10000]], np.uint16)
+    picture = from_compressed("16UC1; compressedDepth rvl", bytes(12) + rvl(metres))
+    assert picture.tolist() == [[0, 127, 255]]
+
+
 @pytest.mark.parametrize("layout, data, said", [
     ("jpeg", b"", "0 bytes of 'jpeg' cannot be decoded"), ("png", b"\x89PNG\r\n\x1a\nrubbish", "cannot be decoded"),
     ("16UC1; compressedDepth", b"short", "lacks its 12 bytes"), ("16UC1; compressedDepth", bytes(40), "cannot be decoded"),
-    ("16UC1; compressedDepth rvl", bytes(40), "set the publisher's format to png")])
+    ("16UC1; compressedDepth rvl", bytes(40), "0x0 pixels"), ("16UC1; compressedDepth rvl", bytes(12) + RVL[:8], "cut short"),
+    ("16UC1; compressedDepth rvl", bytes(12) + RVL[:8] + b"\xff" * 40, "cut short"),
+    ("16UC1; compressedDepth rvl", bytes(12) + struct.pack("<II", 3, 1) + RVL[8:], "no depth image of 3x1")])
 def test_broken_compressed_images_are_told(layout, data, said):
     with pytest.raises(PictureError, match=said):
         from_compressed(layout, data)

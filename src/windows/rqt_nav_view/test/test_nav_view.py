@@ -58,7 +58,7 @@ def gui():
     rospy_without_master()
     with open_plugin("rqt_nav_view") as gui:
         gui.window.resize(700, 500)
-        gui.view = gui.plugin.view
+        gui.view = gui.plugin.widget.view
         yield gui
 
 
@@ -85,7 +85,7 @@ def test_lines_of_other_frames_are_moved_or_told(gui):
     transform = TransformStamped()
     transform.header.frame_id, transform.child_frame_id, transform.transform.translation.y = "map", "odom", 3.0
     transform.transform.rotation.w = 1.0
-    gui.plugin._tf.set_transform_static(transform, "test")
+    gui.plugin.widget._tf.set_transform_static(transform, "test")
     gui.view.line_cb("/move_base/NavFn/plan", path([(0, 0), (1, 0)], "odom"))
     process_events()
     assert gui.view._lines["/move_base/NavFn/plan"].path().elementAt(1).y == 3.0
@@ -123,7 +123,7 @@ def test_topics_come_back(tmp_path):
     rospy_without_master()
     settings = str(tmp_path / "a.ini")
     with open_plugin("rqt_nav_view", settings=settings) as gui:
-        gui.plugin.show_topics("/other_map", ["/plan"], [])
+        gui.plugin.widget.show_topics("/other_map", ["/plan"], [])
     with open_plugin("rqt_nav_view", settings=settings) as gui:
-        assert (gui.plugin.map_topic, gui.plugin.paths, gui.plugin.polygons) == ("/other_map", ["/plan"], [])
+        assert (gui.plugin.widget.map_topic, gui.plugin.widget.paths, gui.plugin.widget.polygons) == ("/other_map", ["/plan"], [])
     assert errors == [] and rospy.core.is_initialized()

@@ -13,6 +13,21 @@ def test_without_an_x_display_it_is_refused():
         rviz_plugin.RViz(FakeContext([]))
 
 
+def test_a_window_on_another_qt_is_told_how_to_get_rviz(monkeypatch):
+    """As on Debian 13, where RViz is for Qt 6 and rqt on Qt 5."""
+    rospy_without_master()
+    application()
+    monkeypatch.setattr(rviz_plugin.QGuiApplication, "platformName", lambda: "xcb")
+    here = rviz_plugin.QWidget.__module__.partition(".")[0]
+    other = {"PyQt5": "PyQt6", "PyQt6": "PyQt5"}[here]
+    monkeypatch.setattr(rviz_plugin.qt, "package", lambda: other)
+    with pytest.raises(PluginLoadError, match=f"RViz is for {other} and this window is on {here}: run rosrun rqt_rviz rqt_rviz"):
+        rviz_plugin.RViz(FakeContext([]))
+    monkeypatch.setattr(rviz_plugin.qt, "package", lambda: None)
+    with pytest.raises(PluginLoadError, match="apt install python3-rviz"):
+        rviz_plugin.RViz(FakeContext([]))
+
+
 def test_a_second_one_is_refused_and_the_first_is_taken_up_again(monkeypatch):
     monkeypatch.setattr(rviz_plugin, "_made", ["frame"])
     monkeypatch.setattr(rviz_plugin, "_frames", [])

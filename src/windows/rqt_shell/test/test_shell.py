@@ -17,7 +17,8 @@ def plain_shell(monkeypatch, tmp_path):
     rospy_without_master()
 
 
-def test_typed(tmp_path):
+def test_typed(tmp_path, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "7")  # of another terminal
     with open_plugin("rqt_shell") as gui:
         shell = find(gui, "ShellWidget")
         wait_until(lambda: shell.text())

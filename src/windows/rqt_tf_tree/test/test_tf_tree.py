@@ -74,3 +74,30 @@ def test_window_draws_what_it_hears_and_forgets_it(monkeypatch):
         find(gui, "clear_buffer_push_button").click()
         wait_until(lambda: drawn(gui) == {"No tf data received"})
     assert errors == []
+
+
+def test_generator_for_other_packages():
+    from types import SimpleNamespace
+
+    from qt_dotgraph.dot_to_qt import DotToQtGenerator
+    from qt_dotgraph.pydotfactory import PydotFactory
+    from rqt_testing.in_process import application
+    from rqt_tf_tree.dotcode_tf import RosTfTreeDotcodeGenerator
+
+    application()
+    answers = ["{}", "base: {parent: map, broadcaster: /b, rate: 10.0, buffer_length: 1.0, most_recent_transform: 5.0, "
+               "oldest_transform: 4.0}"]
+    timer = SimpleNamespace(now=lambda: SimpleNamespace(to_sec=lambda: 7.5))
+    generator, factory = RosTfTreeDotcodeGenerator(initial_listen_duration=0), PydotFactory()
+
+    def texts(**more):
+        text = generator.generate_dotcode(factory, lambda: SimpleNamespace(frame_yaml=answers[0]), timer, **more)
+        nodes, edges = DotToQtGenerator().dotcode_to_qt_items(text, 3)
+        return {node.text() for node in nodes.values()}, [edge.text() for items in edges.values() for edge in items]
+
+    assert texts() == ({"No tf data received"}, [])
+    answers.pop(0)
+    assert texts() == ({"No tf data received"}, [])  # kept until it is refreshed
+    names, edges = texts(force_refresh=True)
+    assert names == {"map", "base", "Recorded at time: 7.5"}
+    assert any("Broadcaster: /b\nAverage rate: 10.0\n" in edge for edge in edges)

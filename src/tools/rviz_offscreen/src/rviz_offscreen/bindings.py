@@ -6,9 +6,15 @@ import ctypes
 import importlib.util
 from typing import Iterator
 
-try:
+from . import qt
+
+if qt.package() != "PyQt6":
+    from PyQt5 import sip
+    from PyQt5.QtCore import QPoint, QRect
+    from PyQt5.QtGui import QImage, QPainter
+    from PyQt5.QtWidgets import QApplication, QDockWidget, QWidget
     from rviz import bindings as rviz
-except ImportError:
+else:
     from PyQt6 import sip
     from PyQt6.QtCore import QPoint, QRect
     from PyQt6.QtGui import QImage, QPainter
@@ -36,10 +42,5 @@ except ImportError:
     with _names_asked_for():
         from rviz import rviz
     rviz = getattr(rviz, "rviz", rviz)
-else:
-    from PyQt5 import sip
-    from PyQt5.QtCore import QPoint, QRect
-    from PyQt5.QtGui import QImage, QPainter
-    from PyQt5.QtWidgets import QApplication, QDockWidget, QWidget
 
 __all__ = ["QApplication", "QDockWidget", "QImage", "QPainter", "QPoint", "QRect", "QWidget", "rviz", "sip"]

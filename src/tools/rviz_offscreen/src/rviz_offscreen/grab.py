@@ -12,8 +12,11 @@ import sys
 import time
 from typing import Dict, List
 
-from . import displays, extent
-from .bindings import QApplication, QDockWidget, QImage, QPainter, QPoint, QRect, QWidget, rviz, sip
+# RViz's bindings load every module of Qt that is installed; the web engine asks for an OpenGL that OSMesa does not give.
+sys.modules.update({f"PyQt5.{name}": None for name in ("QtWebEngine", "QtWebEngineCore", "QtWebEngineWidgets")})
+
+from . import displays, extent  # noqa: E402
+from .bindings import QApplication, QDockWidget, QImage, QPainter, QPoint, QRect, QWidget, rviz, sip  # noqa: E402
 
 _SETTLE_FRAMES = 3  # frames to draw after a change before the picture is taken: OGRE shows it one or two frames later
 

@@ -4,7 +4,9 @@
     from python_qt_binding.QtWidgets import QWidget
 
 ``QT_BINDING`` is ``pyqt`` or ``pyside``, ``QT_BINDING_VERSION`` its version, ``QT_BINDING_MODULES`` the modules by name. PyQt
-is preferred; set ``sys.SELECT_QT_BINDING`` or ``sys.SELECT_QT_BINDING_ORDER`` before the first import to choose otherwise.
+is preferred; set ``sys.SELECT_QT_BINDING`` or ``sys.SELECT_QT_BINDING_ORDER`` before the first import to choose otherwise. Of the
+same binding's versions Qt 5's comes first, which is what plugins are written for; the environment variable ``QT_API=pyqt6``
+(``pyside6``) asks for Qt 6's, as it does of matplotlib.
 """
 import sys
 

@@ -17,8 +17,9 @@ _OPTIONAL = ("QtBluetooth", "QtDBus", "QtDesigner", "QtHelp", "QtLocation", "QtM
 
 
 def _packages(binding: str) -> List[str]:
-    """One that the process has loaded already comes first."""
-    return sorted(_PACKAGES[binding], key=lambda package: f"{package}.QtCore" not in sys.modules)
+    """One that the process has loaded already comes first, then the one that QT_API names."""
+    wanted = os.environ.get("QT_API", "").lower()
+    return sorted(_PACKAGES[binding], key=lambda package: (f"{package}.QtCore" not in sys.modules, package.lower() != wanted))
 
 
 def _load(package: str) -> Dict[str, ModuleType]:
@@ -59,6 +60,8 @@ QT_BINDING_VERSION: str = (_core.PYQT_VERSION_STR if QT_BINDING == "pyqt"
 os.environ["QT_API"] = QT_BINDING if _package in ("PyQt5", "PySide2") else _package.lower()  # matplotlib reads it
 for _one, _other in (("Signal", "pyqtSignal"), ("Slot", "pyqtSlot"), ("Property", "pyqtProperty")):
     setattr(_core, *(_one, getattr(_core, _other)) if QT_BINDING == "pyqt" else (_other, getattr(_core, _one)))
+if _package == "PyQt6":
+    importlib.import_module("python_qt_binding.qt5_names").add(QT_BINDING_MODULES)
 for _name, _module in QT_BINDING_MODULES.items():
     sys.modules.setdefault(_name, _module)  # `import QtCore` works too, as with upstream
 

@@ -4,8 +4,8 @@ import signal
 import sys
 import threading
 
+from node_signals.display import missing_display
 from qt_gui import options as command_line
-from qt_gui.display import missing_display
 from qt_gui.errors import PerspectiveError, UsageError
 
 

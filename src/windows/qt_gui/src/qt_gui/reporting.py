@@ -9,7 +9,7 @@ from typing import Callable, Dict, List, Tuple
 from python_qt_binding import QtCore
 
 _CYAN, _RED, _RESET = "\033[36m", "\033[31m", "\033[0m"
-_NOISE = ("This plugin does not support", "QStandardPaths: ", "QXcbConnection: XCB error")  # of no use to anybody
+_NOISE = ("This plugin does not support", "QStandardPaths: ", "QXcbConnection: XCB error", "OpenType support missing")  # of no use to anybody
 _options = {"verbose": False}
 _seen: Dict[Tuple, int] = {}
 listeners: List[Callable[[str], None]] = []  # each is given every warning and error, for tests
@@ -57,7 +57,7 @@ def _on_unraisable(unraisable) -> None:
 
 def _on_message(kind, _context, text) -> None:
     level = getattr(kind, "value", kind)  # 0 debug, 1 warning, 2 critical, 3 fatal, 4 info in every binding
-    if level in (0, 4) and not _options["verbose"] or text.startswith(_NOISE):
+    if level in (0, 4) and not _options["verbose"] or text.lstrip().startswith(_NOISE):
         return
     if level not in (0, 4):
         for listener in listeners:

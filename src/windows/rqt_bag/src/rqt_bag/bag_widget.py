@@ -7,13 +7,18 @@ import time
 import rosgraph
 from python_qt_binding.QtCore import QSize, Qt, Signal, qWarning
 from python_qt_binding.QtGui import QIcon
-from python_qt_binding.QtWidgets import QFileDialog, QHBoxLayout, QLabel, QProgressBar, QScrollArea, QToolButton, QVBoxLayout, QWidget
+from python_qt_binding.QtWidgets import (QFileDialog, QGraphicsView, QHBoxLayout, QLabel, QProgressBar, QScrollArea, QToolButton,
+                                         QVBoxLayout, QWidget)
 
 from rqt_bag.bag_helper import filesize_to_str
 from rqt_bag.bag_timeline import BagTimeline
 from rqt_bag.timeline_frame import TimelineFrame, date_text
 from rqt_bag.timeline_menu import TimelinePopupMenu
 from rqt_bag.topic_selection import TopicSelection
+
+
+class BagGraphicsView(QGraphicsView):
+    """A plain view, for time lines of other packages that are scenes."""
 
 
 class BagWidget(QWidget):

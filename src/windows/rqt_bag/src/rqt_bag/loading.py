@@ -1,35 +1,12 @@
 """Finds the plugins that packages export for rqt_bag."""
 from __future__ import annotations
 
-import os
-import xml.etree.ElementTree as ET
-from typing import Dict, Iterator, List, Tuple
+from typing import Dict, List, Tuple
 
-import rospkg
 from python_qt_binding.QtCore import qWarning
-from rqt_gui.ros_plugin_provider import RosPluginProvider
+from rqt_gui.rospkg_plugin_provider import RospkgPluginProvider
 
 from rqt_bag.plugins.raw_view import RawView
-
-
-class _Provider(RosPluginProvider):
-    """Classes that packages export with the tag ``rqt_bag``."""
-
-    def __init__(self):
-        super().__init__("rqt_bag", "rqt_bag::Plugin")
-
-    def _find_plugins(self, export_tag: str, discovery_data) -> Iterator[Tuple[str, str]]:
-        rospack = rospkg.RosPack()
-        for package in rospack.list():
-            folder = rospack.get_path(package)
-            try:
-                with open(os.path.join(folder, "package.xml"), "rb") as file:
-                    text = file.read()
-                if b"<rqt_bag" in text:  # most packages have none, and parsing is what takes time
-                    for export in ET.fromstring(text).iterfind(f"export/{export_tag}[@plugin]"):
-                        yield package, export.get("plugin").replace("${prefix}", folder)
-            except (OSError, ET.ParseError):
-                continue  # other tools tell what is wrong with a manifest
 
 
 def load_plugins() -> Tuple[Dict[str, List[type]], Dict[str, type]]:
@@ -37,7 +14,7 @@ def load_plugins() -> Tuple[Dict[str, List[type]], Dict[str, type]]:
 
     A plugin that cannot be loaded is told, and left out.
     """
-    provider = _Provider()
+    provider = RospkgPluginProvider("rqt_bag", "rqt_bag::Plugin")
     views: Dict[str, List[type]] = {}
     renderers: Dict[str, type] = {}
     for descriptor in provider.discover(None):

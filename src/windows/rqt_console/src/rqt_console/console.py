@@ -25,7 +25,7 @@ class Console(Plugin):
         self.setObjectName("Console")
         self._limit, self._topic, self._subscriber = LIMIT, "/rosout_agg", None
         self._queue = deque(maxlen=LIMIT)
-        self._widget = ConsoleWidget(self._limit)
+        self._widget = ConsoleWidget(message_limit=self._limit)
         if context.serial_number() > 1:
             self._widget.setWindowTitle(f"Console ({context.serial_number()})")
         context.add_widget(self._widget)
@@ -41,6 +41,11 @@ class Console(Plugin):
     @property
     def widget(self) -> ConsoleWidget:
         return self._widget
+
+    @staticmethod
+    def convert_rosgraph_log_message(log: Log) -> Message:
+        """A rosgraph_msgs/Log as what MessageDataModel takes."""
+        return Message.from_log(log)
 
     def queue_message(self, log: Log) -> None:
         """Called in rospy's thread."""
@@ -94,7 +99,7 @@ class Console(Plugin):
     def save_settings(self, plugin_settings, instance_settings) -> None:
         instance_settings.set_value("topic", self._topic)
         instance_settings.set_value("message_limit", self._limit)
-        self._widget.save_settings(instance_settings)
+        self._widget.save_settings(plugin_settings, instance_settings)
 
     def restore_settings(self, plugin_settings, instance_settings) -> None:
         try:
@@ -102,4 +107,4 @@ class Console(Plugin):
         except (TypeError, ValueError):
             limit = LIMIT
         self._configure(instance_settings.value("topic", self._topic), limit)
-        self._widget.restore_settings(instance_settings)
+        self._widget.restore_settings(plugin_settings, instance_settings)

@@ -1,26 +1,35 @@
 """The console: table, buttons, rules."""
+from types import SimpleNamespace
+
+import rospy
 from python_qt_binding.QtCore import QSize, Qt
 from python_qt_binding.QtGui import QIcon
-from python_qt_binding.QtWidgets import (QApplication, QDialog, QDialogButtonBox, QFileDialog, QHBoxLayout, QHeaderView, QLabel, QMenu,
-                                         QMessageBox, QPushButton, QSplitter, QTableView, QTextEdit, QToolButton, QVBoxLayout, QWidget)
+from python_qt_binding.QtWidgets import (QApplication, QDialog, QFileDialog, QHBoxLayout, QHeaderView, QLabel, QMenu, QMessageBox,
+                                         QPushButton, QSplitter, QTableView, QToolButton, QVBoxLayout, QWidget)
 
 from . import saved_messages
-from .filters.filter_collection import FilterCollection
+from .filters import stored
+from .message import SEVERITIES
 from .message_data_model import COLUMNS, MessageDataModel
 from .rule_widgets import RuleBox
+from .text_browse_dialog import TextBrowseDialog
 
 _WIDTHS = (60, 320, 70, 140, 240, 140, 200)  # px
 
 
 class ConsoleWidget(QWidget):
-    """``model`` holds the messages; whoever receives them calls :meth:`take`."""
+    """``model`` holds the messages; whoever receives them calls :meth:`take`, or inserts them into the model.
 
-    def __init__(self, message_limit: int = 20000):
+    :param proxy_model: a MessageProxyModel of a MessageDataModel to show; a model is made without. :param rospack: not needed here.
+    :param minimal: for dashboards: no files, the rules folded away.
+    """
+
+    def __init__(self, proxy_model=None, rospack=None, minimal: bool = False, message_limit: int = 20000):
         super().__init__()
         self.setObjectName("ConsoleWidget")
         self.setWindowTitle("Console")
-        exclude, highlight = FilterCollection(), FilterCollection()
-        self.model = MessageDataModel(exclude, highlight, message_limit)
+        self.model = MessageDataModel(message_limit) if proxy_model is None else proxy_model.sourceModel()
+        exclude, highlight = self.model.exclude_filters, self.model.highlight_filters
         self.exclude_box = RuleBox("Exclude Messages...", exclude, self.model)
         self.highlight_box = RuleBox("Highlight Messages...", highlight, self.model)
         exclude.changed.connect(self.model.refilter)
@@ -29,6 +38,10 @@ class ConsoleWidget(QWidget):
         self.table_view = self._table()
         self._buttons()
         self._arrange()
+        if minimal:
+            for button in (self.load_button, self.save_button, self.column_button):
+                button.hide()
+            self.splitter.setSizes([1, 0, 0])
         self.model.counts_changed.connect(self._show_counts)
         self._show_counts()
 
@@ -39,6 +52,27 @@ class ConsoleWidget(QWidget):
         """Show new messages, unless paused."""
         if messages and not self.paused:
             self.model.insert_rows(messages)
+
+    @property
+    def _paused(self) -> bool:  # dashboards look here before they insert messages
+        return self.paused
+
+    def get_message_summary(self, start_time_offset: float = 240, end_time_offset: float = 0) -> SimpleNamespace:
+        """How many messages of each severity there were, as attributes ``fatal``, ``error``, ``warn``, ``info`` and ``debug``.
+
+        :param start_time_offset: s before now from which on. :param end_time_offset: s before now until when.
+        """
+        now = rospy.get_time()
+        counts = dict.fromkeys(SEVERITIES, 0)
+        for message in self.model.messages_since(now - start_time_offset):
+            if message.severity in counts and message.stamp[0] + message.stamp[1] * 1e-9 <= now - (end_time_offset or 0):
+                counts[message.severity] += 1
+        return SimpleNamespace(**{name.lower(): counts[level] for level, name in SEVERITIES.items()})
+
+    def cleanup_browsers_on_close(self) -> None:
+        """Close the windows with messages in full."""
+        for dialog in self.findChildren(TextBrowseDialog):
+            dialog.close()
 
     def _table(self) -> QTableView:
         table = QTableView()
@@ -151,19 +185,9 @@ class ConsoleWidget(QWidget):
 
     def browse(self, messages) -> QDialog:
         """Messages in full, to read and copy."""
-        dialog = QDialog(self)
+        dialog = TextBrowseDialog("".join(message.pretty_print() for message in messages), parent=self)
         dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         dialog.setWindowTitle("Message" if len(messages) == 1 else f"{len(messages)} messages")
-        dialog.resize(700, 400)
-        text = QTextEdit()
-        text.setObjectName("message_text")
-        text.setReadOnly(True)
-        text.setPlainText("".join(message.pretty_print() for message in messages))
-        close = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)
-        close.rejected.connect(dialog.close)
-        layout = QVBoxLayout(dialog)
-        layout.addWidget(text)
-        layout.addWidget(close)
         dialog.show()
         return dialog
 
@@ -214,27 +238,22 @@ class ConsoleWidget(QWidget):
 
     # settings
 
-    def save_settings(self, settings) -> None:
+    def save_settings(self, plugin_settings, settings) -> None:
         header = self.table_view.horizontalHeader()
         settings.set_value("hidden_columns", [str(column) for column in range(len(COLUMNS)) if header.isSectionHidden(column)])
         settings.set_value("header_state", header.saveState())
         settings.set_value("splitter_sizes", self.splitter.saveState())
-        settings.set_value("exclude_rules", repr(self.exclude_box.state()))
-        settings.set_value("highlight_rules", repr(self.highlight_box.state()))
+        stored.store(settings, "exclude", self.exclude_box.state())
+        stored.store(settings, "highlight", self.highlight_box.state())
         settings.set_value("show_highlighted_only", self.only_button.isChecked())
         settings.set_value("paused", self.paused)
 
-    def restore_settings(self, settings) -> None:
-        import ast
-
+    def restore_settings(self, plugin_settings, settings) -> None:
         for key, restore in (("header_state", self.table_view.horizontalHeader().restoreState),
                              ("splitter_sizes", self.splitter.restoreState)):
             if settings.contains(key):
                 restore(settings.value(key))
-        for key, box in (("exclude_rules", self.exclude_box), ("highlight_rules", self.highlight_box)):
-            try:
-                box.restore(ast.literal_eval(settings.value(key, "[]") or "[]"))
-            except (ValueError, SyntaxError, TypeError, AttributeError):  # written by hand, or by another version
-                box.restore([])
+        self.exclude_box.restore(stored.load(settings, "exclude", [["severity", True, {}]]))
+        self.highlight_box.restore(stored.load(settings, "highlight", [["message", True, {}]]))
         self.only_button.setChecked(settings.value("show_highlighted_only") in (True, "true"))
         self.set_paused(settings.value("paused") in (True, "true"))

@@ -1,4 +1,5 @@
 """The table of messages: keeps the newest, hides what is excluded, sorts."""
+import itertools
 from collections import deque
 from typing import Iterable, List, Optional
 
@@ -6,6 +7,7 @@ from python_qt_binding.QtCore import QAbstractTableModel, QModelIndex, Qt, Signa
 from python_qt_binding.QtGui import QColor, QIcon
 from rosgraph_msgs.msg import Log
 
+from .filters.filter_collection import FilterCollection
 from .message import Message
 
 COLUMNS = ("#", "Message", "Severity", "Node", "Stamp", "Topics", "Location")
@@ -21,15 +23,15 @@ MESSAGE_ROLE = Qt.ItemDataRole.UserRole
 class MessageDataModel(QAbstractTableModel):
     """Newest first until :meth:`sort` says otherwise.
 
-    ``exclude_filters`` and ``highlight_filters`` are :class:`filters.filter_collection.FilterCollection` or the like; call
-    :meth:`refilter` after they have changed.
+    ``exclude_filters`` and ``highlight_filters`` are its :class:`filters.filter_collection.FilterCollection`; call :meth:`refilter`
+    after they have changed.
     """
 
     counts_changed = Signal()
 
-    def __init__(self, exclude_filters, highlight_filters, message_limit: int = 20000):
+    def __init__(self, message_limit: int = 20000):
         super().__init__()
-        self._exclude, self._highlight = exclude_filters, highlight_filters
+        self.exclude_filters, self.highlight_filters = FilterCollection(), FilterCollection()
         self.only_highlighted = False
         self._limit = message_limit
         self._all = deque()
@@ -62,7 +64,7 @@ class MessageDataModel(QAbstractTableModel):
             text = _TEXTS[index.column()](message)
             return text if "\n" not in text else text.replace("\n", " ")
         if role == Qt.ItemDataRole.ForegroundRole:
-            if self._highlight.active() and not self._highlight.test_message(message):
+            if self.highlight_filters.active() and not self.highlight_filters.test_message(message):
                 return self._grey
             return self._colors.get(message.severity)
         if role == Qt.ItemDataRole.DecorationRole and index.column() == 1:
@@ -87,6 +89,13 @@ class MessageDataModel(QAbstractTableModel):
 
     def message_of_row(self, row: int) -> Message:
         return self._shown[len(self._shown) - 1 - row if self._descending else row]
+
+    def get_message_limit(self) -> int:
+        return self._limit
+
+    def messages_since(self, seconds: float) -> List[Message]:
+        """Messages whose stamp, in s, is at least this, the newest first; looked for among the newest until one is older."""
+        return list(itertools.takewhile(lambda m: m.stamp[0] + m.stamp[1] * 1e-9 >= seconds, reversed(self._all)))
 
     def set_message_limit(self, limit: int) -> None:
         self._limit = limit
@@ -138,9 +147,9 @@ class MessageDataModel(QAbstractTableModel):
         return (min(times), max(times)) if times else None
 
     def _is_shown(self, message: Message) -> bool:
-        if self._exclude.test_message(message):
+        if self.exclude_filters.test_message(message):
             return False
-        return not (self.only_highlighted and self._highlight.active()) or self._highlight.test_message(message)
+        return not (self.only_highlighted and self.highlight_filters.active()) or self.highlight_filters.test_message(message)
 
     def _trim(self) -> None:
         excess = len(self._all) - self._limit

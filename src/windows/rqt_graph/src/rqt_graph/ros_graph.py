@@ -11,7 +11,7 @@ from rqt_graph.background import Latest
 from rqt_graph.command import add_arguments
 from rqt_graph.dotcode import NODE_NODE_GRAPH, NODE_TOPIC_ALL_GRAPH, NODE_TOPIC_GRAPH, Options, Statistics, generate_dot
 from rqt_graph.graph_pane import GraphPane
-from rqt_graph.ros_state import NoMaster, read, service_types
+from rqt_graph.ros_state import WONKY, NoMaster, read, service_types
 from rqt_graph.toolbar import Row
 from rqt_gui_py.plugin import Plugin
 
@@ -60,6 +60,7 @@ class RosGraph(Plugin):
         self._statistics_came.connect(self._on_statistics)
         self._types_came.connect(self._on_types)
         self.pane.tool_tip_wanted.connect(self._on_tool_tip)
+        self.pane.drawn.connect(self._tell_hidden)
         QShortcut(QKeySequence("Ctrl+R"), self._widget, self.refresh).setContext(Qt.ShortcutContext.WidgetWithChildrenShortcut)
         context.add_widget(self._widget)
         self._subscriber = rospy.Subscriber("/statistics", TopicStatistics, self._statistics_came.emit, queue_size=100)
@@ -146,6 +147,17 @@ class RosGraph(Plugin):
         """Draw what has been read, by the options."""
         if self._state is not None and not self._loaded:
             self.pane.show_dot(generate_dot(self._state, self.options(), self._statistics))
+            self._tell_hidden()
+
+    def _tell_hidden(self):
+        """A line for nodes that were too slow to answer, as on a busy machine: without them the graph may be empty."""
+        if self._state is None or self._loaded:
+            return
+        slow = sorted(node for node, bad in self._state.bad.items() if bad == WONKY)
+        if slow and self.options().hide_unreachable:
+            more = f" and {len(slow) - 3} more" if len(slow) > 3 else ""
+            self.pane.show_problem(f"not shown, because they gave no answer within a second: {', '.join(slow[:3])}{more}; "
+                                   "Refresh asks again, and without Unreachable they are drawn in orange")
 
     def _set_auto(self):
         self._timer.start(_PERIOD) if self.auto_box.isChecked() else self._timer.stop()
@@ -158,10 +170,7 @@ class RosGraph(Plugin):
             self._loaded = False
 
     def _on_statistics(self, message):
-        period = message.period_mean.to_sec()
-        window = (message.window_stop - message.window_start).to_sec()
-        self._statistics[(message.node_pub, message.topic, message.node_sub)] = Statistics(
-            1 / period if period > 0 else 0.0, message.stamp_age_mean.to_sec(), message.traffic / window if window > 0 else 0.0)
+        self._statistics[(message.node_pub, message.topic, message.node_sub)] = Statistics.of(message)
 
     # tool tips: services of a node with their types, type of a topic; asked for when the mouse rests on it
 

@@ -13,7 +13,7 @@ from qt_gui.plugin_descriptor import PluginDescriptor
 from rqt_gui.ros_plugin_provider import RosPluginProvider, describe_menu
 
 _MANIFESTS = ("package.xml", "manifest.xml")
-_MENTIONS = re.compile(rb"<\s*r?qt_gui\b")
+_WINDOWS = ("qt_gui", "rqt_gui")  # looked for together, at every start
 
 
 class RospkgPluginProvider(RosPluginProvider):
@@ -28,7 +28,8 @@ class RospkgPluginProvider(RosPluginProvider):
             RospkgPluginProvider.rospack = rospkg.RosPack()
 
     def _find_plugins(self, export_tag, discovery_data):
-        return [(package, path) for package, tag, path in exports(RospkgPluginProvider.rospack) if tag == export_tag]
+        tags = _WINDOWS if export_tag in _WINDOWS else (export_tag,)
+        return [(package, path) for package, tag, path in exports(RospkgPluginProvider.rospack, tags) if tag == export_tag]
 
     def package_path(self, package, path):
         return _known["paths"][package]
@@ -59,12 +60,16 @@ class CompiledPluginProvider(RospkgPluginProvider):
 _known = {}  # of the last RosPack asked: several providers ask for the same
 
 
-def exports(rospack):
-    """(package, tag, description file) of all exports of plugins, in the order of the packages' names."""
+def exports(rospack, tags=_WINDOWS):
+    """(package, tag, description file) of all exports of plugins under these tags, in the order of the packages' names."""
     if _known.get("of") is not rospack:
+        _known.clear()
         _known.update(of=rospack, paths=_packages(rospack))
-        _known["exports"] = [entry for package, folder in sorted(_known["paths"].items()) for entry in _of_package(package, folder)]
-    return _known["exports"]
+    if tags not in _known:
+        mentions = re.compile(rb"<\s*(" + "|".join(map(re.escape, tags)).encode() + rb")\b")
+        _known[tags] = [entry for package, folder in sorted(_known["paths"].items())
+                        for entry in _of_package(package, folder, tags, mentions)]
+    return _known[tags]
 
 
 def _packages(rospack):
@@ -87,7 +92,7 @@ def _packages(rospack):
     return found
 
 
-def _of_package(package, folder):
+def _of_package(package, folder, tags, mentions):
     for manifest in _MANIFESTS:
         path = os.path.join(folder, manifest)
         try:
@@ -98,9 +103,9 @@ def _of_package(package, folder):
         except OSError as error:
             qWarning(f"package {package}: {path} cannot be read: {error.strerror}")
             return
-        if _MENTIONS.search(data):  # most packages do not, and parsing is what takes time
+        if mentions.search(data):  # most packages do not, and parsing is what takes time
             root = ET.fromstring(data)
             for element in root.iterfind("export/*"):
-                if element.tag in ("qt_gui", "rqt_gui") and element.get("plugin"):
+                if element.tag in tags and element.get("plugin"):
                     yield package, element.tag, element.get("plugin").replace("${prefix}", folder)
         return

@@ -139,12 +139,10 @@ def from_compressed(layout: str, data, depth: DepthView = DepthView()) -> np.nda
 
 
 def _from_compressed_depth(encoding: str, way: str, data, depth: DepthView) -> np.ndarray:
-    if "rvl" in way.lower():
-        raise PictureError("depth compressed with RVL cannot be shown; set the publisher's format to png")
     if len(data) < 12:
         raise PictureError(f"compressedDepth of {len(data)} bytes lacks its 12 bytes of head")
     _, a, b = struct.unpack("<iff", bytes(data[:12]))
-    pixels = _decode(data[12:], "compressedDepth")
+    pixels = decode_rvl(bytes(data[12:])) if "rvl" in way.lower() else _decode(data[12:], "compressedDepth")
     if pixels.ndim != 2:
         raise PictureError("compressedDepth with colours in it")
     if not encoding.startswith("32FC1"):
@@ -153,6 +151,40 @@ def _from_compressed_depth(encoding: str, way: str, data, depth: DepthView) -> n
     inverse[inverse == 0] = np.nan  # no depth
     with np.errstate(divide="ignore"):
         return show_depth(np.float32(a) / (inverse - np.float32(b)), 1.0, depth)
+
+
+def decode_rvl(data: bytes) -> np.ndarray:
+    """(h, w) uint16 from columns, rows (uint32 each) and runs of zeros and differences.
+
+    A. D. Wilson's "Fast Lossless Depth Image Compression" (SIGCHI 2017) packs them as numbers of groups of three bits,
+    the lowest first, in the nibbles of words of 32 bits.
+
+    :raises PictureError: data that is cut short or no such image.
+    """
+    columns, rows = struct.unpack("<II", data[:8]) if len(data) >= 8 else (0, 0)
+    count = columns * rows
+    if not 0 < count <= _MOST_PIXELS:
+        raise PictureError(f"a depth image of {columns}x{rows} pixels compressed with RVL cannot be shown")
+    words = np.frombuffer(data, "<u4", (len(data) - 8) // 4, 8)
+    nibbles = ((words[:, None] >> np.arange(28, -4, -4, np.uint32)) & 15).ravel()
+    ends = np.flatnonzero(nibbles < 8)  # the fourth bit says that the number goes on
+    starts = np.concatenate(([0], ends[:-1] + 1))
+    numbers = np.zeros(0, np.int64)
+    if len(ends):
+        place = np.arange(ends[-1] + 1) - np.repeat(starts, ends - starts + 1)
+        numbers = np.add.reduceat((nibbles[:ends[-1] + 1] & 7).astype(np.int64) << np.minimum(3 * place, 60), starts)
+    pixels, runs, differences, at, done = np.zeros(count, np.uint16), [], [], 0, 0
+    while done < count:
+        zeros, others = (int(number) for number in numbers[at:at + 2]) if at + 2 <= len(numbers) else (count, count)
+        if done + zeros + others > count or at + 2 + others > len(numbers) or zeros + others == 0:
+            raise PictureError(f"{len(data)} bytes of RVL are no depth image of {columns}x{rows} pixels, or cut short")
+        runs.append(np.arange(done + zeros, done + zeros + others))
+        differences.append(numbers[at + 2:at + 2 + others])
+        at, done = at + 2 + others, done + zeros + others
+    differences = np.concatenate(differences)
+    values = np.cumsum((differences >> 1) ^ -(differences & 1))  # each from the pixel before it that is not 0
+    pixels[np.concatenate(runs)] = values.astype(np.uint16)
+    return pixels.reshape(rows, columns)
 
 
 def _decode(data, layout: str) -> np.ndarray:
@@ -186,7 +218,7 @@ class TheoraDecoder:
             return None
         try:
             frames = self._context.decode(self._av.Packet(data)) if data else []
-        except self._av.AVError as error:
+        except self._av.error.FFmpegError as error:
             raise PictureError(f"a theora packet of {len(data)} bytes cannot be decoded: {error}") from None
         return _full_range(frames[-1]) if frames else None
 

@@ -1,189 +1,129 @@
-"""The picture: a map, what is drawn on it, and the mouse that sets poses."""
+"""The picture with its buttons, and the dialog of its topics."""
 from __future__ import annotations
 
-import math
-from typing import Dict, List, Optional
+import threading
+from typing import List, Sequence
 
-import numpy as np
-import rospy
+import rosgraph
 import tf2_ros
-from geometry_msgs.msg import PolygonStamped, PoseStamped, PoseWithCovarianceStamped
-from nav_msgs.msg import OccupancyGrid, Path
-from python_qt_binding.QtCore import QPointF, Qt, Signal, qWarning
-from python_qt_binding.QtGui import QColor, QImage, QPainter, QPainterPath, QPen, QPixmap, QPolygonF
-from python_qt_binding.QtWidgets import QGraphicsScene, QGraphicsView
+from python_qt_binding.QtCore import Qt, Signal, qWarning
+from python_qt_binding.QtWidgets import (QComboBox, QDialog, QDialogButtonBox, QFormLayout, QHBoxLayout, QListWidget, QListWidgetItem,
+                                         QPushButton, QVBoxLayout, QWidget)
+from rqt_py_common.ini_helper import pack, unpack
 
-from rqt_nav_view.geometry import MapError, map_pixels, points_of, quaternion_of, transformed, yaw
+from rqt_nav_view.map_view import NavView
 
-_COLORS = [QColor(*rgb) for rgb in ((238, 34, 116), (68, 134, 252), (200, 180, 20), (60, 180, 18), (242, 156, 6), (240, 64, 10),
-                                    (196, 30, 250))]
-#: variances of the pose that is set: x, y in m^2, yaw in rad^2
-_COVARIANCE = {0: 0.25, 7: 0.25, 35: 0.06853891945200942}
+MAP_TOPIC = "/map"
+PATHS = ["/move_base/NavFn/plan", "/move_base/TrajectoryPlannerROS/local_plan"]
+POLYGONS = ["/move_base/local_costmap/robot_footprint"]
+_TYPES = {"nav_msgs/OccupancyGrid": "map", "nav_msgs/Path": "paths", "geometry_msgs/PolygonStamped": "polygons"}
 
 
-class NavView(QGraphicsView):
-    """Shows a map in metres, y up, and lines in its frame.
+class _TopicDialog(QDialog):
+    """Asks for the topics. :param found: kind -> topics that there are. :param chosen: kind -> topics that are shown."""
 
-    :param tf_buffer: knows the frames of paths and polygons.
-    """
-
-    _map_came = Signal(object, object)
-    _line_came = Signal(str, object)
-    _failed = Signal(str)
-
-    def __init__(self, map_topic: str, paths: List[str], polygons: List[str], tf_buffer: tf2_ros.Buffer, parent=None):
+    def __init__(self, found, chosen, parent):
         super().__init__(parent)
-        self.setObjectName("nav_view")
-        self.setDragMode(QGraphicsView.DragMode.ScrollHandDrag)
-        self.setRenderHint(QPainter.RenderHint.Antialiasing)
-        self.setTransformationAnchor(QGraphicsView.ViewportAnchor.AnchorUnderMouse)
-        self.scale(20, -20)  # pixels per metre
-        self._scene = QGraphicsScene(self)
-        self.setScene(self._scene)
-        self._tf = tf_buffer
-        self.frame_id = ""
-        self._map_item = None
-        self._lines: Dict[str, object] = {}
-        self._mode = ""
-        self._pressed: Optional[QPointF] = None
-        self._arrow = None
-        self._told: set = set()
-        self._map_came.connect(self._show_map)
-        self._line_came.connect(self._show_line)
-        self._failed.connect(self._tell)
-        self._publishers = {
-            "pose": rospy.Publisher("/initialpose", PoseWithCovarianceStamped, queue_size=100),
-            "goal": rospy.Publisher("/move_base_simple/goal", PoseStamped, queue_size=100)}
-        self._subscribers = [rospy.Subscriber(map_topic, OccupancyGrid, self.map_cb)]
-        for number, (name, kind) in enumerate([(name, Path) for name in paths] + [(name, PolygonStamped) for name in polygons]):
-            self._lines[name] = None
-            self._subscribers.append(rospy.Subscriber(
-                name, kind, lambda message, name=name: self.line_cb(name, message), queue_size=1))
-        self._colors = {name: _COLORS[number % len(_COLORS)] for number, name in enumerate(self._lines)}
+        self.setWindowTitle("Navigation Viewer")
+        self.map = QComboBox()
+        self.map.setEditable(True)
+        self.map.addItems(sorted(set(found["map"]) | set(chosen["map"])))
+        self.map.setCurrentText(chosen["map"][0])
+        form = QFormLayout(self)
+        form.addRow("Map", self.map)
+        self.lists = {}
+        for kind in ("paths", "polygons"):
+            self.lists[kind] = QListWidget()
+            for name in sorted(set(found[kind]) | set(chosen[kind])):
+                item = QListWidgetItem(name, self.lists[kind])
+                item.setCheckState(Qt.CheckState.Checked if name in chosen[kind] else Qt.CheckState.Unchecked)
+            form.addRow(kind.capitalize(), self.lists[kind])
+        box = QDialogButtonBox(QDialogButtonBox.StandardButton.Ok | QDialogButtonBox.StandardButton.Cancel)
+        box.accepted.connect(self.accept)
+        box.rejected.connect(self.reject)
+        form.addRow(box)
+
+    def checked(self, kind: str) -> List[str]:
+        items = [self.lists[kind].item(row) for row in range(self.lists[kind].count())]
+        return [item.text() for item in items if item.checkState() == Qt.CheckState.Checked]
+
+
+class NavViewWidget(QWidget):
+    """A map with paths and polygons; buttons set the robot's pose and its goal. Names of topics; those of move_base without."""
+
+    _topics_found = Signal(object)
+
+    def __init__(self, map_topic: str = MAP_TOPIC, paths: Sequence[str] = PATHS, polygons: Sequence[str] = POLYGONS):
+        super().__init__()
+        self.setObjectName("NavView")
+        self.setWindowTitle("Navigation Viewer")
+        self.map_topic, self.paths, self.polygons = map_topic, list(paths), list(polygons)
+        self._tf = tf2_ros.Buffer(debug=False)  # its service of debugging can be there but once in a node
+        self._listener = tf2_ros.TransformListener(self._tf)
+        self.view = None
+        buttons = QHBoxLayout()
+        for name, text, action in (("set_pose", "Set Pose", lambda: self.view.pose_mode()),
+                                   ("set_goal", "Set Goal", lambda: self.view.goal_mode())):
+            button = QPushButton(text)
+            button.setObjectName(name)
+            button.setToolTip("Press the mouse at the place, drag towards the heading")
+            button.clicked.connect(lambda _checked=False, action=action: action())
+            buttons.addWidget(button)
+        self._layout = QVBoxLayout(self)
+        self._layout.addLayout(buttons)
+        self._new_view()
+        self._topics_found.connect(self._ask)
+
+    def _new_view(self) -> None:
+        if self.view is not None:
+            self.view.shutdown()
+            self._layout.removeWidget(self.view)
+            self.view.deleteLater()
+        self.view = NavView(self.map_topic, self.paths, self.polygons, self._tf)
+        self._layout.addWidget(self.view, 1)
+
+    def ask_topics(self) -> None:
+        """Ask which topics are to be shown."""
+        def look() -> None:
+            found = {"map": [], "paths": [], "polygons": []}
+            try:
+                for name, kind in rosgraph.Master("/rqt_nav_view").getTopicTypes():
+                    if kind in _TYPES:
+                        found[_TYPES[kind]].append(name)
+            except (rosgraph.MasterException, OSError) as error:
+                qWarning(f"rqt_nav_view: the master does not answer: {error}")
+            self._topics_found.emit(found)
+
+        threading.Thread(target=look, daemon=True).start()
+
+    def _ask(self, found) -> None:
+        chosen = {"map": [self.map_topic], "paths": self.paths, "polygons": self.polygons}
+        self._dialog = dialog = _TopicDialog(found, chosen, self)
+        dialog.accepted.connect(lambda: self.show_topics(dialog.map.currentText(), dialog.checked("paths"), dialog.checked("polygons")))
+        dialog.open()
+
+    def show_topics(self, map_topic: str, paths: List[str], polygons: List[str]) -> None:
+        """Show other topics."""
+        self.map_topic, self.paths, self.polygons = map_topic, paths, polygons
+        self._new_view()
+
+    def save_settings(self, plugin_settings, instance_settings) -> None:
+        instance_settings.set_value("map_topic", self.map_topic)
+        instance_settings.set_value("paths", pack(self.paths))
+        instance_settings.set_value("polygons", pack(self.polygons))
+
+    def restore_settings(self, plugin_settings, instance_settings) -> None:
+        if instance_settings.contains("map_topic"):
+            self.show_topics(str(instance_settings.value("map_topic")), list(unpack(instance_settings.value("paths", [])) or []),
+                             list(unpack(instance_settings.value("polygons", [])) or []))
 
     def shutdown(self) -> None:
-        """Let go of topics."""
-        for connection in self._subscribers + list(self._publishers.values()):
-            connection.unregister()
+        """Let go of topics; the widget is of no use afterwards."""
+        if self._listener is not None:
+            self.view.shutdown()
+            self._listener.unregister()
+            self._listener = None
 
-    # Messages, in rospy's threads
-
-    def map_cb(self, message) -> None:
-        try:
-            self._map_came.emit(map_pixels(message), message)
-        except MapError as error:
-            self._failed.emit(str(error))
-
-    def line_cb(self, name: str, message) -> None:
-        points, frame = points_of(message), message.header.frame_id.lstrip("/")
-        if frame and self.frame_id and frame != self.frame_id:
-            try:
-                points = transformed(points, self._tf.lookup_transform(self.frame_id, frame, rospy.Time(0)).transform)
-            except tf2_ros.TransformException as error:
-                self._failed.emit(f"{name} is not shown: {error}")
-                return
-        self._line_came.emit(name, points[:, :2])
-
-    # The scene
-
-    def _tell(self, text: str) -> None:
-        key = text.partition(":")[0]
-        if key not in self._told:
-            self._told.add(key)
-            qWarning(f"rqt_nav_view: {text}")
-
-    def _show_map(self, pixels: np.ndarray, message) -> None:
-        first = self._map_item is None
-        if not first:
-            self._scene.removeItem(self._map_item)
-        image = QImage(np.ascontiguousarray(pixels).data, pixels.shape[1], pixels.shape[0], pixels.shape[1],
-                       QImage.Format.Format_Grayscale8)
-        self._map_item = self._scene.addPixmap(QPixmap.fromImage(image))
-        origin, resolution = message.info.origin, message.info.resolution
-        self._map_item.setZValue(-1)
-        self._map_item.setPos(origin.position.x, origin.position.y)
-        self._map_item.setRotation(math.degrees(yaw(origin.orientation)))
-        self._map_item.setScale(resolution)
-        self.frame_id = message.header.frame_id.lstrip("/")
-        self._scene.setSceneRect(self._map_item.sceneBoundingRect())
-        if first:
-            self.fitInView(self._map_item, Qt.AspectRatioMode.KeepAspectRatio)
-
-    def _show_line(self, name: str, points: np.ndarray) -> None:
-        if self._lines.get(name) is not None:
-            self._scene.removeItem(self._lines[name])
-            self._lines[name] = None
-        if len(points):
-            path = QPainterPath(QPointF(*points[0]))
-            for point in points[1:]:
-                path.lineTo(QPointF(*point))
-            pen = QPen(self._colors[name], 2)
-            pen.setCosmetic(True)
-            self._lines[name] = self._scene.addPath(path, pen)
-
-    # The mouse
-
-    def pose_mode(self) -> None:
-        """The next drag says where the robot is."""
-        self._begin("pose")
-
-    def goal_mode(self) -> None:
-        """The next drag says where the robot is to go."""
-        self._begin("goal")
-
-    def _begin(self, mode: str) -> None:
-        self._mode = mode
-        self.setDragMode(QGraphicsView.DragMode.NoDrag)
-        self.viewport().setCursor(Qt.CursorShape.CrossCursor)
-
-    def wheelEvent(self, event) -> None:
-        factor = 1.15 ** (event.angleDelta().y() / 120)
-        self.scale(factor, factor)
-
-    def mousePressEvent(self, event) -> None:
-        if self._mode and event.button() == Qt.MouseButton.LeftButton:
-            self._pressed = self.mapToScene(event.pos())
-        else:
-            super().mousePressEvent(event)
-
-    def mouseMoveEvent(self, event) -> None:
-        if self._pressed is None:
-            super().mouseMoveEvent(event)
-            return
-        self._remove_arrow()
-        end = self.mapToScene(event.pos())
-        angle = math.atan2(end.y() - self._pressed.y(), end.x() - self._pressed.x())
-        length = 40 / abs(self.transform().m11() or 1.0)
-        tip = [(length, 0), (0.6 * length, 0.2 * length), (0.6 * length, 0.05 * length), (0, 0.05 * length), (0, -0.05 * length),
-               (0.6 * length, -0.05 * length), (0.6 * length, -0.2 * length)]
-        corners = [QPointF(self._pressed.x() + x * math.cos(angle) - y * math.sin(angle),
-                           self._pressed.y() + x * math.sin(angle) + y * math.cos(angle)) for x, y in tip]
-        self._arrow = self._scene.addPolygon(QPolygonF(corners), QPen(Qt.PenStyle.NoPen), QColor("red"))
-
-    def _remove_arrow(self) -> None:
-        if self._arrow is not None:
-            self._scene.removeItem(self._arrow)
-            self._arrow = None
-
-    def mouseReleaseEvent(self, event) -> None:
-        if self._pressed is None:
-            super().mouseReleaseEvent(event)
-            return
-        begin, end, mode = self._pressed, self.mapToScene(event.pos()), self._mode
-        self._remove_arrow()
-        self._pressed, self._mode = None, ""
-        self.setDragMode(QGraphicsView.DragMode.ScrollHandDrag)
-        self._publish(mode, begin, math.atan2(end.y() - begin.y(), end.x() - begin.x()))
-
-    def _publish(self, mode: str, place: QPointF, angle: float) -> None:
-        message = PoseWithCovarianceStamped() if mode == "pose" else PoseStamped()
-        message.header.frame_id, message.header.stamp = self.frame_id or "map", rospy.Time.now()
-        pose = message.pose.pose if mode == "pose" else message.pose
-        pose.position.x, pose.position.y = place.x(), place.y()
-        pose.orientation.z, pose.orientation.w = quaternion_of(angle)
-        if mode == "pose":
-            covariance = [0.0] * 36
-            for index, value in _COVARIANCE.items():
-                covariance[index] = value
-            message.pose.covariance = covariance
-        self._publishers[mode].publish(message)
+    def closeEvent(self, event) -> None:
+        self.shutdown()
+        super().closeEvent(event)

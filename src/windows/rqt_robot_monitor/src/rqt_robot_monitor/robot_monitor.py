@@ -3,7 +3,8 @@ import time
 from collections import deque
 from typing import Dict
 
-from diagnostic_msgs.msg import DiagnosticStatus
+import rospy
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from python_qt_binding.QtCore import QSize, QTimer, Qt, Signal
 from python_qt_binding.QtGui import QColor, QIcon, QPainter
 from python_qt_binding.QtWidgets import (QDialog, QHBoxLayout, QLabel, QPlainTextEdit, QPushButton, QSplitter, QTreeWidget,
@@ -57,8 +58,15 @@ class Timeline(QWidget):
 
 
 class RobotMonitorWidget(QWidget):
-    def __init__(self):
+    """:param context: of the plugin; without one nothing is subscribed, and messages are given to :meth:`take`.
+    :param topic: of diagnostic_msgs/DiagnosticArray; /diagnostics_agg without.
+    """
+
+    _received = Signal(object)
+
+    def __init__(self, context=None, topic=None):
         super().__init__()
+        self._topic = topic or "/diagnostics_agg"
         self.setObjectName("RobotMonitor")
         self.setWindowTitle("Diagnostics Viewer")
         self._history = deque(maxlen=HISTORY)
@@ -91,12 +99,27 @@ class RobotMonitorWidget(QWidget):
         self._timer.timeout.connect(lambda: self.tell_age(time.monotonic()))
         self._timer.start(1000)
         self.tell_age(time.monotonic())
+        self._received.connect(self.take)
+        self._subscriber = None
+        if context is not None:
+            self._subscriber = rospy.Subscriber(self._topic, DiagnosticArray, self._received.emit, queue_size=10)
 
     def sizeHint(self) -> QSize:
         return QSize(650, 560)
 
-    def stop(self) -> None:
+    def shutdown(self) -> None:
+        """Hear and tell no more."""
         self._timer.stop()
+        if self._subscriber is not None:
+            self._subscriber.unregister()
+            self._subscriber = None
+
+    def save_settings(self, plugin_settings, instance_settings) -> None:
+        instance_settings.set_value("splitter", self.splitter.saveState())
+
+    def restore_settings(self, plugin_settings, instance_settings) -> None:
+        if instance_settings.contains("splitter"):
+            self.splitter.restoreState(instance_settings.value("splitter"))
 
     def take(self, message) -> None:
         """A DiagnosticArray has come."""
@@ -115,7 +138,7 @@ class RobotMonitorWidget(QWidget):
     def tell_age(self, now: float) -> None:
         """:param now: s"""
         if self._heard is None:
-            self.status_label.setText("no message on /diagnostics_agg yet; is diagnostic_aggregator running?")
+            self.status_label.setText(f"no message on {self._topic} yet; is diagnostic_aggregator running?")
         elif now - self._heard > SILENCE:
             self.status_label.setText(f"all of it is stale: the last message came {now - self._heard:.0f} s ago")
         else:

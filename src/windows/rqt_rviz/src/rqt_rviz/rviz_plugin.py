@@ -11,18 +11,25 @@ from python_qt_binding.QtWidgets import (QCheckBox, QDialog, QDialogButtonBox, Q
                                          QPushButton, QVBoxLayout, QWidget)
 from qt_gui.errors import PluginLoadError
 from rqt_gui_py.plugin import Plugin
+from rviz_offscreen import qt
 
 
 def _import_rviz():
-    """:raises PluginLoadError: RViz would end the whole window: no X display, or its binding is not there."""
+    """:raises PluginLoadError: RViz would end the whole window: no X display, another Qt, or its binding is not there."""
     if QGuiApplication.platformName() != "xcb":
         raise PluginLoadError(f"RViz draws on X displays alone, and this window is on '{QGuiApplication.platformName()}'; "
                               "set DISPLAY and QT_QPA_PLATFORM=xcb, or use rosrun rviz_offscreen screenshot")
+    needed, here = qt.package(), QWidget.__module__.partition(".")[0]
+    if needed is None:
+        raise PluginLoadError("RViz's Python module is not there; sudo apt install python3-rviz")
+    if needed != here:
+        raise PluginLoadError(f"this machine's RViz is for {needed} and this window is on {here}: run rosrun rqt_rviz rqt_rviz, or "
+                              f"QT_API={needed.lower()} rqt for a window whose plugins all are on {needed}")
     try:
-        from rviz import bindings
+        from rviz_offscreen.bindings import rviz
     except ImportError as error:
         raise PluginLoadError(f"RViz cannot be loaded: {error}; install python3-rviz") from None
-    return bindings
+    return rviz
 
 
 _frames: list = []  # the only one of this process, while no plugin shows it

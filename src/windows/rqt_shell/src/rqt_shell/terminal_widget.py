@@ -56,6 +56,8 @@ class TerminalWidget(QWidget):
             for number in (signal.SIGINT, signal.SIGPIPE, signal.SIGTERM):
                 signal.signal(number, signal.SIG_DFL)
             os.environ["TERM"] = "linux"
+            for name in ("COLUMNS", "LINES"):  # of the terminal that rqt was started in; readline exports them
+                os.environ.pop(name, None)
             os.execvp(command[0], command)
         finally:
             os._exit(127)

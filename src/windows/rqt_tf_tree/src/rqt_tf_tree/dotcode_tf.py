@@ -1,6 +1,10 @@
-"""The frames that a tf buffer knows, as DOT text. No ROS and no Qt in here."""
+"""The frames that a tf buffer knows, as DOT text. No Qt in here.
+
+:class:`RosTfTreeDotcodeGenerator` is what other packages import.
+"""
 from __future__ import annotations
 
+import time as clock
 from typing import Any, Dict
 
 import yaml
@@ -26,6 +30,10 @@ def parse(text: str) -> Dict[str, Dict[str, Any]]:
     return {str(name): values for name, values in frames.items()} if isinstance(frames, dict) else {}
 
 
+def _label(values: Dict[str, Any], line_break: str) -> str:
+    return line_break.join(f"{title}: {values.get(key)}" for title, key in _FIELDS)
+
+
 def generate_dot(frames: Dict[str, Dict[str, Any]], time: float) -> str:
     """DOT text of the tree.
 
@@ -37,9 +45,56 @@ def generate_dot(frames: Dict[str, Dict[str, Any]], time: float) -> str:
     names = set(frames) | {str(values["parent"]) for values in frames.values()}
     lines += [f"{quoted('f_' + name)} [label={quoted(name)} shape=ellipse tooltip={quoted(name)}];" for name in sorted(names)]
     for name, values in sorted(frames.items()):
-        label = "\n".join(f"{title}: {values.get(key)}" for title, key in _FIELDS)
+        label = _label(values, "\n")
         lines.append(f"{quoted('f_' + str(values['parent']))} -> {quoted('f_' + name)} [label={quoted(label)}];")
     lines.append(f"recorded [label={quoted(f'Recorded at time: {time}')} shape=box];")
     roots = sorted(names - set(frames)) or sorted(names)[:1]
     lines += [f"recorded -> {quoted('f_' + root)} [style=invis];" for root in roots]
     return "\n".join([*lines, "}", ""])
+
+
+class RosTfTreeDotcodeGenerator:
+    """Draws the tree with a factory of :mod:`qt_dotgraph`.
+
+    :param initial_listen_duration: s before the first question.
+    """
+
+    def __init__(self, initial_listen_duration: float = 1):
+        self.listen_duration = initial_listen_duration
+        self.dotcode = self.dotcode_factory = self.graph = None
+        self._look = None
+
+    def generate_dotcode(self, dotcode_factory, tf2_frame_srv, timer=None, yaml_parser=yaml, rank="same", ranksep=0.2,
+                         rankdir="TB", force_refresh=False) -> str:
+        """DOT text with positions; the last one unless that is refused or the look is another.
+
+        :param tf2_frame_srv: called without arguments, returns a tf2_msgs/FrameGraphResponse.
+        :param timer: with ``now()``; rospy.Time without.
+        """
+        look = {"rank": rank, "rankdir": rankdir, "ranksep": ranksep}
+        if force_refresh or self.dotcode is None or (dotcode_factory, look) != (self.dotcode_factory, self._look):
+            self.dotcode_factory, self._look = dotcode_factory, look
+            clock.sleep(self.listen_duration)
+            self.listen_duration = 0
+            if timer is None:
+                from rospy import Time as timer
+            self.graph = self.generate(yaml_parser.safe_load(tf2_frame_srv().frame_yaml), timer.now().to_sec())
+            self.dotcode = dotcode_factory.create_dot(self.graph)
+        return self.dotcode
+
+    def generate(self, data, timestamp: float):
+        """The factory's graph of frames as :func:`parse` returns them. :param timestamp: of the recording, s"""
+        factory = self.dotcode_factory
+        graph = factory.get_graph(**self._look)
+        if not data:
+            factory.add_node_to_graph(graph, "No tf data received")
+            return graph
+        legend = f"Recorded at time: {timestamp}"
+        factory.add_node_to_graph(graph, legend)
+        for name in sorted({*map(str, data), *(str(values["parent"]) for values in data.values())}):
+            factory.add_node_to_graph(graph, name, shape="ellipse")
+            if name not in data:
+                factory.add_edge_to_graph(graph, legend, name, style="invis")
+        for name, values in sorted(data.items()):
+            factory.add_edge_to_graph(graph, str(values["parent"]), str(name), label=_label(values, "\\n"))
+        return graph

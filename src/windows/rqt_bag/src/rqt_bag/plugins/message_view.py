@@ -1,6 +1,8 @@
 """Base of what shows the message at the playhead."""
 from python_qt_binding.QtCore import QObject
 
+from rqt_bag.message_listener_thread import ListenerEvent
+
 
 class MessageView(QObject):
     """Shows messages of one topic. Its methods are called in the GUI's thread.
@@ -23,6 +25,17 @@ class MessageView(QObject):
 
     def timeline_changed(self):
         """Messages were added."""
+
+    def event(self, event):
+        """Time lines of other packages tell of messages by an event of their own thread."""
+        if not isinstance(event, ListenerEvent):
+            return super().event(event)
+        bag, details = event.data
+        if details:
+            self.message_viewed(bag, details)
+        else:
+            self.message_cleared()
+        return True
 
     def close(self):
         """Let go of what is held."""
