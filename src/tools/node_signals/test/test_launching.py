@@ -78,10 +78,10 @@ def test_a_home_that_takes_no_files_is_replaced(tmp_path, variable):
     assert text.count("nothing can be written") == 1
 
 
-@pytest.mark.parametrize("display, times", [("", 1), (":77", 0)])
-def test_a_window_without_a_display_is_one_line_that_names_the_remedy(tmp_path, display, times):
+@pytest.mark.parametrize("display, platform, times", [("", "", 1), ("nowhere:77", "", 1), ("", "offscreen", 0)])
+def test_a_window_without_a_display_is_one_line_that_names_the_remedy(tmp_path, display, platform, times):
     windows = "".join(f'<node name="w{i}" pkg="rviz" type="rviz" args="--help"/>' for i in range(2))
-    process = launch(tmp_path, f"<launch>{windows}</launch>", DISPLAY=display, WAYLAND_DISPLAY="", QT_QPA_PLATFORM="")
+    process = launch(tmp_path, f"<launch>{windows}</launch>", DISPLAY=display, WAYLAND_DISPLAY="", QT_QPA_PLATFORM=platform)
     said = ""
     for line in process.stdout:
         said += line

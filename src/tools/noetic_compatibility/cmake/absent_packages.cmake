@@ -23,8 +23,8 @@ _noetic_absent("It belongs to the tutorials of desktop-full, is not supplied her
   actionlib_tutorials nodelet_tutorial_math pluginlib_tutorials roscpp_tutorials rospy_tutorials
   urdf_sim_tutorial visualization_marker_tutorials librviz_tutorial rviz_plugin_tutorials stage stage_ros)
 _noetic_absent("It is small, is not packaged by Debian, and builds from source in your workspace." costmap_converter ddynamic_reconfigure
-  filters laser_assembler laser_filters image_transport_plugins compressed_image_transport compressed_depth_image_transport
-  teb_local_planner smach smach_ros executive_smach geographic_msgs
+  filters laser_assembler laser_filters
+  teb_local_planner smach smach_ros executive_smach
   serial rosserial rosserial_python rosbridge_server rosauth pointcloud_to_laserscan imu_tools warehouse_ros)
 
 # _noetic_debian_packages(NAME VARIABLE): Debian's packages for a ROS package, from the rules that Debian ships for rosdep.

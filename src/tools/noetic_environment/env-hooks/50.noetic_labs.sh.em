@@ -29,9 +29,9 @@ _noetic_labs_rosdep="$CATKIN_ENV_HOOK_WORKSPACE/share/noetic_environment/rosdep"
 export ROSDEP_SOURCE_PATH="${ROSDEP_SOURCE_PATH:-$_noetic_labs_rosdep}"
 export ROSDISTRO_INDEX_URL="${ROSDISTRO_INDEX_URL:-file://$_noetic_labs_rosdep/index.yaml}"
 
-# Debian's roslib names a folder that Debian does not have, which roswtf reports as an error.
+# Debian's roslib names a folder that Debian does not have, which roswtf reports as an error, as one of another name than ros.
 if [ ! -d "$ROS_ROOT" ]; then
-  export ROS_ROOT=/usr/share/roslib
+  export ROS_ROOT="$CATKIN_ENV_HOOK_WORKSPACE/share/noetic_environment/ros"
 fi
 
 @[if DEVELSPACE]@

@@ -73,6 +73,12 @@ def test_the_distribution_is_called_noetic_without_a_word_however_often_one_sour
     assert said == ["noetic", "noetic"]
 
 
+def test_roswtf_takes_the_root_folder():
+    said = shell(f"source {SETUP_FILE}; python3 -c 'from roswtf.environment import *; from roswtf.context import *\n"
+                 "print(isdir(os.environ[\"ROS_ROOT\"]), ros_root_check(None, os.environ[\"ROS_ROOT\"]))'")
+    assert said[-1] == "True None"
+
+
 def test_add_ons_come_after_the_modules_of_all_workspaces(students_workspace):
     path, = shell(f"source {SETUP_FILE}; source {students_workspace}; echo $PYTHONPATH", PYTHONPATH="/mine")
     folders = path.split(":")

@@ -43,6 +43,24 @@ def test_an_installation_of_somebody_else_is_left_alone(tmp_path):
     tree.refuse_foreign(prefix)
 
 
+def test_a_prefix_that_cannot_be_written_is_refused_before_the_build(tmp_path):
+    (tmp_path / "file").write_text("")
+    ended = subprocess.run([ROOT / "scripts/package", "--prefix", tmp_path / "file/noetic", "--check"], capture_output=True, text=True,
+                           timeout=60)
+    assert ended.returncode == 1 and ended.stderr.count("\n") == 1 and "nothing can be written to" in ended.stderr
+    free = subprocess.run([ROOT / "scripts/package", "--prefix", tmp_path / "a/b", "--check"], capture_output=True, text=True, timeout=60)
+    assert (free.returncode, free.stderr, (tmp_path / "a").exists()) == (0, "", False)
+
+
+def test_an_older_tree_is_replaced_as_a_whole(tmp_path):
+    staged, prefix = tmp_path / "staged", tmp_path / "opt/noetic"
+    for number in ("1", "2"):
+        (staged / number).mkdir(parents=True)
+        tree.replace(prefix, staged)
+        assert [path.name for path in prefix.iterdir()] == [number] and [path.name for path in prefix.parent.iterdir()] == ["noetic"]
+        (staged / number).rmdir()
+
+
 def test_apt_reads_the_repository_and_a_later_version_is_an_upgrade(tmp_path):
     made = [debs.name_only("ros-noetic-rviz", ["rviz"], "Debian's packages of rviz",
                            debs.Release(f"0.1.0+2025010{day}000000~deb12", "amd64", 1735689600 + day)) for day in (1, 2)]

@@ -43,3 +43,21 @@ def test_a_second_setup_says_that_it_waits_and_goes_on_when_the_first_has_ended(
             first.stdin.close()
             rest = second.communicate(timeout=120)[0]
     assert second.returncode == 0 and "ready" in rest
+
+
+def needed(*arguments):
+    return subprocess.run(["/usr/bin/python3", SETUP.parent / "needed_packages.py", *arguments], capture_output=True, text=True, timeout=60)
+
+
+def test_what_the_demo_builds_is_what_it_needs_to_run():
+    found = needed("--without", "theora_image_transport", "--", "arm_gazebo").stdout.split()
+    assert {"arm_gazebo", "arm_description", "gazebo_ros", "gazebo_ros_control", "gazebo_msgs", "ode_sim", "xacro"} <= set(found)
+    for for_tests_only in ("controller_manager_tests", "control_test_robots"):
+        assert for_tests_only not in found
+    assert "theora_image_transport" not in found and "theora_image_transport" in needed("gazebo_plugins").stdout.split()
+    assert found == sorted(set(found))
+
+
+def test_an_unknown_package_is_one_line():
+    ended = needed("no_such_package")
+    assert ended.returncode == 2 and ended.stdout == "" and "this workspace has no package no_such_package" in ended.stderr

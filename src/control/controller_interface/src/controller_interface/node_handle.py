@@ -5,6 +5,7 @@ from typing import Any, Callable, List, Optional
 
 import rosgraph
 import rospy
+from node_signals import offers
 
 _KINDS = {float: "a number", int: "a whole number", bool: "true or false", str: "a text", list: "a list", dict: "a map"}
 _REQUIRED = object()
@@ -130,7 +131,7 @@ class NodeHandle:
                                          tcp_nodelay=True))
 
     def service(self, name: str, service_type: type, callback: Callable) -> rospy.Service:
-        return self.own(rospy.Service(self.resolve(name), service_type, callback))
+        return self.own(offers.service(self.resolve(name), service_type, callback))
 
     def own(self, thing: Any) -> Any:
         """Release ``thing`` (by its unregister() or shutdown()) together with the rest. :return: ``thing``."""

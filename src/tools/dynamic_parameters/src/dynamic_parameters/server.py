@@ -10,7 +10,7 @@ import rospy
 from dynamic_reconfigure.msg import (BoolParameter, Config, ConfigDescription, DoubleParameter, Group, GroupState,
                                      IntParameter, ParamDescription, StrParameter)
 from dynamic_reconfigure.srv import Reconfigure, ReconfigureResponse
-from node_signals import master_watch
+from node_signals import master_watch, offers
 
 #: Python type -> (name on the wire, field of Config, message of one value, lowest, highest)
 _TYPES = {
@@ -89,7 +89,7 @@ class Server:
         self._config = self._called_back(self._config, -1)
         self._store(self._config)
         self._updates.publish(self._encode(self._config))
-        self._service = rospy.Service(self._ns + "set_parameters", Reconfigure, self._set)
+        self._service = offers.service(self._ns + "set_parameters", Reconfigure, self._set)
         master_watch.on_return(self._restore)
 
     @property

@@ -1,1 +1,1 @@
-"""Pictures of what launch files bring up: :mod:`.cli` launches one after the other, :mod:`.visit` takes the pictures."""
+"""What launch files bring up: :mod:`.cli` takes pictures of it, :mod:`.measure` tells how the robot of one drives."""

@@ -6,25 +6,18 @@ the simulated scene, of RViz (with the launch file's own set-up, or one made of 
 from __future__ import annotations
 
 import argparse
-import contextlib
-import json
 import os
 import re
 import shlex
 import signal
-import socket
-import subprocess
 import sys
-import tempfile
-from typing import Dict, Iterator, List, Optional
+from typing import Dict, List, Optional
 
-from rviz_offscreen.display import DisplayError, private_display
+from rviz_offscreen.display import DisplayError
 
+from . import session
 from .launches import Launch, LaunchError, arguments, content, find
 from .page import Entry, render
-
-# what roslaunch prints while it ends, whatever the reason
-_FAREWELL = re.compile(r"shutting down|^done$|^log file:|killing on exit|^Initiating|^process has died|^The traceback")
 
 
 def parser() -> argparse.ArgumentParser:
@@ -43,37 +36,6 @@ def parser() -> argparse.ArgumentParser:
     return p
 
 
-def free_port() -> int:
-    with socket.socket() as s:
-        s.bind(("localhost", 0))
-        return s.getsockname()[1]
-
-
-@contextlib.contextmanager
-def running(words: List[str], environment: Dict[str, str], log: "str | os.PathLike") -> Iterator[subprocess.Popen]:
-    """roslaunch in a process group of its own, which gets Ctrl-C's signal at the end, and SIGKILL if that is in vain."""
-    with open(log, "w") as file:
-        process = subprocess.Popen(words, env=environment, stdout=file, stderr=subprocess.STDOUT,
-                                   stdin=subprocess.DEVNULL, start_new_session=True)
-        try:
-            yield process
-        finally:
-            for number in (signal.SIGINT, signal.SIGTERM, signal.SIGKILL):
-                with contextlib.suppress(ProcessLookupError):
-                    os.killpg(process.pid, number)
-                with contextlib.suppress(subprocess.TimeoutExpired):
-                    process.wait(20)
-                    break
-
-
-def last_words(log: str) -> str:
-    """The last line of roslaunch's output that says why, as far as a line can."""
-    with open(log, errors="replace") as file:
-        lines = [re.sub(r"\x1b\[[0-9;]*m|\x1b\].*?\x07", "", line).strip().strip("=") for line in file]
-    said = [line for line in lines if line and not _FAREWELL.search(line)]
-    return said[-1] if said else "nothing was printed"
-
-
 def visit(launch: Launch, given: Dict[str, str], folder: str, options: argparse.Namespace) -> Entry:
     """Launch, take pictures, stop. Never raises for what is wrong with the launch file: the entry's notes say it."""
     entry = Entry(launch.name, shlex.join(["roslaunch", *launch.words]))
@@ -88,35 +50,12 @@ def visit(launch: Launch, given: Dict[str, str], folder: str, options: argparse.
     log = os.path.join(folder, f"{stem}.log")
     job = {"folder": folder, "stem": stem, "log": log, "config": shown.rviz, "nodes": shown.nodes,
            "passing": shown.passing, "timeout": options.timeout, "size": options.size, "drive": options.drive}
-    port = free_port()
-    with private_display() as display, tempfile.TemporaryDirectory() as home:
-        # the simulator leaves shadows out where no graphics card draws; a picture in a minute can afford them
-        environment = {"ODE_SIM_SHADOWS": "on", **os.environ, **display, "ROS_HOME": home,
-                       "ROS_MASTER_URI": f"http://localhost:{port}", "PYTHONUNBUFFERED": "1"}
-        words = ["roslaunch", "-p", str(port), launch.path, *(f"{name}:={value}" for name, value in values.items())]
-        with running(words, environment, log) as process:
-            visitor = subprocess.Popen([sys.executable, "-m", "launch_gallery.visit"], env=environment, text=True,
-                                       stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-            visitor.stdin.write(json.dumps(job))
-            visitor.stdin.close()
-            visitor.stdin = None
-            while True:
-                with contextlib.suppress(subprocess.TimeoutExpired):
-                    answer, complaints = visitor.communicate(timeout=0.5)
-                    break
-                if process.poll() is not None:
-                    visitor.kill()
-            if not answer:  # the master went away: roslaunch is ending
-                with contextlib.suppress(subprocess.TimeoutExpired):
-                    process.wait(10)
-            if process.poll() is not None:
-                entry.notes.append(f"roslaunch ended by itself with code {process.returncode}: {last_words(log)}")
-            if answer:
-                found = json.loads(answer)
-                entry.pictures += [tuple(picture) for picture in found["pictures"]]
-                entry.notes += found["notes"]
-            elif process.poll() is None:
-                entry.notes.append(f"no pictures: {(complaints.strip() or 'no reason given').splitlines()[-1]}")
+    words = [launch.path, *(f"{name}:={value}" for name, value in values.items())]
+    outcome = session.look("launch_gallery.visit", words, log, job)
+    entry.notes += outcome.notes
+    if outcome.answer:
+        entry.pictures += [tuple(picture) for picture in outcome.answer["pictures"]]
+        entry.notes += outcome.answer["notes"]
     return entry
 
 

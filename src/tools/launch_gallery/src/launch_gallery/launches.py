@@ -59,7 +59,7 @@ def arguments(launch: Launch, given: Dict[str, str]) -> Dict[str, str]:
     try:
         declared = arg_dump.get_args([launch.path])
     except (core.RLException, rospkg.ResourceNotFound) as error:
-        raise LaunchError(" ".join(str(error).split())) from error
+        raise LaunchError(_one_line(error)) from error
     wanted = {**WINDOWLESS, **given}
     missing = [name for name, (_, default) in declared.items() if default is None and name not in wanted]
     if missing:
@@ -93,7 +93,13 @@ def _load(launch: Launch, values: Dict[str, str]) -> list:
     try:
         return load_config_default([(launch.path, typed)], None, verbose=False, assign_machines=False).nodes
     except (core.RLException, rospkg.ResourceNotFound) as error:
-        raise LaunchError(" ".join(str(error).split())) from error
+        raise LaunchError(_one_line(error)) from error
+
+
+def _one_line(error: Exception) -> str:
+    if isinstance(error, rospkg.ResourceNotFound):  # its text goes on with every folder that was searched
+        return f"package {error.args[0]} is not here: is its workspace built and sourced?"
+    return " ".join(str(error).split())
 
 
 def _name(node) -> str:

@@ -7,11 +7,9 @@ from __future__ import annotations
 import contextlib
 import json
 import os
-import re
 import sys
 import tempfile
 import threading
-import time
 from typing import List, Tuple
 
 import rosgraph
@@ -23,9 +21,9 @@ from rviz_offscreen.cli import ScreenshotError, missing_lines, take
 from rviz_offscreen.display import DisplayError
 from sensor_msgs.msg import Image
 
-from . import automatic, images, scene
+from . import automatic, images, scene, system
+from .system import System
 
-_QUIET = 2.0  # s without a node or topic coming or going: the launch file has finished its work
 _ANSWER = 40.0  # s of wall time for one message
 
 
@@ -36,39 +34,10 @@ class Visit:
         self.job = job
         self.pictures: List[Tuple[str, str]] = []  # file name, caption
         self.notes: List[str] = []
-        self.master = rosgraph.Master(rospy.get_name())
-
-    def wait_until_settled(self) -> None:
-        """Until all nodes of the launch file have come, those that pass have gone, and nothing comes or goes for a while."""
-        start = changed = time.monotonic()
-        before, missing = None, set()
-        seen = set()
-        while time.monotonic() - start < self.job["timeout"]:
-            now = self.master.getSystemState()
-            here = {node for registered in now for _, nodes in registered for node in nodes}
-            ended = self.ended_nodes()
-            seen |= here
-            missing = set(self.job["nodes"]) - seen - ended | set(self.job["passing"]) - ended
-            if now != before or missing:
-                before, changed = now, time.monotonic()
-            elif time.monotonic() - changed > _QUIET:
-                return
-            time.sleep(0.1)
-        what = f"not all there: {', '.join(sorted(missing))}" if missing else "nodes or topics still come and go"
-        self.notes.append(f"after {self.job['timeout']:g} s {what}")
-
-    def ended_nodes(self) -> set:
-        """Nodes of which roslaunch has said that they finished or died."""
-        with open(self.job["log"], errors="replace") as file:
-            return {"/" + name for name in re.findall(r"\[([\w/]+)-\d+\] process has", file.read())}
-
-    def published(self) -> List[Tuple[str, str]]:
-        own = rospy.get_name()
-        publishers = {topic: names for topic, names in self.master.getSystemState()[0]}
-        return [(topic, kind) for topic, kind in self.master.getTopicTypes() if set(publishers.get(topic, ())) - {own}]
+        self.system = System(job["log"], job["nodes"], job["passing"])
 
     def take_scene(self) -> None:
-        if not any(name == scene.SERVICE for name, _ in self.master.getSystemState()[2]):
+        if scene.SERVICE not in self.system.services():
             return
         try:
             self.pictures += scene.pictures(self.job["folder"], self.job["stem"], _ANSWER)
@@ -84,7 +53,7 @@ class Visit:
                 config, whose = os.path.join(folder, "automatic.rviz"), "all that is published"
                 parents = automatic.frames(1.5)
                 with open(config, "w") as file:
-                    yaml.safe_dump(automatic.config(self.published(), rospy.has_param("robot_description"),
+                    yaml.safe_dump(automatic.config(self.system.published(), rospy.has_param("robot_description"),
                                                     automatic.root_of(parents), 1.0), file)
             try:
                 result = take(config, [], os.path.join(self.job["folder"], name), size=self.job["size"], window=True,
@@ -96,7 +65,7 @@ class Visit:
         self.notes += [f"RViz: {line}" for line in missing_lines(result, self.job["timeout"])]
 
     def take_cameras(self) -> None:
-        for topic in sorted(topic for topic, kind in self.published() if kind == "sensor_msgs/Image"):
+        for topic in sorted(topic for topic, kind in self.system.published() if kind == "sensor_msgs/Image"):
             name = f"{self.job['stem']}{topic.replace('/', '-')}.png"
             try:
                 images.save(rospy.wait_for_message(topic, Image, _ANSWER), os.path.join(self.job["folder"], name))
@@ -136,14 +105,10 @@ class Driving:
 def main() -> None:
     job = json.load(sys.stdin)
     answers, sys.stdout = sys.stdout, sys.stderr
-    end = time.monotonic() + job["timeout"]
-    while not rosgraph.is_master_online():
-        if time.monotonic() > end:
-            sys.exit("no ROS master came up")
-        time.sleep(0.1)
-    rospy.init_node("launch_gallery", anonymous=True, disable_signals=True, disable_rostime=True, log_level=rospy.FATAL)
+    system.join(job["timeout"])
     visit = Visit(job)
-    visit.wait_until_settled()
+    amiss = visit.system.wait_until_settled(job["timeout"])
+    visit.notes += [amiss] if amiss else []
     visit.take_scene()
     visit.take_cameras()
     visit.take_rviz()  # last: it may drive

@@ -20,7 +20,10 @@ import rospkg
 import roslaunch
 from roslaunch import core, nodeprocess, pmon
 
+from node_signals.absent import in_one_line
 from node_signals.children import end_with_parent
+from node_signals.display import asked_for, missing_display
+from node_signals.interpreter import supply_python
 
 _PID = os.getpid()
 
@@ -100,20 +103,16 @@ def _find_place_for_logs() -> None:
               file=sys.stderr)
 
 
-_WINDOWS = ("rviz", "joint_state_publisher_gui", "image_view")  # rqt and turtlesim say so themselves
-_DISPLAYS = ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM")
-
-
 def _naming_windows_without_display(start):
     """A window on a machine without a screen ends with a page of Qt's words; one line says what to do."""
     told: Set[str] = set()
 
     def checked(process):
-        package = str(process.package)
-        if package in _WINDOWS and package not in told and not any(map(os.environ.get, _DISPLAYS)):
-            told.add(package)
-            print(f"roslaunch: {package} opens a window and there is no display (DISPLAY is not set); put scripts/offscreen "
-                  "(or: rosrun rviz_offscreen offscreen) before the command for a virtual one", file=sys.stderr, flush=True)
+        window = asked_for(["rosrun", str(process.package), os.path.basename(process.args[0])] if process.args else [""])
+        problem = missing_display() if window and window not in told else None
+        if problem:
+            told.add(window)
+            print(f"roslaunch: {window} opens a window: {problem}", file=sys.stderr, flush=True)
         return start(process)
     return checked
 
@@ -121,10 +120,12 @@ def _naming_windows_without_display(start):
 def main() -> None:
     signal.signal(signal.SIGINT, signal.SIG_DFL)  # nothing has been started yet; pmon takes over with its first process
     _find_place_for_logs()
+    supply_python(os.environ)
     subprocess.Popen = _Popen
     pmon.rl_signal = _on_signal
     core.Master.is_running = _unless_ending(core.Master.is_running)
     nodeprocess.LocalProcess._stop_unix = _master_first_by_sigterm(nodeprocess.LocalProcess._stop_unix)
     nodeprocess.LocalProcess.start = _naming_windows_without_display(nodeprocess.LocalProcess.start)
+    rospkg.ResourceNotFound.__str__ = in_one_line
     roslaunch.handle_exception = _silent_when_ending(roslaunch.handle_exception)
     roslaunch.main()

@@ -1,0 +1,69 @@
+"""The simulated robot as the simulator knows it, and how fast the simulation runs."""
+from __future__ import annotations
+
+import time
+from typing import Callable, List, Optional
+
+import rospy
+from rosservice import get_service_class_by_name
+
+from .motion import Sample, sample
+
+_STANDSTILL = 60.0  # s of wall time in which simulated time has to pass
+
+
+class TruthError(RuntimeError):
+    """The simulation cannot be followed; one line."""
+
+
+def _service(name: str, persistent: bool = False) -> rospy.ServiceProxy:
+    return rospy.ServiceProxy(f"/gazebo/{name}", get_service_class_by_name(f"/gazebo/{name}"), persistent=persistent)
+
+
+class Truth:
+    """Follows ``model``. Simulated time comes with each pose: no clock can run ahead of it."""
+
+    def __init__(self, model: str):
+        self.model = model
+        self._state = _service("get_model_state", persistent=True)
+        self._physics = _service("get_physics_properties")
+        self._set_physics = _service("set_physics_properties")
+        self._own_rate = self._physics().max_update_rate
+
+    def now(self) -> Sample:
+        """:raises TruthError: the robot is no longer there, or its pose is not a number."""
+        answer = self._state(self.model, "")
+        if not answer.success:
+            raise TruthError(f"model {self.model}: {answer.status_message}")
+        p, q = answer.pose.position, answer.pose.orientation
+        found = sample(answer.header.stamp.to_sec(), (p.x, p.y, p.z), (q.x, q.y, q.z, q.w))
+        if found.x != found.x:
+            raise TruthError(f"model {self.model}: its pose is not a number")
+        return found
+
+    def pace(self, factor: Optional[float]) -> None:
+        """:param factor: simulated seconds per wall second; 0 as fast as possible, None as the world file says."""
+        physics = self._physics()
+        rate = self._own_rate if factor is None else factor / physics.time_step
+        self._set_physics(physics.time_step, rate, physics.gravity, physics.ode_config)
+
+    def follow(self, seconds: float, meanwhile: Optional[Callable[[float], None]] = None) -> List[Sample]:
+        """Samples over ``seconds`` of simulation.
+
+        :param meanwhile: called with the simulated time about every 0.05 s of it.
+        :raises TruthError: simulated time stands still.
+        """
+        samples = [self.now()]
+        called, moved = -1.0, time.monotonic()
+        while samples[-1].time < samples[0].time + seconds:
+            if meanwhile and not called <= samples[-1].time < called + 0.05:
+                called = samples[-1].time
+                meanwhile(called)
+            rospy.rostime.wallsleep(0.02 if meanwhile else 0.1)
+            new = self.now()
+            if new.time > samples[-1].time:
+                samples.append(new)
+                moved = time.monotonic()
+            elif time.monotonic() - moved > _STANDSTILL:
+                raise TruthError(f"simulated time stands still at {new.time:g} s")
+        return samples

@@ -1,0 +1,77 @@
+"""Windows on a machine without a screen: one line that says what to do, where Qt prints a page and dumps core.
+
+``rosrun`` and ``rviz`` of this package look first whether a window is asked for, and run what comes next on PATH.
+"""
+from __future__ import annotations
+
+import ctypes
+import os
+import sys
+from typing import List, Optional
+
+from node_signals.interpreter import supply_python
+
+#: Programs that open a window and do not look for a display themselves, by package. rqt's and turtlesim's do.
+WINDOWS = {"rviz": {"rviz"}, "joint_state_publisher_gui": {"joint_state_publisher_gui"},
+           "image_view": {"image_view", "stereo_view", "disparity_view"}}
+_REMEDY = ("start it on a desktop, through ssh -X, or with scripts/offscreen COMMAND (rosrun rviz_offscreen offscreen COMMAND) "
+           "for a display that nobody sees")
+
+
+def missing_display() -> Optional[str]:
+    """One line saying what is missing and what to do, or None when a window can be shown."""
+    platform = os.environ.get("QT_QPA_PLATFORM", "").split(":")[0].split(";")[0]
+    if platform not in ("", "xcb", "wayland", "wayland-egl"):
+        return None
+    if platform != "xcb" and os.environ.get("WAYLAND_DISPLAY"):
+        return None
+    name = os.environ.get("DISPLAY")
+    if not name:
+        return f"no display to open a window on (DISPLAY is not set): {_REMEDY}"
+    try:
+        x11 = ctypes.CDLL("libX11.so.6")
+    except OSError:
+        return None
+    x11.XOpenDisplay.restype = ctypes.c_void_p
+    x11.XCloseDisplay.argtypes = [ctypes.c_void_p]
+    connection = x11.XOpenDisplay(None)
+    if not connection:
+        return f"the display {name} (DISPLAY) cannot be opened: {_REMEDY}"
+    x11.XCloseDisplay(connection)
+    return None
+
+
+def asked_for(words: List[str]) -> Optional[str]:
+    """The window that a command opens: ``rviz ...`` or ``rosrun [--prefix COMMAND] [--debug] PACKAGE PROGRAM ...``."""
+    if os.path.basename(words[0]) != "rosrun":
+        package = program = os.path.basename(words[0])
+    else:
+        words = words[1:]
+        while words and words[0].startswith("-"):
+            words = words[2 if words[0] in ("-p", "--prefix") else 1:]
+        package, program = (words + ["", ""])[:2]
+    return program if program in WINDOWS.get(package, ()) else None
+
+
+def next_on_path(command: str) -> str:
+    """The program of the same name that PATH would give without this one: another workspace's, or Debian's."""
+    name, own = os.path.basename(command), os.path.realpath(os.path.dirname(command))
+    found = [folder for folder in os.get_exec_path() if os.access(os.path.join(folder, name), os.X_OK)]
+    places = [os.path.realpath(folder) for folder in found]
+    if own in places:  # what stands before has handed over to this one
+        found = [folder for folder, place in list(zip(found, places))[places.index(own):] if place != own]
+    return os.path.join(found[0] if found else "/usr/bin", name)
+
+
+def main() -> None:
+    """Become the program that was asked for, unless it could not show its window."""
+    window = asked_for(sys.argv)
+    problem = missing_display() if window else None
+    if problem:
+        sys.exit(f"{window}: {problem}")
+    supply_python(os.environ)
+    program = next_on_path(sys.argv[0])
+    try:
+        os.execv(program, [program, *sys.argv[1:]])
+    except OSError as error:
+        sys.exit(f"{program}: {error.strerror}; scripts/setup installs it")

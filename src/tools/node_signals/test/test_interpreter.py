@@ -1,0 +1,66 @@
+"""What `#!/usr/bin/env python` finds in nodes."""
+import os
+import socket
+import subprocess
+
+import pytest
+from node_signals.interpreter import supply_python
+
+
+def program(folder, name, text="#!/bin/sh\nexit 3\n"):
+    folder.mkdir(exist_ok=True)
+    (folder / name).write_text(text)
+    (folder / name).chmod(0o755)
+
+
+@pytest.fixture
+def debian(tmp_path):
+    """A folder with Debian's python3 and no python."""
+    folder = tmp_path / "debian"
+    folder.mkdir()
+    (folder / "python3").symlink_to("/usr/bin/python3")
+    return folder
+
+
+@pytest.mark.parametrize("another", [False, True])
+def test_python_is_debians_where_there_is_none_or_another(tmp_path, debian, another):
+    if another:
+        program(tmp_path / "pyenv", "python")
+    environment = {"PATH": f"{tmp_path / 'pyenv'}:{debian}"}
+    supply_python(environment)
+    node = tmp_path / "node"
+    program(tmp_path, "node", "#!/usr/bin/env python\nimport sys, rospy\nprint(sys.argv[1:], sys.version_info[0])\n")
+    answer = subprocess.run([node, "a b"], env={**os.environ, **environment}, capture_output=True, text=True)
+    assert answer.stdout == "['a b'] 3\n", answer.stderr
+    added = environment["PATH"].split(":")[0]
+    assert os.listdir(added) == ["python"], "nothing else is displaced"
+    before = dict(environment)
+    supply_python(environment)
+    assert environment == before
+
+
+def test_an_environment_that_knows_python_stays(tmp_path, debian):
+    (debian / "python").symlink_to("python3")
+    for folder in (debian, tmp_path / "conda"):
+        program(tmp_path / "conda", "python3")  # a python3 of its own, with or without rospy
+        environment = {"PATH": str(folder)}
+        supply_python(environment)
+        assert environment == {"PATH": str(folder)}
+
+
+@pytest.mark.parametrize("command", ["rosrun old_nodes talk", "roslaunch old_nodes talk.launch"])
+def test_the_commands_give_it_to_nodes(tmp_path, debian, command):
+    package = tmp_path / "old_nodes"
+    program(package, "talk", "#!/usr/bin/env python\nimport rospy\nprint('it talks')\n")
+    program(tmp_path / "pyenv", "python")
+    (package / "package.xml").write_text("<package><name>old_nodes</name><version>1.0.0</version></package>")
+    (package / "talk.launch").write_text(
+        '<launch><node name="talk" pkg="old_nodes" type="talk" output="screen" required="true"/></launch>')
+    with socket.socket() as probe:
+        probe.bind(("localhost", 0))
+        port = probe.getsockname()[1]
+    environment = {**os.environ, "PATH": f"{tmp_path / 'pyenv'}:{os.environ['PATH']}", "ROS_HOME": str(tmp_path),
+                   "ROS_MASTER_URI": f"http://localhost:{port}",
+                   "ROS_PACKAGE_PATH": f"{tmp_path}:{os.environ['ROS_PACKAGE_PATH']}"}
+    answer = subprocess.run(command.split(), env=environment, capture_output=True, text=True, timeout=120)
+    assert "it talks" in answer.stdout, answer.stdout + answer.stderr
