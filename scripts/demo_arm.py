@@ -139,7 +139,7 @@ td {{padding: 0.2em 1.2em 0.2em 0; border-bottom: 1px solid #ddd}} figcaption {{
 def run(options: argparse.Namespace, out: Path, environment: dict) -> int:
     import rosgraph
     import rospy
-    from launch_gallery.cli import running
+    from launch_gallery.session import running
     from sensor_msgs.msg import JointState
     target = options.target
     begin = time.monotonic()
@@ -211,7 +211,7 @@ def main() -> int:
         return 0
     out = Path(options.out).resolve()
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
-    from launch_gallery.cli import free_port
+    from launch_gallery.session import free_port
     from rviz_offscreen.display import DisplayError, private_display
     environment = dict(os.environ, ROS_MASTER_URI=f"http://localhost:{free_port()}", ROS_HOME=str(out / "ros_home"))
     try:

@@ -227,7 +227,7 @@ class Show:
 def run(out: Path, environment: dict, window: bool) -> int:
     import rosgraph
     import rospy
-    from launch_gallery.cli import running
+    from launch_gallery.session import running
     from myur5_pick_place import table
     begin = time.monotonic()
     say("roslaunch myur5_pick_place pick_place.launch")
@@ -269,7 +269,7 @@ def main() -> int:
         return 0
     out = Path(options.out).resolve()
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
-    from launch_gallery.cli import free_port
+    from launch_gallery.session import free_port
     from rviz_offscreen.display import DisplayError, private_display
     environment = dict(os.environ, ROS_MASTER_URI=f"http://localhost:{free_port()}", ROS_HOME=str(out / "ros_home"))
     try:

@@ -6,18 +6,20 @@ one line ``N passed, M failed``; the output of what failed is printed in full, a
 from __future__ import annotations
 
 import argparse
-import concurrent.futures
 import os
+import queue
 import shutil
 import signal
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 import xml.etree.ElementTree as ET
+from collections import deque
 from dataclasses import dataclass
 from pathlib import Path
-from typing import List
+from typing import Iterator, List, Optional
 
 ROOT = Path(__file__).resolve().parent.parent
 TIME_LIMIT = 300  # s for one file; a test that takes longer hangs
@@ -45,7 +47,7 @@ class Result:
 
 
 def find_jobs(packages: List[str], kind: str) -> List[Job]:
-    """All test files, the slow kind first so that the two workers end together."""
+    """All test files of these packages (all packages if none is named)."""
     jobs: List[Job] = []
     for manifest in sorted([*(ROOT / "src").rglob("package.xml"), *(ROOT / "docs").rglob("package.xml")]):
         package = manifest.parent
@@ -60,7 +62,43 @@ def find_jobs(packages: List[str], kind: str) -> List[Job]:
             jobs.append(Job(package, "pytest", test))
     if not packages and kind in ("pytest", "all"):
         jobs += [Job(ROOT, "pytest", path) for path in sorted((ROOT / "scripts").glob("test_*.py"))]
-    return sorted(jobs, key=lambda job: job.kind != "rostest")
+    return jobs
+
+
+class Queue:
+    """Jobs for several workers. Every second worker prefers pytest, which computes, to rostests, which mostly wait.
+
+    While both kinds last, no more than one simulator therefore runs for each two workers.
+    """
+
+    def __init__(self, jobs: List[Job]) -> None:
+        self._lock = threading.Lock()
+        self._kinds = {"rostest": deque(), "pytest": deque()}
+        for job in jobs:
+            self._kinds[job.kind].append(job)
+
+    def take(self, worker: int) -> Optional[Job]:
+        """The next job of worker number ``worker``, None when all are taken."""
+        order = ("pytest", "rostest") if worker % 2 else ("rostest", "pytest")
+        with self._lock:
+            return next((self._kinds[kind].popleft() for kind in order if self._kinds[kind]), None)
+
+
+def run_all(jobs: List[Job], workers: int, scratch: Path) -> Iterator[Result]:
+    """Results of all jobs as they come."""
+    waiting, results = Queue(jobs), queue.Queue()
+
+    def work(worker: int) -> None:
+        while (job := waiting.take(worker)) is not None:
+            try:
+                results.put(run(job, scratch))
+            except Exception as error:  # a fault of this runner is a failure of the job, not a silence
+                results.put(Result(job, 0, 1, 0, 0.0, f"{job.name}: the test runner failed: {error!r}"))
+
+    for worker in range(workers):
+        threading.Thread(target=work, args=(worker,), daemon=True).start()
+    for _ in jobs:
+        yield results.get()
 
 
 def count(report: Path) -> tuple:
@@ -141,14 +179,12 @@ def main() -> int:
         return 1
     passed = failed = skipped = 0
     start = time.monotonic()
-    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-        for future in concurrent.futures.as_completed([pool.submit(run, job, scratch) for job in jobs]):
-            result = future.result()
-            passed, failed, skipped = passed + result.passed, failed + result.failed, skipped + result.skipped
-            mark = "FAIL" if result.failed else "ok"
-            print(f"{mark:4} {result.job.kind:7} {result.job.name:70} {result.passed:4} passed {result.seconds:6.1f} s", flush=True)
-            if result.failed:
-                print(result.output, flush=True)
+    for result in run_all(jobs, options.jobs, scratch):
+        passed, failed, skipped = passed + result.passed, failed + result.failed, skipped + result.skipped
+        mark = "FAIL" if result.failed else "ok"
+        print(f"{mark:4} {result.job.kind:7} {result.job.name:70} {result.passed:4} passed {result.seconds:6.1f} s", flush=True)
+        if result.failed:
+            print(result.output, flush=True)
     print(f"{time.monotonic() - start:.0f} s in all, logs in {scratch}")
     if not failed and not options.logs:
         shutil.rmtree(scratch, ignore_errors=True)

@@ -1,5 +1,6 @@
 """The house rules that a machine can check: import directions, launch arguments, node script sizes, manifests."""
 import ast
+import importlib.util
 import subprocess
 import xml.etree.ElementTree as ET
 from pathlib import Path
@@ -98,3 +99,14 @@ def test_every_python_package_is_installed(package):
             name = ".".join(path.relative_to(PACKAGES[package] / "src").parts[:-1])
             said = setup.read_text() if setup.is_file() else ""
             assert "find_packages" in said or f'"{name}"' in said or f"'{name}'" in said, f"{setup} does not name {name}"
+
+
+@pytest.mark.parametrize("path", [path for path in tracked("scripts/*.py") if path.parent.name == "scripts"], ids=lambda path: path.name)
+def test_what_scripts_import_of_packages_is_there(path):
+    """The commands of scripts/ use packages that others change; most of their imports only run after minutes of set-up."""
+    for node in ast.walk(ast.parse(path.read_text(), str(path))):
+        if isinstance(node, ast.ImportFrom) and node.level == 0 and node.module.split(".")[0] in PACKAGES:
+            module = importlib.import_module(node.module)
+            missing = [alias.name for alias in node.names
+                       if not hasattr(module, alias.name) and importlib.util.find_spec(f"{node.module}.{alias.name}") is None]
+            assert not missing, f"line {node.lineno}: {node.module} has no {', '.join(missing)}"

@@ -8,6 +8,7 @@ import json
 import os
 import subprocess
 import sys
+import tempfile
 import time
 
 import numpy as np
@@ -70,6 +71,70 @@ def scene_of(model):
         if scene.check() or np.linalg.norm(place[:2]) < 0.25:
             scene.remove_object(name)
     return scene
+
+
+def bare_loop(folder, scene, states):
+    """A function that times FCL's bare loop over the pairs of links that a check looks at: (us per state, states that touch).
+
+    The poses are computed beforehand: the loop does not even know where the joints are."""
+    model = scene.model
+    bodies = [(name, i) for name in model.links for i in range(len(model.link(name).shapes))]
+    lines = [str(len(bodies))]
+    for name, i in bodies:
+        lines += shape_lines(model.link(name).shapes[i])
+    moving = set(model.group("manipulator").updated_links)
+    pairs = [(i, j) for i, (a, _) in enumerate(bodies) for j, (b, _) in enumerate(bodies)
+             if i < j and a != b and (a in moving or b in moving) and not scene.acm.allowed(a, b)]
+    lines += [str(len(pairs)), *(f"{i} {j}" for i, j in pairs), str(len(states))]
+    state = model.state()
+    for values in states:
+        state.set_group("manipulator", values)
+        for name, i in bodies:
+            pose = (state.pose(name) * model.link(name).shape_poses[i]).matrix()
+            lines.append(" ".join(repr(float(v)) for v in np.asarray(pose)[:3].ravel()))
+    data, program = os.path.join(folder, "bodies.txt"), os.path.join(folder, "bare_fcl")
+    with open(data, "w", encoding="utf-8") as file:
+        file.write("\n".join(lines))
+    flags = subprocess.run(["pkg-config", "--cflags", "--libs", "fcl", "eigen3"], check=True, capture_output=True, text=True).stdout.split()
+    flags = [flag for flag in flags if not flag.startswith("-std")]
+    subprocess.run(["c++", "-std=c++17", "-O2", os.path.join(HERE, "bare_fcl.cpp"), "-o", program, *flags], check=True)
+
+    def run():
+        with open(data, encoding="utf-8") as file:
+            us, touching = subprocess.run([program, "3"], stdin=file, check=True, capture_output=True, text=True).stdout.split()
+        return float(us), int(touching)
+    return run, len(pairs)
+
+
+def shape_lines(shape):
+    """A shape as bare_fcl reads it."""
+    if isinstance(shape, motion.Mesh):
+        return [f"mesh {len(shape.vertices)} {len(shape.triangles)}", *(" ".join(repr(float(v)) for v in row) for row in shape.vertices),
+                *(" ".join(str(int(v)) for v in row) for row in shape.triangles)]
+    if isinstance(shape, motion.Box):
+        return ["box " + " ".join(repr(float(v)) for v in shape.size)]
+    return [f"cylinder {shape.radius} {shape.length}" if isinstance(shape, motion.Cylinder) else f"sphere {shape.radius}"]
+
+
+def against_fcl(model, count):
+    """A whole-robot check, joints to yes or no, against FCL's bare loop: pairs of runs, one after the other."""
+    scene = motion.PlanningScene(model)
+    states = np.random.default_rng(2).uniform(-np.pi, np.pi, (count, 6))
+    ratios, own, bare, hits = [], [], [], []
+    with tempfile.TemporaryDirectory() as folder:
+        run, pairs = bare_loop(folder, scene, states)
+        for _ in range(5):
+            start = time.thread_time()
+            hit = scene.check_states("manipulator", states)
+            own.append((time.thread_time() - start) / count * 1e6)
+            us, touching = run()
+            bare.append(us)
+            hits = [int(np.sum(hit)), touching]
+            ratios.append(own[-1] / us)
+    return {f"FCL's bare loop over {pairs} pairs, poses given: a random state, us": float(np.median(bare)),
+            "the same states, whole check from joint values, us": float(np.median(own)),
+            "whole-robot check / FCL's bare loop": float(np.median(ratios)),
+            "states that touch: whole check, bare loop differ by": float(abs(hits[0] - hits[1]))}
 
 
 def checks(model, count):
@@ -145,6 +210,7 @@ def main():
     figures = inverse(500 if arguments.quick else 10000)
     model = pedestal_ur5()
     if model is not None:
+        figures.update(against_fcl(model, 1000 if arguments.quick else 5000))
         figures.update(checks(model, 2000 if arguments.quick else 20000))
         cluttered = scene_of(model)
         figures.update(plans(model, 20 if arguments.quick else 100, "pedestal UR5, table, post, 20 boxes", lambda number: cluttered))

@@ -25,6 +25,10 @@ WANTED = [
     (r"arm with 800x800 camera: real-time factor", ">=", 0.99), (r"frame / bare draw", "<=", 1.5),
     (r"^IK of .* solved within 5 ms", ">=", 99.6), (r"^IK of .* median", "<", 0.4), (r"to timed trajectory: solved", ">=", 100.0),
     (r"to timed trajectory: p50", "<", 50.0), (r"to timed trajectory: p95", "<", 250.0), (r"1 000 objects, one added", "<", 2.0),
+    (r"check / FCL's bare loop", "<=", 1.2), (r"^move_group: launch command to", "<", 3.0), (r"^move_group: memory", "<", 300.0),
+    (r"^move_group: growth", "<", 2.0),
+    (r"^view, 30 bodies: the same scaled", "<", 0.1), (r"^view, nobody looks", "<", 0.01), (r"^view: first page served", "<", 2.0),
+    (r"^view, 200 models: processor seconds", "<", 5.0),
     (r"^rqt.* to its window, s", "<", 1.5), (r"^rqt_graph, .* drawn, s", "<", 1.0), (r"longest pause of the window", "<", 50.0),
     (r"^rqt_image_view.*part of a core", "<", 0.25), (r"motors: p99 cycle", "<", 1.5), (r"^mbot.*real-time factor, throttled$", ">=", 0.99),
     (r"^mbot.*real-time factor, uncapped$", ">=", 10.0), (r"mbots: cost per mbot against one", "<=", 1.05),
@@ -147,6 +151,20 @@ def camera(quick):
     return {f"arm with 800x800 camera: {name}": value for name, value in found.items()}
 
 
+def motion(quick):
+    figures = section_script("planning.py", *(["--quick"] if quick else []))
+    runs = [program("move_group.py", count, timeout=900) for count in ([0, 200] if quick else [0, 0, 1000])]
+    planned = runs[-1]
+    return {**figures,
+            "move_group: launch command to 'You can start planning now', s": min(run["ready"] for run in runs),
+            "move_group: processor seconds to there, of all that is launched": min(run["processor seconds of the launch"] for run in runs),
+            "move_group: processor seconds to there, its own": min(run["processor seconds"] for run in runs),
+            "move_group: memory when ready, MB": planned["memory"],
+            f"move_group: memory after {planned['plans']} plans, MB": planned["memory after plans"],
+            f"move_group: growth from plan 100 to plan {planned['plans']}, MB": planned["growth"],
+            "move_group: processor time of a plan through its service, ms": planned["ms per plan"]}
+
+
 def rviz(quick):
     """The arm's own RViz set-up, on a private display, from the command to the picture on disk."""
     del quick
@@ -179,11 +197,12 @@ SECTIONS = {
     "tracking": ("error of the joint trajectory controller", tracking),
     "pendulum": ("error against step size", pendulum),
     "physics": ("bare physics against bare ODE, and rays", lambda quick: section_script("physics.py")),
-    "motion": ("kinematics, collision checks and plans of the motion library",
-               lambda quick: section_script("planning.py", *(["--quick"] if quick else []))),
+    "motion": ("kinematics, collision checks and plans of the motion library; move_group", motion),
     "camera": ("pictures per second, and what one costs", camera),
     "rviz": ("time to a picture of RViz", rviz),
     "windows": ("rqt: start, a large graph, fast topics", lambda quick: section_script("windows.py", *(["--quick"] if quick else []))),
+    "view": ("gzclient: what its stream costs the server, how soon its page is there",
+             lambda quick: section_script("view.py", *(["--quick"] if quick else []))),
     "can": ("cycles of rm_hw against the motor bench", lambda quick: section_script("can_loop.py", "--seconds", 5 if quick else 20)),
 }
 if os.path.exists(os.path.join(HERE, "mobile.py")):

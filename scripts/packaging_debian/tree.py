@@ -33,8 +33,11 @@ def run(command: List[str], what: str, environment: Dict[str, str] = os.environ,
 
 def refuse_foreign(prefix: Path) -> None:
     """
-    :raises PackagingError: ``prefix`` holds something that was not installed there by this script
+    :raises PackagingError: ``prefix`` holds something that was not installed there by this script, or cannot be written
     """
+    there = next(folder for folder in (prefix.parent, *prefix.parents) if folder.exists())
+    if not there.is_dir() or not os.access(there, os.W_OK):
+        raise PackagingError(f"nothing can be written to {there}; run this as root, or name another --prefix")
     if prefix.is_symlink() or prefix.exists() and not prefix.is_dir():
         raise PackagingError(f"{prefix} is there and is no folder; remove it or name another --prefix")
     if not prefix.is_dir() or not any(prefix.iterdir()):
@@ -45,6 +48,16 @@ def refuse_foreign(prefix: Path) -> None:
     if owner.returncode == 0:
         raise PackagingError(f"{prefix} belongs to the Debian package {owner.stdout.split(':')[0]}; remove that with apt first, "
                              "or name another --prefix")
+
+
+def replace(prefix: Path, staged: Path) -> None:
+    """``prefix`` becomes a copy of ``staged``; until that is complete, what was there stays in its place."""
+    prefix.parent.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(dir=prefix.parent, prefix=f".{prefix.name}.") as name:
+        shutil.copytree(staged, Path(name, "new"), symlinks=True)
+        if prefix.exists():
+            prefix.rename(Path(name, "old"))
+        Path(name, "new").rename(prefix)
 
 
 def platform_packages(root: Path) -> List[Path]:
