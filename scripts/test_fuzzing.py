@@ -14,7 +14,7 @@ ROOT = Path(__file__).resolve().parent.parent
 CORPUS = ROOT / "scripts/fuzzing/corpus"
 sys.path.insert(0, str(ROOT / "scripts"))
 
-from fuzzing import tree_cases, values, xml_cases  # noqa: E402
+from fuzzing import tree_cases, values, worker, xml_cases  # noqa: E402
 from fuzzing.findings import Found, check_message  # noqa: E402
 from fuzzing.kinds import Kind  # noqa: E402
 from fuzzing.minimise import minimised  # noqa: E402
@@ -93,6 +93,13 @@ def test_all_cases_of_a_run_are_tried_by_some_workers(tmp_path):
     with Pool(Trap(), 0, tmp_path, 3) as pool:
         pool.run(iter([b"well", b"abort"] * 10), lambda job, finding: tried.append((job, finding and finding.what)) or True)
     assert sorted(tried, key=str) == sorted([(b"well", None), (b"abort", "process ended by SIGABRT")] * 10, key=str)
+
+
+def test_a_worker_that_has_not_begun_is_ended(tmp_path, monkeypatch):
+    monkeypatch.setattr(worker, "_become_worker", lambda *_: time.sleep(60))
+    begun = time.monotonic()
+    worker.Worker(Trap(), 0, tmp_path / "worker", 0).end()
+    assert time.monotonic() - begun < 30
 
 
 def test_a_finding_is_made_smaller_and_stays_the_same(pool):

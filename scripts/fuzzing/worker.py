@@ -56,6 +56,7 @@ class Worker:
             finally:
                 os._exit(code)
         other.close()
+        _lead_group(self.pid)  # here as well: end() may come before the new process has run at all
         self._begun, self._spent, self._mark = time.monotonic(), 0.0, 0
         self.ready = False
 
@@ -167,13 +168,21 @@ def examine(kind: Kind, case: bytes, said) -> Optional[Finding]:
     return findings.of_output(text) if text.strip() else None
 
 
+def _lead_group(pid: int) -> None:
+    """Make process ``pid`` (0 is this one) the leader of a process group of its own."""
+    try:
+        os.setpgid(pid, pid)
+    except ProcessLookupError:
+        pass  # it has ended
+
+
 def end_with_parent() -> None:
     """Be killed when the process that started this one ends, however it ends."""
     _LIBC.prctl(1, signal.SIGKILL)  # PR_SET_PDEATHSIG
 
 
 def _become_worker(kind: Kind, folder: Path, output: Path, parent: int) -> None:
-    os.setpgid(0, 0)
+    _lead_group(0)
     end_with_parent()
     if os.getppid() != parent:
         os._exit(1)
