@@ -292,9 +292,10 @@ void World::publish() {
   for (auto& m : models_) {
     if (!m->finished) continue;
     for (auto& l : m->links) {
-      if (l->cluster < 0) continue;
-      const Cluster& c = m->clusters[l->cluster];
-      if (c.root ? !c.asleep : l->moving) place_shapes(*l);
+      if (l->cluster >= 0) {  // one that was spawned since the last step is in none: it is where it was put
+        const Cluster& c = m->clusters[l->cluster];
+        if (c.root ? !c.asleep : l->moving) place_shapes(*l);
+      }
       double* row = link_poses->data() + 7 * l->row;
       const Pose& X = l->X_WL;
       row[0] = X.p.x; row[1] = X.p.y; row[2] = X.p.z;

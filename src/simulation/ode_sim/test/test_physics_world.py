@@ -259,6 +259,19 @@ def test_shared_arrays_are_views():
     assert tuple(poses[model.links["bob"].index]) == (*model.links["bob"].pose.p, *model.links["bob"].pose.q)
 
 
+def test_what_is_spawned_is_in_the_shared_arrays_at_once():
+    world = ode_sim.World()
+    world.spawn(ground())
+    world.step(10)
+    for number in range(2):
+        model = world.spawn(pendulum(), name=f"late{number}", pose=Pose((3.0 + number, -1.0, 2.0)))
+        for link in model.links.values():
+            assert tuple(world.link_poses[link.index]) == (*link.pose.p, *link.pose.q)
+    poses = world.link_poses.copy()
+    world.remove("late1")
+    assert np.array_equal(world.link_poses, poses[:len(world.link_poses)])
+
+
 # ---------------------------------------------------------------------------------------------- spawning
 
 

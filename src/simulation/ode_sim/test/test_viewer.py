@@ -1,6 +1,5 @@
 """The page without a browser: who may open it, what is drawn and what clicks do. A world of this process, no ROS."""
 import http.client
-import types
 
 import numpy as np
 import pytest
@@ -17,65 +16,7 @@ from ode_sim.viewer.panels.insert import shape_model  # noqa: E402
 from ode_sim.viewer.panels.play import clock  # noqa: E402
 from ode_sim.viewer.selection import History  # noqa: E402
 from ode_sim.viewer.website import Guard, Website  # noqa: E402
-
-EVIL = "<img src=x onerror=alert(1)>"
-
-
-class Client:
-    """A page that clicks."""
-
-    def __init__(self, client_id=1):
-        self.client_id = client_id
-        self.told = []
-        self.files = {}
-
-    def add_notification(self, title, body, **_):
-        self.told.append(body)
-
-    def send_file_download(self, name, content):
-        self.files[name] = content
-
-
-def event(client, value=None):
-    return types.SimpleNamespace(client=client, client_id=client.client_id, target=types.SimpleNamespace(value=value))
-
-
-def use(handle, client, value=None):
-    """What viser does when a page clicks or changes something."""
-    if value is not None:
-        handle._impl.value = value
-    for callback in list(handle._impl.update_cb):
-        callback(types.SimpleNamespace(client=client, client_id=client.client_id, target=handle))
-
-
-@pytest.fixture
-def page():
-    world = World(d.World(lights=(d.Light("sun", "directional"),), models=(
-        shape_model("box", d.Box()), shape_model(EVIL, d.Sphere(0.5)))))
-    world.models[EVIL].pose = Pose((3.0, 0.0, 0.5))
-    page = Page(LocalSimulation(world, paused=True), port=0)
-    wait(page, lambda: page.frame is not None)
-    yield page
-    page.close()
-
-
-def wait(page, condition, turns=500):
-    import time
-    for _ in range(turns):
-        page.turn()
-        if page.frame is not None and page.frame.revision == page.world.revision and condition():
-            return
-        time.sleep(0.02)
-    raise AssertionError("it did not come about")
-
-
-def panel(page, kind):
-    return next(p for p in page.panels if type(p).__name__ == kind)
-
-
-def position(page, model):
-    return page.world.model(model).pose(page.frame).p
-
+from viewer_page import EVIL, Client, page, panel, position, use, wait  # noqa: E402, F401
 
 # ---------------------------------------------------------------------------------------------- who may open it
 
@@ -103,6 +44,7 @@ def test_guard_with_a_token():
 
 def test_the_guard_stands_before_every_request():
     website = Website(port=0)
+    website.open()
     try:
         def ask(path, **headers):
             connection = http.client.HTTPConnection("127.0.0.1", website.port, timeout=30)
@@ -118,6 +60,23 @@ def test_the_guard_stands_before_every_request():
             assert ask(path)[0] == 404
         handlers = website.viser._websock_server._incoming_handlers
         assert not [kind for kind in handlers if kind.__name__.startswith("ShareUrl")]  # no tunnel into the internet
+    finally:
+        website.close()
+
+
+def test_a_knock_waits_until_the_page_is_there():
+    website = Website(port=0)
+    try:
+        assert not website.knocked(0.0) and website.viser is None
+        connection = http.client.HTTPConnection("127.0.0.1", website.port, timeout=30)
+        connection.request("GET", "/")
+        assert website.knocked(5.0)
+        website.open()
+        assert connection.getresponse().status == 200
+        connection.close()
+        second = Website(port=website.port)  # taken: the next one
+        assert second.port > website.port
+        second.close()
     finally:
         website.close()
 

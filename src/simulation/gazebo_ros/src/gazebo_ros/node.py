@@ -36,6 +36,8 @@ from gazebo_ros.api.pictures import PictureServices
 from gazebo_ros.api.spawning import SpawnServices
 from gazebo_ros.api.states import StatePublishers
 from gazebo_ros.api.stepping import SteppingServices
+from gazebo_ros.api.surfaces import SurfaceServices
+from gazebo_ros.api.timeline import TimelineServices
 from gazebo_ros.api.view import ViewServices
 from gazebo_ros.finding import make_finder
 from gazebo_ros.plugin_host import PluginHost, library_key
@@ -203,6 +205,8 @@ def _offer_api(server: Server) -> None:
     SteppingServices(server)
     PictureServices(server)
     ViewServices(server)
+    TimelineServices(server)
+    SurfaceServices(server)
     JointCommands(server)
     physics = PhysicsServices(server)
     rospy.loginfo("Finished loading Gazebo ROS API Plugin.")

@@ -340,6 +340,21 @@ class Server:
             sensor.reset()
         self._reset_plugins(self._world_plugins)
 
+    def restore(self, snapshot) -> None:
+        """Back to a saved moment, paused. Plugins and sensors are told as by a reset: the time has gone back.
+
+        Physics thread.
+
+        :raises ValueError: the world has other models by now
+        """
+        self.world.restore(snapshot)
+        self.paused = True
+        self._set_now()
+        for sensor in self._sensors:
+            sensor.reset()
+        self._reset_plugins(self._world_plugins)
+        self.stepped.call()
+
     def _reset_plugins(self, world_plugins: List[PluginInstance]) -> None:
         for instance in world_plugins:
             instance.attempt(instance.plugin.reset)

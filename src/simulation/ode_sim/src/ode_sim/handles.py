@@ -42,6 +42,7 @@ class CollisionHandle:
         self.name = collision.name
         self.scoped_name = f"{link.scoped_name}::{collision.name}"
         self.core = core
+        self.watchers = 0  # who wants the forces of its contacts
 
     @property
     def id(self) -> int:

@@ -364,8 +364,9 @@ class World:
         return self.core.contacts()
 
     def watch_contacts(self, collision: CollisionHandle, on: bool = True) -> None:
-        """Have the forces of this collision's contacts measured."""
-        collision.core.watched = bool(on)
+        """Have the forces of this collision's contacts measured, until as many as asked for it need them no more."""
+        collision.watchers = max(0, collision.watchers + (1 if on else -1))
+        collision.core.watched = collision.watchers > 0
 
     def collision(self, collision_id: int) -> Optional[CollisionHandle]:
         """By the id that contacts and ray hits carry."""

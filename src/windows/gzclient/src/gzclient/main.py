@@ -1,25 +1,21 @@
-"""gzclient: from the command line to the page and its window."""
+"""gzclient: from the command line to the page and its window.
+
+What a page needs is imported when a browser has knocked: a gzclient that nobody looks at, as launch files start it, holds
+a port and nothing else.
+"""
 from __future__ import annotations
 
-import glob
 import sys
 import time
-from typing import List, Optional
+from typing import Any, List, Optional
 
 import node_signals
 import rosgraph
 import rospy
-from ode_sim.viewer import Page
-from ode_sim.viewer.website import Unavailable
 
 from gzclient import command_line, desktop
-from gzclient.panels.controllers import ControllersPanel
-from gzclient.panels.sensors import SensorsPanel
-from gzclient.panels.topics import TopicsPanel
-from gzclient.ros_simulation import RosSimulation
 
-
-PANELS = (SensorsPanel, TopicsPanel, ControllersPanel)
+_LOOK = 0.25  # wall s between two looks at whether the node has ended
 
 
 def main(arguments: List[str]) -> int:
@@ -30,31 +26,52 @@ def main(arguments: List[str]) -> int:
                            log_level=rospy.DEBUG if options.verbose else rospy.INFO)
     for line in command_line.remarks(options):
         rospy.logwarn("%s", line)
+    from ode_sim.viewer.website import Unavailable, Website
     try:
-        page = Page(RosSimulation(), options.port, options.listen, "Gazebo", PANELS,
-                    say=lambda line: rospy.logwarn("%s", line))
+        website = Website(options.port, options.listen)
     except Unavailable as error:
         rospy.logerr("gzclient: %s", error)
         return 1
-    page.drawing.shadows = options.shadows or bool(glob.glob("/dev/dri/renderD*"))
-    window = _open(page, options)
+    window = _open(website, options)
+
+    def ended() -> bool:
+        return rospy.is_shutdown() or window is not None and window.closed
+
     try:
-        page.run(lambda: rospy.is_shutdown() or window is not None and window.closed)
+        while not ended():
+            if window is not None and window.process is not None or website.knocked(_LOOK):
+                return _serve(website, options, ended)
+        return 0
     finally:
         if window is not None:
             window.close()
+        website.close()
+
+
+def _serve(website: Any, options: Any, ended: Any) -> int:
+    from ode_sim.viewer.website import Unavailable
+
+    from gzclient.page import make_page
+    try:
+        page = make_page(website, options.shadows)
+    except Unavailable as error:
+        rospy.logerr("gzclient: %s", error)
+        return 1
+    try:
+        page.run(ended)
+    finally:
         page.close()
     return 0
 
 
-def _open(page: Page, options) -> Optional[desktop.Window]:
+def _open(website: Any, options: Any) -> Optional[desktop.Window]:
     """The window of the desktop, where there is one; the address on the terminal in any case."""
     window = None
     if desktop.available() and not options.no_window:
-        window = desktop.Window(page.website.local_address)
+        window = desktop.Window(website.local_address)
         if window.process is None:
             rospy.logwarn("gzclient: no browser was found to show the window with; install chromium")
-    print(f"gzclient: the simulator's window is at {page.address}", flush=True)
+    print(f"gzclient: the simulator's window is at {website.address}", flush=True)
     return window
 
 

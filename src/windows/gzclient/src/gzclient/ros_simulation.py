@@ -16,11 +16,13 @@ from std_msgs.msg import ColorRGBA
 from std_srvs.srv import Empty
 
 from gazebo_ros.finding import make_finder
-from gazebo_ros.msg import WorldView
-from gazebo_ros.srv import CommandJoint, CommandJointRequest, DescribeWorld, SaveWorld, StepWorld
+from gazebo_ros.msg import WorldContacts, WorldView
+from gazebo_ros.srv import (CollisionSurface, CommandJoint, CommandJointRequest, DescribeWorld, SaveWorld, SetVisual,
+                            StepWorld, Timeline, TimelineRequest)
 from ode_sim.description import model as d
 from ode_sim.description.exchange import loads
-from ode_sim.viewer.simulation import Frame, LinkProperties, Refused, Simulation, WorldRecord
+from ode_sim.viewer.simulation import (Frame, KeptMoment, LinkProperties, Refused, Simulation, SurfaceProperties,
+                                       WorldRecord)
 
 _PATIENCE = 5.0  # wall s that a service may take to be there
 _STALE = 3.0  # wall s without a frame: the simulator has gone
@@ -38,6 +40,9 @@ class RosSimulation(Simulation):
         self._frame: Optional[Frame] = None
         self._at = 0.0
         self._known: Optional[WorldRecord] = None
+        self._contact_stream: Optional[rospy.Subscriber] = None
+        self._contacts = np.zeros((0, 6), np.float32)
+        self._prompt: Dict[str, Tuple[Any, threading.Lock]] = {}  # connections that are kept open
 
     # ------------------------------------------------------------------------------------------ what there is
 
@@ -50,8 +55,21 @@ class RosSimulation(Simulation):
                 self._subscriber.unregister()
                 self._subscriber = None
 
+    def watch_contacts(self, on: bool) -> None:
+        with self._lock:
+            if on and self._contact_stream is None:
+                self._contact_stream = rospy.Subscriber(f"{self._namespace}/view_contacts", WorldContacts,
+                                                        self._take_contacts, queue_size=1, tcp_nodelay=True)
+            elif not on and self._contact_stream is not None:
+                self._contact_stream.unregister()
+                self._contact_stream, self._contacts = None, np.zeros((0, 6), np.float32)
+
+    def contacts(self) -> np.ndarray:
+        return self._contacts
+
     def close(self) -> None:
         self.look(False)
+        self.watch_contacts(False)
 
     def frame(self) -> Optional[Frame]:
         return self._frame if time.monotonic() - self._at < _STALE else None
@@ -73,6 +91,28 @@ class RosSimulation(Simulation):
                             message.paused, message.real_time_factor,
                             np.frombuffer(message.poses, "<f4").reshape(-1, 7), np.frombuffer(message.joints, "<f4"))
         self._at = time.monotonic()
+
+    def _take_contacts(self, message: WorldContacts) -> None:
+        self._contacts = np.frombuffer(message.contacts, "<f4").reshape(-1, 6)
+
+    def _soon(self, name: str, service: type, *arguments: Any) -> Any:
+        """As :meth:`_call` on a connection that is kept, for what a hand does many times a second and may do twice."""
+        full = f"{self._namespace}/{name}"
+        with self._lock:
+            if name not in self._prompt:
+                self._prompt[name] = (rospy.ServiceProxy(full, service, persistent=True), threading.Lock())
+        proxy, lock = self._prompt[name]
+        try:
+            with lock:
+                response = proxy(*arguments)
+        except (rospy.ROSException, rospy.ServiceException, OSError):  # the server is another one by now
+            with self._lock:
+                self._prompt.pop(name, None)
+            proxy.close()
+            return self._call(name, service, *arguments)
+        if not response.success:
+            raise Refused(response.status_message)
+        return response
 
     def _call(self, name: str, service: type, *arguments: Any, **named: Any) -> Any:
         """The answer of a service of the simulator.
@@ -106,7 +146,7 @@ class RosSimulation(Simulation):
     # ------------------------------------------------------------------------------------------ models and lights
 
     def set_pose(self, model: str, pose: d.Pose) -> None:
-        self._call("set_model_state", SetModelState, ModelState(model, _pose(pose), Twist(), "world"))
+        self._soon("set_model_state", SetModelState, ModelState(model, _pose(pose), Twist(), "world"))
 
     def insert(self, name: str, text: str, pose: d.Pose) -> None:
         self._call("spawn_sdf_model", SpawnModel, name, text, "", _pose(pose), "world")
@@ -127,11 +167,11 @@ class RosSimulation(Simulation):
     # ------------------------------------------------------------------------------------------ joints and links
 
     def set_joint_position(self, model: str, joint: str, position: float) -> None:
-        self._call("command_joint", CommandJoint, f"{model}::{joint}", CommandJointRequest.SET, position, 0.0, 0.0, 0.0)
+        self._soon("command_joint", CommandJoint, f"{model}::{joint}", CommandJointRequest.SET, position, 0.0, 0.0, 0.0)
 
     def command_joint(self, model: str, joint: str, mode: str, value: float,
                       gains: Tuple[float, float, float] = (0.0, 0.0, 0.0)) -> None:
-        self._call("command_joint", CommandJoint, f"{model}::{joint}", _JOINT_MODES[mode], value, *gains)
+        self._soon("command_joint", CommandJoint, f"{model}::{joint}", _JOINT_MODES[mode], value, *gains)
 
     def link_properties(self, model: str, link: str) -> LinkProperties:
         r = self._call("get_link_properties", GetLinkProperties, f"{model}::{link}")
@@ -144,7 +184,7 @@ class RosSimulation(Simulation):
 
     def push(self, model: str, link: str, force: d.Vec3, torque: d.Vec3, duration: float) -> None:
         name = f"{model}::{link}"
-        self._call("apply_body_wrench", ApplyBodyWrench, name, "world", Point(),
+        self._soon("apply_body_wrench", ApplyBodyWrench, name, "world", Point(),
                    Wrench(Vector3(*force), Vector3(*torque)),
                    rospy.Time(), rospy.Duration.from_sec(duration))
 
@@ -166,6 +206,37 @@ class RosSimulation(Simulation):
         config.cfm, config.erp = physics.cfm, physics.erp
         self._call("set_physics_properties", SetPhysicsProperties, physics.max_step_size, physics.real_time_update_rate,
                    Vector3(*gravity), config)
+
+    # ------------------------------------------------------------------------------------------ looks and surfaces
+
+    def surface(self, model: str, link: str) -> SurfaceProperties:
+        r = self._call("collision_surface", CollisionSurface, f"{model}::{link}", False, 0.0, 0.0, 0.0)
+        return SurfaceProperties(r.mu, r.mu2, r.restitution)
+
+    def set_surface(self, model: str, link: str, surface: SurfaceProperties) -> None:
+        self._call("collision_surface", CollisionSurface, f"{model}::{link}", True, surface.mu, surface.mu2,
+                   surface.restitution)
+
+    def paint(self, model: str, link: str, rgba: d.Rgba) -> None:
+        self._call("set_visual", SetVisual, f"{model}::{link}" if link else model, ColorRGBA(*rgba))
+
+    # ------------------------------------------------------------------------------------------ timeline
+
+    def moments(self) -> Tuple[KeptMoment, ...]:
+        r = self._timeline(TimelineRequest.LIST)
+        return tuple(KeptMoment(number, time.to_sec()) for number, time in zip(r.numbers, r.times))
+
+    def keep(self) -> None:
+        self._timeline(TimelineRequest.KEEP)
+
+    def record(self, period: float) -> None:
+        self._timeline(TimelineRequest.RECORD, period=period)
+
+    def go_back(self, number: int) -> None:
+        self._timeline(TimelineRequest.RETURN, number)
+
+    def _timeline(self, action: int, number: int = 0, period: float = 0.0) -> Any:
+        return self._call("timeline", Timeline, action, number, period)
 
     def save(self) -> str:
         return self._call("save_world", SaveWorld).sdf

@@ -10,6 +10,9 @@ from ode_sim.viewer.simulation import WorldRecord
 
 _OPTICAL = quat_from_rpy(-math.pi / 2, 0.0, -math.pi / 2)  # of a body frame: x forward becomes z forward
 _MOST_POINTS = 4000  # of a scan that are sent to a page
+_MOST_CLOUD = 20_000  # of a cloud
+_CAMERAS = ("camera", "depth", "depth_camera", "multicamera", "rgbd_camera", "wideanglecamera")
+_FLOATS = {7: "f4", 8: "f8"}  # datatypes of sensor_msgs/PointField
 
 
 def find_frame(world: WorldRecord, frame_id: str) -> Optional[Tuple[str, str, Pose]]:
@@ -33,6 +36,47 @@ def find_frame(world: WorldRecord, frame_id: str) -> Optional[Tuple[str, str, Po
             if link.name.rpartition("::")[2] == wanted:
                 return model.name, link.name, Pose()
     return None
+
+
+def is_camera(world: WorldRecord, model: str, link: str, frame_id: str) -> bool:
+    """Whether it is a camera whose plugin names ``frame_id``: its data are in optical axes, z forward."""
+    wanted = frame_id.strip("/").rpartition("/")[2]
+    record = world.model(model)
+    for candidate in record.description.links if record is not None else ():
+        for sensor in candidate.sensors if candidate.name == link else ():
+            if sensor.type in _CAMERAS and any(
+                    (plugin.element.findtext("frameName") or "").strip().strip("/").rpartition("/")[2] == wanted
+                    for plugin in sensor.plugins):
+                return True
+    return False
+
+
+def cloud_points(message: Any) -> Tuple[np.ndarray, np.ndarray]:
+    """((N, 3) float32 m, (N, 3) uint8 colours) of a sensor_msgs/PointCloud2, thinned; grey where it has no colours.
+
+    :raises ValueError: it has no places, or is cut off
+    """
+    fields = {field.name: field for field in message.fields}
+    if not all(name in fields and fields[name].datatype in _FLOATS for name in "xyz"):
+        raise ValueError(f"a cloud of {', '.join(fields) or 'nothing'}; x, y and z are wanted")
+    step, count = message.point_step, message.width * message.height
+    if step <= 0 or len(message.data) < step * count or message.row_step not in (0, step * message.width):
+        raise ValueError(f"the cloud is cut off: {len(message.data)} bytes for {count} points")
+    order = ">" if message.is_bigendian else "<"
+    layout = {"names": list("xyz"), "formats": [order + _FLOATS[fields[name].datatype] for name in "xyz"],
+              "offsets": [fields[name].offset for name in "xyz"], "itemsize": step}
+    tint = fields.get("rgb") or fields.get("rgba")
+    if tint is not None:
+        layout["names"].append("tint")
+        layout["formats"].append(order + "u4")
+        layout["offsets"].append(tint.offset)
+    found = np.frombuffer(message.data, np.dtype(layout), count)[::max(1, -(-count // _MOST_CLOUD))]
+    points = np.stack([found[name] for name in "xyz"], axis=1).astype(np.float32)
+    good = np.isfinite(points).all(axis=1)
+    if tint is None:
+        return points[good], np.full((int(good.sum()), 3), 120, np.uint8)
+    packed = found["tint"][good]
+    return points[good], np.stack([packed >> 16 & 255, packed >> 8 & 255, packed & 255], axis=1).astype(np.uint8)
 
 
 def scan_points(message: Any) -> np.ndarray:

@@ -4,22 +4,24 @@ from __future__ import annotations
 import random
 import threading
 import time
-from typing import Optional, Tuple
+from typing import Any, Callable, List, Optional, Tuple
 
 import numpy as np
 import rospy
 from ode_sim.description.exchange import dumps
 from ode_sim.description.sdf_writer import world_text
 from ode_sim.rendering.watch import SceneWatch
+from ode_sim.viewer.contacts import ContactWatch
 from ode_sim.viewer.saving import describe_now
-from ode_sim.viewer.simulation import WorldRecord, link_poses, record_world
+from ode_sim.viewer.simulation import WorldRecord, record_world
 
 from gazebo_ros.api.handlers import advertise
-from gazebo_ros.msg import WorldView
+from gazebo_ros.msg import WorldContacts, WorldView
 from gazebo_ros.server import Server, Stopped
 from gazebo_ros.srv import DescribeWorld, SaveWorld
 
 _PERIOD = 1.0 / 60.0  # wall s between two messages
+_CONTACTS_PERIOD = 1.0 / 20.0
 _WINDOW = 1.0  # wall s over which the real-time factor is taken
 
 
@@ -37,9 +39,11 @@ class RunClock:
     def read(self) -> Tuple[float, float]:
         """(real time, s; real-time factor)."""
         now, sim_ns = time.monotonic(), self._server.world.time_ns
-        if sim_ns < self._sim_ns:  # reset
-            self._ran, self._marks = 0.0, []
-            self._since = None if self._server.paused else now
+        if sim_ns < self._sim_ns:  # reset, or gone back on the timeline
+            self._marks = []
+            if sim_ns == 0:
+                self._ran = 0.0
+                self._since = None if self._server.paused else now
         self._sim_ns = sim_ns
         if self._since is None:
             return self._ran, 0.0
@@ -55,49 +59,69 @@ class RunClock:
             self._since = now
 
 
-class ViewServices:
-    """``~view`` (:class:`WorldView`), ``~describe_world``, ``~save_world``.
+class Stream:
+    """A topic that is published while somebody subscribes; else there is no thread, and nothing is done in a step.
 
-    While nobody subscribes there is no thread, and nothing is done in a step.
+    :param read: the message, asked for in the physics thread
+    :param watched: told there of the first subscriber, and of the last one's end
     """
+
+    def __init__(self, server: Server, name: str, kind: type, period: float, read: Callable[[], Any],
+                 watched: Callable[[bool], None] = lambda on: None):
+        self._server = server
+        self._period = period
+        self._read = read
+        self._watched = watched
+        self._thread: Optional[threading.Thread] = None
+        self._lock = threading.Lock()
+        self._publisher = rospy.Publisher(name, kind, subscriber_listener=_Listener(self._begin), queue_size=1)
+
+    def _begin(self) -> None:
+        with self._lock:
+            if self._thread is None:
+                self._thread = threading.Thread(target=self._run, name="view", daemon=True)
+                self._thread.start()
+
+    def _run(self) -> None:
+        due = time.monotonic()
+        try:
+            self._server.call(lambda: self._watched(True))
+            while True:
+                with self._lock:
+                    if not self._publisher.get_num_connections():
+                        self._server.call(lambda: self._watched(False))
+                        self._thread = None
+                        return
+                self._publisher.publish(self._server.call(self._read))
+                due = max(due + self._period, time.monotonic())
+                time.sleep(max(0.0, due - time.monotonic()))
+        except (Stopped, rospy.ROSException):
+            return
+
+
+class ViewServices:
+    """``~view`` (:class:`WorldView`), ``~view_contacts`` (:class:`WorldContacts`), ``~describe_world``,
+    ``~save_world``."""
 
     def __init__(self, server: Server):
         self._server = server
         self._watch = SceneWatch(server.world)
         self._clock = RunClock(server)
         self._revision = random.getrandbits(30)  # another one than that of the server before this one
-        self._thread: Optional[threading.Thread] = None
-        self._lock = threading.Lock()
-        self._publisher = rospy.Publisher("~view", WorldView, subscriber_listener=_Listener(self._begin), queue_size=1)
+        contacts = ContactWatch(server.world)
+        self._streams: List[Stream] = [
+            Stream(server, "~view", WorldView, _PERIOD, self._read),
+            Stream(server, "~view_contacts", WorldContacts, _CONTACTS_PERIOD, lambda: WorldContacts(
+                rospy.Time(0, server.world.time_ns), _bytes(contacts.read())), contacts.watch)]
         advertise(server, "describe_world", DescribeWorld, self._describe, in_physics_thread=False)
         advertise(server, "save_world", SaveWorld, self._save, in_physics_thread=False)
-
-    def _begin(self) -> None:
-        with self._lock:
-            if self._thread is None:
-                self._thread = threading.Thread(target=self._stream, name="view", daemon=True)
-                self._thread.start()
-
-    def _stream(self) -> None:
-        due = time.monotonic()
-        while True:
-            with self._lock:
-                if not self._publisher.get_num_connections():
-                    self._thread = None
-                    return
-            try:
-                self._publisher.publish(self._server.call(self._read))
-            except (Stopped, rospy.ROSException):
-                return
-            due = max(due + _PERIOD, time.monotonic())
-            time.sleep(max(0.0, due - time.monotonic()))
 
     def _read(self) -> WorldView:
         self._look_for_news()
         world = self._server.world
         real_time, factor = self._clock.read()
         return WorldView(self._revision, rospy.Time(0, world.time_ns), real_time, world.iterations, self._server.paused,
-                         factor, _bytes(link_poses(world)), _bytes(world.joint_positions))
+                         factor, _bytes(world.link_poses), _bytes(world.joint_positions))
 
     def _look_for_news(self) -> None:
         if self._watch.changed():

@@ -10,7 +10,7 @@ from ode_sim.rendering.scene import SceneDescription, describe
 
 
 class SceneWatch:
-    """Notices models that come and go, and lights or scene settings that change."""
+    """Notices models that come and go, and lights, colours or scene settings that change."""
 
     def __init__(self, world):
         self._world = weakref.ref(world)
@@ -28,7 +28,8 @@ class SceneWatch:
         """Whether the scene is another one than at the last call. Physics thread."""
         world = self._world()
         settings = (world.scene, *world.lights.values(), *(
-            light for model in world.models.values() for link in model.links.values() for light in link.lights.values()))
+            part for model in world.models.values() for link in model.links.values()
+            for part in (link.description.visuals, *link.lights.values())))
         if not self._changed and settings == self._settings:
             return False
         self._changed, self._settings = False, settings

@@ -1,13 +1,14 @@
 """The world in the page: models and lights, moved by the frames of the stream."""
 from __future__ import annotations
 
+import itertools
 import math
 from typing import Callable, Dict, List, Optional, Tuple
 
 import numpy as np
 
 from ode_sim.description import model as d
-from ode_sim.math3 import quat_between, quat_multiply
+from ode_sim.math3 import quat_between, quat_multiply, transform
 from ode_sim.rendering.assets import Assets, Look, Part
 from ode_sim.viewer.simulation import Frame, ModelRecord, WorldRecord
 
@@ -35,6 +36,7 @@ class ModelDrawing:
         self.links: Dict[int, object] = {}  # row -> frame
         self.meshes: List[object] = []
         self.handles: List[object] = []  # all, in the order to remove them
+        self.boxes: List[Tuple[str, np.ndarray]] = []  # link, (8, 3) corners in its frame of what is to be seen
 
 
 class Drawing:
@@ -43,11 +45,13 @@ class Drawing:
     :ivar problems: lines about what cannot be drawn, drained by the caller
     """
 
-    def __init__(self, server, on_pick: Callable[[str, str, object], None]):
-        """:param on_pick: ``f(model, link, event)``, a click on it."""
+    def __init__(self, server, on_pick: Callable[[str, str, object], None],
+                 on_draw: Callable[[object, str, str], None] = lambda mesh, model, link: None):
+        """:param on_pick: ``f(model, link, event)``, a click on it. :param on_draw: ``f(mesh, model, link)``."""
         self._server = server
         self._scene = server.scene
         self._on_pick = on_pick
+        self._on_draw = on_draw
         self._assets = Assets()
         self._textures: Dict[str, Optional[object]] = {}
         self._models: Dict[str, ModelDrawing] = {}
@@ -59,6 +63,7 @@ class Drawing:
         self.transparent = False
         self.wireframe = False
         self.shadows = True
+        self._hidden = False
         self.grid = self._scene.add_grid("/grid", width=20.0, height=20.0, cell_size=1.0, cell_thickness=0.6,
                                          section_size=10.0, section_thickness=0.8, position=(0.0, 0.0, _GRID_LIFT),
                                          cell_color=(120, 120, 120), section_color=(80, 80, 80), shadow_opacity=0.0)
@@ -93,6 +98,13 @@ class Drawing:
             self._rows.update(drawn.links)
         self._shown = None
 
+    def hide(self, on: bool) -> None:
+        """Leave the models out for a while, so that something else is seen; their clicks too."""
+        self._hidden = on
+        for drawn in self._models.values():
+            for node in drawn.links.values():
+                node.visible = not on
+
     def redraw(self, world: WorldRecord) -> None:
         """All anew, after a change of how things are drawn."""
         for name in list(self._models):
@@ -113,7 +125,7 @@ class Drawing:
         links = {link.name: link for link in record.description.links}
         for number, (name, row) in enumerate(record.links.items()):
             node = f"{drawn.root}_l{number}"
-            drawn.links[row] = self._scene.add_frame(node, show_axes=False)
+            drawn.links[row] = self._scene.add_frame(node, show_axes=False, visible=not self._hidden)
             drawn.handles.append(drawn.links[row])
             link = links.get(name)
             for at, visual in enumerate(link.visuals if link else ()):
@@ -121,8 +133,12 @@ class Drawing:
                 for part_number, part in enumerate(self._assets.parts(visual, scoped)):
                     mesh = self._mesh(f"{node}/v{at}_{part_number}", part, visual, scoped)
                     drawn.meshes.append(mesh)
+                    if not isinstance(visual.geometry, (d.Plane, d.Heightmap)):
+                        drawn.boxes.append((name, self._box(part)))
                     drawn.handles.append(mesh)
                     mesh.on_click(lambda event, model=record.name, link=name: self._on_pick(model, link, event))
+                    if not record.static:
+                        self._on_draw(mesh, record.name, name)
         return drawn
 
     def _mesh(self, node: str, part: Part, visual: d.Visual, scoped: str):
@@ -140,6 +156,21 @@ class Drawing:
             node, np.asarray(mesh.vertices, np.float32), np.asarray(mesh.triangles, np.uint32),
             color=rgb255(_seen(look)), opacity=alpha if alpha < 0.995 else None, wireframe=self.wireframe, side=side,
             scale=tuple(float(s) for s in part.scale), cast_shadow=shadow, **place)
+
+    def _box(self, part: Part) -> np.ndarray:
+        points = np.asarray(self._assets.meshes[part.key].vertices) * part.scale
+        corners = itertools.product(*zip(points.min(axis=0), points.max(axis=0)))
+        return np.array([transform(part.pose, tuple(map(float, corner))) for corner in corners])
+
+    def corners(self, frame: Frame) -> Tuple[np.ndarray, np.ndarray]:
+        """(N, 3) corners in the world, m, of the boxes around what stands still and around what can move; not the
+        ground's."""
+        found: Tuple[List, List] = ([], [])
+        for drawn in self._models.values():
+            for link, box in drawn.boxes:
+                pose = frame.pose(drawn.record.links[link])
+                found[0 if drawn.record.static else 1].extend(transform(pose, tuple(corner)) for corner in box)
+        return tuple(np.array(points, float).reshape(-1, 3) for points in found)
 
     def _image(self, file: str, scoped: str):
         if file not in self._textures:
@@ -180,16 +211,9 @@ class Drawing:
             place = tuple(float(v) for v in -away)
             return self._scene.add_light_directional(node, intensity=_FULL * 0.8, position=place, **common)
         decay = 2.0 if light.quadratic > 0.0 else 1.0 if light.linear > 0.0 else 0.0
-        strength = _FULL / max(light.constant if decay == 0.0 else light.linear if decay ==
-                               1.0 else light.quadratic, 0.05)
-        options = dict(
-    intensity=min(
-        strength,
-        30.0),
-        distance=light.range,
-        decay=decay,
-        position=light.pose.p,
-         **common)
+        fading = {0.0: light.constant, 1.0: light.linear, 2.0: light.quadratic}[decay]
+        options = dict(intensity=min(_FULL / max(fading, 0.05), 30.0), distance=light.range, decay=decay,
+                       position=light.pose.p, **common)
         if light.type == "spot":
             return self._scene.add_light_spot(
                 node, angle=min(max(light.spot[1] / 2, 0.01), math.pi / 2), penumbra=0.5, direction=(0.0, 0.0, -1.0),
@@ -231,5 +255,3 @@ def _textured(mesh, part: Part, image, look: Look, alpha: float):
                            vertex_normals=np.asarray(mesh.normals, float), process=False)
     made.visual = trimesh.visual.TextureVisuals(uv=np.asarray(mesh.uv, float), material=material)
     return made
-
-

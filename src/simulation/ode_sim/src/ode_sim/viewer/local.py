@@ -14,9 +14,12 @@ from ode_sim import math3
 from ode_sim.description import DescriptionError, model as d, read_light, read_model, root_kind
 from ode_sim.description.sdf_writer import world_text
 from ode_sim.rendering.watch import SceneWatch
+from ode_sim.timeline import Timeline
+from ode_sim.viewer.contacts import ContactWatch
 from ode_sim.viewer.saving import describe_now
-from ode_sim.viewer.simulation import (Frame, LinkProperties, Refused, Simulation, WorldRecord, link_poses,
-                                       record_world)
+from ode_sim.viewer.simulation import (Frame, KeptMoment, LinkProperties, Refused, Simulation, SurfaceProperties,
+                                       WorldRecord, record_world)
+from ode_sim.viewer.surfaces import paint
 
 _FRAME = 1.0 / 60.0  # wall s between two frames
 _LATE = 0.1  # s that may be made up for
@@ -40,7 +43,11 @@ class LocalSimulation(Simulation):
         self._commands: Dict[str, Tuple] = {}
         self._pushes: list = []
         self._ended = False
+        self._contacts = ContactWatch(world)
+        self._newest_contacts: Optional[np.ndarray] = None  # None: nobody wants them
+        self._timeline = Timeline(world)
         world.before_step.append(self._drive)
+        world.after_step.append(lambda world: self._timeline.after_step())
         self._thread = threading.Thread(target=self._run, name="physics", daemon=True)
         self._thread.start()
 
@@ -100,8 +107,10 @@ class LocalSimulation(Simulation):
             self._real_time += wall
             self._factor += 0.05 * ((sim / wall if wall > 0 else 0.0) - self._factor)
         world = self._world
+        if self._newest_contacts is not None:
+            self._newest_contacts = self._contacts.read()
         self._frame = Frame(self._revision, world.time, self._real_time, world.iterations, self._paused,
-                            0.0 if self._paused else self._factor, link_poses(world),
+                            0.0 if self._paused else self._factor, np.array(world.link_poses, np.float32),
                             np.array(world.joint_positions, np.float32))
 
     def _drive(self, world) -> None:
@@ -116,7 +125,7 @@ class LocalSimulation(Simulation):
             joint.add_force(gains[0] * error + gains[1] * memory[0] + gains[2] * slope)
         self._pushes = [push for push in self._pushes if push[3] > world.time]
         for link, force, torque, _ in self._pushes:
-            link.add_force(force, link.pose.p)
+            link.add_force(force)
             link.add_torque(torque)
 
     # ------------------------------------------------------------------------------------------ Simulation
@@ -223,8 +232,56 @@ class LocalSimulation(Simulation):
         self.call(do)
 
     def push(self, model: str, link: str, force: d.Vec3, torque: d.Vec3, duration: float) -> None:
-        self.call(lambda world: self._pushes.append(
-            (_model(world, model).links[link], force, torque, world.time + duration)))
+        def do(world):
+            handle = _model(world, model).links[link]
+            self._pushes = [push for push in self._pushes if push[0] is not handle]  # the last one asked for wins
+            self._pushes.append((handle, force, torque, world.time + duration))
+        self.call(do)
+
+    def surface(self, model: str, link: str) -> SurfaceProperties:
+        def do(world):
+            surface = _collisions(world, model, link)[0].surface
+            return SurfaceProperties(surface.mu, surface.mu2, surface.restitution)
+        return self.call(do)
+
+    def set_surface(self, model: str, link: str, surface: SurfaceProperties) -> None:
+        def do(world):
+            for collision in _collisions(world, model, link):
+                for name, value in vars(surface).items():
+                    setattr(collision.surface, name, value)
+        self.call(do)
+
+    def paint(self, model: str, link: str, rgba: d.Rgba) -> None:
+        self.call(lambda world: [paint(other, rgba) for name, other in _model(world, model).links.items()
+                                 if link in ("", name)])
+
+    def watch_contacts(self, on: bool) -> None:
+        def do(world):
+            self._contacts.watch(on)
+            self._newest_contacts = self._contacts.read() if on else None
+        self.call(do)
+
+    def contacts(self) -> np.ndarray:
+        newest = self._newest_contacts
+        return newest if newest is not None else np.zeros((0, 6), np.float32)
+
+    def moments(self) -> Tuple[KeptMoment, ...]:
+        return self.call(lambda world: tuple(
+            KeptMoment(moment.number, moment.time_ns * 1e-9) for moment in self._timeline.moments))
+
+    def keep(self) -> None:
+        self.call(lambda world: self._timeline.keep())
+
+    def record(self, period: float) -> None:
+        self.call(lambda world: self._timeline.record(period))
+
+    def go_back(self, number: int) -> None:
+        def do(world):
+            moment = self._timeline.find(number)
+            world.restore(moment.snapshot)
+            self._paused = True
+            self._timeline.went_back(moment)
+        self.call(do)
 
     def save(self) -> str:
         return world_text(self.call(describe_now))
@@ -234,3 +291,10 @@ def _model(world, name: str):
     if name not in world.models:
         raise Refused(f"there is no model '{name}' any more")
     return world.models[name]
+
+
+def _collisions(world, model: str, link: str):
+    found = list(_model(world, model).links[link].collisions.values())
+    if not found:
+        raise Refused(f"{model}::{link} has no collision")
+    return found

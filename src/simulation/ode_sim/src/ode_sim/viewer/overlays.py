@@ -9,6 +9,7 @@ import numpy as np
 from ode_sim.description import model as d
 from ode_sim.math3 import Pose, compose, quat_from_matrix
 from ode_sim.rendering.assets import Assets
+from ode_sim.viewer.arrows import Forces
 from ode_sim.viewer.drawing import wxyz
 from ode_sim.viewer.simulation import Frame, ModelRecord, WorldRecord
 
@@ -31,6 +32,19 @@ class Overlays:
         self._assets = Assets()
         self._nodes: Dict[str, List[Any]] = {}
         self.shown: set = set()
+        self._contacts: Optional[Forces] = None
+        self.force_scale = 0.01  # m of an arrow for each N
+
+    def contacts(self, on: bool) -> None:
+        """Show where bodies touch, and with what force. Drawing thread."""
+        if on == (self._contacts is not None):
+            return
+        self._page.simulation.watch_contacts(on)
+        if on:
+            self._contacts = Forces(self._scene, "/contacts", (20, 160, 60), dots=True)
+        else:
+            self._contacts.hide()
+            self._contacts = None
 
     def show(self, kind: str, on: bool) -> None:
         """Drawing thread."""
@@ -47,7 +61,11 @@ class Overlays:
                 self._draw(kind, world)
 
     def move(self, frame: Frame) -> None:
-        """Nothing: all hangs on the links' frames."""
+        """All but the contacts hangs on the links' frames."""
+        if self._contacts is not None:
+            found = self._page.simulation.contacts()
+            with self._page.server.atomic():
+                self._contacts.show(found[:, :3], found[:, 3:], self.force_scale)
 
     def _draw(self, kind: str, world: WorldRecord) -> None:
         for node in self._nodes.pop(kind, ()):
@@ -71,8 +89,8 @@ class Overlays:
         for link in record.description.links:
             for number, collision in enumerate(link.collisions):
                 visual = d.Visual(collision.name, collision.pose, collision.geometry)
-                for part_number, part in enumerate(self._assets.parts(
-                    visual, f"{record.name}::{link.name}::{collision.name}")):
+                scoped = f"{record.name}::{link.name}::{collision.name}"
+                for part_number, part in enumerate(self._assets.parts(visual, scoped)):
                     mesh = self._assets.meshes[part.key]
                     made.append(self._scene.add_mesh_simple(
                         f"{frames[link.name]}/c{number}_{part_number}", np.asarray(mesh.vertices, np.float32),

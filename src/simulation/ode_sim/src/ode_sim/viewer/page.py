@@ -9,9 +9,11 @@ from typing import Any, Callable, List, Optional, Sequence
 
 from ode_sim.description.model import one_line
 from ode_sim.viewer.drawing import Drawing
+from ode_sim.viewer.eye import Eyes, view_of
 from ode_sim.viewer.overlays import Overlays
 from ode_sim.viewer.panels import STANDARD
 from ode_sim.viewer.panels.base import Panel
+from ode_sim.viewer.pulling import Pull
 from ode_sim.viewer.selection import Selection
 from ode_sim.viewer.simulation import Frame, Refused, Simulation, WorldRecord
 from ode_sim.viewer.website import DEFAULT_PORT, Website
@@ -19,37 +21,44 @@ from ode_sim.viewer.website import DEFAULT_PORT, Website
 _PERIOD = 1.0 / 30.0  # wall s between two looks at the simulation
 _IDLE_PERIOD = 0.25  # the same while no browser shows it
 _TEXT_PERIOD = 0.2  # wall s between two updates of numbers
+_SETTLING = 20.0  # wall s in which the eye follows a world that is still being put together
+_PATIENCE = 15.0  # wall s that somebody who knocked may take to come in
 _log = logging.getLogger("viewer")
 
 
 class Page:
     """Shows a simulation until :meth:`close`; a context manager.
 
+    :param website: a port that is held already; it is opened, ``port`` and ``listen`` are not used
     :param panels: classes of more :class:`~ode_sim.viewer.panels.base.Panel`, behind the standard ones
     :param say: where lines for the user go who started it
     :raises ode_sim.viewer.website.Unavailable: no page can be served
     """
 
     def __init__(self, simulation: Simulation, port: int = DEFAULT_PORT, listen: bool = False, title: str = "Gazebo",
-                 panels: Sequence[type] = (), say: Callable[[str], None] = _log.warning):
+                 panels: Sequence[type] = (), say: Callable[[str], None] = _log.warning,
+                 website: Optional[Website] = None):
         self.simulation = simulation
-        self.website = Website(port, listen)
-        self.server = self.website.viser
+        self.website = website or Website(port, listen)
+        self.server = self.website.open()
         self.world = WorldRecord()
         self.frame: Optional[Frame] = None
         self._say = say
         self._jobs: queue.SimpleQueue = queue.SimpleQueue()
         self._ended = threading.Event()
+        self._wake = threading.Event()  # there are jobs
         self._holder: Optional[int] = None  # the page that holds the controls
         self._pages = 0
         self._next_text = 0.0
         self._absent = False
+        self._begun = time.monotonic()
+        self._settled = self._begun + _SETTLING
         self.server.gui.configure_theme(control_width="medium", show_logo=False, show_share_button=False)
         self.server.gui.main_panel.dock_right()
         self.server.gui.set_panel_label(title)
-        self.server.initial_camera.position = (5.0, -5.0, 2.5)
-        self.server.initial_camera.look_at = (0.0, 0.0, 0.4)
-        self.drawing = Drawing(self.server, self._picked)
+        self.eyes = Eyes(self.server)
+        self.pull = Pull(self)
+        self.drawing = Drawing(self.server, self._picked, self.pull.attach)
         self.overlays = Overlays(self)
         self.selection = Selection(self)
         self.panels: List[Panel] = []
@@ -77,7 +86,7 @@ class Page:
         """End :meth:`run` and the web server. Any thread, more than once."""
         if not self._ended.is_set():
             self._ended.set()
-            self._jobs.put(lambda: None)
+            self._wake.set()
             self.simulation.close()
             self.website.close()
 
@@ -86,6 +95,7 @@ class Page:
     def later(self, f: Callable[[], None]) -> None:
         """Call ``f()`` in the thread that draws. Any thread."""
         self._jobs.put(f)
+        self._wake.set()
 
     def attempt(self, event: Any, f: Callable[[], Any]) -> Any:
         """Do what a page asked for: ``f()``, unless another page holds the controls; a refusal is shown on that page.
@@ -129,18 +139,28 @@ class Page:
         """Draw until :meth:`close`, or until ``ended()``."""
         while not self._ended.is_set() and not ended():
             begin = time.monotonic()
-            try:
-                self.turn()
-            except Exception as error:  # a bug in one part must not end the window
-                _log.debug("the page stumbled", exc_info=True)
-                self._say(f"{type(error).__name__}: {one_line(error, 200)}")
-                time.sleep(1.0)
+            self._guarded(self.turn)
             spent = time.monotonic() - begin
-            self._ended.wait(max((_PERIOD if self._pages else _IDLE_PERIOD) - spent, spent))  # half a core at most
+            rest = begin + spent + max((_PERIOD if self._pages else _IDLE_PERIOD) - spent, spent)  # half a core at most
+            while (left := rest - time.monotonic()) > 0.0 and not self._ended.is_set():
+                if self._wake.wait(left):  # what a hand does is done at once
+                    self._guarded(self._do_jobs)
+
+    def _guarded(self, f: Callable[[], None]) -> None:
+        try:
+            f()
+        except Exception as error:  # a bug in one part must not end the window
+            _log.debug("the page stumbled", exc_info=True)
+            self._say(f"{type(error).__name__}: {one_line(error, 200)}")
+            self._ended.wait(1.0)
 
     def turn(self) -> None:
         """One look at the simulation."""
         self._do_jobs()
+        if self._begun and time.monotonic() > self._begun + _PATIENCE:
+            self._begun = 0.0
+            if not self._pages:  # nobody came in
+                self.simulation.look(False)
         frame = self.simulation.frame()
         if frame is None:
             if not self._absent:
@@ -151,11 +171,12 @@ class Page:
             return
         if frame.revision != self.world.revision or self._absent:
             self._absent = False
-            self._take(self.simulation.describe())
+            self._take(self.simulation.describe(), frame)
         self.frame = frame
         if frame.revision == self.world.revision:  # else the rows are of another world: the next frame has them
             self.drawing.move(frame)
             self.overlays.move(frame)
+            self.pull.move(frame)
         now = time.monotonic()
         if now >= self._next_text:
             self._next_text = now + _TEXT_PERIOD
@@ -168,9 +189,13 @@ class Page:
         self.overlays.update(self.world)
         self.frame = None
 
-    def _take(self, world: WorldRecord) -> None:
+    def _take(self, world: WorldRecord, frame: Frame) -> None:
         self.world = world
         self.drawing.update(world)
+        if frame.revision == world.revision:
+            self.drawing.move(frame)
+            if time.monotonic() < self._settled:
+                self.eyes.look(view_of(*self.drawing.corners(frame)))
         self.overlays.update(world)
         self.selection.update(world)
         self._each(lambda panel: panel.on_world(world))
@@ -179,6 +204,7 @@ class Page:
         self.drawing.problems.clear()
 
     def _do_jobs(self) -> None:
+        self._wake.clear()
         while True:
             try:
                 job = self._jobs.get_nowait()

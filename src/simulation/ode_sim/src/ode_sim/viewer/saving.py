@@ -4,6 +4,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from ode_sim.description import model as d
+from ode_sim.math3 import inverse, transform
 
 
 def describe_now(world) -> d.World:
@@ -27,7 +28,27 @@ def _link_now(model, link: d.Link) -> d.Link:
     handle = model.links.get(link.name)
     if handle is None:
         return link
-    return replace(link, gravity=bool(handle.gravity), lights=tuple(handle.lights.values()))
+    return replace(link, gravity=bool(handle.gravity), lights=tuple(handle.lights.values()),
+                   inertial=_inertial_now(handle, link.inertial) if not model.static else link.inertial,
+                   collisions=tuple(_collision_now(handle, collision) for collision in link.collisions))
+
+
+def _inertial_now(handle, written: d.Inertial) -> d.Inertial:
+    """As it was written, unless the mass was changed since."""
+    if handle.mass == written.mass:
+        return written
+    ixx, iyy, izz, ixy, ixz, iyz = (float(v) for v in handle.inertia)
+    com = transform(inverse(handle.pose), tuple(handle.com()))
+    return d.Inertial(handle.mass, d.Pose(com), ixx, ixy, ixz, iyy, iyz, izz)
+
+
+def _collision_now(handle, written: d.Collision) -> d.Collision:
+    now = handle.collisions.get(written.name)
+    if now is None:
+        return written
+    changed = {name: getattr(now.surface, name) for name in ("mu", "mu2", "restitution")
+               if getattr(now.surface, name) != getattr(written.surface, name)}
+    return replace(written, surface=replace(written.surface, **changed)) if changed else written
 
 
 def _plain(vector) -> d.Vec3:

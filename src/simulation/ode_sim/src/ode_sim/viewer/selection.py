@@ -1,6 +1,7 @@
 """What is picked: its frame, gizmo, copy, delete; undo and redo of what was done to the world."""
 from __future__ import annotations
 
+import threading
 from dataclasses import replace
 from typing import Any, Callable, List, Optional, Tuple
 
@@ -65,6 +66,8 @@ class Selection:
         self.light = ""
         self.on_change: List[Callable[[], None]] = []
         self._dragged: Optional[Pose] = None  # where the drag began
+        self._updates: List[Tuple[Any, Pose, str]] = []  # of the drag, to be done
+        self._lock = threading.Lock()
         self._gizmo_wanted = False
         self._snap = 0.0
         scene = page.server.scene
@@ -125,32 +128,47 @@ class Selection:
     # ------------------------------------------------------------------------------------------ acting
 
     async def _on_drag(self, event: Any) -> None:
-        """In the order of the hand: the event loop calls it, the work is done in the drawing thread."""
+        """In the order of the hand: the event loop calls it, the work is done in the drawing thread.
+
+        Of places on the way only the newest is gone to.
+        """
         position = tuple(float(v) for v in event.target.position)
         w, x, y, z = (float(v) for v in event.target.wxyz)
-        self._page.later(lambda: self._drag(event, Pose(position, (x, y, z, w)), event.phase))
+        update = (event, Pose(position, (x, y, z, w)), event.phase)
+        with self._lock:
+            waiting = bool(self._updates)
+            if waiting and self._updates[-1][2] == "update":
+                self._updates.pop()
+            self._updates.append(update)
+        if not waiting:
+            self._page.later(self._do_updates)
+
+    def _do_updates(self) -> None:
+        with self._lock:
+            updates, self._updates = self._updates, []
+        for update in updates:
+            self._drag(*update)
 
     def _drag(self, event: Any, pose: Pose, phase: str) -> None:
-        record, frame = self.record, self._page.frame
         if phase == "start" or self._dragged is None:
-            self._dragged = self.light_record.pose if self.light_record else record.pose(
-                frame) if record and frame else None
+            self._dragged = self._whole()
         if self._snap > 0.0:
             pose = replace(pose, p=tuple(round(v / self._snap) * self._snap for v in pose.p))
-        begin = self._dragged
+        begin, name = self._dragged, self.model or self.light
         if begin is not None:
-            name = self.model or self.light
-            self._page.attempt(event, lambda: self._put(pose))
+            self._page.attempt(event, lambda: self._put_named(name, pose))
             if phase == "end" and pose != begin:
-                self.history.note(
-    f"move {name}", lambda: self._put_named(
-        name, pose), lambda: self._put_named(
-            name, begin))
+                self.history.note(f"move {name}", lambda: self._put_named(name, pose),
+                                  lambda: self._put_named(name, begin))
         if phase == "end":
             self._dragged = None
 
-    def _put(self, pose: Pose) -> None:
-        self._put_named(self.model or self.light, pose)
+    def _whole(self) -> Optional[Pose]:
+        """X_W of the model or light that is picked."""
+        record, frame, light = self.record, self._page.frame, self.light_record
+        if light is not None:
+            return light.pose
+        return record.pose(frame) if record is not None and frame is not None else None
 
     def _put_named(self, name: str, pose: Pose) -> None:
         light = next((light for light in self._page.world.lights if light.name == name), None)
@@ -164,12 +182,8 @@ class Selection:
 
         :raises Refused: nothing is picked
         """
-        record, frame, name = self.record, self._page.frame, self.model or self.light
-        if record is not None and frame is not None:
-            begin = record.pose(frame)
-        elif self.light_record is not None:
-            begin = self.light_record.pose
-        else:
+        begin, name = self._whole(), self.model or self.light
+        if begin is None:
             raise Refused("Pick a model or light first.")
         self.history.do(f"move {name}", lambda: self._put_named(name, pose), lambda: self._put_named(name, begin))
 

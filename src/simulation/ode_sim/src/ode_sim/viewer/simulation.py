@@ -89,6 +89,23 @@ class LinkProperties:
     gravity: bool
 
 
+@dataclass(frozen=True)
+class SurfaceProperties:
+    """``mu`` and ``mu2``: Coulomb friction in the two directions; ``restitution`` 0 to 1."""
+
+    mu: float
+    mu2: float
+    restitution: float
+
+
+@dataclass(frozen=True)
+class KeptMoment:
+    """One that :meth:`Simulation.go_back` may be given; ``time`` s of sim time."""
+
+    number: int
+    time: float
+
+
 #: How a joint is commanded: nothing, a force (N m or N), a position (rad or m) or velocity held by a PID of effort.
 JOINT_MODES = ("none", "force", "position", "velocity")
 
@@ -166,7 +183,46 @@ class Simulation(ABC):
 
     @abstractmethod
     def push(self, model: str, link: str, force: d.Vec3, torque: d.Vec3, duration: float) -> None:
-        """Force N and torque N m at the link's origin, world axes, for ``duration`` s of sim time."""
+        """Force N and torque N m at the centre of mass, world axes, for ``duration`` s of sim time.
+
+        A new one on the same link takes the place of the one before.
+        """
+
+    @abstractmethod
+    def surface(self, model: str, link: str) -> SurfaceProperties:
+        """Of the link's first collision."""
+
+    @abstractmethod
+    def set_surface(self, model: str, link: str, surface: SurfaceProperties) -> None:
+        """Of all collisions of the link."""
+
+    @abstractmethod
+    def paint(self, model: str, link: str, rgba: d.Rgba) -> None:
+        """All visuals of a link ('' = of the model) in one colour, 0 to 1."""
+
+    @abstractmethod
+    def watch_contacts(self, on: bool) -> None:
+        """Somebody wants :meth:`contacts` from now on, or nobody."""
+
+    @abstractmethod
+    def contacts(self) -> np.ndarray:
+        """(N, 6) float32 of the newest moment: place m, force on the first body N, world axes."""
+
+    @abstractmethod
+    def moments(self) -> Tuple[KeptMoment, ...]:
+        """In the order of time."""
+
+    @abstractmethod
+    def keep(self) -> None:
+        """Keep this moment."""
+
+    @abstractmethod
+    def record(self, period: float) -> None:
+        """Keep a moment every ``period`` s of sim time; 0: no more."""
+
+    @abstractmethod
+    def go_back(self, number: int) -> None:
+        """To a moment that was kept; paused from then on."""
 
     @abstractmethod
     def save(self) -> str:
@@ -174,20 +230,6 @@ class Simulation(ABC):
 
     def close(self) -> None:
         """The page has ended."""
-
-
-def link_poses(world) -> np.ndarray:
-    """(L,7) float32 of a running :class:`ode_sim.World`, in the thread that steps it.
-
-    ``world.link_poses`` has zeros for a model that was spawned since the last step.
-    """
-    poses = np.array(world.link_poses, np.float32)
-    if len(poses) and not poses[:, 3:].any(axis=1).all():
-        for model in world.models.values():
-            for link in model.links.values():
-                pose = link.pose
-                poses[link.index] = (*pose.p, *pose.q)
-    return poses
 
 
 def record_world(world, revision: int) -> WorldRecord:

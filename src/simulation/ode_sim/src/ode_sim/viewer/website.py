@@ -2,24 +2,30 @@
 
 By default it answers on the loopback interface only, to pages that come from itself. With ``listen`` it answers to
 every machine that shows the token, which is part of the address that is printed once.
+
+The port is taken at once, viser (a second of imports) is started when a browser has knocked: until then the knocks wait in
+the system's queue.
 """
 from __future__ import annotations
 
 import contextlib
 import hmac
 import http
+import importlib.util
 import io
 import secrets
+import select
 import socket
 import threading
 from http.cookies import CookieError, SimpleCookie
-from typing import Optional
+from typing import Any, Optional
 from urllib.parse import parse_qs, urlsplit
 
 #: Beside the 11345 of Gazebo's own master; the next free one is taken where it is in use.
 DEFAULT_PORT = 11346
 _LOOPBACK = ("localhost", "127.0.0.1", "::1")
 _TRIES = 100
+_WAITING = 64  # connections that the system keeps until the server looks at them
 _starting = threading.Lock()
 
 
@@ -71,21 +77,20 @@ class Guard:
 
 
 class Website:
-    """Serves one page until :meth:`close`.
+    """Holds a port from now on, and serves one page on it from :meth:`open` to :meth:`close`.
 
+    :ivar viser: the ViserServer; None before :meth:`open`
     :param listen: to other machines, with a token
     :raises Unavailable: viser is not installed, or no port is free
     """
 
     def __init__(self, port: int = DEFAULT_PORT, listen: bool = False):
-        try:
-            import viser
-        except ImportError as error:
-            raise Unavailable(f"the page needs the Python package {error.name}; scripts/setup installs it") from error
+        if importlib.util.find_spec("viser") is None:
+            raise Unavailable("the page needs the Python package viser; scripts/setup installs it")
         self.guard = Guard(secrets.token_urlsafe(16) if listen else "")
-        self.viser = _start(viser, "0.0.0.0" if listen else "127.0.0.1", _free_port(port, listen), self.guard)
-        self._withdraw_sharing()
-        self.port = self.viser.get_port()
+        self.viser: Any = None
+        self._door = _take_port(port, listen)
+        self.port = self._door.getsockname()[1]
         self._listen = listen
 
     @property
@@ -99,9 +104,30 @@ class Website:
         """The same on this machine."""
         return f"http://localhost:{self.port}/" + (f"?token={self.guard.token}" if self._listen else "")
 
+    def knocked(self, seconds: float) -> bool:
+        """Whether a browser is at the door, within that time; nothing is answered yet."""
+        return bool(select.select([self._door], [], [], seconds)[0])
+
+    def open(self) -> Any:
+        """Start to answer; the ViserServer.
+
+        :raises Unavailable: what viser needs is not installed
+        """
+        if self.viser is None:
+            try:
+                import viser
+            except ImportError as error:
+                raise Unavailable(f"the page needs the Python package {error.name}; scripts/setup installs it") from error
+            self.viser = _start(viser, self._door, self.guard)
+            self._withdraw_sharing()
+        return self.viser
+
     def close(self) -> None:
-        with contextlib.redirect_stdout(io.StringIO()):  # viser says goodbye there
-            self.viser.stop()
+        if self.viser is not None:
+            with contextlib.redirect_stdout(io.StringIO()):  # viser says goodbye there
+                self.viser.stop()
+            self.viser = None
+        self._door.close()
 
     def _withdraw_sharing(self) -> None:
         """A page may ask viser for a tunnel through a server in the internet; not here."""
@@ -110,27 +136,28 @@ class Website:
             self.viser._websock_server.unregister_handler(message)
 
 
-def _free_port(port: int, listen: bool) -> int:
-    if port == 0:
-        return 0
-    for candidate in range(port, min(port + _TRIES, 65536)):
-        with socket.socket() as probe:
-            probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-            try:
-                probe.bind(("0.0.0.0" if listen else "127.0.0.1", candidate))
-                return candidate
-            except OSError:
-                continue
+def _take_port(port: int, listen: bool) -> socket.socket:
+    """The first free one from ``port`` (any, if it is 0), listened on."""
+    for candidate in range(port, min(port + _TRIES, 65536)) if port else (0,):
+        door = socket.socket()
+        door.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            door.bind(("0.0.0.0" if listen else "127.0.0.1", candidate))
+            door.listen(_WAITING)
+            return door
+        except OSError:
+            door.close()
     raise Unavailable(f"no port from {port} to {port + _TRIES - 1} is free; choose another one with --port")
 
 
-def _start(viser, host: str, port: int, guard: Guard):
-    """A viser server whose requests pass ``guard`` first; viser has no place for one, so its call of ``serve`` is."""
+def _start(viser: Any, door: socket.socket, guard: Guard) -> Any:
+    """A viser server on ``door`` whose requests pass ``guard`` first; viser has no place for either, so its call of
+    ``serve`` is."""
     import websockets.asyncio.server as library
 
     usual = library.serve
 
-    def serve(handler, *where, process_request=None, **options):
+    def serve(handler, host, port, process_request=None, **options):
         def guarded(connection, request):
             refused = guard.refuse(request.path, request.headers)
             if refused is None:
@@ -141,11 +168,11 @@ def _start(viser, host: str, port: int, guard: Guard):
                 response.headers[name] = value
             return response
 
-        return usual(handler, *where, process_request=guarded, **options)
+        return usual(handler, sock=door, process_request=guarded, **options)
 
     with _starting, contextlib.redirect_stdout(io.StringIO()):  # where viser draws a frame round its address
         library.serve = serve
         try:
-            return viser.ViserServer(host=host, port=port, verbose=False)
+            return viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
         finally:
             library.serve = usual

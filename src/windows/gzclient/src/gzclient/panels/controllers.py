@@ -6,7 +6,7 @@ from typing import Any, List, Tuple
 import rosgraph
 import rospy
 from controller_manager_msgs.srv import ListControllers, SwitchController, SwitchControllerRequest
-from ode_sim.viewer.panels.base import Panel, escaped
+from ode_sim.viewer.panels.base import Panel, note
 from ode_sim.viewer.simulation import Refused
 from std_msgs.msg import Float64
 
@@ -31,7 +31,7 @@ class ControllersPanel(Panel):
         self.gui.add_button("Look for controllers").on_click(lambda event: page.attempt(event, self._read))
         self._folder = self.gui.add_folder("Controllers")
         with self._folder:
-            self._note = self.gui.add_html(_text("not asked yet"))
+            self._note = self.gui.add_html(note("not asked yet"))
 
     def _read(self) -> None:
         """Ask, in the thread of the click; draw in the drawing thread."""
@@ -48,7 +48,7 @@ class ControllersPanel(Panel):
             publisher.unregister()
         self._made, self._publishers = [], []
         self._note.visible = not any(controllers for _, controllers in found)
-        self._note.content = _text("no controller manager is there" if not found else "no controller is loaded")
+        self._note.content = note("no controller manager is there" if not found else "no controller is loaded")
         with self._folder:
             for manager, controllers in found:
                 for controller in controllers:
@@ -84,7 +84,3 @@ def _call(name: str, service: type, *arguments: Any) -> Any:
         return rospy.ServiceProxy(name, service)(*arguments)
     except (rospy.ROSException, rospy.ServiceException) as error:
         raise Refused(f"{name}: {error}") from error
-
-
-def _text(line: str) -> str:
-    return f"<div style='padding:0 0.6em;font-size:0.8em'>{escaped(line)}</div>"

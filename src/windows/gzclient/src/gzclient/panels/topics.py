@@ -10,7 +10,7 @@ import numpy as np
 import rosgraph
 import rospy
 import roslib.message
-from ode_sim.viewer.panels.base import Panel, escaped
+from ode_sim.viewer.panels.base import Panel, escaped, note
 from ode_sim.viewer.simulation import Frame, Refused
 
 from gzclient.images import picture_of
@@ -40,7 +40,7 @@ class TopicsPanel(Panel):
         self._search = self.gui.add_text("Search", "")
         self._chosen = self.gui.add_dropdown("Topic", (_NONE,))
         self._field = self.gui.add_text("Plot", "", hint="a number of the message, as in pose[0].position.x")
-        self._state = self.gui.add_html(_line("no topic"))
+        self._state = self.gui.add_html(note("no topic"))
         self._image = self.gui.add_image(np.zeros((8, 8, 3), np.uint8), format="jpeg", visible=False)
         self._text = self.gui.add_html("", visible=False)
         self._plots = self.gui.add_folder("Plot", visible=False)
@@ -71,7 +71,7 @@ class TopicsPanel(Panel):
         self._points.clear()
         self._image.visible = self._text.visible = False
         if topic == _NONE:
-            self._state.content = _line("no topic")
+            self._state.content = note("no topic")
             return
         kinds = dict(rosgraph.Master(rospy.get_name()).getTopicTypes())
         self._type = kinds.get(topic, "")
@@ -80,7 +80,7 @@ class TopicsPanel(Panel):
             raise Refused(
                 f"{topic}: its type {self._type or '(unknown)'} is not built here; source the workspace that has it")
         self._subscriber = rospy.Subscriber(topic, cls, self._take, queue_size=1, buff_size=1 << 24)
-        self._state.content = _line(f"{topic}: waiting for a message of {self._type}")
+        self._state.content = note(f"{topic}: waiting for a message of {self._type}")
 
     def _plot_field(self, path: str) -> None:
         self._path = path.strip().lstrip("/")
@@ -103,13 +103,13 @@ class TopicsPanel(Panel):
         if message is None or self._count == self._drawn:
             return
         self._drawn = self._count
-        self._state.content = _line(f"{self._topic} ({self._type}), {self._count} messages")
+        self._state.content = note(f"{self._topic} ({self._type}), {self._count} messages")
         if self._type in _IMAGES:
             try:
                 self._image.image = picture_of(message)
                 self._image.visible = True
             except ValueError as error:
-                self._state.content = _line(f"{self._topic}: {error}")
+                self._state.content = note(f"{self._topic}: {error}")
         else:
             self._show_text(message)
         if self._path:
@@ -126,7 +126,7 @@ class TopicsPanel(Panel):
         try:
             number_at(message, self._path)
         except Refused as error:
-            self._state.content = _line(str(error))
+            self._state.content = note(str(error))
             return
         points: List[Tuple[float, float]] = list(self._points)
         if len(points) < 2:
@@ -167,7 +167,3 @@ def number_at(message: Any, path: str) -> float:
 
 def _missing(part: str) -> Any:
     raise AttributeError(part)
-
-
-def _line(text: str) -> str:
-    return f"<div style='padding:0 0.6em;font-size:0.8em'>{escaped(text)}</div>"

@@ -4,7 +4,8 @@ from ode_sim.viewer.panels.joints import JointsPanel
 from ode_sim.viewer.panels.physics import PhysicsPanel
 from ode_sim.viewer.panels.play import PlayPanel
 from ode_sim.viewer.panels.record import RecordPanel
+from ode_sim.viewer.panels.timeline import TimelinePanel
 from ode_sim.viewer.panels.view import ViewPanel
 from ode_sim.viewer.panels.world import WorldPanel
 
-STANDARD = (PlayPanel, WorldPanel, InsertPanel, JointsPanel, PhysicsPanel, ViewPanel, RecordPanel)
+STANDARD = (PlayPanel, WorldPanel, InsertPanel, JointsPanel, PhysicsPanel, ViewPanel, TimelinePanel, RecordPanel)

@@ -43,6 +43,11 @@ def escaped(text: object) -> str:
     return html.escape(str(text))
 
 
+def note(text: object) -> str:
+    """For add_html: a small line."""
+    return f"<div style='padding:0 0.6em;font-size:0.8em'>{escaped(text)}</div>"
+
+
 def free_name(name: str, taken: Any) -> str:
     """``name``, or ``name_0``, ``name_1`` ... as Gazebo's window names what it inserts."""
     if name not in taken:

@@ -3,6 +3,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from ode_sim.viewer.eye import view_of
 from ode_sim.viewer.overlays import Overlays
 from ode_sim.viewer.panels.base import Panel
 from ode_sim.viewer.simulation import Frame
@@ -18,10 +19,15 @@ class ViewPanel(Panel):
         for kind in Overlays.KINDS:
             box = self.gui.add_checkbox(kind.capitalize(), False)
             self._on_box(box, lambda on, kind=kind: page.overlays.show(kind, on))
+        self._on_box(self.gui.add_checkbox("Contacts", False, hint="where bodies touch, and with what force"),
+                     page.overlays.contacts)
+        self._scale = self.gui.add_number("Arrow for 1 N (m)", page.overlays.force_scale, min=1e-6, max=10.0, step=0.001)
+        self._scale.on_update(lambda event: setattr(page.overlays, "force_scale", float(event.target.value)))
         self._on_box(self.gui.add_checkbox("Grid", True), lambda on: setattr(page.drawing.grid, "visible", on))
         for label, name, usual in (("Transparent", "transparent", False), ("Wireframe", "wireframe", False),
                                    ("Shadows", "shadows", True)):
             self._on_box(self.gui.add_checkbox(label, usual), lambda on, name=name: self._draw_as(name, on))
+        self.gui.add_button("Show all", hint="from where the whole world is seen").on_click(self._on_all)
         self._follow = self.gui.add_checkbox("Follow what is picked", False, hint="the eye keeps its distance")
         views = self.gui.add_button_group("Look from", tuple(_VIEWS))
         views.on_click(self._on_view)
@@ -47,6 +53,11 @@ class ViewPanel(Panel):
                     client.camera.look_at = tuple(float(v) + m for v, m in zip(at, moved))
                     client.camera.position = tuple(float(v) + m for v, m in zip(eye, moved))
         self._followed = pose.p
+
+    def _on_all(self, event: Any) -> None:
+        if event.client is not None and self.page.frame is not None:
+            event.client.camera.position, event.client.camera.look_at = view_of(
+                *self.page.drawing.corners(self.page.frame))
 
     def _on_view(self, event: Any) -> None:
         if event.client is None:

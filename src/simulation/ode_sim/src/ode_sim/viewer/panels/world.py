@@ -2,12 +2,12 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from typing import Any, Callable, List, Optional, Tuple
 
-from ode_sim.math3 import Pose, quat_from_rpy, to_rpy
+from ode_sim.math3 import Pose
 from ode_sim.viewer.panels.base import Panel
-from ode_sim.viewer.simulation import Frame, LinkProperties, WorldRecord
+from ode_sim.viewer.panels.properties import LightProperties, ModelProperties, Properties
+from ode_sim.viewer.simulation import Frame, WorldRecord
 
 _MOST_ROWS = 30
 
@@ -22,7 +22,7 @@ class WorldPanel(Panel):
         self._rows: List[Any] = []
         self._listed: Optional[Tuple] = None
         self._folder = self.gui.add_folder("Nothing is picked")
-        self._properties: Optional[_Properties] = None
+        self._properties: Optional[Properties] = None
         with self.gui.add_folder("Edit"):
             self._gizmo = self.gui.add_checkbox("Move and rotate by hand", False)
             self._snap = self.gui.add_number("Snap to (m)", 0.0, min=0.0, max=10.0, step=0.05)
@@ -87,9 +87,9 @@ class WorldPanel(Panel):
         self._folder.label = name or "Nothing is picked"
         with self._folder:
             if selection.light:
-                self._properties = _LightProperties(self)
+                self._properties = LightProperties(self)
             elif selection.model:
-                self._properties = _ModelProperties(self)
+                self._properties = ModelProperties(self)
 
     def _set_gizmo(self) -> None:
         on, snap = self._gizmo.value, float(self._snap.value)
@@ -116,98 +116,3 @@ def look_at(client: Any, pose: Pose, distance: float = 2.5) -> None:
     length = math.sqrt(sum(v * v for v in away)) or 1.0
     client.camera.look_at = pose.p
     client.camera.position = tuple(p + v / length * distance for p, v in zip(pose.p, away))
-
-
-class _Properties:
-    """Controls in the folder; removed when something else is picked."""
-
-    def __init__(self, panel: WorldPanel):
-        self.panel = panel
-        self.page = panel.page
-        self.gui = panel.gui
-        self.handles: List[Any] = []
-        self._texts: dict = {}
-
-    def add(self, handle: Any) -> Any:
-        self.handles.append(handle)
-        return handle
-
-    def remove(self) -> None:
-        for handle in self.handles:
-            handle.remove()
-
-    def on_frame(self, frame: Frame) -> None:
-        """Show what is now."""
-
-    def _pose_controls(self) -> None:
-        self.position = self.add(self.gui.add_vector3("Position (m)", (0.0, 0.0, 0.0), step=0.01))
-        self.angles = self.add(self.gui.add_vector3("Roll pitch yaw (deg)", (0.0, 0.0, 0.0), step=1.0))
-        for control in (self.position, self.angles):
-            self.panel.on_update(control, lambda _: self._move())
-        self._show_pose()
-
-    def _show_pose(self) -> None:
-        pose = self.page.selection.pose()
-        if pose is not None:
-            self.position.value = tuple(round(float(v), 4) for v in pose.p)
-            self.angles.value = tuple(round(math.degrees(v), 2) for v in to_rpy(pose))
-
-    def _move(self) -> None:
-        roll, pitch, yaw = (math.radians(float(v)) for v in self.angles.value)
-        self.page.selection.move(Pose(tuple(float(v) for v in self.position.value), quat_from_rpy(roll, pitch, yaw)))
-
-
-class _ModelProperties(_Properties):
-    def __init__(self, panel: WorldPanel):
-        super().__init__(panel)
-        selection = self.page.selection
-        record = selection.record
-        self._model = record.name
-        self._link = selection.link or (next(iter(record.links)) if len(record.links) == 1 else "")
-        self._pose_controls()
-        for control in (self.position, self.angles):
-            control.disabled = bool(selection.link)  # a link is moved by its joints, or with its model
-        if self._link and not record.static:
-            self._mass_controls(self.page.simulation.link_properties(self._model, self._link))
-
-    def on_frame(self, frame: Frame) -> None:
-        self._show_pose()
-
-    def _mass_controls(self, now: LinkProperties) -> None:
-        self.mass = self.add(self.gui.add_number("Mass (kg)", float(now.mass), min=1e-6, step=0.1))
-        self.gravity = self.add(self.gui.add_checkbox("Gravity", now.gravity))
-        self.force = self.add(self.gui.add_vector3("Force (N)", (0.0, 0.0, 10.0), step=1.0))
-        self.torque = self.add(self.gui.add_vector3("Torque (N m)", (0.0, 0.0, 0.0), step=0.1))
-        self.duration = self.add(self.gui.add_number("For (s)", 0.1, min=0.001, max=1000.0, step=0.1))
-        push = self.add(self.gui.add_button("Apply force and torque"))
-        self.panel.on_update(self.mass, lambda _: self._set_mass())
-        self.panel.on_update(self.gravity, lambda _: self._set_mass())
-        self.panel.on_click(push, lambda: self.page.simulation.push(
-            self._model, self._link, tuple(self.force.value), tuple(self.torque.value), float(self.duration.value)))
-
-    def _set_mass(self) -> None:
-        """A new mass keeps the shape: the inertia grows with it."""
-        simulation = self.page.simulation
-        now = simulation.link_properties(self._model, self._link)
-        mass = float(self.mass.value)
-        factor = mass / now.mass if now.mass else 1.0
-        simulation.set_link_properties(self._model, self._link, replace(
-            now, mass=mass, inertia=tuple(v * factor for v in now.inertia), gravity=bool(self.gravity.value)))
-
-
-class _LightProperties(_Properties):
-    def __init__(self, panel: WorldPanel):
-        super().__init__(panel)
-        light = self.page.selection.light_record
-        self._pose_controls()
-        self.diffuse = self.add(self.gui.add_rgb("Colour", tuple(int(255 * min(1.0, c)) for c in light.diffuse[:3])))
-        self.shadows = self.add(self.gui.add_checkbox("Casts shadows", light.cast_shadows))
-        self.panel.on_update(self.diffuse, lambda value: self._set(
-            diffuse=tuple(c / 255 for c in value) + (1.0,)))
-        self.panel.on_update(self.shadows, lambda value: self._set(cast_shadows=bool(value)))
-        if light.type != "directional":
-            self.range = self.add(self.gui.add_number("Range (m)", float(light.range), min=0.0, step=0.5))
-            self.panel.on_update(self.range, lambda value: self._set(range=float(value)))
-
-    def _set(self, **changes: Any) -> None:
-        self.page.simulation.set_light(replace(self.page.selection.light_record, **changes))

@@ -1,0 +1,83 @@
+"""Where buildings are kept: one folder for each, with the plan, and the model that Gazebo Classic would open."""
+from __future__ import annotations
+
+import os
+import re
+from typing import Any, Dict, List
+
+import yaml
+from gazebo_ros import building_image, building_sdf
+from gazebo_ros.building import PlanError, building_of
+from gazebo_ros.plan_file import load_plan
+from ode_sim.viewer.simulation import Refused
+
+#: As upstream's editor names it, in the home folder.
+FOLDER = "building_editor_models"
+PLAN = "plan.yaml"
+_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_. -]{0,80}")
+
+
+def folder() -> str:
+    return os.path.join(os.path.expanduser("~"), FOLDER)
+
+
+def checked_name(name: str) -> str:
+    """A name that is one folder below :func:`folder`, whatever a page sends.
+
+    :raises Refused: it is not
+    """
+    if not _NAME.fullmatch(name):
+        raise Refused("A building's name has letters, digits, - _ . and blanks, at most 80; it names a folder.")
+    return name
+
+
+def names() -> List[str]:
+    """Of the buildings that can be opened."""
+    try:
+        return sorted(name for name in os.listdir(folder())
+                      if _NAME.fullmatch(name) and os.path.isfile(os.path.join(folder(), name, PLAN)))
+    except OSError:
+        return []
+
+
+def save(document: Dict[str, Any]) -> str:
+    """Write ``plan.yaml``, ``model.sdf``, ``model.config``, ``NAME.world`` and ``preview.png``; the folder.
+
+    :raises Refused: nothing is drawn, or it cannot be written
+    """
+    name = checked_name(str(document.get("name", "")))
+    target = os.path.join(folder(), name)
+    try:
+        building = building_of(document)
+        os.makedirs(target, exist_ok=True)
+        with open(os.path.join(target, PLAN), "w", encoding="utf-8") as stream:
+            stream.write(text_of(document))
+        building_sdf.write(building, target + "/")
+        building_sdf.write(building, os.path.join(target, f"{name}.world"))
+        building_image.save(building, os.path.join(target, "preview.png"))
+    except PlanError as error:
+        raise Refused(str(error)) from error
+    except OSError as error:
+        raise Refused(f"{error.filename or target}: {error.strerror or error}") from error
+    return target
+
+
+def text_of(document: Dict[str, Any]) -> str:
+    """The plan as YAML, an element a line."""
+    ordered = {key: document[key] for key in ("name", *(key for key in document if key != "name")) if key in document}
+    return ("# A building for build_world (rosrun gazebo_ros build_world plan.yaml -o NAME.world) and gzclient's editor.\n"
+            + yaml.safe_dump(ordered, sort_keys=False, default_flow_style=None, width=110))
+
+
+def load(name: str) -> Dict[str, Any]:
+    """The plan of a building that was saved.
+
+    :raises Refused: it cannot be read
+    """
+    try:
+        document = load_plan(os.path.join(folder(), checked_name(name), PLAN))
+    except ValueError as error:
+        raise Refused(str(error)) from error
+    if not isinstance(document, dict):
+        raise Refused(f"{name}/{PLAN} holds no plan")
+    return document
