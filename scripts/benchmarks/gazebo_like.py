@@ -88,8 +88,14 @@ def rigid_casters(solver):
 def light_finger(solver):
     """A finger of 1 g on a slide, pulled to its place by 100 N/m without damping: the swing after 0.1 s and after 5 s, mm."""
     world = world_with(solver)
-    links = (Link("palm", Pose((0, 0, 1)), Inertial(1.0)), Link("finger", Pose((0, 0, 1)), Inertial(0.001, Pose(), 1e-6, 0, 0, 1e-6, 0, 1e-6)))
-    joints = (Joint("bolt", "fixed", "world", "palm"), Joint("slide", "prismatic", "palm", "finger", axes=(Axis((1, 0, 0), -0.1, 0.1, 1.0, 10.0),)))
+    links = (
+        Link("palm", Pose((0, 0, 1)), Inertial(1.0)),
+        Link("finger", Pose((0, 0, 1)), Inertial(0.001, Pose(), 1e-6, 0, 0, 1e-6, 0, 1e-6)),
+    )
+    joints = (
+        Joint("bolt", "fixed", "world", "palm"),
+        Joint("slide", "prismatic", "palm", "finger", axes=(Axis((1, 0, 0), -0.1, 0.1, 1.0, 10.0),)),
+    )
     joint = world.spawn(Model("gripper", Pose(), links, joints)).joints["slide"]
     swing = []
     for _ in range(5000):

@@ -152,12 +152,12 @@ def playground(folder):
 
 def scaling(folder):
     """Processor time per robot on empty ground, all driving, without sensors."""
-    figures = {}
+    figures, one = {}, None
     for copies in (1, 2, 4, 8, 16):
         spaces = [f"/mbot{index}" for index in range(copies)]
         cost = measure(write_world(os.path.join(folder, "empty.world")), [robot("", space) for space in spaces], (),
                        [f"{space}/cmd_vel" for space in spaces])[2]
-        one = cost if copies == 1 else one
+        one = one or cost
         figures[f"{copies} mbots: processor time per step and robot, us"] = cost * 1e3 / copies
         if copies > 1:
             figures[f"{copies} mbots: cost per mbot against one mbot"] = cost / one / copies

@@ -81,7 +81,7 @@ def gain(inertia):
 
 
 def timed(step, steps, positions):
-    for i in range(500):
+    for _ in range(500):
         step(0.0)
     start = time.process_time()
     for i in range(steps):

@@ -170,11 +170,19 @@ def furnished(model, seed):
         boxes = [((0.6, 1.2, 0.04), (x, y, z))] + [
             (random.uniform(0.04, 0.15, 3), (x + dx, y + dy, z + 0.1)) for dx, dy in random.uniform((-0.25, -0.5), (0.25, 0.5), (8, 2))]
     elif seed % 3 == 1:
-        boxes = [((0.3, 0.8, 0.03), (x + 0.1, y, z + 0.35 * level)) for level in range(3)] + [
-            ((0.3, 0.03, 0.73), (x + 0.1, y + side, z + 0.35)) for side in (-0.4, 0.4)] + [
-            (random.uniform(0.04, 0.12, 3), (x + 0.1, y + dy, z + 0.1 + 0.35 * (i % 2))) for i, dy in enumerate(random.uniform(-0.3, 0.3, 5))]
+        boxes = (
+            [((0.3, 0.8, 0.03), (x + 0.1, y, z + 0.35 * level)) for level in range(3)]
+            + [((0.3, 0.03, 0.73), (x + 0.1, y + side, z + 0.35)) for side in (-0.4, 0.4)]
+            + [
+                (random.uniform(0.04, 0.12, 3), (x + 0.1, y + dy, z + 0.1 + 0.35 * (i % 2)))
+                for i, dy in enumerate(random.uniform(-0.3, 0.3, 5))
+            ]
+        )
     else:
-        boxes = [((0.04, 0.04, 1.6), (0.55 * np.cos(a), 0.55 * np.sin(a), 1.3)) for a in np.arange(6) * np.pi / 3 + random.uniform(0.3, 0.7)]
+        boxes = [
+            ((0.04, 0.04, 1.6), (0.55 * np.cos(a), 0.55 * np.sin(a), 1.3))
+            for a in np.arange(6) * np.pi / 3 + random.uniform(0.3, 0.7)
+        ]
     for size, at in boxes:
         scene.add_object(f"box{len(scene.objects)}", [motion.Box(*size)], pose=(at, (0, 0, 0, 1)))
         if scene.check():
@@ -194,7 +202,9 @@ def plans(model, count, title, scene_for):
             continue
         goal = motion.pose_goal("tool0", goal_state.pose("tool0"))
         start = time.thread_time()
-        result = pipeline.generate(scene, motion.MotionRequest("manipulator", goals=[goal], seed=seed, longest_valid_segment_fraction=0.005))
+        result = pipeline.generate(
+            scene, motion.MotionRequest("manipulator", goals=[goal], seed=seed, longest_valid_segment_fraction=0.005)
+        )
         times.append((time.thread_time() - start) * 1e3)
         solved += bool(result)
     title = f"{title}: pose goal to timed trajectory"
@@ -214,7 +224,14 @@ def main():
         figures.update(checks(model, 2000 if arguments.quick else 20000))
         cluttered = scene_of(model)
         figures.update(plans(model, 20 if arguments.quick else 100, "pedestal UR5, table, post, 20 boxes", lambda number: cluttered))
-        figures.update(plans(model, 21 if arguments.quick else 99, "pedestal UR5, tables, shelves, cages", lambda number: furnished(model, number)))
+        figures.update(
+            plans(
+                model,
+                21 if arguments.quick else 99,
+                "pedestal UR5, tables, shelves, cages",
+                lambda number: furnished(model, number),
+            )
+        )
     for name, value in figures.items():
         print(f"{name:80} {value:10.4g}")
     if arguments.json:

@@ -124,10 +124,10 @@ def start_up(quick):
 
 
 def scaling(quick):
-    figures = {}
+    figures, one = {}, None
     for copies in (1, 2, 4) if quick else (1, 2, 4, 8):
         cost = parts("arm", 2000 if quick else 10000, copies)["step"]
-        one = cost if copies == 1 else one
+        one = one or cost
         figures[f"{copies} arms, us per step"] = cost
         if copies > 1:
             figures[f"{copies} arms: cost per arm against one arm"] = cost / one / copies

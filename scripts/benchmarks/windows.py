@@ -26,7 +26,8 @@ elif kind == "topics":
     topic = None
 elif kind == "console":
     from rosgraph_msgs.msg import Log as Type
-    make = lambda i: Type(level=2, name="/bench", msg="message number %d of the benchmark" % i, file="bench.py", line=i % 100, topics=["/a"])
+    make = lambda i: Type(level=2, name="/bench", msg="message number %d of the benchmark" % i, file="bench.py", line=i % 100,
+                          topics=["/a"])
     topic = "/rosout_agg"
 else:
     import os

@@ -11,7 +11,7 @@ import tempfile
 import threading
 import time
 from pathlib import Path
-from typing import Any, Callable, Dict, List, Optional, Tuple
+from typing import Any, Dict, List, Optional, Tuple
 
 from fuzzing import ros, seeds
 from fuzzing.findings import Found
@@ -134,8 +134,13 @@ class Simulation:
 
     def _physics_as_it_was(self) -> bool:
         now, wanted = self.call("/gazebo/get_physics_properties"), self._physics
-        return not now.pause and now.gravity == wanted.gravity and now.time_step == wanted.time_step \
-            and now.max_update_rate == wanted.max_update_rate and all(getattr(now.ode_config, field) == value for field, value in _SOLVER.items())
+        return (
+            not now.pause
+            and now.gravity == wanted.gravity
+            and now.time_step == wanted.time_step
+            and now.max_update_rate == wanted.max_update_rate
+            and all(getattr(now.ode_config, field) == value for field, value in _SOLVER.items())
+        )
 
     def _spawn(self, name: str, text: str) -> None:
         from geometry_msgs.msg import Pose, Point, Quaternion

@@ -16,7 +16,10 @@ from fuzzing.kinds.plans import readable
 
 _CYCLES = 20
 _MODES = ["position", "velocity", "effort", "pos_vel", "pos_vel_acc"]
-_ROBOTS = [f"{name}.urdf" for name in ("diff_drive_robot", "ackermann_robot", "four_wheel_robot", "trajectory_robot", "gripper_robot", "arm")]
+_ROBOTS = [
+    f"{name}.urdf"
+    for name in ("diff_drive_robot", "ackermann_robot", "four_wheel_robot", "trajectory_robot", "gripper_robot", "arm")
+]
 _PLUGIN = """
 parameters:
   pid_gains: {j: {p: 100.0, i: 0.1, d: 1.0, i_clamp: 1.0}, k: {p: 10.0, i: 0.0, d: 0.1, antiwindup: true}}

@@ -136,7 +136,7 @@ class MessageKind(Kind):
         messages = json.loads(case)["messages"]
         for fewer in tree_cases.runs(messages):
             yield json.dumps({"messages": fewer}).encode()
-        for i, (what, name, kind, fields) in enumerate(messages):
+        for i, (*_, fields) in enumerate(messages):
             for path in list(tree_cases.places(fields)):
                 value = tree_cases.value_at(fields, path)
                 plain = {float: 0.0, int: 0, str: "", list: [], bool: False}.get(type(value))

@@ -10,14 +10,19 @@ from fuzzing.findings import Found, check_message, of_output, of_stack
 from fuzzing.kinds import Kind
 
 _SNIPPETS = b"""<snippets xmlns:xacro="http://www.ros.org/wiki/xacro">
-<in tag="robot"><xacro:property name="p" value="${p + 1}"/><xacro:macro name="m" params="a b:=1 *c **d"><xacro:m a="1"/></xacro:macro>
-<xacro:include filename="$(find arm_description)/urdf/arm.gazebo.xacro"/><xacro:include filename="case.xacro"/><xacro:arg name="a" default="1"/>
+<in tag="robot">
+<xacro:property name="p" value="${p + 1}"/><xacro:macro name="m" params="a b:=1 *c **d"><xacro:m a="1"/></xacro:macro>
+<xacro:include filename="$(find arm_description)/urdf/arm.gazebo.xacro"/><xacro:include filename="case.xacro"/>
+<xacro:arg name="a" default="1"/>
 <xacro:if value="${1 == 1}"><link name="conditional"/></xacro:if><xacro:unless value="maybe"/><xacro:insert_block name="c"/>
 <xacro:property name="q" value="${[x for x in range(10 ** 9)]}"/><xacro:property name="r" value="${'a' * 10 ** 6}"/>
-<xacro:property name="s" value="${9**9**9}" lazy_eval="false"/><xacro:property name="t" value="${round(7, 1 &lt;&lt; 60)}" lazy_eval="false"/>
-<xacro:property name="u" value="${'%9999999999d' % 1}" lazy_eval="false"/><xacro:property name="v" value="${'v'.ljust(10**11)}" lazy_eval="false"/>
+<xacro:property name="s" value="${9**9**9}" lazy_eval="false"/>
+<xacro:property name="t" value="${round(7, 1 &lt;&lt; 60)}" lazy_eval="false"/>
+<xacro:property name="u" value="${'%9999999999d' % 1}" lazy_eval="false"/>
+<xacro:property name="v" value="${'v'.ljust(10**11)}" lazy_eval="false"/>
 <link name="${1 &lt;&lt; 10**12}"/><link name="${'a' * 10**11}"/><link name="${sum([a * b for a in range(10**5) for b in range(10**5)])}"/>
-<link name="${math.factorial(10**9)}"/><xacro:property name="y" value="${xacro.load_yaml('/no/such.yaml')}"/><xacro:element xacro:name="link" name="made"/></in>
+<link name="${math.factorial(10**9)}"/><xacro:property name="y" value="${xacro.load_yaml('/no/such.yaml')}"/>
+<xacro:element xacro:name="link" name="made"/></in>
 <in tag="link"><xacro:attribute name="name" value="other"/><xacro:m a="$(arg a)"/></in></snippets>"""
 _MOST_LINES = 12  # of an error with the places it went through
 

@@ -101,7 +101,7 @@ def test_onlooker_sees_both_directions(bench):
 
 def test_garbage_is_counted_and_frames_go_on(bench):
     bus = connect(bench)
-    for seed in range(50):
+    for _seed in range(50):
         bench.command("garbage can0 200")
         bench.tick()
         bench.tick()

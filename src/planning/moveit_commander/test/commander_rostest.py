@@ -105,7 +105,7 @@ class Targets(Commander):
         self.assertTrue(callable(moveit_commander.os._exit) and moveit_commander.rospy is rospy)
         self.assertIs(moveit_commander.PoseStamped, PoseStamped)
         with self.assertRaises(AttributeError):
-            moveit_commander.nothing
+            moveit_commander.nothing  # noqa: B018
         self.arm.set_named_target("left")
         plan = self.arm.plan()
         self.assertGreater(len(plan.joint_trajectory.points), 1)

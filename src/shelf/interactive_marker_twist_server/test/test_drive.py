@@ -12,8 +12,15 @@ def test_defaults():
 
 
 def test_maps_and_limits():
-    drive = Drive({"linear_scale": {"x": 2, "y": 0.5}, "max_positive_linear_velocity": {"x": 3}, "max_negative_linear_velocity": {"x": -0.2},
-                   "angular_scale": 1, "max_angular_velocity": 0.1})
+    drive = Drive(
+        {
+            "linear_scale": {"x": 2, "y": 0.5},
+            "max_positive_linear_velocity": {"x": 3},
+            "max_negative_linear_velocity": {"x": -0.2},
+            "angular_scale": 1,
+            "max_angular_velocity": 0.1,
+        }
+    )
     assert drive.axes == ["x", "y"]
     assert [drive.linear("x", x) for x in (1, 5, -5)] == [2, 3, -0.2]
     assert drive.linear("y", 1) == 0.5 and drive.angular(1) == 0.1

@@ -23,7 +23,9 @@ def make(folder, files):
         '<maintainer email="a@example.org">a</maintainer><license>BSD</license><buildtool_depend>catkin</buildtool_depend></package>')
     (folder / "CMakeLists.txt").write_text(CMAKE.format(files=files))
     build = folder.with_name(folder.name + "_build")
-    configured = subprocess.run(["cmake", "-S", folder, "-B", build, "-DPYTHON_EXECUTABLE=/usr/bin/python3"], capture_output=True, text=True)
+    configured = subprocess.run(
+        ["cmake", "-S", folder, "-B", build, "-DPYTHON_EXECUTABLE=/usr/bin/python3"], capture_output=True, text=True
+    )
     assert configured.returncode == 0, configured.stderr
     return subprocess.run(["cmake", "--build", build, "--target", "roslint"], capture_output=True, text=True, env=os.environ)
 

@@ -99,7 +99,7 @@ def test_a_text_that_is_too_long_or_has_too_many_elements_is_refused(monkeypatch
     f"<{'a' * 100000}>",
     f"<sdf version='{'9' * 100000}'/>",
     f"<robot name='{'x' * 100000}'/>",
-    f"<robot name='a&#10;b&#13;&#9;c'><link name='l&#10;m'/><link name='l&#10;m'/></robot>",
+    "<robot name='a&#10;b&#13;&#9;c'><link name='l&#10;m'/><link name='l&#10;m'/></robot>",
     f"<sdf version='1.6'><model name='{'n' * 100000}'/></sdf>",
     f"<sdf version='1.6'><model name='m'><pose>{'nan ' * 100000}</pose><link name='l'/></model></sdf>",
     f"<robot name='r'><link name='l'><inertial><mass value='{'k' * 100000}'/><inertia/></inertial></link></robot>",
@@ -134,7 +134,7 @@ def test_absurd_physics_is_brought_within_bounds_and_said(path, value):
     w, problems = world("<physics type='ode'>" + "".join(f"<{tag}>" for tag in tags) + value
                         + "".join(f"</{tag}>" for tag in reversed(tags)) + "</physics>")
     assert check_physics(w.physics) == w.physics
-    assert f"text:1 <physics>: " in text(problems) and tags[-1] in text(problems)
+    assert "text:1 <physics>: " in text(problems) and tags[-1] in text(problems)
 
 
 def test_absurd_gravity_and_field_are_left_at_their_defaults():

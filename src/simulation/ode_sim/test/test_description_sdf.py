@@ -321,7 +321,7 @@ def test_a_model_that_includes_itself_is_stopped(models, finder):
 def test_bad_models_of_a_world_are_left_out_one_by_one(models, finder):
     models("broken", "<sdf version='1.6'><model name='x'>")
     models("config", MODEL.format(name="x"), config="<model/>")
-    w, problems = world(f"""<include><uri>model://broken</uri></include><include><uri>model://config</uri></include>
+    w, problems = world("""<include><uri>model://broken</uri></include><include><uri>model://config</uri></include>
         <model name="none"/><model name="light"><link name="l"><inertial><mass>0</mass></inertial></link></model>
         <model name="fat"><link name="l"><collision name="c"><geometry><sphere><radius>-1</radius></sphere></geometry>
         </collision></link></model><model name="good"><link name="l"/></model>""", finder)

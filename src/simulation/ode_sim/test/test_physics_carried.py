@@ -120,7 +120,7 @@ def test_four_steered_wheels_turn_about_the_middle():
 
 def test_four_steered_wheels_drive_sideways():
     world, robot = car(rear_steering=True)
-    for i in range(4000):
+    for _i in range(4000):
         for corner in REAR + FRONT:
             robot.joints[f"{corner}_steer"].servo(0.7)
         drive(robot, 0.5, "velocity", REAR + FRONT)

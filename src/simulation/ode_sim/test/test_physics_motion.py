@@ -331,7 +331,7 @@ def test_force_at_a_point_turns_the_body():
 
 def test_four_bar_closed_loop_turns_without_falling_apart():
     up = Pose((0, 0, 0.2))
-    links = (Link("crank", Pose(), Inertial(0.2, Pose((0, 0, 0.1)), 1e-3, 0, 0, 1e-3, 0, 1e-4)), 
+    links = (Link("crank", Pose(), Inertial(0.2, Pose((0, 0, 0.1)), 1e-3, 0, 0, 1e-3, 0, 1e-4)),
              Link("coupler", up, Inertial(0.2, Pose((0.2, 0, 0)), 1e-4, 0, 0, 1e-3, 0, 1e-3)),
              Link("rocker", Pose((0.4, 0, 0)), Inertial(0.2, Pose((0, 0, 0.1)), 1e-3, 0, 0, 1e-3, 0, 1e-4)))
     axis = (Axis((0, 1, 0)),)

@@ -20,7 +20,9 @@ def package(tmp_path):
         depends = "".join(f"<depend>{name}</depend>" for name in components.split())
         (tmp_path / "package.xml").write_text(
             "<package format='2'><name>p</name><version>1.0.0</version><description>d</description>"
-            f"<maintainer email='a@example.org'>m</maintainer><license>BSD</license><buildtool_depend>catkin</buildtool_depend>{depends}</package>")
+            f"<maintainer email='a@example.org'>m</maintainer><license>BSD</license>"
+            f"<buildtool_depend>catkin</buildtool_depend>{depends}</package>"
+        )
         lists = (f"cmake_minimum_required(VERSION 3.0.2)\nproject(p)\n{options}\n"
                  f"find_package(catkin REQUIRED COMPONENTS {components})\ncatkin_package()\n"
                  "include_directories(${catkin_INCLUDE_DIRS})\n")

@@ -61,7 +61,9 @@ def test_a_broken_plugin_file_is_a_problem_and_hides_no_other(package, tmp_path)
 def test_several_libraries_without_an_element_around_them(package, tmp_path):
     """As pluginlib takes it, and vendors write it."""
     library = '<library path="src"><class name="{0}" type="two::{0}"/></library>'
-    (package("eight", "") / "plugins.xml").write_text('<?xml version="1.0"?>\n' + library.format("A") + "\n<!-- x -->\n" + library.format("B"))
+    (package("eight", "") / "plugins.xml").write_text(
+        '<?xml version="1.0"?>\n' + library.format("A") + "\n<!-- x -->\n" + library.format("B")
+    )
     found, problems = find(tmp_path)
     assert sorted(found) == ["A", "B"] and not problems
 

@@ -5,7 +5,9 @@ import pytest
 from rviz_offscreen import qt
 
 
-@pytest.mark.parametrize("content, package", [(b"\0PyQt6.sip._C_API\0PyQt6.sip\0", "PyQt6"), (b"..\0PyQt5.sip\0PyQt6\0", "PyQt5"), (b"", None)])
+@pytest.mark.parametrize(
+    "content, package", [(b"\0PyQt6.sip._C_API\0PyQt6.sip\0", "PyQt6"), (b"..\0PyQt5.sip\0PyQt6\0", "PyQt5"), (b"", None)]
+)
 def test_the_package_named_in_the_module(tmp_path, monkeypatch, content, package):
     folder = tmp_path / "my_rviz"
     folder.mkdir()

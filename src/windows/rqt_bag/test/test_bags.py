@@ -53,9 +53,18 @@ def test_region_is_copied(bags, tmp_path):
         copy_region(bags, str(tmp_path / "absent/x.bag"), t(101), t(103))
 
 
-@pytest.mark.parametrize("content, said", ids=["empty", "text", "head", "bytes", "absent", "cut"], argvalues=[
-    (b"", "cannot be read|is no bag|has no index"), (b"hello", "cannot be read|is no bag|has no index"), (b"#ROSBAG V2.0\n", "has no index|is no bag"),
-    (b"#ROSBAG V2.0\n" + b"\xff" * 200, "has no index|is no bag"), (None, "No such file"), ("cut", "rosbag reindex")])
+@pytest.mark.parametrize(
+    "content, said",
+    ids=["empty", "text", "head", "bytes", "absent", "cut"],
+    argvalues=[
+        (b"", "cannot be read|is no bag|has no index"),
+        (b"hello", "cannot be read|is no bag|has no index"),
+        (b"#ROSBAG V2.0\n", "has no index|is no bag"),
+        (b"#ROSBAG V2.0\n" + b"\xff" * 200, "has no index|is no bag"),
+        (None, "No such file"),
+        ("cut", "rosbag reindex"),
+    ],
+)
 def test_files_that_are_no_bags(tmp_path, content, said):
     path = tmp_path / "x.bag"
     if content == "cut":

@@ -66,10 +66,16 @@ def test_topics_are_listed_again_by_the_button_only(topics):
         assert (shown(gui).picture == PICTURE).all()
 
 
-@pytest.mark.parametrize("broken, said", [
-    (message(step=3), "step is 3, but 60 pixels of rgb8 are 180 bytes"), (message(data=b"x"), "1 bytes of data"),
-    (message(encoding="what"), "encoding 'what' cannot be shown"), (message(height=2 ** 32 - 1, width=2 ** 32 - 1, step=1), "cannot be shown"),
-    (CompressedImage(format="jpeg", data=b"\xff\xd8\xff\xe0broken"), "cannot be decoded")])
+@pytest.mark.parametrize(
+    "broken, said",
+    [
+        (message(step=3), "step is 3, but 60 pixels of rgb8 are 180 bytes"),
+        (message(data=b"x"), "1 bytes of data"),
+        (message(encoding="what"), "encoding 'what' cannot be shown"),
+        (message(height=2**32 - 1, width=2**32 - 1, step=1), "cannot be shown"),
+        (CompressedImage(format="jpeg", data=b"\xff\xd8\xff\xe0broken"), "cannot be decoded"),
+    ],
+)
 def test_broken_images_are_told_and_the_next_is_shown(broken, said):
     with open_plugin("rqt_image_view", ["/camera/image_raw"]) as gui:
         for _ in range(3):

@@ -101,7 +101,9 @@ def test_real_files():
         assert "\n" not in str(error.value)
     nodes[1].node.type = "draw_square"
     ends = []
-    thread = threading.Thread(target=lambda: (nodes[1].start(), ends.append(nodes[1].state()), nodes[1].stop(), ends.append(nodes[1].state())))
+    thread = threading.Thread(
+        target=lambda: (nodes[1].start(), ends.append(nodes[1].state()), nodes[1].stop(), ends.append(nodes[1].state()))
+    )
     thread.start()
     thread.join(60)
     assert ends == ["running", "stopped"] and nodes[1].starts == 1

@@ -111,7 +111,10 @@ def test_a_drag_sets_pose_and_goal(gui, monkeypatch, button, kind):
     QTest.mouseMove(port, end)
     QTest.mouseRelease(port, Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier, end)
     pose = sent[0].pose.pose if kind == "pose" else sent[0].pose
-    assert sent[0].header.frame_id == "map" and (pose.position.x, pose.position.y) == (pytest.approx(0, abs=0.02), pytest.approx(2.5, abs=0.02))
+    assert sent[0].header.frame_id == "map" and (pose.position.x, pose.position.y) == (
+        pytest.approx(0, abs=0.02),
+        pytest.approx(2.5, abs=0.02),
+    )
     assert yaw(pose.orientation) == pytest.approx(math.pi / 2, abs=0.05)
     if kind == "pose":
         assert sent[0].pose.covariance[0] == 0.25 and len(sent[0].pose.covariance) == 36

@@ -33,7 +33,11 @@ def test_trees(gui):
     assert rows(monitor.trees["all"]) == {"robot": {"arm": {"motor": {}}, "lamp": {}}, "other": {"x": {}}}
     assert set(rows(monitor.trees["errors"])) == {"/robot", "/robot/arm", "/robot/arm/motor", "/other/x"}
     assert rows(monitor.trees["warnings"]) == {"/robot/lamp": {}}
-    top = monitor.trees["all"].topLevelItem(0) if monitor.trees["all"].topLevelItem(0).text(0) == "robot" else monitor.trees["all"].topLevelItem(1)
+    top = (
+        monitor.trees["all"].topLevelItem(0)
+        if monitor.trees["all"].topLevelItem(0).text(0) == "robot"
+        else monitor.trees["all"].topLevelItem(1)
+    )
     top.setExpanded(True)
     monitor.take(message(0))
     assert rows(monitor.trees["all"]) == {"robot": {"arm": {"motor": {}}, "lamp": {}}} and top.isExpanded()

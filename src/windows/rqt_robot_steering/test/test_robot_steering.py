@@ -39,7 +39,9 @@ def test_keys(gui, keys, expected):
     gui.window.activateWindow()
     gui.plugin.widget.setFocus()
     for key in keys:
-        QTest.keyClick(gui.plugin.widget, key.upper(), Qt.KeyboardModifier.ShiftModifier if key.isupper() else Qt.KeyboardModifier.NoModifier)
+        QTest.keyClick(
+            gui.plugin.widget, key.upper(), Qt.KeyboardModifier.ShiftModifier if key.isupper() else Qt.KeyboardModifier.NoModifier
+        )
     assert gui.plugin.widget.velocities() == pytest.approx(expected)
 
 

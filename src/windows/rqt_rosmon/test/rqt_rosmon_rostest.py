@@ -16,8 +16,12 @@ LAUNCH = Path(__file__).resolve().parent / "two_nodes.launch"
 
 class RqtRosmon(unittest.TestCase):
     def test_nodes_are_shown_and_obey(self):
-        rosmon = subprocess.Popen(["rosrun", "rosmon_core", "rosmon", "--disable-ui", "--name=rosmon_test", str(LAUNCH)], stdin=subprocess.DEVNULL,
-                                  stdout=subprocess.DEVNULL, start_new_session=True)
+        rosmon = subprocess.Popen(
+            ["rosrun", "rosmon_core", "rosmon", "--disable-ui", "--name=rosmon_test", str(LAUNCH)],
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.DEVNULL,
+            start_new_session=True,
+        )
         self.addCleanup(rosmon.wait)
         self.addCleanup(lambda: rosmon.poll() is None and os.killpg(rosmon.pid, signal.SIGKILL))
         with open_plugin("rqt_rosmon") as gui:

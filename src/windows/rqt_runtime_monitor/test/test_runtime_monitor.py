@@ -30,7 +30,12 @@ def groups(gui):
 def test_levels_and_silence(gui):
     now = time.monotonic()
     send(gui, now, ("motor", 0, "fine"), ("arm", 2, "hot"), ("base", 1, "slow"), ("odd", 77, "?"))
-    assert groups(gui) == {"Stale (0)": [], "Errors (2)": ["arm: hot", "odd: ?"], "Warnings (1)": ["base: slow"], "Messages (1)": ["motor: fine"]}
+    assert groups(gui) == {
+        "Stale (0)": [],
+        "Errors (2)": ["arm: hot", "odd: ?"],
+        "Warnings (1)": ["base: slow"],
+        "Messages (1)": ["motor: fine"],
+    }
     send(gui, now + 4, ("motor", 2, "<b>broken</b>"))
     assert groups(gui)["Errors (3)"] == ["arm: hot", "motor: <b>broken</b>", "odd: ?"]
     gui.plugin.update(now + 6)

@@ -5,7 +5,7 @@ import os
 import reprlib
 import sys
 from dataclasses import dataclass, field
-from typing import Any, Dict, List, Mapping, Tuple
+from typing import Any, List, Mapping, Tuple
 
 from rm_hw.actuator import SILENCE
 from rm_hw.can_bus import BITRATE

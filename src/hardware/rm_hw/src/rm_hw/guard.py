@@ -44,7 +44,7 @@ class Guard:
 
 def _switch_off(task: Sequence[Sequence]) -> None:
     open_buses: Dict[int, can.BusABC] = {}
-    for attempt in range(_ATTEMPTS):
+    for _attempt in range(_ATTEMPTS):
         for index, (interface, channel, bitrate, _) in enumerate(task):
             if index not in open_buses:
                 try:

@@ -12,7 +12,7 @@ from typing import Dict, List, Optional
 import numpy as np
 import rospy
 from moveit_msgs.msg import Constraints, JointConstraint, MotionPlanRequest, PlanningScene
-from tf.transformations import quaternion_from_euler, quaternion_multiply
+from tf.transformations import quaternion_from_euler
 
 import motion
 from moveit_core import convert, states

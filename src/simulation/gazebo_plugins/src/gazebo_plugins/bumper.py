@@ -80,7 +80,7 @@ class Bumper(SensorPlugin):
         state = ContactState(collision1_name=a.scoped_name, collision2_name=b.scoped_name)
         q_LW = math3.quat_inverse(a.link.pose.q)
         total = [(0.0, 0.0, 0.0), (0.0, 0.0, 0.0)]
-        for index, contact in enumerate(contacts):
+        for contact in contacts:
             force = math3.quat_rotate(q_LW, tuple(contact["force"]))
             torque = math3.quat_rotate(q_LW, tuple(contact["torque"]))
             total = [math3.add(total[0], force), math3.add(total[1], torque)]

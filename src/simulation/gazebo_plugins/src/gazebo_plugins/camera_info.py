@@ -5,7 +5,6 @@ import os
 from dataclasses import dataclass
 
 import rospkg
-import rospy
 import yaml
 from node_signals import offers
 from ode_sim.rendering import Camera

@@ -122,7 +122,13 @@ def _small(function: Callable[..., Any], most: int) -> Callable[..., Any]:
     return bounded
 
 
-_OPERATORS: Dict[type, str] = {ast.Pow: "__power__", ast.LShift: "__shift__", ast.Mult: "__times__", ast.Add: "__plus__", ast.Mod: "__modulo__"}
+_OPERATORS: Dict[type, str] = {
+    ast.Pow: "__power__",
+    ast.LShift: "__shift__",
+    ast.Mult: "__times__",
+    ast.Add: "__plus__",
+    ast.Mod: "__modulo__",
+}
 _HELPERS: Dict[str, Any] = {"__power__": _power, "__shift__": _shift, "__times__": _times, "__plus__": _plus, "__modulo__": _modulo,
                             "__format__": _format, "__method__": _method}
 

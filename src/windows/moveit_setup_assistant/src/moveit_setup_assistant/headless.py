@@ -187,5 +187,7 @@ def _controllers(config: Configuration, reader: _Reader, wanted: Any) -> None:
         if not joints:
             raise reader.error(place, "has no joints; give it 'joints' or a 'group'")
         if entry["type"] not in (*TRAJECTORY_TYPES, *ACTION_TYPES) and "/" not in str(entry["type"]):
-            raise reader.error(place, f"type '{entry['type']}' is not known; usual ones are {', '.join((*TRAJECTORY_TYPES, *ACTION_TYPES))}")
+            raise reader.error(
+                place, f"type '{entry['type']}' is not known; usual ones are {', '.join((*TRAJECTORY_TYPES, *ACTION_TYPES))}"
+            )
         config.controllers.append(Controller(str(entry["name"]), str(entry["type"]), joints))

@@ -9,7 +9,12 @@ from typing import Callable, Dict, List, Tuple
 from python_qt_binding import QtCore
 
 _CYAN, _RED, _RESET = "\033[36m", "\033[31m", "\033[0m"
-_NOISE = ("This plugin does not support", "QStandardPaths: ", "QXcbConnection: XCB error", "OpenType support missing")  # of no use to anybody
+_NOISE = (
+    "This plugin does not support",
+    "QStandardPaths: ",
+    "QXcbConnection: XCB error",
+    "OpenType support missing",
+)  # of no use to anybody
 _options = {"verbose": False}
 _seen: Dict[Tuple, int] = {}
 listeners: List[Callable[[str], None]] = []  # each is given every warning and error, for tests

@@ -24,7 +24,11 @@ class LaunchWidget(QWidget):
         self._launching, self._background = launching, Background(self)
         self.nodes, self._wanted = [], {}
         self.package_box, self.file_box, self.arguments_edit = QComboBox(), QComboBox(), QLineEdit()
-        for box, name in ((self.package_box, "package_combo"), (self.file_box, "launchfile_combo"), (self.arguments_edit, "arguments_edit")):
+        for box, name in (
+            (self.package_box, "package_combo"),
+            (self.file_box, "launchfile_combo"),
+            (self.arguments_edit, "arguments_edit"),
+        ):
             box.setObjectName(name)
         self.arguments_edit.setPlaceholderText("name:=value ...")
         self.package_box.currentTextChanged.connect(self._package_changed)

@@ -209,11 +209,15 @@ class PlotView(pg.PlotWidget):
         super().leaveEvent(event)
         self.cursor_moved.emit(None)
 
-    def show_cursor(self, place: Optional[Tuple[float, float]], curves: Dict[str, Points] = {}) -> None:
+    def show_cursor(self, place: Optional[Tuple[float, float]], curves: Optional[Dict[str, Points]] = None) -> None:
         """Draw the cross, and with :attr:`track_points` the points of the curves nearest to it; None hides all."""
         tracked = {}
         if place is not None and self.track_points:
-            tracked = {name: point for name, point in ((name, points.nearest(place[0])) for name, points in curves.items()) if point}
+            tracked = {
+                name: point
+                for name, point in ((name, points.nearest(place[0])) for name, points in (curves or {}).items())
+                if point
+            }
         for item in (*self._lines, self._label):
             item.setVisible(place is not None)
         self._tracked.setVisible(bool(tracked))

@@ -55,7 +55,7 @@ class NavView(QGraphicsView):
             "pose": rospy.Publisher("/initialpose", PoseWithCovarianceStamped, queue_size=100),
             "goal": rospy.Publisher("/move_base_simple/goal", PoseStamped, queue_size=100)}
         self._subscribers = [rospy.Subscriber(map_topic, OccupancyGrid, self.map_cb)]
-        for number, (name, kind) in enumerate([(name, Path) for name in paths] + [(name, PolygonStamped) for name in polygons]):
+        for name, kind in [(name, Path) for name in paths] + [(name, PolygonStamped) for name in polygons]:
             self._lines[name] = None
             self._subscribers.append(rospy.Subscriber(
                 name, kind, lambda message, name=name: self.line_cb(name, message), queue_size=1))

@@ -151,7 +151,11 @@ class RobotMonitorWidget(QWidget):
         if message is None:
             return
         statuses = {status.name: status for status in message.status}
-        self._fill(self.trees["errors"], {n: s for n, s in statuses.items() if known_level(s.level) in (DiagnosticStatus.ERROR, STALE)}, False)
+        self._fill(
+            self.trees["errors"],
+            {n: s for n, s in statuses.items() if known_level(s.level) in (DiagnosticStatus.ERROR, STALE)},
+            False,
+        )
         self._fill(self.trees["warnings"], {n: s for n, s in statuses.items() if s.level == DiagnosticStatus.WARN}, False)
         self._fill(self.trees["all"], statuses, True)
         for name, text in self._inspectors.items():

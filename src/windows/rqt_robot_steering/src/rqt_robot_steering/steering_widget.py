@@ -25,7 +25,10 @@ class SteeringWidget(QWidget):
         self.topic_line_edit.editingFinished.connect(lambda: self.topic_changed.emit(self.topic_line_edit.text()))
         self.stop_button = self._button("stop_push_button", "Stop", self.stop)
         self.sliders, self.labels, self.limits = {}, {}, {}
-        for axis, name, direction in (("x", "x_linear_slider", Qt.Orientation.Vertical), ("w", "z_angular_slider", Qt.Orientation.Horizontal)):
+        for axis, name, direction in (
+            ("x", "x_linear_slider", Qt.Orientation.Vertical),
+            ("w", "z_angular_slider", Qt.Orientation.Horizontal),
+        ):
             slider, label = QSlider(direction), QLabel()
             slider.setObjectName(name)
             slider.setTickPosition(QSlider.TickPosition.TicksBothSides)
@@ -34,7 +37,7 @@ class SteeringWidget(QWidget):
             label.setObjectName(f"current_{axis}_label")
             self.sliders[axis], self.labels[axis] = slider, label
         self.sliders["w"].setInvertedAppearance(True)  # left turns left
-        for name, (value, axis, upper) in LIMITS.items():
+        for name, (value, axis, _upper) in LIMITS.items():
             box = QDoubleSpinBox()
             box.setObjectName(f"{name}_spin_box")
             box.setRange(-10, 10)

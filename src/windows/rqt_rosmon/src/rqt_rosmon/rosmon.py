@@ -140,9 +140,16 @@ class Rosmon(Plugin):
         for row, (name, node) in enumerate(self.nodes.items()):
             state, colour = _STATES.get(node.state, (str(node.state), None))
             load = node.user_load + node.system_load
-            for column, (text, value) in enumerate((
-                    (node.name, name), (node.ns or "/", node.ns), (state, state), (str(node.restart_count), node.restart_count), (f"{100 * load:.0f} %", load),
-                    (f"{node.memory / 2 ** 20:.0f} MiB", node.memory))):
+            for column, (text, value) in enumerate(
+                (
+                    (node.name, name),
+                    (node.ns or "/", node.ns),
+                    (state, state),
+                    (str(node.restart_count), node.restart_count),
+                    (f"{100 * load:.0f} %", load),
+                    (f"{node.memory / 2**20:.0f} MiB", node.memory),
+                )
+            ):
                 cell = _Cell(text, value)
                 if column == 2 and colour:
                     cell.setBackground(QBrush(QColor(colour)))

@@ -38,7 +38,7 @@ class RuntimeMonitor(Plugin):
         self._widget.addWidget(self.tree)
         self._widget.addWidget(self.text)
         self._groups = {}
-        for level, (name, icon) in _GROUPS.items():
+        for level, (_name, icon) in _GROUPS.items():
             self._groups[level] = QTreeWidgetItem([""])
             self._groups[level].setIcon(0, QIcon.fromTheme(icon))
             self.tree.addTopLevelItem(self._groups[level])

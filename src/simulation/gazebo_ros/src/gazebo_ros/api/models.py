@@ -11,7 +11,7 @@ from gazebo_msgs.srv import (DeleteModel, GetLinkProperties, GetLinkState, GetMo
                              SetModelConfiguration, SetModelState)
 from geometry_msgs.msg import Point, Pose as PoseMsg, Quaternion
 from ode_sim import LinkHandle, math3
-from ode_sim.description.model import Inertial, Pose, Vec3
+from ode_sim.description.model import Inertial, Pose
 
 from gazebo_ros.api.geometry import entity_twist, frame_entity, pose_msg, pose_of, twist_msg, vector_of
 from gazebo_ros.api.handlers import Refused, advertise, finite, listing
