@@ -32,6 +32,27 @@ void CollisionEnv::checkRobotCollision(const CollisionRequest& req, CollisionRes
   scene_.check(PlanningScene::WORLD, padded_, req, res, state, acm);
 }
 
+void CollisionEnv::checkRobotCollision(const CollisionRequest& req, CollisionResult& res, const RobotState& state1,
+                                       const RobotState& state2) const
+{
+  checkRobotCollision(req, res, state1, state2, AllowedCollisionMatrix());
+}
+
+void CollisionEnv::checkRobotCollision(const CollisionRequest& req, CollisionResult& res, const RobotState& state1,
+                                       const RobotState& state2, const AllowedCollisionMatrix& acm) const
+{
+  double farthest = 0.0;
+  for (std::size_t i = 0; i < state1.getVariableCount(); ++i)
+    farthest = std::max(farthest, std::abs(state1.getVariablePosition(i) - state2.getVariablePosition(i)));
+  const int steps = std::min(100000, static_cast<int>(std::ceil(farthest / 0.01)) + 1);
+  RobotState between(state1);
+  for (int i = 0; i <= steps && !res.collision; ++i)
+  {
+    state1.interpolate(state2, static_cast<double>(i) / steps, between);
+    checkRobotCollision(req, res, between, acm);
+  }
+}
+
 void CollisionEnv::checkCollision(const CollisionRequest& req, CollisionResult& res, const RobotState& state) const
 {
   checkCollision(req, res, state, AllowedCollisionMatrix());

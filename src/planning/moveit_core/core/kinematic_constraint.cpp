@@ -1,5 +1,8 @@
 #include <moveit/kinematic_constraints/kinematic_constraint.h>
 
+#include <geometric_shapes/bodies.h>
+#include <geometric_shapes/body_operations.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -49,6 +52,7 @@ bool KinematicConstraint::make(const motion::Constraints& constraints, const mov
       for (const std::string& frame : { c.sensor_frame, c.target_frame })
         addFrame(scene, tf, frame);
     core_ = std::make_shared<motion::ConstraintSet>(scene, constraints);
+    given_ = std::make_shared<motion::Constraints>(constraints);
     return true;
   }
   catch (const motion::Error& error)
@@ -161,7 +165,10 @@ bool OrientationConstraint::mobileReferenceFrame() const
 
 Eigen::Matrix3d OrientationConstraint::getDesiredRotationMatrix() const
 {
-  return enabled() ? core_->orientations[0].wanted : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
+  if (!enabled())
+    return Eigen::Matrix3d::Identity();
+  const auto& orientation = core_->orientations[0];
+  return mobileReferenceFrame() ? orientation.wanted : Eigen::Matrix3d(orientation.frame.pose.linear() * orientation.wanted);
 }
 
 bool OrientationConstraint::equal(const KinematicConstraint& other, double margin) const
@@ -221,7 +228,17 @@ bool PositionConstraint::configure(const moveit_msgs::PositionConstraint& pc, co
   c.poses.assign(parts.shape_poses.begin(), parts.shape_poses.end());
   motion::Constraints constraints;
   constraints.position.push_back(c);
-  return make(constraints, &tf);
+  constraint_region_.clear();
+  if (!make(constraints, &tf))
+    return false;
+  for (std::size_t i = 0; i < parts.shapes.size(); ++i)
+    if (const bodies::BodyPtr body{ bodies::createBodyFromShape(parts.shapes[i].get()) })
+    {
+      body->setPose(mobileReferenceFrame() ? parts.shape_poses[i] :
+                                             Eigen::Isometry3d(core_->positions[0].frame.pose * parts.shape_poses[i]));
+      constraint_region_.push_back(body);
+    }
+  return true;
 }
 
 const moveit::core::LinkModel* PositionConstraint::getLinkModel() const
@@ -373,6 +390,20 @@ ConstraintEvaluationResult KinematicConstraintSet::decide(const moveit::core::Ro
     all.satisfied = all.satisfied && results.back().satisfied;
     all.distance += results.back().distance;
   }
+  return all;
+}
+
+motion::Constraints KinematicConstraintSet::given() const
+{
+  motion::Constraints all;
+  for (const KinematicConstraintPtr& constraint : constraints_)
+    if (const auto one = constraint->given())
+    {
+      all.joint.insert(all.joint.end(), one->joint.begin(), one->joint.end());
+      all.position.insert(all.position.end(), one->position.begin(), one->position.end());
+      all.orientation.insert(all.orientation.end(), one->orientation.begin(), one->orientation.end());
+      all.visibility.insert(all.visibility.end(), one->visibility.begin(), one->visibility.end());
+    }
   return all;
 }
 

@@ -244,6 +244,27 @@ void PlanningScene::getCollisionDetectorNames(std::vector<std::string>& names) c
   names = { getActiveCollisionDetectorName() };
 }
 
+void PlanningScene::setActiveCollisionDetector(const collision_detection::CollisionDetectorAllocatorPtr& allocator,
+                                               bool /*exclusive*/)
+{
+  if (allocator)
+    setActiveCollisionDetector(allocator->getName());
+}
+
+bool PlanningScene::setActiveCollisionDetector(const std::string& collision_detector_name)
+{
+  const bool known = collision_detector_name == getActiveCollisionDetectorName();
+  if (!known)
+    ROS_WARN_NAMED(LOGNAME, "There is no collision detector '%s' here: FCL goes on checking", collision_detector_name.c_str());
+  return known;
+}
+
+void PlanningScene::addCollisionDetector(const collision_detection::CollisionDetectorAllocatorPtr& allocator)
+{
+  if (allocator && allocator->getName() != getActiveCollisionDetectorName())
+    ROS_WARN_NAMED(LOGNAME, "There is no collision detector '%s' here: FCL goes on checking", allocator->getName().c_str());
+}
+
 void PlanningScene::check(int parts, bool padded, const CollisionRequest& req, CollisionResult& res, const RobotState& state,
                           const AllowedCollisionMatrix& acm) const
 {

@@ -30,6 +30,11 @@ public:
   void checkRobotCollision(const CollisionRequest& req, CollisionResult& res, const moveit::core::RobotState& state) const;
   void checkRobotCollision(const CollisionRequest& req, CollisionResult& res, const moveit::core::RobotState& state,
                            const AllowedCollisionMatrix& acm) const;
+  // All along the way between two states, looked at in steps of 0.01 rad or m at most of any variable.
+  void checkRobotCollision(const CollisionRequest& req, CollisionResult& res, const moveit::core::RobotState& state1,
+                           const moveit::core::RobotState& state2) const;
+  void checkRobotCollision(const CollisionRequest& req, CollisionResult& res, const moveit::core::RobotState& state1,
+                           const moveit::core::RobotState& state2, const AllowedCollisionMatrix& acm) const;
   void checkCollision(const CollisionRequest& req, CollisionResult& res, const moveit::core::RobotState& state) const;
   void checkCollision(const CollisionRequest& req, CollisionResult& res, const moveit::core::RobotState& state,
                       const AllowedCollisionMatrix& acm) const;

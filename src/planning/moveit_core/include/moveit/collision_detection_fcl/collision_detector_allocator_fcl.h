@@ -1,1 +1,19 @@
-#error "There is one collision detector here and nothing to allocate: use planning_scene::PlanningScene and its getCollisionEnv() (docs/differences.md, 'MoveIt in C++')"
+// FCL, which checks all scenes here.
+#pragma once
+
+#include <moveit/collision_detection/collision_detector_allocator.h>
+
+namespace collision_detection
+{
+class CollisionDetectorAllocatorFCL : public CollisionDetectorAllocator
+{
+public:
+  static const std::string& name()
+  {
+    static const std::string made = "FCL";
+    return made;
+  }
+  const std::string& getName() const override { return name(); }
+  static CollisionDetectorAllocatorPtr create() { return std::make_shared<CollisionDetectorAllocatorFCL>(); }
+};
+}  // namespace collision_detection

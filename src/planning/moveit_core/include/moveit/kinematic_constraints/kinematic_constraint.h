@@ -13,6 +13,12 @@
 #include <moveit/robot_state/robot_state.h>
 #include <moveit/transforms/transforms.h>
 
+namespace bodies
+{
+class Body;
+typedef std::shared_ptr<Body> BodyPtr;
+}  // namespace bodies
+
 namespace motion
 {
 struct Constraints;
@@ -44,7 +50,11 @@ public:
   KinematicConstraint(const moveit::core::RobotModelConstPtr& model) : robot_model_(model) {}
   virtual ~KinematicConstraint() {}
 
-  virtual void clear() { core_.reset(); }
+  virtual void clear()
+  {
+    core_.reset();
+    given_.reset();
+  }
   virtual ConstraintEvaluationResult decide(const moveit::core::RobotState& state, bool verbose = false) const;
   virtual bool enabled() const { return core_ != nullptr; }
   virtual bool equal(const KinematicConstraint& other, double margin) const = 0;
@@ -52,6 +62,8 @@ public:
   ConstraintType getType() const { return type_; }
   double getConstraintWeight() const { return constraint_weight_; }
   const moveit::core::RobotModelConstPtr& getRobotModel() const { return robot_model_; }
+  // As the motion library takes it; null until configured.
+  const std::shared_ptr<const motion::Constraints>& given() const { return given_; }
 
 protected:
   bool make(const motion::Constraints& constraints, const moveit::core::Transforms* tf);
@@ -60,6 +72,7 @@ protected:
   moveit::core::RobotModelConstPtr robot_model_;
   double constraint_weight_ = 1.0;
   std::shared_ptr<const motion::ConstraintSet> core_;  // of this one; null until configured
+  std::shared_ptr<const motion::Constraints> given_;
 };
 
 MOVEIT_CLASS_FORWARD(JointConstraint);
@@ -95,6 +108,7 @@ public:
   const moveit::core::LinkModel* getLinkModel() const;
   const std::string& getReferenceFrame() const { return message_.header.frame_id; }
   bool mobileReferenceFrame() const;
+  // In the reference frame when that moves, else in the model frame.
   Eigen::Matrix3d getDesiredRotationMatrix() const;
   double getXAxisTolerance() const { return message_.absolute_x_axis_tolerance; }
   double getYAxisTolerance() const { return message_.absolute_y_axis_tolerance; }
@@ -119,9 +133,12 @@ public:
   bool hasLinkOffset() const { return enabled() && getLinkOffset().squaredNorm() > 0.0; }
   const std::string& getReferenceFrame() const { return message_.header.frame_id; }
   bool mobileReferenceFrame() const;
+  // In the reference frame when that moves, else in the model frame.
+  const std::vector<bodies::BodyPtr>& getConstraintRegions() const { return constraint_region_; }
 
 protected:
   moveit_msgs::PositionConstraint message_;
+  std::vector<bodies::BodyPtr> constraint_region_;
 };
 
 MOVEIT_CLASS_FORWARD(VisibilityConstraint);
@@ -168,6 +185,7 @@ public:
     return all_.visibility_constraints;
   }
   const moveit_msgs::Constraints& getAllConstraints() const { return all_; }
+  motion::Constraints given() const;  // all that can be used, as the motion library takes them
   bool empty() const { return constraints_.empty(); }
 
 protected:

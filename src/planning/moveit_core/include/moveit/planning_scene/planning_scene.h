@@ -14,6 +14,7 @@
 #include <memory>
 #include <mutex>
 
+#include <moveit/collision_detection/collision_detector_allocator.h>
 #include <moveit/collision_detection/collision_env.h>
 #include <moveit/collision_detection/collision_matrix.h>
 #include <moveit/collision_detection/world.h>
@@ -132,6 +133,10 @@ public:
   void propogateRobotPadding() {}
   const std::string& getActiveCollisionDetectorName() const;  // "FCL"
   void getCollisionDetectorNames(std::vector<std::string>& names) const;
+  // FCL checks, whichever is asked for; the log says so.
+  void setActiveCollisionDetector(const collision_detection::CollisionDetectorAllocatorPtr& allocator, bool exclusive = false);
+  bool setActiveCollisionDetector(const std::string& collision_detector_name);
+  void addCollisionDetector(const collision_detection::CollisionDetectorAllocatorPtr& allocator);
 
   using Request = collision_detection::CollisionRequest;
   using Result = collision_detection::CollisionResult;
@@ -213,6 +218,9 @@ public:
   bool isPathValid(const robot_trajectory::RobotTrajectory& trajectory, const std::string& group = "", bool verbose = false,
                    std::vector<std::size_t>* invalid_index = nullptr) const;
 
+  // The scene of the motion library that this one is, with the objects as they are now.
+  const motion::PlanningScene& core() const;
+
 private:
   friend class collision_detection::CollisionEnv;
   explicit PlanningScene(const PlanningSceneConstPtr& parent);
@@ -221,7 +229,6 @@ private:
     SELF = 1,
     WORLD = 2
   };
-  const motion::PlanningScene& core() const;  // with the objects as they are now
   void check(int parts, bool padded, const Request& req, Result& res, const State& state, const Matrix& acm) const;
   void useTransforms();
   bool addObject(const moveit_msgs::CollisionObject& object);
