@@ -33,9 +33,7 @@ class LaunchKind(Kind):
         import controller_manager.command_line  # noqa: F401
         import controller_manager.spawner  # noqa: F401
         import controller_manager_tests  # noqa: F401
-        import gazebo_ros.building  # noqa: F401
-        import gazebo_ros.building_image  # noqa: F401
-        import gazebo_ros.building_sdf  # noqa: F401
+        import gazebo_ros.build_world  # noqa: F401
         import gazebo_ros.gz  # noqa: F401
         import gazebo_ros.node  # noqa: F401
         import gazebo_ros.spawn_model  # noqa: F401

@@ -40,11 +40,9 @@ class PlanKind(Kind):
     name, suffix = "plan", ".yaml"
 
     def prepare(self) -> None:
-        import gazebo_ros.building
-        import gazebo_ros.building_image  # noqa: F401
-        import gazebo_ros.building_sdf  # noqa: F401
+        import gazebo_ros.build_world
         import ode_sim  # noqa: F401
-        self._build = gazebo_ros.building.main
+        self._build = gazebo_ros.build_world.main
         self._plans = yaml.safe_load(_EXAMPLES)
         self._plans += [yaml.safe_load(path.read_text()) for path in seeds.files(".yaml") if path.parent.name == "plans"]
 

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from gazebo_ros import building, building_image, building_sdf
+from gazebo_ros import build_world, building, building_image, building_sdf
 from ode_sim.description import ResourceFinder, load_world, read_sdf_model
 
 FINDER = ResourceFinder(environment=False, stock="/nowhere")
@@ -169,7 +169,7 @@ models: [{model: table, at: [1, 2], yaw: 0.5}, {model: table, at: [3, 2]}]
 def test_command_writes_a_world_and_a_preview(tmp_path, capsys):
     plan, world, png = tmp_path / "plan.yaml", tmp_path / "out.world", tmp_path / "out.png"
     plan.write_text(PLAN)
-    assert building.main([str(plan), "-o", str(world), "--preview", str(png)]) == 0
+    assert build_world.main([str(plan), "-o", str(world), "--preview", str(png)]) == 0
     assert capsys.readouterr().out == f"{world}: flat, 1 wall on 1 level\n"
     uris = [(e.findtext("uri"), e.findtext("name")) for e in ET.parse(world).iter("include")]
     assert uris == [("model://sun", None), ("model://ground_plane", None), ("model://table", "table"),
@@ -183,7 +183,7 @@ def test_command_writes_a_world_and_a_preview(tmp_path, capsys):
 
 def test_command_writes_a_model_directory(tmp_path):
     (tmp_path / "plan.yaml").write_text(PLAN)
-    assert building.main([str(tmp_path / "plan.yaml"), "-o", str(tmp_path / "models/flat") + "/"]) == 0
+    assert build_world.main([str(tmp_path / "plan.yaml"), "-o", str(tmp_path / "models/flat") + "/"]) == 0
     finder = ResourceFinder([tmp_path / "models"], environment=False, stock="/nowhere")
     loaded, problems = load_world("<sdf version='1.6'><world name='w'><include><uri>model://flat</uri></include>"
                                   "</world></sdf>", finder)
@@ -195,14 +195,14 @@ def test_command_writes_a_model_directory(tmp_path):
 def test_command_names_file_and_entry(tmp_path, capsys, text, message):
     import re
     (tmp_path / "plan.yaml").write_text(text)
-    assert building.main([str(tmp_path / "plan.yaml"), "-o", str(tmp_path / "a.world")]) == 1
+    assert build_world.main([str(tmp_path / "plan.yaml"), "-o", str(tmp_path / "a.world")]) == 1
     error = capsys.readouterr().err
     assert re.search(message, error) and error.count("\n") == 1 and not (tmp_path / "a.world").exists()
 
 
 def test_command_refuses_an_unknown_ending(tmp_path, capsys):
     (tmp_path / "plan.yaml").write_text(PLAN)
-    assert building.main([str(tmp_path / "plan.yaml"), "-o", str(tmp_path / "a.txt")]) == 1
+    assert build_world.main([str(tmp_path / "plan.yaml"), "-o", str(tmp_path / "a.txt")]) == 1
     assert ".world or .sdf" in capsys.readouterr().err
 
 
@@ -308,6 +308,6 @@ def test_command_names_a_preview_that_cannot_be_written(tmp_path, capsys):
     (tmp_path / "plan.yaml").write_text(PLAN)
     for preview, message in (("a.xyz", "give it the ending .png or .jpg"), ("none/a.png", "cannot write")):
         arguments = [str(tmp_path / "plan.yaml"), "-o", str(tmp_path / "a.world"), "--preview", str(tmp_path / preview)]
-        assert building.main(arguments) == 1
+        assert build_world.main(arguments) == 1
         error = capsys.readouterr().err
         assert message in error and preview in error and error.count("\n") == 1

@@ -15,7 +15,7 @@ from typing import Callable, List, Optional, Sequence, Tuple
 
 import rosgraph.names
 import rospy
-from controller_interface import ControllerBase, ControllerState, NodeHandle, one_line
+from controller_interface import ControllerState, NodeHandle, one_line
 from controller_manager_msgs.msg import ControllerState as ControllerStateMsg
 from controller_manager_msgs.msg import HardwareInterfaceResources
 from controller_manager_msgs.srv import (ListControllers, ListControllersResponse, ListControllerTypes,
@@ -27,6 +27,7 @@ from hardware_interface import ControllerInfo, RobotHW, SwitchState
 from plugin_loader import PluginError
 
 from .controller_types import ControllerTypes
+from .loaded import LoadedController
 from .switching import Patience, Refused, Switch, plan
 
 STRICT = SwitchControllerRequest.STRICT
@@ -47,26 +48,6 @@ def _reason(error: BaseException) -> str:
     frames = traceback.extract_tb(error.__traceback__)
     place = f" ({frames[-1].filename}:{frames[-1].lineno})" if frames else ""
     return f"{type(error).__name__}: {one_line(error)}{place}"
-
-
-class LoadedController:
-    """A controller with its name and what it holds."""
-
-    __slots__ = ("controller", "info", "nh", "update")
-
-    def __init__(self, controller: ControllerBase, info: ControllerInfo, nh: NodeHandle):
-        self.controller = controller
-        self.info = info
-        self.nh = nh
-        self.update = controller.update
-
-    @property
-    def name(self) -> str:
-        return self.info.name
-
-    @property
-    def running(self) -> bool:
-        return self.controller.is_running
 
 
 class ControllerManager:

@@ -1,20 +1,19 @@
-"""What a switch request means for the controllers that are loaded, and its progress. No ROS in here."""
+"""What a switch request means for the controllers that are loaded, and its progress. No ROS graph in here."""
 from __future__ import annotations
 
 import threading
 import time as wall
-from typing import TYPE_CHECKING, List, Optional, Sequence, Tuple
+from typing import List, Optional, Sequence, Tuple
 
-if TYPE_CHECKING:
-    from .manager import LoadedController
+from .loaded import LoadedController
 
 
 class Refused(Exception):
     """The switch cannot be done as asked; one line saying why."""
 
 
-def plan(controllers: Sequence["LoadedController"], start: Sequence[str], stop: Sequence[str],
-         strict: bool) -> Tuple[List["LoadedController"], List["LoadedController"]]:
+def plan(controllers: Sequence[LoadedController], start: Sequence[str], stop: Sequence[str],
+         strict: bool) -> Tuple[List[LoadedController], List[LoadedController]]:
     """Which controllers really change: (to start, to stop), each in the order of the request.
 
     :param controllers: all that are loaded, in load order.
@@ -47,7 +46,7 @@ def plan(controllers: Sequence["LoadedController"], start: Sequence[str], stop: 
 class Switch:
     """A switch on its way through the control loop."""
 
-    def __init__(self, start: List["LoadedController"], stop: List["LoadedController"], start_asap: bool,
+    def __init__(self, start: List[LoadedController], stop: List[LoadedController], start_asap: bool,
                  timeout: float):
         self.start = start
         self.stop = stop
@@ -58,7 +57,7 @@ class Switch:
         self.begun = False
         self.cycles = 0  # of the loop, since the switch was handed to it
         self.hardware_failed = False
-        self.failed: List["LoadedController"] = []  # their starting() raised
+        self.failed: List[LoadedController] = []  # their starting() raised
         self.reported: List[str] = []  # names of those whose start the log says to be aborted
         self.finished = threading.Event()
         self._since = 0.0

@@ -19,27 +19,19 @@ pixel), ``origin: [x, y, 0]``, ``occupied_thresh``, ``negate``.
 """
 from __future__ import annotations
 
-import argparse
 import math
 import os
 import reprlib
-import sys
 from dataclasses import dataclass, replace
 from typing import Any, Dict, List, Optional, Sequence, Tuple
 
 import numpy as np
-from ode_sim.description.model import one_line, quoted
+from ode_sim.description.model import quoted
 
-from gazebo_ros.plan_file import load_plan
+from gazebo_ros.plan_file import PlanError, load_plan
+from gazebo_ros.plan_image import wall_rectangles
 
 Point = Tuple[float, float]
-
-
-class PlanError(ValueError):
-    """The plan cannot be built. One line that names the entry."""
-
-    def __init__(self, message: object = "") -> None:
-        super().__init__(one_line(message))
 
 
 #: m: no wall lies farther out or is longer; what is smaller than the other one is nothing
@@ -372,8 +364,6 @@ def _models(top: _Entry) -> List[Placed]:
 
 
 def _walls_of_image(top: _Entry, defaults: _Entry, look: Look, folder: str) -> List[Wall]:
-    from gazebo_ros.building_image import wall_rectangles
-
     if "walls" in top.value:
         raise PlanError("image: takes the place of 'walls'; give one of the two")
     resolution = top.number("resolution", None, most=100.0)
@@ -394,34 +384,3 @@ def _walls_of_image(top: _Entry, defaults: _Entry, look: Look, folder: str) -> L
             start, end = (middle, ends[0]), (middle, ends[1])
         walls.append(Wall(start, end, 2.0 * half, height, look))
     return walls
-
-
-# ---------------------------------------------------------------------------------------------- command
-
-def main(argv: Optional[Sequence[str]] = None) -> int:
-    from gazebo_ros import building_image, building_sdf
-
-    parser = argparse.ArgumentParser(
-        prog="build_world", description="Builds a world (or a model) from a plan of walls, doors, windows and stairs.",
-        epilog="A plan is YAML (see python3 -m pydoc gazebo_ros.building) or an image, walls dark on light.")
-    parser.add_argument("plan", help="plan.yaml, a map of map_server, or an image with --resolution")
-    parser.add_argument("-o", "--output", required=True,
-                        help="FILE.world: with sun and floor; FILE.sdf: the model alone; DIR/: a model directory")
-    parser.add_argument("--preview", metavar="PNG", help="also draw the plan from above")
-    parser.add_argument("--resolution", type=float, help="metres per pixel of an image")
-    arguments = parser.parse_args(sys.argv[1:] if argv is None else argv)
-    try:
-        building = read_plan(arguments.plan, arguments.resolution)
-        building_sdf.write(building, arguments.output)
-        if arguments.preview:
-            building_image.save(building, arguments.preview)
-    except PlanError as error:
-        print(f"build_world: {error}", file=sys.stderr)
-        return 1
-    except OSError as error:
-        print(f"build_world: cannot write {error.filename or arguments.output}: {error.strerror or error}", file=sys.stderr)
-        return 1
-    walls = sum(len(level.walls) for level in building.levels)
-    print(f"{arguments.output}: {building.name}, {walls} wall{'s' * (walls != 1)} on "
-          f"{len(building.levels)} level{'s' * (len(building.levels) != 1)}")
-    return 0

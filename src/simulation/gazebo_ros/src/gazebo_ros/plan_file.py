@@ -11,6 +11,13 @@ _DEEPEST = 20
 _MOST_KEYS = 1000  # of a mapping; mappings that merge each other twice grow without end
 
 
+class PlanError(ValueError):
+    """The plan cannot be built. One line that names the entry."""
+
+    def __init__(self, message: object = "") -> None:
+        super().__init__(one_line(message))
+
+
 class _Loader(yaml.SafeLoader):
     _depth = 0
 
