@@ -55,6 +55,15 @@ def test_text_of_a_file(robot):
     assert root.find("link/visual/geometry/mesh").get("filename") == "package://p/m.stl"
 
 
+@pytest.mark.parametrize("option, scheme", [("", "package"), ("-package_to_model", "model")])
+def test_the_text_keeps_its_lines_and_comments(tmp_path, option, scheme):
+    text = ("<?xml version='1.0' encoding='utf-8'?>\n<!-- two\nlines, Höhe -->\n<robot name='r'>\n<link name='l'/><mesh\n"
+            "scale='1 1 1' filename = 'package://p/m.stl'/>\n<note filename='package://p/n'/></robot>\n")
+    (tmp_path / "r.urdf").write_text(text, encoding="utf-8")
+    sent = spawn_model.model_text(parse(f"-urdf -file {tmp_path / 'r.urdf'} -model m {option}"))
+    assert sent == text.replace("package://p/m.stl", f"{scheme}://p/m.stl")
+
+
 def test_package_to_model(robot):
     root = ET.fromstring(spawn_model.model_text(parse(f"-urdf -file {robot} -model m -package_to_model")))
     assert root.find("link/visual/geometry/mesh").get("filename") == "model://p/m.stl"

@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import argparse
 import math
+import re
 import sys
 import threading
 import xml.etree.ElementTree as ET
@@ -18,6 +19,7 @@ from std_srvs.srv import Empty
 from gazebo_ros import gazebo_interface
 
 _DATABASE = ('<sdf version="1.4"><world name="default"><include><uri>model://{}</uri></include></world></sdf>')
+_PACKAGE = re.compile(r"""(<mesh\b[^>]*?\bfilename\s*=\s*["'])package://""")
 _ANSWER = 20.0  # s, in which the simulator answers between two steps
 
 
@@ -68,7 +70,7 @@ def pose_of(options: argparse.Namespace) -> Pose:
 
 
 def model_text(options: argparse.Namespace) -> str:
-    """The XML to send, from wherever the options say.
+    """The XML to send, from wherever the options say: to the letter, so that the server names the lines of the file.
 
     :raises Failure: not there, or not XML
     """
@@ -97,15 +99,10 @@ def model_text(options: argparse.Namespace) -> str:
         rospy.loginfo("Loading model XML from stdin")
         text, where = sys.stdin.read(), "standard input"
     try:
-        root = ET.fromstring(text)
+        ET.fromstring(text)
     except (ET.ParseError, TypeError, ValueError) as error:
         raise Failure(f"{where} is not well-formed XML: {error}") from error
-    if options.package_to_model:
-        for mesh in root.iter("mesh"):
-            name = mesh.get("filename", "")
-            if name.startswith("package://"):
-                mesh.set("filename", "model://" + name[len("package://"):])
-    return ET.tostring(root, encoding="unicode")
+    return _PACKAGE.sub(r"\1model://", text) if options.package_to_model else text
 
 
 def wait_for_model(name: str, gazebo_namespace: str) -> None:
