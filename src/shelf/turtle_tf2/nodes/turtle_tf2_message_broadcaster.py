@@ -2,6 +2,6 @@
 import node_signals
 
 with node_signals.silent():
-    from turtle_tf2 import nodes
+    from turtle_tf import turtles
 
-    node_signals.leave(nodes.broadcast_points())
+    node_signals.leave(turtles.broadcast_points("turtle_tf2_msg_broadcaster"))

@@ -7,10 +7,8 @@ import rospy
 import tf2_geometry_msgs  # noqa: F401  lets a tf2 buffer transform points
 import tf2_ros
 from geometry_msgs.msg import PointStamped, TransformStamped, Twist
+from turtle_tf.turtles import RATE, spawn, steer
 from turtlesim.msg import Pose
-from turtlesim.srv import Spawn
-
-RATE = 10.0  # Hz
 
 
 def _stamped(parent: str, child: str, x: float, y: float, yaw: float = 0.0) -> TransformStamped:
@@ -55,27 +53,6 @@ def _broadcast_carrot(node_name: str, place) -> None:
     node_signals.spin()
 
 
-def spawn(x: float, y: float, name: str) -> None:
-    """A turtle of that name; if it is there already, a line says so."""
-    while not rospy.is_shutdown():
-        try:
-            rospy.wait_for_service("spawn", timeout=0.5)
-            rospy.ServiceProxy("spawn", Spawn)(x, y, 0, name)
-            return
-        except rospy.ServiceException as error:
-            rospy.logwarn("%s is not spawned: %s", name, error)
-            return
-        except rospy.ROSException:  # not there yet, or the node is being shut down
-            pass
-
-
-def steer(x: float, y: float) -> Twist:
-    """The velocity towards a point of the turtle's own frame."""
-    twist = Twist()
-    twist.angular.z, twist.linear.x = 4 * math.atan2(y, x), 0.5 * math.hypot(x, y)
-    return twist
-
-
 def follow(node_name: str, timeout: float = 0.0) -> None:
     """turtle2 (or the one that the parameter turtle names) runs after turtle1.
 
@@ -97,26 +74,6 @@ def follow(node_name: str, timeout: float = 0.0) -> None:
         publisher.publish(steer(place.x, place.y))
 
     rospy.Timer(rospy.Duration(1 / RATE), turn, reset=True)
-    node_signals.spin()
-
-
-def broadcast_points() -> None:
-    """turtle3 runs in circles; where it is in "world" goes out as turtle_point_stamped."""
-    node_signals.init_node("turtle_tf2_msg_broadcaster")
-    spawn(4, 2, "turtle3")
-    points = rospy.Publisher("turtle_point_stamped", PointStamped, queue_size=1)
-    velocity = rospy.Publisher("turtle3/cmd_vel", Twist, queue_size=1)
-
-    def tell(pose):
-        point = PointStamped()
-        point.header.stamp, point.header.frame_id = rospy.Time.now(), "world"
-        point.point.x, point.point.y = pose.x, pose.y
-        points.publish(point)
-
-    rospy.Subscriber("/turtle3/pose", Pose, tell, queue_size=1)
-    circle = Twist()
-    circle.linear.x = circle.angular.z = 1.0
-    rospy.Timer(rospy.Duration(1 / RATE), lambda event: velocity.publish(circle), reset=True)
     node_signals.spin()
 
 
