@@ -9,6 +9,7 @@ from moveit_msgs.msg import RobotTrajectory
 from trajectory_msgs.msg import JointTrajectoryPoint, MultiDOFJointTrajectoryPoint
 
 from moveit_core.controller_manager import ControllerManager
+from moveit_core.errors import one_line
 from plugin_loader import PluginError, find_plugins
 
 
@@ -18,6 +19,10 @@ def load_manager(model, namespace: str = "~") -> Optional[ControllerManager]:
     parameter = rospy.resolve_name(namespace + "moveit_controller_manager")
     name = rospy.get_param(namespace + "moveit_controller_manager", "")
     managers = {known: plugin for known, plugin in found.items() if plugin.base.endswith("MoveItControllerManager")}
+    if name and not isinstance(name, str):
+        rospy.logerr("parameter %s is %s, where the name of a controller manager is expected: trajectories are planned, "
+                     "but cannot be executed", parameter, one_line(repr(name), 60))
+        return None
     if not name:
         rospy.logerr("Failed to load any controller manager: parameter %s is not set (trajectory_execution.launch.xml "
                      "sets it). "

@@ -11,6 +11,7 @@ import rospy
 from moveit_core.errors import one_line
 
 from . import solvers
+from .parameters import joint_limits, number, table
 
 
 class DescriptionError(Exception):
@@ -75,7 +76,7 @@ def load(name: str = "robot_description", meshes: bool = True, own_namespace: Op
         rospy.logerr("Could not find parameter '%s_semantic': the robot has no planning groups. Load the SRDF there, "
                      "as "
                      "planning_context.launch does", where)
-    limits = _dictionary(f"{where}_planning/joint_limits")
+    limits = joint_limits(f"{where}_planning/joint_limits")
     try:
         model = motion.load_model(urdf, srdf or None, joint_limits=limits, find_package=Packages().directory,
                                   meshes=meshes)
@@ -102,16 +103,8 @@ class Packages:
             return None
 
 
-def _dictionary(name: str) -> Dict[str, Any]:
-    value = rospy.get_param(name, {})
-    if isinstance(value, dict):
-        return value
-    rospy.logerr("parameter %s is %s, where a table is expected: it is ignored", name, one_line(repr(value), 60))
-    return {}
-
-
 def _kinematics(where: str, model: motion.RobotModel, own_namespace: Optional[str]) -> Dict[str, Kinematics]:
-    shared = _dictionary(f"{where}_kinematics")
+    shared = table(f"{where}_kinematics")
     result = {}
     for group in model.groups:
         entry = shared.get(group, {})
@@ -137,23 +130,21 @@ def _kinematics(where: str, model: motion.RobotModel, own_namespace: Optional[st
 
 
 def _group_kinematics(where: str, entry: Dict[str, Any]) -> Kinematics:
-    def number(key: str, default: float) -> float:
-        value = entry.get(key, default)
-        if isinstance(value, bool) or not isinstance(value, (int, float)):
-            rospy.logerr("parameter %s/%s is %s, where a number is expected: %g is used", where, key,
-                         one_line(repr(value), 40),
-                         default)
-            return default
-        return float(value)
+    def read(key: str, default: float) -> float:
+        return number(f"{where}/{key}", entry.get(key, default), default)
 
     links = entry.get("kinematics_solver_ik_links", [])
-    return Kinematics(solver=str(entry["kinematics_solver"]), timeout=number("kinematics_solver_timeout", 0.5),
-                      joint_tolerance=number("goal_joint_tolerance", 1e-4),
-                      position_tolerance=number("goal_position_tolerance", 1e-4),
-                      orientation_tolerance=number("goal_orientation_tolerance", 1e-3),
-                      position_only=bool(entry.get("position_only_ik", False)), epsilon=number("epsilon", 1e-5),
+    return Kinematics(solver=_words(entry["kinematics_solver"]), timeout=read("kinematics_solver_timeout", 0.5),
+                      joint_tolerance=read("goal_joint_tolerance", 1e-4),
+                      position_tolerance=read("goal_position_tolerance", 1e-4),
+                      orientation_tolerance=read("goal_orientation_tolerance", 1e-3),
+                      position_only=bool(entry.get("position_only_ik", False)), epsilon=read("epsilon", 1e-5),
                       links=[str(link) for link in links] if isinstance(links, list) else [],
-                      resolution=number("kinematics_solver_search_resolution", 0.1))
+                      resolution=read("kinematics_solver_search_resolution", 0.1))
+
+
+def _words(value: Any) -> str:
+    return " ".join(str(one) for one in value) if isinstance(value, list) else str(value)
 
 
 def prepare_scene(description: RobotDescription) -> motion.PlanningScene:
@@ -161,24 +152,30 @@ def prepare_scene(description: RobotDescription) -> motion.PlanningScene:
     scene = motion.PlanningScene(description.model)
     scene.name = "(noname)"
     model = description.model
-    padding = float(description.planning("default_robot_padding", 0.0))
-    scale = float(description.planning("default_robot_scale", 1.0))
+    padding = _planning_number(description, "default_robot_padding", 0.0)
+    scale = _planning_number(description, "default_robot_scale", 1.0)
     links = {name: padding for name in model.links}
     links.update(_numbers(description, "default_robot_link_padding", model))
     scales = {name: scale for name in model.links}
     scales.update(_numbers(description, "default_robot_link_scale", model))
     scene.set_padding({name: value for name, value in links.items() if model.link(name).has_geometry})
     scene.set_scale({name: value for name, value in scales.items() if model.link(name).has_geometry})
-    scene.set_attached_padding(float(description.planning("default_attached_padding", 0.0)))
-    scene.set_object_padding(float(description.planning("default_object_padding", 0.0)))
+    scene.set_attached_padding(_planning_number(description, "default_attached_padding", 0.0))
+    scene.set_object_padding(_planning_number(description, "default_object_padding", 0.0))
     _collision_operations(description, scene)
     return scene
 
 
 def _numbers(description: RobotDescription, key: str, model) -> Dict[str, float]:
     values = description.planning(key, {})
-    return {name: float(value) for name, value in values.items() if model.has_link(name)} if isinstance(values,
-                                                                                                        dict) else {}
+    if not isinstance(values, dict):
+        return {}
+    return {name: number(f"{description.name}_planning/{key}/{name}", value, 0.0 if "padding" in key else 1.0)
+            for name, value in values.items() if model.has_link(name)}
+
+
+def _planning_number(description: RobotDescription, key: str, default: float) -> float:
+    return number(f"{description.name}_planning/{key}", description.planning(key, default), default)
 
 
 def _collision_operations(description: RobotDescription, scene) -> None:
@@ -199,5 +196,5 @@ def _collision_operations(description: RobotDescription, scene) -> None:
 
 def scaling_factors(description: RobotDescription) -> Tuple[float, float]:
     """Default velocity and acceleration scaling of clients."""
-    return (float(description.planning("default_velocity_scaling_factor", 0.1)),
-            float(description.planning("default_acceleration_scaling_factor", 0.1)))
+    return (_planning_number(description, "default_velocity_scaling_factor", 0.1),
+            _planning_number(description, "default_acceleration_scaling_factor", 0.1))
