@@ -1,4 +1,4 @@
-"""What a page shows of a running world and changes in it: moments, contacts, colours, friction, a pull, the first view."""
+"""What a page shows of a running world and changes in it: moments, contacts, looks, films, a pull, the first view."""
 import time
 import types
 from dataclasses import replace
@@ -160,6 +160,31 @@ def test_colour_and_friction_are_changed_and_saved(page):
         page.simulation.paint("nobody", "", (1.0, 0.0, 0.0, 1.0))
 
 
+# ---------------------------------------------------------------------------------------------- films
+
+def test_a_film_shows_what_moved(page, tmp_path):
+    cv2 = pytest.importorskip("cv2")
+    client, record = Client(), panel(page, "RecordPanel")
+    client.camera = types.SimpleNamespace(position=(4.0, -4.0, 3.0), look_at=(0.0, 0.0, 0.5), fov=FIELD,
+                                          image_width=161, image_height=120)
+    use(record._film, client)
+    page.simulation.set_pose("box", Pose((0.0, 0.0, 0.5)))
+    wait(page, lambda: len(record._movie.shots) > 3)
+    page.simulation.set_pose("box", Pose((0.0, 1.5, 0.5)))
+    page.simulation.insert("late", "<sdf version='1.6'><model name='m'><link name='l'/></model></sdf>", Pose())
+    many = len(record._movie.shots)
+    wait(page, lambda: len(record._movie.shots) > many + 3 and len(record._movie.scenes) == 2)
+    use(record._film, client)
+    assert not client.told
+    file = tmp_path / "film.mp4"
+    file.write_bytes(client.files["film.mp4"])
+    film, pictures = cv2.VideoCapture(str(file)), []
+    while (read := film.read())[0]:
+        pictures.append(read[1])
+    assert len(pictures) > many + 3 and pictures[0].shape == (120, 160, 3)
+    assert np.abs(pictures[1].astype(int) - pictures[-1]).mean() > 2.0 and pictures[0].std() > 5.0
+
+
 # ---------------------------------------------------------------------------------------------- a pull, the first view
 
 def test_a_pull_takes_the_body_to_the_pointer():
@@ -170,8 +195,9 @@ def test_a_pull_takes_the_body_to_the_pointer():
         client = Client()
 
         def drag(phase):
-            page.pull._news = (types.SimpleNamespace(client=client, client_id=1, phase=phase, end_position=(2.0, 0.0, 1.5),
-                                                     start_position=(0.0, 0.0, 0.5)), "ball", "link")
+            page.pull._news = (types.SimpleNamespace(
+                client=client, client_id=1, phase=phase, end_position=(2.0, 0.0, 1.5),
+                start_position=(0.0, 0.0, 0.5)), "ball", "link")
             page.pull._take()
         drag("start")
         for number in range(150):

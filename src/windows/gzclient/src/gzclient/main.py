@@ -1,7 +1,7 @@
 """gzclient: from the command line to the page and its window.
 
-What a page needs is imported when a browser has knocked: a gzclient that nobody looks at, as launch files start it, holds
-a port and nothing else.
+What a page needs is imported when a browser has knocked: a gzclient that nobody looks at, as launch files start it,
+holds a port and nothing else.
 """
 from __future__ import annotations
 

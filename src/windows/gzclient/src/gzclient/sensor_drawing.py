@@ -1,4 +1,4 @@
-"""How the messages of sensors are drawn where the sensors are: each function keeps the nodes of its source up to date."""
+"""How the messages of sensors are drawn where the sensors are; each keeps its nodes up to date."""
 from __future__ import annotations
 
 import math
@@ -66,8 +66,9 @@ def _cone(view: View, source: Any, place: Place) -> None:
     rim = range_cone(source.message)
     lines = np.concatenate([np.stack([np.zeros_like(rim), rim], 1), np.stack([rim[:-1], rim[1:]], 1)])
     if source.node is None:
-        source.node = view.scene.add_line_segments(source.name(place.node), lines, colors=(255, 140, 0), thickness=0.008,
-                                                   position=place.pose.p, wxyz=wxyz(place.pose.q))
+        source.node = view.scene.add_line_segments(
+            source.name(place.node), lines, colors=(255, 140, 0), thickness=0.008, position=place.pose.p,
+            wxyz=wxyz(place.pose.q))
     else:
         source.node.points = lines
 

@@ -5,6 +5,8 @@ from typing import Any, Optional, Tuple
 
 import numpy as np
 
+from ode_sim.viewer.drawing import take_away
+
 _THICK = 0.006  # m
 _LEAST, _MOST = 0.01, 2.0  # m: shorter ones are not drawn, longer ones are cut
 
@@ -65,4 +67,4 @@ class Forces:
 
 def _without(node: Optional[Any]) -> None:
     if node is not None:
-        node.remove()
+        take_away(node)

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from typing import Callable, Dict, List, Optional, Tuple
+from typing import Any, Callable, Dict, List, Optional, Tuple
 
 import numpy as np
 
@@ -25,6 +25,12 @@ def wxyz(q: d.Quat) -> Tuple[float, float, float, float]:
 
 def rgb255(colour) -> Tuple[int, int, int]:
     return tuple(int(round(255 * min(1.0, max(0.0, c)))) for c in colour[:3])
+
+
+def take_away(node: Any) -> None:
+    """Remove a node of the scene, unless it went with the one above it."""
+    if not node._impl.removed:
+        node.remove()
 
 
 class ModelDrawing:
@@ -117,7 +123,7 @@ class Drawing:
 
     def _remove(self, name: str) -> None:
         for handle in reversed(self._models.pop(name).handles):
-            handle.remove()
+            take_away(handle)
 
     def _draw(self, record: ModelRecord) -> ModelDrawing:
         self._serial += 1
@@ -189,7 +195,7 @@ class Drawing:
             return
         self._lit = lit
         for handle in self._lights:
-            handle.remove()
+            take_away(handle)
         shadows = world.scene.shadows and self.shadows
         self._lights = [self._scene.add_light_ambient("/light_ambient", color=rgb255(world.scene.ambient),
                                                       intensity=_FULL)]

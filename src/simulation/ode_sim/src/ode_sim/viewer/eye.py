@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any, Optional, Tuple
+from typing import Any, Optional, Sequence, Tuple
 
 import numpy as np
 
@@ -41,6 +41,12 @@ def view_of(still: np.ndarray, moving: np.ndarray) -> View:
     return middle + distance * away, middle
 
 
+def put_eye(client: Any, place: Sequence[float], target: Sequence[float]) -> None:
+    """Have a page look from ``place`` to ``target``, m: in this order, as the target goes along with the eye."""
+    client.camera.position = tuple(float(v) for v in place)
+    client.camera.look_at = tuple(float(v) for v in target)
+
+
 class Eyes:
     """Puts the eyes of all pages where they see the world, until the world has settled or a hand has moved them."""
 
@@ -56,7 +62,7 @@ class Eyes:
         for client in self._server.get_clients().values():
             camera = client.camera
             if before is None or self._as_told(camera, before):
-                camera.position, camera.look_at = view
+                put_eye(client, *view)
 
     @staticmethod
     def _as_told(camera: Any, view: View) -> bool:

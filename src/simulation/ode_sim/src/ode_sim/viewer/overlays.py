@@ -10,7 +10,7 @@ from ode_sim.description import model as d
 from ode_sim.math3 import Pose, compose, quat_from_matrix
 from ode_sim.rendering.assets import Assets
 from ode_sim.viewer.arrows import Forces
-from ode_sim.viewer.drawing import wxyz
+from ode_sim.viewer.drawing import take_away, wxyz
 from ode_sim.viewer.simulation import Frame, ModelRecord, WorldRecord
 
 _ORANGE = (255, 140, 0)
@@ -69,7 +69,7 @@ class Overlays:
 
     def _draw(self, kind: str, world: WorldRecord) -> None:
         for node in self._nodes.pop(kind, ()):
-            node.remove()
+            take_away(node)
         if kind not in self.shown:
             return
         draw = getattr(self, "_" + kind.replace(" ", "_"))
@@ -88,6 +88,8 @@ class Overlays:
         made = []
         for link in record.description.links:
             for number, collision in enumerate(link.collisions):
+                if isinstance(collision.geometry, d.Plane):  # it has no end
+                    continue
                 visual = d.Visual(collision.name, collision.pose, collision.geometry)
                 scoped = f"{record.name}::{link.name}::{collision.name}"
                 for part_number, part in enumerate(self._assets.parts(visual, scoped)):

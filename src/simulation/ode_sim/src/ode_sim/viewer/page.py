@@ -177,6 +177,7 @@ class Page:
             self.drawing.move(frame)
             self.overlays.move(frame)
             self.pull.move(frame)
+            self._each(lambda panel: panel.on_move(frame))
         now = time.monotonic()
         if now >= self._next_text:
             self._next_text = now + _TEXT_PERIOD

@@ -3,8 +3,8 @@
 By default it answers on the loopback interface only, to pages that come from itself. With ``listen`` it answers to
 every machine that shows the token, which is part of the address that is printed once.
 
-The port is taken at once, viser (a second of imports) is started when a browser has knocked: until then the knocks wait in
-the system's queue.
+The port is taken at once, viser (a second of imports) is started when a browser has knocked: until then the knocks wait
+in the system's queue.
 """
 from __future__ import annotations
 
@@ -117,7 +117,8 @@ class Website:
             try:
                 import viser
             except ImportError as error:
-                raise Unavailable(f"the page needs the Python package {error.name}; scripts/setup installs it") from error
+                raise Unavailable(
+                    f"the page needs the Python package {error.name}; scripts/setup installs it") from error
             self.viser = _start(viser, self._door, self.guard)
             self._withdraw_sharing()
         return self.viser

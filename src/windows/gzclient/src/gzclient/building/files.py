@@ -65,7 +65,7 @@ def save(document: Dict[str, Any]) -> str:
 def text_of(document: Dict[str, Any]) -> str:
     """The plan as YAML, an element a line."""
     ordered = {key: document[key] for key in ("name", *(key for key in document if key != "name")) if key in document}
-    return ("# A building for build_world (rosrun gazebo_ros build_world plan.yaml -o NAME.world) and gzclient's editor.\n"
+    return ("# A building for gzclient's editor and for rosrun gazebo_ros build_world plan.yaml -o NAME.world\n"
             + yaml.safe_dump(ordered, sort_keys=False, default_flow_style=None, width=110))
 
 

@@ -1,7 +1,7 @@
 """A plan that is being drawn: what a hand does to it, step by step, and back.
 
-The document is the mapping that :func:`gazebo_ros.building.building_of` reads, with each wall on its own (``from``, ``to``).
-Elements are named ``(level, kind, index)``, openings in a wall ``(level, kind, index, wall)``.
+The document is the mapping that :func:`gazebo_ros.building.building_of` reads, with each wall on its own (``from``,
+``to``). Elements are named ``(level, kind, index)``, openings in a wall ``(level, kind, index, wall)``.
 """
 from __future__ import annotations
 
@@ -133,7 +133,9 @@ class Plan:
         ends = [tuple(wall[end]) for wall in self.part(self.level).get("walls") or [] for end in ("from", "to")]
         if near in ends and math.dist(near, start) > _SHORTEST:
             return near
-        angle = snapped(math.atan2(point[1] - start[1], point[0] - start[0]), self.snap_angle)
+        angle = math.atan2(point[1] - start[1], point[0] - start[0])
+        if self.snap_angle > 0.0:
+            angle = snapped(angle, self.snap_angle)
         length = math.dist(start, point)
         if self.snap > 0.0:
             length = max(self.snap, snapped(length, self.snap))
@@ -180,7 +182,8 @@ class Plan:
         """They begin at ``point`` and climb along ``yaw`` to the next level."""
         def change() -> Element:
             stairs = self.part(self.level).setdefault("stairs", [])
-            stairs.append({"at": list(self.snap_point(point)), "yaw": snapped(yaw, self.snap_angle), **_plain(settings)})
+            stairs.append({"at": list(self.snap_point(point)), "yaw": snapped(yaw, self.snap_angle),
+                           **_plain(settings)})
             return Element(self.level, "stairs", len(stairs) - 1)
         return self.attempt(change)
 

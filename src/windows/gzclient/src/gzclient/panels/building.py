@@ -9,6 +9,7 @@ from gazebo_ros import building_image, building_sdf
 from gazebo_ros.building import PlanError
 from ode_sim.description.materials import NAMES
 from ode_sim.math3 import Pose
+from ode_sim.viewer.eye import put_eye
 from ode_sim.viewer.panels.base import Panel, note
 from ode_sim.viewer.simulation import Refused
 
@@ -19,6 +20,7 @@ from gzclient.building.plan import SNAP, Element, Plan, Point
 _TOOLS = ("Wall", "Door", "Window", "Stairs", "Move", "Delete", "Pick")
 _NONE = "(none is saved)"
 _LARGEST = 4_000_000  # pixels of a floor plan
+_SINGULAR = {"walls": "wall", "doors": "door", "windows": "window", "stairs": "stairs"}
 _USUAL_LOOK = "Gazebo/CeilingTiled"
 
 
@@ -38,9 +40,9 @@ class BuildingPanel(Panel):
         self._picture: Optional[np.ndarray] = None
         gui = self.gui
         self._on = gui.add_checkbox("Edit a building", False, hint="the world is hidden meanwhile, and runs on")
-        self._tool = gui.add_dropdown("Tool", _TOOLS, hint="Wall: drag from end to end, or click along a path and on its "
-                                      "last point again. Door, Window: click on a wall. Move: drag a wall, its end, a "
-                                      "door. Pick: its measures below")
+        self._tool = gui.add_dropdown(
+            "Tool", _TOOLS, hint="Wall: drag from end to end, or click along a path and on its last point again. Door, "
+            "Window: click on a wall. Move: drag a wall, its end, a door. Pick: its measures below")
         self._views = gui.add_button_group("View", ("Plan", "3-D"))
         self._history = gui.add_button_group("History", ("Undo", "Redo"))
         self._level = gui.add_dropdown("Level", ("0",))
@@ -93,11 +95,13 @@ class BuildingPanel(Panel):
         with gui.add_folder("Floor plan to draw over", expand_by_default=False):
             self._upload = gui.add_upload_button("Picture (PNG, JPEG)", mime_type="image/*")
             self._resolution = gui.add_number("Metres per pixel", 0.02, min=1e-4, max=10.0, step=0.001)
-            self._scale = gui.add_number("Scale: last drawn wall is (m)", 0.0, min=0.0, max=1000.0, step=0.1,
-                                         hint="draw a wall over a line of the picture whose length is known, and say it")
+            self._scale = gui.add_number(
+                "Scale: last drawn wall is (m)", 0.0, min=0.0, max=1000.0, step=0.1,
+                hint="draw a wall over a line of the picture whose length is known, and say it")
             self._clear = gui.add_button("Remove picture")
         self.on_click(self._save, self._save_now)
-        self._open.on_click(lambda event: self._do(event, self._open_now if event.target.value == "Open" else self._new))
+        self._open.on_click(lambda event: self._do(
+            event, self._open_now if event.target.value == "Open" else self._new))
         self.on_click(self._put, self._put_into_world)
         self._upload.on_upload(lambda event: self.page.attempt(event, lambda: self._take_picture(event.target.value)))
         self.on_update(self._resolution, lambda value: self.page.later(self._show_picture))
@@ -133,8 +137,7 @@ class BuildingPanel(Panel):
         middle, size = (low + high) / 2, float(np.max(high - low))
         base = self._plan.base(self._plan.level)
         away = (0.0, -0.001, 1.3) if view == "Plan" else (0.6, -0.9, 0.8)
-        client.camera.look_at = (*middle, base)
-        client.camera.position = tuple(float(m + size * a) for m, a in zip((*middle, base), away))
+        put_eye(client, [m + size * a for m, a in zip((*middle, base), away)], (*middle, base))
 
     def _do(self, event: Any, f: Callable[[], Any]) -> None:
         """A button: in the drawing thread, for a page that may act."""
@@ -194,7 +197,7 @@ class BuildingPanel(Panel):
             self._plan.delete(element)
         elif tool in ("Pick", "Move"):
             self._picked = element
-            self._show_picked()
+        self._show_picked()
         self._refresh()
 
     def _click_wall(self, point: Point) -> None:
@@ -246,6 +249,7 @@ class BuildingPanel(Panel):
             else:
                 self._plan.move(element, grip, begin, point)
         finally:
+            self._show_picked()
             self._refresh()
 
     # ------------------------------------------------------------------------------------------ measures
@@ -272,7 +276,7 @@ class BuildingPanel(Panel):
             self._folder.label = "Next wall"
             return
         element = self._plan.element(self._picked)
-        self._folder.label = f"{self._picked.kind[:-1] if self._picked.kind != 'stairs' else 'stairs'} that is picked"
+        self._folder.label = f"Picked: {_SINGULAR[self._picked.kind]}"
         self._busy = True
         try:
             if self._picked.kind == "walls":

@@ -7,6 +7,7 @@ import rosgraph
 import rospy
 from ode_sim.math3 import Pose
 from ode_sim.viewer.arrows import Forces
+from ode_sim.viewer.drawing import take_away
 from ode_sim.viewer.panels.base import Panel, note
 from ode_sim.viewer.simulation import Frame, Refused, WorldRecord
 
@@ -40,7 +41,7 @@ class _Source:
             self.forces.hide()
             self.forces = None
         if self.node is not None:
-            self.node.remove()
+            take_away(self.node)
             self.node = None
 
 

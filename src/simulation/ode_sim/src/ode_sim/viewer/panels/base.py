@@ -26,6 +26,9 @@ class Panel:
     def on_frame(self, frame: Frame) -> None:
         """Five times a second. Drawing thread."""
 
+    def on_move(self, frame: Frame) -> None:
+        """For every frame that is drawn, up to thirty a second. Drawing thread."""
+
     def on_absent(self) -> None:
         """The simulator has gone. Drawing thread."""
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 import time
 from typing import Any, Optional
 
+from ode_sim.viewer.movie import RATE, Movie
 from ode_sim.viewer.panels.base import Panel
 from ode_sim.viewer.simulation import Frame, Refused
 
@@ -20,14 +21,37 @@ class RecordPanel(Panel):
             f"{page.world.name or 'world'}.world", self.simulation.save().encode())))
         self._shot.on_click(lambda event: page.attempt(event, lambda: self._screenshot(event.client)))
         self._replay.on_click(lambda event: page.attempt(event, lambda: self._toggle(event.client)))
+        self._film = self.gui.add_button("Film", hint="MP4 of what this page looks at, drawn when it ends; 2 minutes")
+        self._film.on_click(lambda event: page.attempt(event, lambda: self._toggle_film(event.client)))
         self._recording: Optional[Any] = None
         self._last = 0.0
+        self._movie: Optional[Movie] = None
+        self._filming: Any = None  # the page that films
+        self._next = 0.0  # wall s of the next picture
 
     def on_frame(self, frame: Frame) -> None:
         if self._recording is not None:
             now = time.monotonic()
             self._recording.insert_sleep(now - self._last)
             self._last = now
+
+    def on_move(self, frame: Frame) -> None:
+        movie, now = self._movie, time.monotonic()
+        while movie is not None and self._next <= now and not movie.full:
+            self._next += 1.0 / RATE
+            movie.add(self.page.world, frame, self._filming.camera)
+
+    def _toggle_film(self, client: Any) -> None:
+        if self._movie is None:
+            width, height = (max(64, int(side or usual)) for side, usual in (
+                (client.camera.image_width, 1280), (client.camera.image_height, 720)))
+            self._filming, self._next = client, time.monotonic()
+            self._movie = Movie(width, height)
+            self._film.label = "Stop and keep the film"
+            return
+        movie, self._movie, self._filming = self._movie, None, None
+        self._film.label = "Film"
+        client.send_file_download("film.mp4", movie.render())
 
     def _screenshot(self, client: Any) -> None:
         import cv2

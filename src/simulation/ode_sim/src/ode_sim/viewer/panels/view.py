@@ -3,7 +3,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from ode_sim.viewer.eye import view_of
+from ode_sim.viewer.eye import put_eye, view_of
 from ode_sim.viewer.overlays import Overlays
 from ode_sim.viewer.panels.base import Panel
 from ode_sim.viewer.simulation import Frame
@@ -21,7 +21,8 @@ class ViewPanel(Panel):
             self._on_box(box, lambda on, kind=kind: page.overlays.show(kind, on))
         self._on_box(self.gui.add_checkbox("Contacts", False, hint="where bodies touch, and with what force"),
                      page.overlays.contacts)
-        self._scale = self.gui.add_number("Arrow for 1 N (m)", page.overlays.force_scale, min=1e-6, max=10.0, step=0.001)
+        self._scale = self.gui.add_number("Arrow for 1 N (m)", page.overlays.force_scale, min=1e-6, max=10.0,
+                                          step=0.001)
         self._scale.on_update(lambda event: setattr(page.overlays, "force_scale", float(event.target.value)))
         self._on_box(self.gui.add_checkbox("Grid", True), lambda on: setattr(page.drawing.grid, "visible", on))
         for label, name, usual in (("Transparent", "transparent", False), ("Wireframe", "wireframe", False),
@@ -50,14 +51,13 @@ class ViewPanel(Panel):
             if max(map(abs, moved)) > 1e-4:
                 for client in self.page.server.get_clients().values():
                     eye, at = client.camera.position, client.camera.look_at
-                    client.camera.look_at = tuple(float(v) + m for v, m in zip(at, moved))
-                    client.camera.position = tuple(float(v) + m for v, m in zip(eye, moved))
+                    put_eye(client, [float(v) + m for v, m in zip(eye, moved)],
+                            [float(v) + m for v, m in zip(at, moved)])
         self._followed = pose.p
 
     def _on_all(self, event: Any) -> None:
         if event.client is not None and self.page.frame is not None:
-            event.client.camera.position, event.client.camera.look_at = view_of(
-                *self.page.drawing.corners(self.page.frame))
+            put_eye(event.client, *view_of(*self.page.drawing.corners(self.page.frame)))
 
     def _on_view(self, event: Any) -> None:
         if event.client is None:
@@ -65,5 +65,4 @@ class ViewPanel(Panel):
         pose, camera = self.page.selection.pose(), event.client.camera
         at = pose.p if pose is not None else tuple(float(v) for v in camera.look_at)
         distance = sum((float(a) - b) ** 2 for a, b in zip(camera.position, at)) ** 0.5 or 3.0
-        camera.look_at = at
-        camera.position = tuple(a + distance * v for a, v in zip(at, _VIEWS[event.target.value]))
+        put_eye(event.client, [a + distance * v for a, v in zip(at, _VIEWS[event.target.value])], at)

@@ -5,6 +5,7 @@ import math
 from typing import Any, Callable, List, Optional, Tuple
 
 from ode_sim.math3 import Pose
+from ode_sim.viewer.eye import put_eye
 from ode_sim.viewer.panels.base import Panel
 from ode_sim.viewer.panels.properties import LightProperties, ModelProperties, Properties
 from ode_sim.viewer.simulation import Frame, WorldRecord
@@ -114,5 +115,4 @@ def look_at(client: Any, pose: Pose, distance: float = 2.5) -> None:
     eye = client.camera.position
     away = [float(e) - p for e, p in zip(eye, pose.p)]
     length = math.sqrt(sum(v * v for v in away)) or 1.0
-    client.camera.look_at = pose.p
-    client.camera.position = tuple(p + v / length * distance for p, v in zip(pose.p, away))
+    put_eye(client, [p + v / length * distance for p, v in zip(pose.p, away)], pose.p)

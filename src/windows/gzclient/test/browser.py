@@ -1,0 +1,183 @@
+"""Debian's Chromium, with real clicks and keys, for tests that look at the page as a user does."""
+import math
+import os
+import shutil
+import tempfile
+import time
+
+import numpy as np
+
+PATIENCE = 60.0  # s, on a machine that does other things too
+FRAMES = 6  # a second: the processor draws them, and has more to do
+
+
+def wait(condition, what, seconds=PATIENCE):
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        value = condition()
+        if value:
+            return value
+        time.sleep(0.05)
+    raise AssertionError(f"not in {seconds:g} s: {what}")
+
+
+def missing():
+    """What of the programs is not installed; '' when all are."""
+    return " ".join(name for name in ("chromium", "chromedriver") if not shutil.which(name))
+
+
+class Browser:
+    """One window with the page at ``address``; a context manager."""
+
+    def __init__(self, address, size=(1000, 760), frames=FRAMES):
+        from selenium import webdriver
+        from selenium.webdriver.chrome.options import Options
+        from selenium.webdriver.chrome.service import Service
+
+        self._folder = tempfile.TemporaryDirectory(prefix="chromium_", ignore_cleanup_errors=True)
+        options = Options()
+        for word in ("--headless=new", "--no-first-run", "--disable-background-networking",
+                     "--disable-component-update", "--disable-sync", "--disable-dev-shm-usage", "--use-angle=swiftshader", "--disable-quic",
+                     "--enable-unsafe-swiftshader", f"--window-size={size[0]},{size[1]}",
+                     f"--user-data-dir={self._folder.name}", *(["--no-sandbox"] if os.geteuid() == 0 else [])):
+            options.add_argument(word)
+        options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+        options.add_experimental_option("prefs", {"download.default_directory": self._folder.name})
+        options.binary_location = shutil.which("chromium")
+        self.driver = webdriver.Chrome(service=Service(shutil.which("chromedriver")), options=options)
+        self.driver.set_page_load_timeout(PATIENCE)
+        self.driver.set_script_timeout(PATIENCE)
+        if frames:
+            self.driver.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", {"source": f"""
+                window.requestAnimationFrame = f => setTimeout(() => f(performance.now()), {1000 // frames});
+                window.cancelAnimationFrame = clearTimeout;"""})
+        self.address = address
+        self.driver.get(address)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+    def close(self):
+        self.driver.quit()
+        self._folder.cleanup()
+
+    # ------------------------------------------------------------------------------------------ looking
+
+    def text(self):
+        return self.driver.execute_script("return document.body.innerText")
+
+    def see(self, *words, seconds=PATIENCE):
+        """Wait until all ``words`` are on the page."""
+        wait(lambda: all(word in self.text() for word in words), f"{words} on the page", seconds)
+
+    def shot(self, file):
+        self.driver.save_screenshot(file)
+
+    def downloaded(self, ending):
+        """The whole content of a file of that ending, once it has come."""
+        def whole():
+            names = os.listdir(self._folder.name)
+            found = [name for name in names if name.endswith(ending)]
+            return found and not any(name.endswith(".crdownload") for name in names) and found[0]
+        file = os.path.join(self._folder.name, wait(whole, f"a download {ending}"))
+        with open(file, "rb") as stream:
+            content = stream.read()
+        os.remove(file)
+        return content
+
+    def complaints(self):
+        """Lines of the page's console that are errors."""
+        return [line["message"] for line in self.driver.get_log("browser")
+                if line["level"] == "SEVERE" and "favicon" not in line["message"]]
+
+    # ------------------------------------------------------------------------------------------ doing
+
+    def _find(self, path, what):
+        from selenium.webdriver.common.by import By
+        return wait(lambda: next(iter(self.driver.find_elements(By.XPATH, path)), None), what)
+
+    def _press(self, path, what):
+        """Where it is, with the mouse; again when it was drawn anew under the hand."""
+        from selenium.common.exceptions import (ElementClickInterceptedException, ElementNotInteractableException,
+                                                StaleElementReferenceException)
+
+        def pressed():
+            element = self._find(path, what)
+            try:
+                self.driver.execute_script("arguments[0].scrollIntoView({block: 'center'})", element)
+                element.click()
+                return True
+            except (StaleElementReferenceException, ElementClickInterceptedException, ElementNotInteractableException):
+                return False
+        wait(pressed, f"a click on {what}")
+
+    def click(self, label):
+        """A button or tab of that label."""
+        quoted = f'"{label}"' if "'" in label else f"'{label}'"
+        self._press(f"//button[normalize-space(.)={quoted}]|//*[@role='tab'][normalize-space(.)={quoted}]",
+                    f"button {label}")
+
+    def check(self, label):
+        """The box of that label."""
+        self._press(self._input(label, "checkbox"), f"box {label}")
+
+    def fill(self, label, value):
+        """A field of that label, by its keys, left by Enter."""
+        from selenium.webdriver.common.keys import Keys
+        element = self._find(self._input(label), f"field {label}")
+        self.driver.execute_script("arguments[0].scrollIntoView({block: 'center'})", element)
+        element.click()
+        element.send_keys(Keys.CONTROL, "a")
+        element.send_keys(str(value), Keys.ENTER)
+
+    def choose(self, label, value):
+        """An entry of the list of that label."""
+        self._press(self._input(label), f"list {label}")
+        self._press(f"//*[@role='option'][normalize-space(.)='{value}']", f"entry {value}")
+
+    @staticmethod
+    def _input(label, kind=""):
+        only = f"[@type='{kind}']" if kind else ""
+        return f"//label[normalize-space(.)='{label}']/following::input{only}[1]"
+
+    # ------------------------------------------------------------------------------------------ the scene
+
+    def pixel(self, point, eye, target, field):
+        """(x, y) in CSS pixels of a place of the world that a camera sees.
+
+        :param field: of view, from the lower to the upper edge, rad
+        """
+        box = self.driver.execute_script(
+            "const r = document.querySelector('canvas').getBoundingClientRect(); return [r.x, r.y, r.width, r.height]")
+        ahead = np.subtract(target, eye) / np.linalg.norm(np.subtract(target, eye))
+        right = np.cross(ahead, (0.0, 0.0, 1.0))
+        right /= np.linalg.norm(right)
+        away = np.subtract(point, eye)
+        scale = 0.5 * box[3] / (math.tan(field / 2) * (away @ ahead))
+        return (box[0] + box[2] / 2 + scale * (away @ right),
+                box[1] + box[3] / 2 - scale * (away @ np.cross(right, ahead)))
+
+    def mouse(self, *points, drag=False, keys=()):
+        """Click at a point (CSS pixels), or drag from the first through all to the last."""
+        from selenium.webdriver.common.action_chains import ActionChains
+        actions = ActionChains(self.driver, duration=20)
+        actions.w3c_actions.pointer_action.move_to_location(*(int(round(v)) for v in points[0]))
+        for key in keys:
+            actions.key_down(key)
+        if drag:
+            actions.w3c_actions.pointer_action.pointer_down()
+            for begin, end in zip(points, points[1:]):
+                for part in (0.02, 0.3, 0.6, 0.9, 1.0):
+                    at = [int(round(a + part * (b - a))) for a, b in zip(begin, end)]
+                    actions.w3c_actions.pointer_action.move_to_location(*at)
+                    actions.w3c_actions.pointer_action.pause(0.06)
+            actions.w3c_actions.pointer_action.pause(0.2)
+            actions.w3c_actions.pointer_action.pointer_up()
+        else:
+            actions.w3c_actions.pointer_action.click()
+        for key in keys:
+            actions.key_up(key)
+        actions.perform()

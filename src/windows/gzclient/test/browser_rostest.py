@@ -1,0 +1,216 @@
+#!/usr/bin/env python3
+"""gzclient as a user starts it, and Debian's Chromium: real clicks, and what they did is asked by ROS."""
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+import rosgraph
+import rospy
+import rostest
+from gazebo_msgs.srv import GetModelState, GetPhysicsProperties, GetWorldProperties
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from browser import PATIENCE, Browser, missing, wait  # noqa: E402
+
+HERE = os.path.dirname(os.path.realpath(__file__))
+EVIL = "<img src=x onerror=document.title='owned'>"
+FIELD = 0.9  # rad, ode_sim.viewer.eye
+
+
+def call(name, service, *arguments):
+    rospy.wait_for_service(f"/gazebo/{name}", PATIENCE)
+    return rospy.ServiceProxy(f"/gazebo/{name}", service)(*arguments)
+
+
+def names():
+    return call("get_world_properties", GetWorldProperties).model_names
+
+
+def position(name):
+    p = call("get_model_state", GetModelState, name, "").pose.position
+    return np.array((p.x, p.y, p.z))
+
+
+def paused():
+    return call("get_physics_properties", GetPhysicsProperties).pause
+
+
+def streams(topic="/gazebo/view"):
+    """Whether the server sends frames to anybody."""
+    return any(name == topic for name, _ in rosgraph.Master(rospy.get_name()).getSystemState()[1])
+
+
+class Clicks(unittest.TestCase):
+    """One page, in the order of the tests' names."""
+
+    @classmethod
+    def setUpClass(cls):
+        if missing():
+            raise unittest.SkipTest(f"not installed: {missing()} (apt install chromium chromium-driver)")
+        cls.home = tempfile.TemporaryDirectory(prefix="home_", ignore_cleanup_errors=True)
+        cls.server = cls.start("gzserver", "-u", os.path.join(HERE, "table.world"))
+        call("get_world_properties", GetWorldProperties)
+        cls.client = cls.start("gzclient", "--port", "0")
+        address = cls.client.stdout.readline().split()[-1]
+        assert not streams(), "nobody looks yet"
+        cls.page = Browser(address)
+
+    @classmethod
+    def start(cls, *words):
+        environment = {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY")}
+        return subprocess.Popen(["rosrun", "gazebo_ros", *words], text=True, start_new_session=True,
+                                env={**environment, "HOME": cls.home.name}, stdout=subprocess.PIPE)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.page.close()
+        for process in (cls.client, cls.server):
+            os.killpg(process.pid, signal.SIGINT)
+            process.wait(PATIENCE)
+        cls.home.cleanup()
+
+    def setUp(self):
+        self.page.driver.get_log("browser")
+
+    def tearDown(self):
+        if os.environ.get("BROWSER_SHOTS"):
+            self.page.shot(os.path.join(os.environ["BROWSER_SHOTS"], f"{self._testMethodName}.png"))
+        usual = "Unable to preventDefault inside passive event listener"  # three.js's own, at every press on the scene
+        self.assertEqual([line for line in self.page.complaints() if usual not in line], [])
+
+    def test_1_play_and_pause(self):
+        page = self.page
+        page.see("Iterations", "paused", EVIL)  # a name with markup in it, as text
+        self.assertNotEqual(page.driver.title, "owned")
+        self.assertTrue(streams())
+        page.click("Play")
+        wait(lambda: not paused(), "play")
+        page.see("real-time factor")
+        page.click("Pause")
+        wait(paused, "pause")
+        page.fill("Steps", 25)
+        page.click("All")  # time and models
+        page.see("Iterations\t0")
+        page.click("Step")
+        page.see("Iterations\t25")
+
+    def test_2_pick_copy_delete_undo(self):
+        page = self.page
+        page.click("box")
+        page.see("Mass (kg)", "Friction")
+        page.click("Copy")
+        wait(lambda: "box_0" in names(), "a copy")
+        page.click("Undo")
+        wait(lambda: "box_0" not in names(), "undo")
+        page.click("Redo")
+        wait(lambda: "box_0" in names(), "redo")
+        page.click("box_0")
+        page.see("box_0")
+        page.click("Delete")
+        wait(lambda: "box_0" not in names(), "delete")
+        page.click("Undo")
+        wait(lambda: "box_0" in names(), "undo of delete")
+
+    def test_3_insert(self):
+        page = self.page
+        page.click("Insert")
+        page.click("Cylinder")
+        wait(lambda: "unit_cylinder" in names(), "a cylinder")
+        np.testing.assert_allclose(position("unit_cylinder"), (0.0, 0.0, 0.5), atol=1e-6)
+        page.choose("Model", "cafe_table")
+        page.click("Insert model")
+        wait(lambda: "cafe_table" in names(), "a model of the model path")
+
+    def test_4_go_back_in_time(self):
+        page = self.page
+        page.click("Timeline")
+        page.click("Keep this moment")
+        page.see("1 moments")
+        page.fill("Steps", 200)
+        page.click("Step")
+        page.see("Iterations\t225")
+        page.click("First")
+        page.see("Iterations\t25")
+
+    def test_5_overlays(self):
+        page = self.page
+        page.click("View")
+        for kind in ("Collisions", "Centres of mass", "Inertias", "Joints", "Link frames", "Labels", "Contacts"):
+            page.check(kind)
+        wait(lambda: streams("/gazebo/view_contacts"), "contacts are asked for")
+        page.click("TF")
+        page.check("TF frames")
+
+    def test_6_a_wall_with_a_door_is_drawn_saved_and_put_into_the_world(self):
+        page = self.page
+        page.click("Building")
+        page.check("Edit a building")
+        page.fill("Name", "one room")
+
+        def at(x, y):  # seen from above; see BuildingPanel._look
+            return page.pixel((x, y, 0.0), (0.0, -0.01, 13.0), (0.0, 0.0, 0.0), FIELD)
+        page.see("nothing is drawn yet")
+        page.mouse(at(-2.0, -1.5), at(2.05, -1.4), drag=True)
+        page.see("1 walls")
+        for x, y in ((2.0, -1.5), (2.0, 1.6), (-2.0, 1.5), (-2.0, -1.5)):
+            page.mouse(at(x, y))
+        page.see("4 walls")
+        page.choose("Tool", "Door")
+        page.mouse(page.pixel((0.0, -1.5, 2.5), (0.0, -0.01, 13.0), (0.0, 0.0, 0.0), FIELD))
+        page.see("Picked: door")
+        page.click("Save")
+        page.see("saved in")
+        folder = os.path.join(self.home.name, "building_editor_models", "one room")
+        self.assertEqual(sorted(os.listdir(folder)), ["model.config", "model.sdf", "one room.world", "plan.yaml",
+                                                      "preview.png"])
+        from gazebo_ros.building import read_plan
+        level, = read_plan(os.path.join(folder, "plan.yaml")).levels
+        corners = {(-2.0, -1.5), (2.0, -1.5), (2.0, 1.5), (-2.0, 1.5)}
+        self.assertEqual({wall.start for wall in level.walls} | {wall.end for wall in level.walls}, corners)
+        self.assertEqual([opening.kind for wall in level.walls for opening in wall.openings], ["door"])
+        page.click("Put into the world")
+        wait(lambda: "one room" in names(), "the building in the world")
+        page.check("Edit a building")
+        page.click("World")
+        page.see("one room")
+
+    def test_7_reconnects_and_another_page(self):
+        page = self.page
+        for _ in range(4):
+            page.driver.refresh()
+            page.see("Iterations", "unit_cylinder")
+        with Browser(page.address, frames=2) as other:
+            other.see("Iterations", "unit_cylinder")
+            other.click("Play")
+            wait(lambda: not paused(), "play from the other page")
+            page.see("real-time factor")
+            page.check("Hold the controls")
+            other.click("Pause")
+            other.see("Another page holds the controls")
+            page.check("Hold the controls")
+            page.click("Pause")
+            wait(paused, "pause from the first page")
+
+    def test_8_the_server_ends_and_comes_back(self):
+        os.killpg(self.server.pid, signal.SIGINT)
+        self.server.wait(PATIENCE)
+        self.page.see("no simulator answers")
+        type(self).server = self.start("gzserver", os.path.join(HERE, "table.world"))
+        self.page.see("real-time factor", "door")
+        wait(lambda: "unit_cylinder" not in self.page.text(), "the models of the new world only")
+        self.page.click("Pause")
+        wait(paused, "pause of the new server")
+
+    def test_9_closing_the_page_ends_the_stream(self):
+        self.page.driver.get("about:blank")
+        wait(lambda: not streams(), "the end of the stream: nobody looks")
+        self.assertIsNone(self.client.poll())
+
+
+if __name__ == "__main__":
+    rospy.init_node("browser_test", disable_rostime=True)
+    rostest.rosrun("gzclient", "browser", "__main__")
