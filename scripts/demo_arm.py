@@ -2,42 +2,30 @@
 from __future__ import annotations
 
 import argparse
-import contextlib
 import csv
-import html
 import math
 import os
-import signal
 import subprocess
 import sys
-import tempfile
 import threading
 import time
 from pathlib import Path
+
+import demonstration
+from demonstration import DemoError, save_report
 
 JOINTS = ("j0", "j1", "j2", "j3")
 TOLERANCE = 1e-4  # rad
 
 
-class DemoError(RuntimeError):
-    """The demo cannot go on; one line."""
-
-
 def parse() -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="scripts/demo", description=__doc__)
     parser.add_argument("target", nargs="*", type=float, default=[1.0] * 4, help="joint positions in rad (default 1 1 1 1)")
-    parser.add_argument("--headless", action="store_true", help="open no window even if there is a display")
-    parser.add_argument("--out", default="out/demo", help="folder for pictures, plot, table and report (default out/demo)")
-    parser.add_argument("--check", action="store_true", help=argparse.SUPPRESS)
+    demonstration.add_options(parser, "out/demo")
     options = parser.parse_args()
     if len(options.target) != 4 or not all(map(math.isfinite, options.target)):
         parser.error(f"expected four joint positions in rad, got {' '.join(map(str, options.target))}")
-    try:
-        os.makedirs(options.out, exist_ok=True)
-        with tempfile.TemporaryFile(dir=options.out) as probe:
-            probe.write(b"\0" * 4096)
-    except OSError as error:
-        parser.error(f"cannot write into --out {options.out}: {error.strerror}; name another folder")
+    demonstration.check_folder(parser, options.out)
     return options
 
 
@@ -118,25 +106,7 @@ def save_plot(path: Path, rows, target) -> None:
     figure.savefig(path, dpi=110)
 
 
-def save_report(out: Path, figures: dict, pictures: list, title: str = "The arm moves") -> None:
-    rows = "\n".join(f"<tr><td>{html.escape(k)}</td><td>{html.escape(v)}</td></tr>" for k, v in figures.items())
-    images = "\n".join(f'<figure><img src="{p.name}" alt="{html.escape(t)}"><figcaption>{html.escape(t)}</figcaption></figure>'
-                       for p, t in pictures)
-    (out / "report.html").write_text(f"""<!doctype html>
-<html lang="en"><meta charset="utf-8"><title>{html.escape(title)}</title>
-<style>body {{font: 15px sans-serif; max-width: 1100px; margin: 2em auto; padding: 0 1em}} img {{max-width: 100%; border: 1px solid #ccc}}
-figure {{display: inline-block; width: 48%; margin: 0.5%; vertical-align: top}} figure:first-of-type {{width: 98%}}
-td {{padding: 0.2em 1.2em 0.2em 0; border-bottom: 1px solid #ddd}} figcaption {{color: #555; font-size: 90%}}</style>
-<h1>{html.escape(title)}</h1>
-<table>
-{rows}
-</table>
-{images}
-</html>
-""")
-
-
-def run(options: argparse.Namespace, out: Path, environment: dict) -> int:
+def run(options: argparse.Namespace, out: Path, environment: dict, window: bool) -> int:
     import rosgraph
     import rospy
     from launch_gallery.session import running
@@ -198,36 +168,12 @@ def run(options: argparse.Namespace, out: Path, environment: dict) -> int:
         "final positions": "  ".join(f"{n} {q:.6f}" for n, q in zip(JOINTS, now[2:])) + " rad",
         "real-time factor": f"{simulated / wall:.3f} ({simulated:.2f} s simulated in {wall:.2f} s)",
     }
-    save_report(out, figures, [(out / "joints.png", "The four joints over sim time"), *pictures])
+    save_report(out, figures, [(out / "joints.png", "The four joints over sim time"), *pictures], "The arm moves")
     for key, value in figures.items():
         say(f"{key}: {value}")
     say(f"report: {out / 'report.html'}")
     return 0
 
 
-def main() -> int:
-    options = parse()
-    if options.check:
-        return 0
-    out = Path(options.out).resolve()
-    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
-    from launch_gallery.session import free_port
-    from rviz_offscreen.display import DisplayError, private_display
-    environment = dict(os.environ, ROS_MASTER_URI=f"http://localhost:{free_port()}", ROS_HOME=str(out / "ros_home"))
-    try:
-        with contextlib.ExitStack() as stack:
-            if options.headless or not environment.get("DISPLAY"):
-                environment.update(stack.enter_context(private_display()))
-            os.environ.update({k: environment[k] for k in ("ROS_MASTER_URI", "ROS_HOME")})
-            return run(options, out, environment)
-    except (DemoError, DisplayError) as error:
-        print(f"scripts/demo: {error} (folder {out})", file=sys.stderr)
-        return 1
-    except KeyboardInterrupt:
-        return 130
-
-
 if __name__ == "__main__":
-    code = main()
-    sys.stdout.flush()
-    os._exit(code)  # rospy's threads wait for a master that is gone
+    demonstration.main("demo", parse(), run)

@@ -2,17 +2,14 @@
 from __future__ import annotations
 
 import argparse
-import contextlib
 import csv
 import os
-import signal
-import sys
-import tempfile
 import threading
 import time
 from pathlib import Path
 
-from demo_arm import DemoError, save_report
+import demonstration
+from demonstration import DemoError, save_report
 
 JOINTS = ("shoulder_pan_joint", "shoulder_lift_joint", "elbow_joint", "wrist_1_joint", "wrist_2_joint", "wrist_3_joint")
 TOLERANCE = 0.01  # rad between where the arm was sent and where it is
@@ -22,16 +19,9 @@ PLACE = (0.5, 0.3, 0.9605)  # where the block goes: its middle, a hair above the
 
 def parse() -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="scripts/demo_motion", description=__doc__)
-    parser.add_argument("--headless", action="store_true", help="open no window even if there is a display")
-    parser.add_argument("--out", default="out/demo_motion", help="folder for pictures, plot, table and report (default out/demo_motion)")
-    parser.add_argument("--check", action="store_true", help=argparse.SUPPRESS)
+    demonstration.add_options(parser, "out/demo_motion")
     options = parser.parse_args()
-    try:
-        os.makedirs(options.out, exist_ok=True)
-        with tempfile.TemporaryFile(dir=options.out) as probe:
-            probe.write(b"\0" * 4096)
-    except OSError as error:
-        parser.error(f"cannot write into --out {options.out}: {error.strerror}; name another folder")
+    demonstration.check_folder(parser, options.out)
     return options
 
 
@@ -224,7 +214,7 @@ class Show:
         save_picture(self.out / "camera-placed.png", "The simulated world: the block is on the other side of the post", self.pictures)
 
 
-def run(out: Path, environment: dict, window: bool) -> int:
+def run(options: argparse.Namespace, out: Path, environment: dict, window: bool) -> int:
     import rosgraph
     import rospy
     from launch_gallery.session import running
@@ -263,30 +253,5 @@ def run(out: Path, environment: dict, window: bool) -> int:
     return 0
 
 
-def main() -> int:
-    options = parse()
-    if options.check:
-        return 0
-    out = Path(options.out).resolve()
-    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
-    from launch_gallery.session import free_port
-    from rviz_offscreen.display import DisplayError, private_display
-    environment = dict(os.environ, ROS_MASTER_URI=f"http://localhost:{free_port()}", ROS_HOME=str(out / "ros_home"))
-    try:
-        with contextlib.ExitStack() as stack:
-            window = bool(environment.get("DISPLAY")) and not options.headless
-            if not window:
-                environment.update(stack.enter_context(private_display()))
-            os.environ.update({k: environment[k] for k in ("ROS_MASTER_URI", "ROS_HOME")})
-            return run(out, environment, window)
-    except (DemoError, DisplayError) as error:
-        print(f"scripts/demo_motion: {error} (folder {out})", file=sys.stderr)
-        return 1
-    except KeyboardInterrupt:
-        return 130
-
-
 if __name__ == "__main__":
-    code = main()
-    sys.stdout.flush()
-    os._exit(code)  # rospy's threads wait for a master that is gone
+    demonstration.main("demo_motion", parse(), run)
