@@ -14,6 +14,7 @@ from moveit_core import convert, states
 from moveit_core.errors import PlanningError, code_name, one_line
 from moveit_core.scene_messages import attach_to_state
 
+from .compiled import CompiledPipeline, exported
 from .planner_configs import PlannerConfigs
 from .robot_model import RobotDescription
 
@@ -47,28 +48,48 @@ class Pipeline:
         plugin = rospy.get_param(namespace + "planning_plugin", "")
         self.plugin = str(plugin)
         self.is_pilz = self.plugin in _PILZ
-        if self.plugin != _OMPL and not self.is_pilz:
-            raise PipelineError(_refusal(self.plugin, rospy.resolve_name(namespace + "planning_plugin")))
         self.configs = PlannerConfigs(self.model, namespace)
         parameters = rospy.get_param(namespace.rstrip("/"), {})
         parameters = parameters if isinstance(parameters, dict) else {}
         adapters = str(parameters.get("request_adapters", "")).split()
+        self.config: Dict[str, Any] = {parameter.name: parameter.default for parameter in _PARAMETERS}
+        self.compiled = self._compiled(adapters)
+        if self.compiled is not None:
+            rospy.loginfo("Using planning interface '%s' (compiled)", self.title)
+            return
         self._settings = {key: value for key, value in parameters.items() if not isinstance(value, (dict, list))}
         self._adapters = motion.Pipeline(adapters, self._settings)
         for warning in self._adapters.warnings:
             rospy.logwarn("%s", warning)
-        self.config: Dict[str, Any] = {}
         self._server = None
         if self.is_pilz:
             self._limits = _cartesian_limits(description)
         else:
             self._server = Server(namespace + "ompl", _PARAMETERS, self._reconfigure)
         rospy.loginfo("Using planning interface '%s'", self.title)
-        for adapter in adapters:
-            rospy.loginfo("Using planning request adapter '%s'", adapter.split("/")[-1])
+        for adapter in self._adapters.adapters:
+            rospy.loginfo("Using planning request adapter '%s'", adapter)
+
+    def _compiled(self, adapters: List[str]) -> Optional[CompiledPipeline]:
+        """The pipeline as C++, where its planner or one of its adapters is another package's; else None."""
+        known = {name.rpartition("/")[2] for name in motion.Pipeline.ADAPTERS}
+        own = self.plugin == _OMPL or self.is_pilz
+        strangers = [name for name in adapters if name.rpartition("/")[2] not in known]
+        if own and (self.is_pilz or not any(name in exported("adapter") for name in strangers)):
+            return None
+        parameter = rospy.resolve_name(self.namespace + "planning_plugin")
+        if self.plugin not in exported("planner"):
+            raise PipelineError(_refusal(self.plugin, parameter))
+        try:
+            return CompiledPipeline(self._description, rospy.resolve_name(self.namespace.rstrip("/")))
+        except Exception as error:  # a third party's code and its libraries: nothing of it may take the node down
+            raise PipelineError(f"Exception while loading planner '{self.plugin}': {one_line(error, 300)} "
+                                f"({parameter})") from error
 
     @property
     def title(self) -> str:
+        if self.compiled is not None:
+            return self.compiled.title
         return "Pilz Industrial Motion Planner" if self.is_pilz else "OMPL"
 
     def _reconfigure(self, config, _level) -> None:
@@ -76,6 +97,8 @@ class Pipeline:
 
     def planner_ids(self) -> List[str]:
         """What query_planner_interface lists."""
+        if self.compiled is not None:
+            return self.compiled.planner_ids()
         return ["CIRC", "LIN", "PTP"] if self.is_pilz else self.configs.names()
 
     def generate(self, scene: motion.PlanningScene, message: MotionPlanRequest,
@@ -86,9 +109,12 @@ class Pipeline:
         :raises PlanningError: the request cannot be understood.
         """
         started = time.monotonic()
-        request = self.request(scene, message)
-        planner: Callable = self._pilz if self.is_pilz else motion.plan
-        result = self._adapters.generate(scene, request, cancel, planner)
+        if self.compiled is not None:
+            self._check_group(message.group_name)
+            result = self.compiled.generate(scene, message, cancel)
+        else:
+            planner: Callable = self._pilz if self.is_pilz else motion.plan
+            result = self._adapters.generate(scene, self.request(scene, message), cancel, planner)
         took = time.monotonic() - started
         if result:
             rospy.loginfo("Planned a motion of %.2f s with %d way points for group '%s' in %.3f s (%s)",
@@ -117,12 +143,7 @@ class Pipeline:
         :raises PlanningError: with the code and one line.
         """
         group = message.group_name
-        if not group:
-            raise PlanningError(MoveItErrorCodes.INVALID_GROUP_NAME, "the request names no group")
-        if not self.model.has_group(group):
-            raise PlanningError(MoveItErrorCodes.FAILURE, f"the robot '{self.model.name}' has no group '{group}'; it "
-                                f"has: "
-                                + (", ".join(self.model.groups) or "none"))
+        self._check_group(group)
         start = self._start(scene, message)
         goals = self._goals(scene, message)
         path = self._constraints(scene, message.path_constraints, MoveItErrorCodes.INVALID_GOAL_CONSTRAINTS)
@@ -139,6 +160,14 @@ class Pipeline:
                                                "max_acceleration_scaling_factor"),
             workspace=_workspace(message), cartesian_link=message.cartesian_speed_limited_link,
             cartesian_speed=message.max_cartesian_speed, **fields)
+
+    def _check_group(self, group: str) -> None:
+        if not group:
+            raise PlanningError(MoveItErrorCodes.INVALID_GROUP_NAME, "the request names no group")
+        if not self.model.has_group(group):
+            raise PlanningError(MoveItErrorCodes.FAILURE, f"the robot '{self.model.name}' has no group '{group}'; it "
+                                f"has: "
+                                + (", ".join(self.model.groups) or "none"))
 
     def _planner_fields(self, settings: Dict[str, str]) -> Dict[str, Any]:
         fields: Dict[str, Any] = {"simplify": self.config["simplify_solutions"],
@@ -269,9 +298,9 @@ def _cartesian_limits(description: RobotDescription) -> motion.CartesianLimits:
 def _refusal(plugin: str, parameter: str) -> str:
     if not plugin:
         return f"{parameter} is not set: this pipeline has no planner"
-    return (f"Exception while loading planner '{plugin}': it does not exist here; {_OMPL} and {_PILZ[0]} do. Requests "
-            f"for this "
-            f"pipeline fail; use pipeline:=ompl ({parameter})")
+    there = ", ".join(sorted({_PILZ[0], *exported("planner")}))
+    return (f"Exception while loading planner '{plugin}': it does not exist here, no package exports it; there are: {there}. "
+            f"Requests for this pipeline fail; use pipeline:=ompl ({parameter})")
 
 
 class Pipelines:

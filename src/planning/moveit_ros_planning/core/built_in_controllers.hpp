@@ -1,0 +1,37 @@
+// The controllers of controller_list: behind actions, or only pretended.
+#pragma once
+
+#include <moveit/controller_manager/controller_manager.h>
+#include <moveit/robot_model/robot_model.h>
+#include <ros/node_handle.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace trajectory_execution_manager
+{
+// An entry of controller_list, as text; lists and tables of tolerances as they are.
+struct ControllerEntry
+{
+  std::string name, action_ns, type;
+  std::vector<std::string> joints;
+  XmlRpc::XmlRpcValue all;
+
+  bool flag(const char* key) const;
+  double number(const char* key, double standard) const;
+  std::string text(const char* key) const;
+};
+
+// The usable entries of controller_list below nh; of the others the log tells what is wrong.
+std::vector<ControllerEntry> readControllerList(const ros::NodeHandle& nh, bool actions);
+
+using Handles = std::map<std::string, moveit_controller_manager::MoveItControllerHandlePtr>;
+Handles makeActionHandles(const std::vector<ControllerEntry>& entries);
+Handles makeFakeHandles(const std::vector<ControllerEntry>& entries, const ros::NodeHandle& nh,
+                        const moveit::core::RobotModel& model);
+
+// The manager of that name if it is one of the two; else null.
+moveit_controller_manager::MoveItControllerManagerPtr makeBuiltInManager(const std::string& name, const ros::NodeHandle& nh,
+                                                                         const moveit::core::RobotModel& model);
+}  // namespace trajectory_execution_manager
