@@ -8,7 +8,7 @@ import time
 import numpy as np
 
 PATIENCE = 60.0  # s, on a machine that does other things too
-FRAMES = 6  # a second: the processor draws them, and has more to do
+FRAMES = 3  # a second: the processor draws them, and has more to do
 
 
 def wait(condition, what, seconds=PATIENCE):
@@ -29,7 +29,7 @@ def missing():
 class Browser:
     """One window with the page at ``address``; a context manager."""
 
-    def __init__(self, address, size=(1000, 760), frames=FRAMES):
+    def __init__(self, address, size=(900, 700), frames=FRAMES):
         from selenium import webdriver
         from selenium.webdriver.chrome.options import Options
         from selenium.webdriver.chrome.service import Service

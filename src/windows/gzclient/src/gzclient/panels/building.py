@@ -1,6 +1,7 @@
 """The building editor: walls, doors, windows and stairs, drawn on a sheet in the page."""
 from __future__ import annotations
 
+import io
 import math
 from typing import Any, Callable, Optional, Tuple
 
@@ -12,6 +13,7 @@ from ode_sim.math3 import Pose
 from ode_sim.viewer.eye import put_eye
 from ode_sim.viewer.panels.base import Panel, note
 from ode_sim.viewer.simulation import Refused
+from PIL import Image
 
 from gzclient.building import files
 from gzclient.building.drawing import PlanDrawing
@@ -19,7 +21,7 @@ from gzclient.building.plan import SNAP, Element, Plan, Point
 
 _TOOLS = ("Wall", "Door", "Window", "Stairs", "Move", "Delete", "Pick")
 _NONE = "(none is saved)"
-_LARGEST = 4_000_000  # pixels of a floor plan
+_LARGEST = 16_000_000  # pixels of a floor plan
 _SINGULAR = {"walls": "wall", "doors": "door", "windows": "window", "stairs": "stairs"}
 _USUAL_LOOK = "Gazebo/CeilingTiled"
 
@@ -366,13 +368,14 @@ class BuildingPanel(Panel):
     # ------------------------------------------------------------------------------------------ floor plan
 
     def _take_picture(self, upload: Any) -> None:
-        import cv2
-
-        pixels = cv2.imdecode(np.frombuffer(upload.content, np.uint8), cv2.IMREAD_COLOR)
-        if pixels is None:
-            raise Refused(f"{upload.name} is no picture that can be read; PNG and JPEG can.")
-        step = max(1, math.isqrt(-(-pixels.shape[0] * pixels.shape[1] // _LARGEST)))
-        self._picture = np.ascontiguousarray(pixels[::step, ::step, ::-1])
+        try:
+            picture = Image.open(io.BytesIO(upload.content))
+            if picture.width * picture.height > _LARGEST:  # known before anything is unpacked
+                raise Refused(f"{upload.name} has {picture.width}x{picture.height} pixels; at most {_LARGEST} are taken.")
+            self._picture = np.asarray(picture.convert("RGB"))
+        except (OSError, SyntaxError, ValueError) as error:
+            raise error if isinstance(error, Refused) else Refused(
+                f"{upload.name} is no picture that can be read; PNG and JPEG can.") from error
         self.page.later(self._show_picture)
 
     def _show_picture(self) -> None:
