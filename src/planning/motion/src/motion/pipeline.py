@@ -10,7 +10,6 @@ from motion import _core
 from motion.cartesian import explain, path_valid
 from motion.planning import MotionRequest, PlanResult, plan
 from motion.timing import limit_cartesian_speed, limit_jerk, time_parameterize
-from motion.trajectory import Trajectory
 
 Planner = Callable[[_core.PlanningScene, MotionRequest, Optional[_core.CancelToken]], PlanResult]
 _PREFIX = "default_planner_request_adapters/"
@@ -214,3 +213,6 @@ _ADAPTERS = {
     "FixStartStateCollision": _start_collision,
     "FixStartStatePathConstraints": _start_constraints,
 }
+
+#: names of all adapters, without their prefix
+Pipeline.ADAPTERS = sorted(_ADAPTERS)
