@@ -95,3 +95,8 @@ def test_errors_of_a_log_are_told_once(tmp_path):
     log.write_text("[INFO] [1.0]: fine\n\x1b[31m[ERROR] [123.4, 5.0]: no p gain\x1b[0m\n[ERROR] [124.4, 6.0]: no p gain\n"
                    "[gazebo-2] process has died [pid 1]\n")
     assert measure.errors(str(log)) == ["no p gain", "[gazebo-2] process has died [pid 1]"]
+
+
+def test_the_longest_silence_between_commands():
+    assert motion.longest_silence([0.0, 0.05, 0.35, 0.4]) == pytest.approx(0.3)
+    assert motion.longest_silence([1.0]) == 0.0

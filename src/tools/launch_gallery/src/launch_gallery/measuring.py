@@ -20,12 +20,13 @@ from rosservice import ROSServiceException, get_service_class_by_name
 from . import scene, system
 from .commands import CommandError, Wheel, choose, joint_limits, nominal_rates
 from .hearing import Ear, is_sensor
-from .motion import Motion, reachable
+from .motion import Motion, longest_silence, reachable
 from .system import System
 from .truth import Truth, TruthError
 
 _ANSWER = 60.0  # s of wall time for one message
 _LEAD = 2.0  # s a command is held before it counts: accelerations are not what is measured
+_PATIENCE = 0.2  # s of simulation without a command after which many controllers begin to brake
 _PICTURE = 640, 400
 
 
@@ -113,6 +114,11 @@ class Measurement:
         job = self.job
         topic, kind = choose(self.system.heard(), [name for name, _ in self.system.published()], job["command"])
         wheel = Wheel(topic, kind)
+        sent: List[float] = []  # s of simulation
+
+        def say(time: float, *speeds: float) -> None:
+            sent.append(time)
+            wheel.send(time, *speeds)
         self.found["command"] = {"topic": topic, "kind": kind}
         self.truth.pace(job["factor"])
         try:
@@ -120,13 +126,17 @@ class Measurement:
                                              ("turn", job["turn_speed"], job["turn"], 0.0)):
                 if not (speed or turn or aside):
                     continue
-                self.truth.follow(_LEAD, lambda time: wheel.send(time, speed, turn, aside))
-                motion = Motion.of(self.truth.follow(job["drive"], lambda time: wheel.send(time, speed, turn, aside)))
+                self.truth.follow(_LEAD, lambda time: say(time, speed, turn, aside))
+                motion = Motion.of(self.truth.follow(job["drive"], lambda time: say(time, speed, turn, aside)))
                 self.found[name] = {**asdict(motion), "speed": speed, "rate": turn, "aside": aside}
-                self.truth.follow(_LEAD, lambda time: wheel.send(time, 0.0, 0.0))
+                self.truth.follow(_LEAD, lambda time: say(time, 0.0, 0.0))
             self.found["rest"] = asdict(Motion.of(self.truth.follow(5.0)))
         finally:
             self.truth.pace(None)
+            silence = longest_silence(sent)
+            if silence > _PATIENCE:
+                self.note(f"commands came up to {silence:.2f} s of simulation apart, and controllers stop without them: "
+                          "repeat with a smaller --factor")
 
     def reach(self) -> None:
         """Every joint of the running trajectory controllers goes a step further; the simulator says where they are."""

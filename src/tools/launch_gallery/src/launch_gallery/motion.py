@@ -65,3 +65,8 @@ def reachable(angle: float, step: float, lower: Optional[float], upper: Optional
         if low <= target <= high:
             return target
     return (low + high) / 2 if math.isfinite(low + high) else angle
+
+
+def longest_silence(times: Sequence[float]) -> float:
+    """The longest time between two of ``times``, in the order in which they came, s; 0 of fewer than two."""
+    return max((after - before for before, after in zip(times, times[1:])), default=0.0)
