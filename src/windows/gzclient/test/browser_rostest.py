@@ -79,8 +79,9 @@ class Clicks(unittest.TestCase):
     def tearDown(self):
         if os.environ.get("BROWSER_SHOTS"):
             self.page.shot(os.path.join(os.environ["BROWSER_SHOTS"], f"{self._testMethodName}.png"))
-        usual = "Unable to preventDefault inside passive event listener"  # three.js's own, at every press on the scene
-        self.assertEqual([line for line in self.page.complaints() if usual not in line], [])
+        usual = ("Unable to preventDefault inside passive event listener",  # three.js's own, at every press on the scene
+                 "Tried to update non-existent component")  # viser's own, of a control that goes while it is set
+        self.assertEqual([line for line in self.page.complaints() if not any(word in line for word in usual)], [])
 
     def test_1_play_and_pause(self):
         page = self.page
@@ -109,7 +110,7 @@ class Clicks(unittest.TestCase):
         page.click("Redo")
         wait(lambda: "box_0" in names(), "redo")
         page.click("box_0")
-        page.see("box_0")
+        wait(lambda: page.text().count("box_0") > 1, "properties of the copy")
         page.click("Delete")
         wait(lambda: "box_0" not in names(), "delete")
         page.click("Undo")

@@ -49,6 +49,7 @@ class Page:
         self._wake = threading.Event()  # there are jobs
         self._holder: Optional[int] = None  # the page that holds the controls
         self._pages = 0
+        self._counting = threading.Lock()
         self._next_text = 0.0
         self._absent = False
         self._begun = time.monotonic()
@@ -235,12 +236,16 @@ class Page:
         self.attempt(event, lambda: self.later(lambda: self.selection.select(model, link)))
 
     def _on_connect(self, client: Any) -> None:
-        self._pages += 1
-        self.simulation.look(True)
+        self._count()
 
     def _on_disconnect(self, client: Any) -> None:
-        self._pages = max(0, self._pages - 1)
         if self._holder == client.client_id:
             self._holder = None
-        if not self._pages:
-            self.simulation.look(False)
+        self._count()
+
+    def _count(self) -> None:
+        """Callbacks come in threads of their own, that of the end of a page even before that of its beginning: what
+        counts is who is there."""
+        with self._counting:
+            self._pages = len(self.server.get_clients())
+            self.simulation.look(bool(self._pages))

@@ -2,15 +2,16 @@
 from __future__ import annotations
 
 import math
-from typing import Any, Callable, List, Optional, Tuple
+from typing import Any, Callable, Dict, Optional, Tuple
 
 from ode_sim.math3 import Pose
 from ode_sim.viewer.eye import put_eye
-from ode_sim.viewer.panels.base import Panel
+from ode_sim.viewer.panels.base import Panel, note
 from ode_sim.viewer.panels.properties import LightProperties, ModelProperties, Properties
 from ode_sim.viewer.simulation import Frame, WorldRecord
 
 _MOST_ROWS = 30
+Row = Tuple[str, str, str, str]  # label, model, link, light
 
 
 class WorldPanel(Panel):
@@ -20,7 +21,8 @@ class WorldPanel(Panel):
         super().__init__(page)
         self._search = self.gui.add_text("Search", "", hint="of models, links and lights whose name has this in it")
         self._list = self.gui.add_folder("Models and lights")
-        self._rows: List[Any] = []
+        self._rows: Dict[Row, Any] = {}
+        self._more: Optional[Any] = None
         self._listed: Optional[Tuple] = None
         self._folder = self.gui.add_folder("Nothing is picked")
         self._properties: Optional[Properties] = None
@@ -51,21 +53,28 @@ class WorldPanel(Panel):
         if rows == self._listed:
             return
         self._listed = rows
-        for row in self._rows:
-            row.remove()
-        self._rows = []
+        for row in [row for row in self._rows if row not in rows[:_MOST_ROWS]]:
+            self._rows.pop(row).remove()
+        if self._more is not None:
+            self._more.remove()
+            self._more = None
         with self._list:
-            for label, model, link, light in rows[:_MOST_ROWS]:
-                button = self.gui.add_button(label, color="gray" if not link else None)
-                button.on_click(lambda event, what=(model, link, light): self.page.attempt(
-                    event, lambda: self.page.later(lambda: self.page.selection.select(*what))))
-                self._rows.append(button)
+            for number, row in enumerate(rows[:_MOST_ROWS]):  # rows that stay are not drawn anew under the hand
+                if row in self._rows:
+                    self._rows[row].order = float(number)
+                else:
+                    self._rows[row] = self._row(row, float(number))
             if len(rows) > _MOST_ROWS:
-                self._rows.append(self.gui.add_html(
-                    f"<div style='padding:0 0.6em;font-size:0.8em'>and {len(rows) - _MOST_ROWS} more: search</div>"))
+                self._more = self.gui.add_html(note(f"and {len(rows) - _MOST_ROWS} more: search"), order=1e6)
 
-    def _fitting(self) -> Tuple:
-        """((label, model, link, light), ...)"""
+    def _row(self, row: Row, order: float) -> Any:
+        label, *what = row
+        button = self.gui.add_button(label, color="gray" if not row[2] else None, order=order)
+        button.on_click(lambda event: self.page.attempt(
+            event, lambda: self.page.later(lambda: self.page.selection.select(*what))))
+        return button
+
+    def _fitting(self) -> Tuple[Row, ...]:
         wanted, picked = self._search.value.lower(), self.page.selection.model
         rows = []
         for model in self.page.world.models:
