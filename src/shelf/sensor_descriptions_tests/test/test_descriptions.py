@@ -73,3 +73,9 @@ def test_own_mesh_is_kept(tmp_path):
 def test_examples():
     for path in EXAMPLES:
         assert len(expanded(path).findall("link")) >= 2, path
+
+
+def test_materials_are_declared_once(robot):
+    """robot_state_publisher ends at a material of which there are two, whatever they say."""
+    names = [material.get("name") for material in robot.findall("material")]
+    assert sorted(names) == sorted(set(names))
