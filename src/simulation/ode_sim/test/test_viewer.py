@@ -1,4 +1,5 @@
 """The page without a browser: who may open it, what is drawn and what clicks do. A world of this process, no ROS."""
+import gzip
 import http.client
 
 import numpy as np
@@ -44,14 +45,17 @@ def test_guard_with_a_token():
 
 def test_the_guard_stands_before_every_request():
     website = Website(port=0)
-    website.open()
+    website.open("The <lab>")
     try:
         def ask(path, **headers):
             connection = http.client.HTTPConnection("127.0.0.1", website.port, timeout=30)
             connection.request("GET", path, headers=headers)
             answer = connection.getresponse()
             return answer.status, answer.read()
-        assert ask("/")[0] == 200
+        status, text = ask("/")
+        assert status == 200 and b"<title>The &lt;lab&gt;</title>" in text
+        status, packed = ask("/", **{"Accept-Encoding": "gzip"})
+        assert status == 200 and gzip.decompress(packed) == text
         assert ask("/", Host="evil.example")[0] == 403
         upgrade = {"Connection": "Upgrade", "Upgrade": "websocket", "Sec-WebSocket-Version": "13",
                    "Sec-WebSocket-Key": "AAAAAAAAAAAAAAAAAAAAAA==", "Origin": "http://evil.example"}

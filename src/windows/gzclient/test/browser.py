@@ -51,6 +51,7 @@ class Browser:
             self.driver.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", {"source": f"""
                 window.requestAnimationFrame = f => setTimeout(() => f(performance.now()), {1000 // frames});
                 window.cancelAnimationFrame = clearTimeout;"""})
+        self._open = True
         self.address = address
         self.driver.get(address)
 
@@ -61,7 +62,10 @@ class Browser:
         self.close()
 
     def close(self):
-        self.driver.quit()
+        """More than once does nothing."""
+        if self._open:
+            self._open = False
+            self.driver.quit()
         self._folder.cleanup()
 
     # ------------------------------------------------------------------------------------------ looking

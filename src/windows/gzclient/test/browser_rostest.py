@@ -77,6 +77,8 @@ class Clicks(unittest.TestCase):
         self.page.driver.get_log("browser")
 
     def tearDown(self):
+        if self._testMethodName.startswith("test_9"):
+            return
         if os.environ.get("BROWSER_SHOTS"):
             self.page.shot(os.path.join(os.environ["BROWSER_SHOTS"], f"{self._testMethodName}.png"))
         usual = ("Unable to preventDefault inside passive event listener",  # three.js's own, at every press on the scene
@@ -207,7 +209,7 @@ class Clicks(unittest.TestCase):
         wait(paused, "pause of the new server")
 
     def test_9_closing_the_page_ends_the_stream(self):
-        self.page.driver.get("about:blank")
+        self.page.close()  # a page that is only left may be kept by the browser, to go back to
         wait(lambda: not streams(), "the end of the stream: nobody looks")
         self.assertIsNone(self.client.poll())
 

@@ -40,7 +40,7 @@ class Page:
                  website: Optional[Website] = None):
         self.simulation = simulation
         self.website = website or Website(port, listen)
-        self.server = self.website.open()
+        self.server = self.website.open(title)
         self.world = WorldRecord()
         self.frame: Optional[Frame] = None
         self._say = say

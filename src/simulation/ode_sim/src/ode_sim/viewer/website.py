@@ -9,7 +9,9 @@ in the system's queue.
 from __future__ import annotations
 
 import contextlib
+import gzip
 import hmac
+import html
 import http
 import importlib.util
 import io
@@ -108,9 +110,10 @@ class Website:
         """Whether a browser is at the door, within that time; nothing is answered yet."""
         return bool(select.select([self._door], [], [], seconds)[0])
 
-    def open(self) -> Any:
+    def open(self, title: str = "Gazebo") -> Any:
         """Start to answer; the ViserServer.
 
+        :param title: of the browser's window
         :raises Unavailable: what viser needs is not installed
         """
         if self.viser is None:
@@ -119,7 +122,7 @@ class Website:
             except ImportError as error:
                 raise Unavailable(
                     f"the page needs the Python package {error.name}; scripts/setup installs it") from error
-            self.viser = _start(viser, self._door, self.guard)
+            self.viser = _start(viser, self._door, self.guard, title)
             self._withdraw_sharing()
         return self.viser
 
@@ -137,6 +140,18 @@ class Website:
             self.viser._websock_server.unregister_handler(message)
 
 
+def _entitled(response: Any, title: str) -> Any:
+    """viser's page under another name than its own."""
+    if response is not None and response.headers.get("Content-Type", "").startswith("text/html"):
+        packed = response.headers.get("Content-Encoding") == "gzip"
+        body = gzip.decompress(response.body) if packed else response.body
+        body = body.replace(b"<title>Viser</title>", f"<title>{html.escape(title)}</title>".encode(), 1)
+        response.body = gzip.compress(body, 1) if packed else body
+        del response.headers["Content-Length"]
+        response.headers["Content-Length"] = str(len(response.body))
+    return response
+
+
 def _take_port(port: int, listen: bool) -> socket.socket:
     """The first free one from ``port`` (any, if it is 0), listened on."""
     for candidate in range(port, min(port + _TRIES, 65536)) if port else (0,):
@@ -151,7 +166,7 @@ def _take_port(port: int, listen: bool) -> socket.socket:
     raise Unavailable(f"no port from {port} to {port + _TRIES - 1} is free; choose another one with --port")
 
 
-def _start(viser: Any, door: socket.socket, guard: Guard) -> Any:
+def _start(viser: Any, door: socket.socket, guard: Guard, title: str) -> Any:
     """A viser server on ``door`` whose requests pass ``guard`` first; viser has no place for either, so its call of
     ``serve`` is."""
     import websockets.asyncio.server as library
@@ -162,7 +177,7 @@ def _start(viser: Any, door: socket.socket, guard: Guard) -> Any:
         def guarded(connection, request):
             refused = guard.refuse(request.path, request.headers)
             if refused is None:
-                return process_request(connection, request)
+                return _entitled(process_request(connection, request), title)
             status, headers, text = refused
             response = connection.respond(status, text)
             for name, value in headers.items():

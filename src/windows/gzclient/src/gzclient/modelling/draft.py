@@ -1,0 +1,273 @@
+"""A model that is being made: what a hand does to it, step by step, and back; kept as upstream's editor keeps it."""
+from __future__ import annotations
+
+import os
+import re
+import xml.etree.ElementTree as ET
+from dataclasses import replace
+from typing import Callable, List, Optional, Tuple
+
+import numpy as np
+from ode_sim.description import DescriptionError, model as d, read_sdf_model
+from ode_sim.description.sdf_writer import model_text
+from ode_sim.math3 import Pose
+from ode_sim.viewer.panels.base import free_name
+from ode_sim.viewer.panels.insert import shape_model
+from ode_sim.viewer.simulation import Refused
+
+#: As upstream's editor names it, in the home folder.
+FOLDER = "model_editor_models"
+JOINTS = ("revolute", "prismatic", "fixed", "ball", "universal", "revolute2", "screw")
+AXES = {"revolute": 1, "prismatic": 1, "screw": 1, "universal": 2, "revolute2": 2}
+MESHES = (".stl", ".obj", ".dae")
+_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_. -]{0,80}")
+_MOST_STEPS = 200  # that can be undone
+_MOST_LINKS = 500
+
+
+class Draft:
+    """:ivar model: as it is now. Every change is one step of the history; what is refused changes nothing."""
+
+    def __init__(self, model: Optional[d.Model] = None):
+        self.model = model or d.Model("my_model")
+        self._past: List[d.Model] = []
+        self._future: List[d.Model] = []
+
+    # ------------------------------------------------------------------------------------------ history
+
+    def _set(self, **changes) -> None:
+        self._past = self._past[1 - _MOST_STEPS:] + [self.model]
+        self._future.clear()
+        self.model = replace(self.model, **changes)
+
+    def undo(self) -> None:
+        self._turn(self._past, self._future, "undo")
+
+    def redo(self) -> None:
+        self._turn(self._future, self._past, "do again")
+
+    def _turn(self, source: List[d.Model], target: List[d.Model], verb: str) -> None:
+        if not source:
+            raise Refused(f"There is nothing to {verb}.")
+        target.append(self.model)
+        self.model = source.pop()
+
+    # ------------------------------------------------------------------------------------------ links
+
+    def link(self, name: str) -> d.Link:
+        """:raises Refused: there is none."""
+        found = next((link for link in self.model.links if link.name == name), None)
+        if found is None:
+            raise Refused(f"There is no link '{name}' any more.")
+        return found
+
+    def add_link(self, shape: d.Geometry, mass: float = 1.0) -> str:
+        """A body of one shape beside the others, its inertia that of the shape; its name."""
+        if len(self.model.links) >= _MOST_LINKS:
+            raise Refused(f"A model has at most {_MOST_LINKS} links here.")
+        name = free_name("link", {link.name for link in self.model.links})
+        place = max((link.pose.p[0] for link in self.model.links), default=-1.0) + 1.0
+        made = _body(name, shape, mass)
+        self._set(links=self.model.links + (replace(made, pose=Pose((place, 0.0, 0.5))),))
+        return name
+
+    def change_link(self, name: str, f: Callable[[d.Link], d.Link]) -> None:
+        """:raises Refused: there is none, or no body can be so."""
+        made = f(self.link(name))
+        self._set(links=tuple(made if link.name == name else link for link in self.model.links))
+
+    def set_pose(self, name: str, pose: Pose) -> None:
+        """X_ML."""
+        self.change_link(name, lambda link: replace(link, pose=pose))
+
+    def set_shape(self, name: str, shape: d.Geometry, mass: float, colour: Optional[d.Rgba] = None) -> None:
+        """Other measures: the inertia follows."""
+        if not (mass > 0.0 and np.isfinite(mass)):
+            raise Refused("A mass is more than 0.")
+        sizes = [value for field in ("size", "radius", "length", "scale") for value in np.ravel(
+            getattr(shape, field, ()))]
+        if not all(np.isfinite(value) and 1e-6 < value < 1e5 for value in sizes):
+            raise Refused("The sizes of a shape are more than 0.")
+        material = d.Material(ambient=colour, diffuse=colour) if colour else None
+
+        def change(link: d.Link) -> d.Link:
+            made = _body(name, shape, mass)
+            visual = replace(made.visuals[0], material=material or (link.visuals[0].material if link.visuals else None))
+            return replace(link, inertial=made.inertial, collisions=made.collisions, visuals=(visual,))
+        self.change_link(name, change)
+
+    def rename_link(self, old: str, new: str) -> None:
+        new = checked_name(new)
+        if new in {link.name for link in self.model.links} or new == "world":
+            raise Refused(f"There is a link '{new}' already.")
+        self.link(old)
+        self._set(links=tuple(replace(link, name=new) if link.name == old else link for link in self.model.links),
+                  joints=tuple(replace(joint, parent=new if joint.parent == old else joint.parent,
+                                       child=new if joint.child == old else joint.child)
+                               for joint in self.model.joints))
+
+    def delete(self, name: str) -> None:
+        """A link with its joints, or a joint."""
+        self._set(links=tuple(link for link in self.model.links if link.name != name),
+                  joints=tuple(joint for joint in self.model.joints
+                               if name not in (joint.name, joint.parent, joint.child)))
+
+    # ------------------------------------------------------------------------------------------ joints, plugins
+
+    def add_joint(self, kind: str, parent: str, child: str, axis: d.Vec3 = (0.0, 0.0, 1.0),
+                  limits: Tuple[float, float] = (-1e16, 1e16)) -> str:
+        """At the child's origin; its name.
+
+        :param axis: in the child's frame. :param limits: rad or m
+        :raises Refused: no such links, or the child hangs on another one already
+        """
+        if kind not in JOINTS:
+            raise Refused(f"A joint is one of {', '.join(JOINTS)}.")
+        if parent != "world":
+            self.link(parent)
+        self.link(child)
+        if parent == child:
+            raise Refused("A joint joins two links: click on the parent, then on the child.")
+        if not np.linalg.norm(axis) > 1e-9 or not limits[0] <= limits[1]:
+            raise Refused("An axis has a direction, and the lower limit is below the upper one.")
+        above = {joint.child: joint.parent for joint in self.model.joints}
+        here, seen = parent, {child}
+        while here in above and here not in seen:
+            seen.add(here)
+            here = above[here]
+        if child in above or here == child:
+            raise Refused(f"'{child}' hangs on '{above.get(child, child)}' already.")
+        name = free_name(f"{parent}_{child}", {joint.name for joint in self.model.joints})
+        unit = tuple(float(v) for v in np.asarray(axis, float) / np.linalg.norm(axis))
+        axes = tuple(d.Axis(unit if number == 0 else _across(unit), *map(float, limits))
+                     for number in range(AXES.get(kind, 0)))
+        self._set(joints=self.model.joints + (d.Joint(name, kind, parent, child, axes=axes),))
+        return name
+
+    def add_plugin(self, name: str, filename: str, parameters: str) -> None:
+        """:param parameters: XML elements, as in a file
+
+        :raises Refused: they are none
+        """
+        if not name.strip() or not filename.strip():
+            raise Refused("A plugin has a name and a file name, such as libgazebo_ros_p3d.so.")
+        try:
+            element = ET.fromstring(f"<plugin>{parameters}</plugin>")
+        except ET.ParseError as error:
+            raise Refused(f"The plugin's parameters are no XML: {error}") from error
+        element.set("name", name.strip())
+        element.set("filename", filename.strip())
+        self._set(plugins=self.model.plugins + (d.Plugin(name.strip(), filename.strip(), element),))
+
+    # ------------------------------------------------------------------------------------------ files
+
+    def text(self, name: str) -> str:
+        """SDF of the model under that name.
+
+        :raises Refused: there is nothing in it
+        """
+        if not self.model.links:
+            raise Refused("The model has no link yet.")
+        return model_text(replace(self.model, name=name, pose=Pose()))
+
+    def save(self, name: str) -> str:
+        """``model.sdf`` and ``model.config``; the folder."""
+        target, text = path_of(name), self.text(checked_name(name))
+        try:
+            os.makedirs(target, exist_ok=True)
+            for file, content in (("model.sdf", text), ("model.config", _config(name))):
+                with open(os.path.join(target, file), "w", encoding="utf-8") as stream:
+                    stream.write(content)
+        except OSError as error:
+            raise Refused(f"{error.filename or target}: {error.strerror or error}") from error
+        return target
+
+    @classmethod
+    def load(cls, name: str) -> "Draft":
+        """A model that was saved.
+
+        :raises Refused: it cannot be read
+        """
+        try:
+            with open(os.path.join(path_of(name), "model.sdf"), encoding="utf-8") as stream:
+                model, _ = read_sdf_model(stream.read())
+        except (OSError, UnicodeDecodeError, DescriptionError) as error:
+            raise Refused(f"{name}: {error}") from error
+        return cls(replace(model, pose=Pose()))
+
+
+def folder() -> str:
+    return os.path.join(os.path.expanduser("~"), FOLDER)
+
+
+def path_of(name: str) -> str:
+    return os.path.join(folder(), checked_name(name))
+
+
+def checked_name(name: str) -> str:
+    """:raises Refused: it is not the name of one folder, whatever a page sends."""
+    if not _NAME.fullmatch(name):
+        raise Refused("A name has letters, digits, - _ . and blanks, at most 80.")
+    return name
+
+
+def names() -> List[str]:
+    """Of the models that can be opened."""
+    try:
+        return sorted(name for name in os.listdir(folder())
+                      if _NAME.fullmatch(name) and os.path.isfile(os.path.join(folder(), name, "model.sdf")))
+    except OSError:
+        return []
+
+
+def keep_mesh(model: str, file: str, content: bytes) -> d.Mesh:
+    """Write an uploaded mesh below the model's folder and read it once.
+
+    :raises Refused: it is no mesh
+    """
+    from ode_sim.mesh import load_visual
+    base = checked_name(os.path.basename(file))
+    if not base.lower().endswith(MESHES):
+        raise Refused(f"{base}: a mesh is one of {', '.join(MESHES)}")
+    target = os.path.join(path_of(model), "meshes", base)
+    try:
+        os.makedirs(os.path.dirname(target), exist_ok=True)
+        with open(target, "wb") as stream:
+            stream.write(content)
+        load_visual(target, (1.0, 1.0, 1.0), "", False)
+    except Exception as error:  # whatever a broken file makes a parser raise
+        if os.path.exists(target):
+            os.remove(target)
+        raise Refused(f"{base} cannot be read: {error}") from error
+    return d.Mesh(target, "file://" + target)
+
+
+def _body(name: str, shape: d.Geometry, mass: float) -> d.Link:
+    """Its inertia is that of the shape, a mesh's that of its box."""
+    solid = d.Box(_extent(shape)) if isinstance(shape, d.Mesh) else shape
+    link = shape_model(name, solid, mass).links[0]
+    return replace(link, name=name, collisions=(d.Collision("collision", Pose(), shape),),
+                   visuals=(replace(link.visuals[0], geometry=shape),))
+
+
+def _extent(mesh: d.Mesh) -> Tuple[float, float, float]:
+    from ode_sim.mesh import load_visual
+    parts = load_visual(mesh.path, mesh.scale, mesh.submesh, mesh.center)
+    points = np.concatenate([vertices for vertices, *_ in parts])
+    return tuple(float(max(side, 1e-3)) for side in np.ptp(points, axis=0))
+
+
+def _across(axis: d.Vec3) -> d.Vec3:
+    """A unit vector at right angles."""
+    other = (1.0, 0.0, 0.0) if abs(axis[0]) < 0.9 else (0.0, 1.0, 0.0)
+    made = np.cross(axis, other)
+    return tuple(float(v) for v in made / np.linalg.norm(made))
+
+
+def _config(name: str) -> str:
+    root = ET.Element("model")
+    for tag, text in (("name", name), ("version", "1.0"), ("description", "A model made in gzclient's editor.")):
+        ET.SubElement(root, tag).text = text
+    ET.SubElement(root, "sdf", version="1.6").text = "model.sdf"
+    ET.indent(root)
+    return '<?xml version="1.0"?>\n' + ET.tostring(root, encoding="unicode") + "\n"
