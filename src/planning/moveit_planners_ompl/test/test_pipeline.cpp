@@ -1,8 +1,12 @@
 // Compiled planner and adapters in a pipeline; constraint samplers; planning and execution within one program.
+#include <actionlib/server/simple_action_server.h>
+#include <control_msgs/FollowJointTrajectoryAction.h>
 #include <geometric_shapes/shapes.h>
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 
+#include <atomic>
+#include <memory>
 #include <thread>
 
 #include <moveit/constraint_samplers/constraint_sampler_manager.h>
@@ -264,11 +268,90 @@ TEST(MoveItCpp, plansExecutesAndStops)
   execution->clear();
 }
 
+// A controller that moves as long as the trajectory says, and fails for one that ends beyond 1 rad.
+class Controller
+{
+public:
+  using Server = actionlib::SimpleActionServer<control_msgs::FollowJointTrajectoryAction>;
+  Controller()
+    : server_(ros::NodeHandle(), "late_controller/follow_joint_trajectory",
+              [this](const control_msgs::FollowJointTrajectoryGoalConstPtr& goal) { move(*goal); }, false)
+  {
+    server_.start();
+  }
+  ~Controller() { over_ = true; }
+
+private:
+  void move(const control_msgs::FollowJointTrajectoryGoal& goal)
+  {
+    const auto& last = goal.trajectory.points.back();
+    const ros::Time end = ros::Time::now() + last.time_from_start;
+    while (ros::Time::now() < end)
+    {
+      if (over_)
+        return;
+      if (server_.isPreemptRequested())
+        return server_.setPreempted();
+      ros::WallDuration(0.01).sleep();
+    }
+    if (last.positions[0] > 1.0)
+      server_.setAborted();
+    else
+      server_.setSucceeded();
+  }
+  std::atomic<bool> over_{ false };
+  Server server_;
+};
+
+TEST(Execution, controllersBehindActions)
+{
+  using Status = moveit_controller_manager::ExecutionStatus;
+  ros::param::set("~moveit_controller_manager", "moveit_simple_controller_manager/MoveItSimpleControllerManager");
+  XmlRpc::XmlRpcValue list;
+  list[0]["name"] = "late_controller";
+  list[0]["action_ns"] = "follow_joint_trajectory";
+  list[0]["type"] = "FollowJointTrajectory";
+  list[0]["joints"][0] = "joint_1";
+  ros::param::set("~controller_list", list);
+  trajectory_execution_manager::TrajectoryExecutionManager execution(loader().getModel(), nullptr);
+  const auto moved = [&execution](double position, double duration) {
+    moveit_msgs::RobotTrajectory trajectory;
+    trajectory.joint_trajectory.joint_names = { "joint_1" };
+    trajectory.joint_trajectory.points.resize(2);
+    trajectory.joint_trajectory.points[0].positions = { 0.0 };
+    trajectory.joint_trajectory.points[1].positions = { position };
+    trajectory.joint_trajectory.points[1].time_from_start = ros::Duration(duration);
+    EXPECT_TRUE(execution.push(trajectory));
+  };
+  moved(0.5, 0.1);
+  EXPECT_EQ(execution.executeAndWait(), Status::ABORTED);  // the controller is not there yet
+  auto controller = std::make_unique<Controller>();
+  moved(0.5, 0.1);
+  EXPECT_EQ(execution.executeAndWait(), Status::SUCCEEDED);
+  moved(1.5, 0.1);
+  moved(0.5, 0.1);  // is not reached
+  EXPECT_EQ(execution.executeAndWait(), Status::ABORTED);
+  EXPECT_TRUE(execution.getTrajectories().empty());
+  moved(0.5, 20.0);
+  execution.execute();
+  EXPECT_EQ(execution.getLastExecutionStatus(), Status::RUNNING);
+  ros::WallDuration(0.2).sleep();
+  EXPECT_EQ(execution.getCurrentExpectedTrajectoryIndex().first, 0);
+  execution.processEvent("stop");
+  EXPECT_EQ(execution.getLastExecutionStatus(), Status::PREEMPTED);
+  // A controller that ends in motion.
+  moved(0.5, 60.0);
+  execution.execute();
+  ros::WallDuration(0.2).sleep();
+  controller.reset();
+  EXPECT_EQ(execution.waitForExecution(), Status::ABORTED);
+}
+
 int main(int argc, char** argv)
 {
   testing::InitGoogleTest(&argc, argv);
   ros::init(argc, argv, "pipeline");
-  ros::AsyncSpinner spinner(2);
+  ros::AsyncSpinner spinner(4);
   spinner.start();
   return RUN_ALL_TESTS();
 }
