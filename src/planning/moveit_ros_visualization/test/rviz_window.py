@@ -1,0 +1,48 @@
+#!/usr/bin/env python3
+"""RViz's whole window in a process whose widgets tests can ask for: rviz_window.py CONFIG WIDTHxHEIGHT.
+
+In its status bar a label "statuses" says what the displays say of themselves, as JSON, and a button "save_config" writes
+CONFIG.saved.
+"""
+import json
+import signal
+import sys
+
+from python_qt_binding.QtCore import QTimer
+from python_qt_binding.QtWidgets import QApplication, QLabel, QPushButton
+from rviz import bindings as rviz
+
+config = sys.argv[1]
+width, height = map(int, sys.argv[2].split("x"))
+app = QApplication([sys.argv[0]])
+frame = rviz.VisualizationFrame()
+frame.setSplashPath("")
+frame.initialize(config)
+statuses, save = QLabel(), QPushButton("save")
+statuses.setObjectName("statuses")
+save.setObjectName("save_config")
+save.clicked.connect(lambda: frame.saveDisplayConfig(config + ".saved"))
+frame.statusBar().addWidget(save)
+frame.statusBar().addWidget(statuses)
+frame.setGeometry(0, 0, width, height)
+frame.show()
+
+
+def look():
+    group = frame.getManager().getRootDisplayGroup()
+    seen = {}
+    for index in range(group.numDisplays()):
+        display = group.getDisplayAt(index)
+        status = display.childAt(0)
+        seen[display.getName()] = [display.getClassId(), status.getName() if status else "",
+                                   {status.childAt(i).getName(): str(status.childAt(i).getValue())
+                                    for i in range(status.numChildren())} if status else {}]
+    statuses.setText(json.dumps(seen))
+
+
+timer = QTimer()
+timer.timeout.connect(look)
+timer.start(100)  # also lets Python see its signals
+for number in (signal.SIGINT, signal.SIGTERM):
+    signal.signal(number, lambda *_: app.quit())
+sys.exit(app.exec_())
