@@ -25,7 +25,7 @@ _noetic_absent("It belongs to the tutorials of desktop-full, is not supplied her
 _noetic_absent("It is small, is not packaged by Debian, and builds from source in your workspace." costmap_converter ddynamic_reconfigure
   filters laser_assembler laser_filters
   teb_local_planner smach smach_ros executive_smach
-  serial rosserial rosserial_python rosbridge_server rosauth pointcloud_to_laserscan imu_tools warehouse_ros)
+  serial rosserial rosserial_python rosbridge_server rosauth imu_tools warehouse_ros)
 
 # _noetic_debian_packages(NAME VARIABLE): Debian's packages for a ROS package, from the rules that Debian ships for rosdep.
 function(_noetic_debian_packages name variable)
