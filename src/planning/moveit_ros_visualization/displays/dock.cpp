@@ -4,7 +4,6 @@
 
 #include <QInputDialog>
 #include <QProgressBar>
-#include <QScrollArea>
 #include <QVBoxLayout>
 
 #include "context_tab.hpp"
@@ -22,11 +21,7 @@ Dock::Dock(MotionPlanningDisplay* display, QWidget* parent) : QWidget(parent), d
   tabs_->setObjectName("tabWidget");
   const auto add = [this](auto* tab, const QString& title) {
     all_.push_back(tab);
-    auto* scroll = new QScrollArea;  // a low window can show all of a tab, too
-    scroll->setWidgetResizable(true);
-    scroll->setFrameShape(QFrame::NoFrame);
-    scroll->setWidget(tab);
-    tabs_->addTab(scroll, title);
+    tabs_->addTab(tab, title);
     return tab;
   };
   status_ = new StatusTab(this);

@@ -5,6 +5,7 @@
 #include <QGridLayout>
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QScrollArea>
 #include <QSlider>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -36,8 +37,11 @@ JointsTab::JointsTab(Dock* dock) : Tab(dock) {
   layout->addLayout(head);
   rows_widget_ = new QWidget;
   grid_ = new QGridLayout(rows_widget_);
-  layout->addWidget(rows_widget_);
-  layout->addStretch(1);
+  auto* scroll = new QScrollArea;  // some robots have many joints
+  scroll->setWidgetResizable(true);
+  scroll->setFrameShape(QFrame::NoFrame);
+  scroll->setWidget(rows_widget_);
+  layout->addWidget(scroll, 1);
   connect(which_, qOverload<int>(&QComboBox::currentIndexChanged), this, [this](int) { show(); });
   connect(unit_, qOverload<int>(&QComboBox::currentIndexChanged), this, [this](int) { makeRows(); });
 }

@@ -116,6 +116,7 @@ QWidget* ObjectsTab::makePose() {
     for (QDoubleSpinBox* number : {position_[i], rotation_[i]}) {
       number->setDecimals(3);
       number->setSingleStep(0.1);
+      number->setMinimumWidth(60);
       connect(number, qOverload<double>(&QDoubleSpinBox::valueChanged), this, [this](double) {
         if (!filling_) poseTyped();
       });
@@ -248,10 +249,15 @@ void ObjectsTab::describe(const planning_scene::PlanningScene& scene, const std:
     return QString::fromStdString(out.str());
   };
   if (const auto object = scene.getWorld()->getObject(id)) {
-    text = QString("'%1' is an object of %2 shape(s): %3").arg(QString::fromStdString(id)).arg(object->shapes_.size()).arg(kinds(object->shapes_));
+    text = QString("'%1' is an object of %2 shape(s): %3")
+               .arg(QString::fromStdString(id))
+               .arg(object->shapes_.size())
+               .arg(kinds(object->shapes_));
     for (const auto& frame : object->subframe_poses_) text += "\nsubframe " + QString::fromStdString(frame.first);
-  } else if (const auto* body = scene.getCurrentState().getAttachedBody(id)) {
-    text = QString("'%1' is attached to %2: %3").arg(QString::fromStdString(id), QString::fromStdString(body->getAttachedLinkName()), kinds(body->getShapes()));
+  } else if (scene.getCurrentState().hasAttachedBody(id)) {
+    const auto* body = scene.getCurrentState().getAttachedBody(id);
+    text = QString("'%1' is attached to %2: %3")
+               .arg(QString::fromStdString(id), QString::fromStdString(body->getAttachedLinkName()), kinds(body->getShapes()));
   }
   status_->setText(text);
 }
