@@ -150,6 +150,9 @@ def test_colour_and_friction_are_changed_and_saved(page):
     wait(page, lambda: page.world.model("box").description.links[0].visuals[0].material.diffuse == (1.0, 0.0, 0.0, 1.0))
     use(world._properties.friction, client, (0.25, 0.5))
     assert page.simulation.surface("box", "link") == SurfaceProperties(0.25, 0.5, 0.0)
+    use(world._history, client, "Undo")
+    assert page.simulation.surface("box", "link") == SurfaceProperties(1.0, 1.0, 0.0)
+    use(world._history, client, "Redo")
     now = page.simulation.link_properties("box", "link")
     page.simulation.set_link_properties("box", "link", now.__class__(3.0, now.com, now.inertia, now.gravity))
     saved = World.load(page.simulation.save()).models["box"].description.links[0]

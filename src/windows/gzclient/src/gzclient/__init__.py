@@ -2,9 +2,12 @@
 
 ====================  ======================================================
 ``main``              from the command line to the page, and to its end
+``page``              the page with all its tabs
 ``command_line``      the options
 ``ros_simulation``    the simulator by its topics and services
 ``desktop``           a window of the desktop that shows the page
-``panels``            the tabs that speak ROS: topics, controllers
+``panels``            the tabs beside those of ``ode_sim.viewer``: sensors, TF, topics, controllers, the editors
+``sensor_drawing``    how messages of sensors are drawn, ``sensor_frames`` where
+``building``          the building editor without its controls, ``modelling`` the model editor
 ====================  ======================================================
 """

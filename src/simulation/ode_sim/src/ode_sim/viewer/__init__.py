@@ -16,6 +16,11 @@
 ``drawing``             models and lights
 ``overlays``            collisions, centres of mass, inertias, joints, frames, labels
 ``selection``           what is picked, its gizmo, copy, delete, undo
+``pulling``             a body pulled at with the mouse
+``contacts arrows``     where bodies touch and with what force; forces as arrows
+``surfaces saving``     colours of a running world; the world as a file
+``movie``               films (MP4)
+``eye``                 from where a page looks at first
 ``panels``              one module for each tab
 ======================  =========================================================================================
 

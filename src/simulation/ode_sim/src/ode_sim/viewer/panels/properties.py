@@ -98,16 +98,20 @@ class ModelProperties(Properties):
 
     def _set_surface(self) -> None:
         mu, mu2 = (float(value) for value in self.friction.value)
-        self.page.simulation.set_surface(self._model, self._link, SurfaceProperties(mu, mu2, float(self.bounce.value)))
+        simulation, model, link = self.page.simulation, self._model, self._link
+        before, now = simulation.surface(model, link), SurfaceProperties(mu, mu2, float(self.bounce.value))
+        self.page.selection.history.do(f"friction of {link}", lambda: simulation.set_surface(model, link, now),
+                                       lambda: simulation.set_surface(model, link, before))
 
     def _set_mass(self) -> None:
         """A new mass keeps the shape: the inertia grows with it."""
-        simulation = self.page.simulation
-        now = simulation.link_properties(self._model, self._link)
-        mass = float(self.mass.value)
-        factor = mass / now.mass if now.mass else 1.0
-        simulation.set_link_properties(self._model, self._link, replace(
-            now, mass=mass, inertia=tuple(v * factor for v in now.inertia), gravity=bool(self.gravity.value)))
+        simulation, model, link = self.page.simulation, self._model, self._link
+        before, mass = simulation.link_properties(model, link), float(self.mass.value)
+        factor = mass / before.mass if before.mass else 1.0
+        now = replace(before, mass=mass, inertia=tuple(v * factor for v in before.inertia),
+                      gravity=bool(self.gravity.value))
+        self.page.selection.history.do(f"mass of {link}", lambda: simulation.set_link_properties(model, link, now),
+                                       lambda: simulation.set_link_properties(model, link, before))
 
 
 class LightProperties(Properties):
