@@ -1,6 +1,8 @@
 """The page without a browser: who may open it, what is drawn and what clicks do. A world of this process, no ROS."""
 import gzip
 import http.client
+import threading
+import time
 
 import numpy as np
 import pytest
@@ -261,6 +263,22 @@ def test_history_forgets_what_was_refused_and_what_is_old():
             history.undo()
             undone += 1
     assert undone == 50 and not log
+
+
+def test_a_redo_that_comes_at_once_waits_for_the_undo():
+    history, begun, log = History(), threading.Event(), []
+
+    def back():
+        begun.set()
+        time.sleep(0.2)
+        log.append("back")
+    history.do("x", lambda: log.append("forth"), back)
+    hand = threading.Thread(target=history.undo)
+    hand.start()
+    begun.wait(5.0)
+    history.redo()
+    hand.join()
+    assert log == ["forth", "back", "forth"]
 
 
 def test_names_and_times():

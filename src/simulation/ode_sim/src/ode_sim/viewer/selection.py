@@ -16,9 +16,10 @@ _MOST_STEPS = 50  # that can be undone
 
 
 class History:
-    """Steps that can be undone: pairs of functions."""
+    """Steps that can be undone: pairs of functions. Any thread: a click waits for what the one before it does."""
 
     def __init__(self):
+        self._lock = threading.RLock()
         self._done: List[Tuple[str, Callable[[], None], Callable[[], None]]] = []
         self._undone: List[Tuple[str, Callable[[], None], Callable[[], None]]] = []
 
@@ -27,29 +28,32 @@ class History:
 
         :raises Refused: as ``forth`` does; then nothing is remembered
         """
-        forth()
-        self.note(what, forth, back)
+        with self._lock:
+            forth()
+            self.note(what, forth, back)
 
     def note(self, what: str, forth: Callable[[], None], back: Callable[[], None]) -> None:
         """Remember a step that was taken already."""
-        self._done = self._done[1 - _MOST_STEPS:] + [(what, forth, back)]
-        self._undone.clear()
+        with self._lock:
+            self._done = self._done[1 - _MOST_STEPS:] + [(what, forth, back)]
+            self._undone.clear()
 
     def undo(self) -> str:
         """What was undone."""
-        return self._turn(self._done, self._undone, 2, "undo")
+        return self._turn(True)
 
     def redo(self) -> str:
-        return self._turn(self._undone, self._done, 1, "do again")
+        return self._turn(False)
 
-    @staticmethod
-    def _turn(source: List, target: List, which: int, verb: str) -> str:
-        if not source:
-            raise Refused(f"There is nothing to {verb}.")
-        step = source.pop()
-        step[which]()
-        target.append(step)
-        return step[0]
+    def _turn(self, back: bool) -> str:
+        with self._lock:
+            source, target = (self._done, self._undone) if back else (self._undone, self._done)
+            if not source:
+                raise Refused(f"There is nothing to {'undo' if back else 'do again'}.")
+            step = source.pop()
+            step[2 if back else 1]()
+            target.append(step)
+            return step[0]
 
 
 class Selection:
