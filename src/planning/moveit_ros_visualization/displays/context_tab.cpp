@@ -198,7 +198,8 @@ void ContextTab::moveGroupCame() {
   const std::string parameter = dock_->display().named("move_group/default_planning_pipeline");
   dock_->inBackground([this, service, parameter]() {
     moveit_msgs::QueryPlannerInterfaces call;
-    if (!ros::service::waitForService(service, ros::Duration(5.0)) || !ros::service::call(service, call))
+    for (int i = 0; i < 50 && !ros::service::exists(service, false); ++i) ros::WallDuration(0.1).sleep();
+    if (!ros::service::call(service, call))
       throw std::runtime_error("nobody answers " + service + ": no planner can be chosen");
     std::string usual;
     ros::param::get(parameter, usual);

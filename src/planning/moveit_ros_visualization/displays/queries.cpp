@@ -59,8 +59,8 @@ void MotionPlanningDisplay::fillMenu(Which which) {
   entry(states, "random valid", "<random valid>");
   entry(states, "current", "<current>");
   entry(states, which == GOAL ? "same as start" : "same as goal", which == GOAL ? "<same as start>" : "<same as goal>");
-  if (const moveit::core::JointModelGroup* group = model()->getJointModelGroup(last_group_))
-    for (const std::string& name : group->getDefaultStateNames()) entry(states, name, name);
+  if (model()->hasJointModelGroup(last_group_))
+    for (const std::string& name : model()->getJointModelGroup(last_group_)->getDefaultStateNames()) entry(states, name, name);
   const auto command = [this, &menu](const char* title, void (Dock::*what)()) {
     menu.insert(title, [this, what](const Feedback&) {
       if (dock_) (dock_->*what)();
@@ -68,7 +68,7 @@ void MotionPlanningDisplay::fillMenu(Which which) {
   };
   command("Plan", &Dock::plan);
   command("Execute", &Dock::execute);
-  command("Plan & Execute", &Dock::planAndExecute);
+  command("Plan and Execute", &Dock::planAndExecute);
   command("Stop", &Dock::stop);
 }
 

@@ -269,6 +269,13 @@ void PlanningSceneDisplay::watchMoveGroup(int generation) {
     if (now != there || first)
       jobs_.later([this, generation, now]() {
         if (generation != generation_) return;
+        const auto srdf = monitor_->getRobotModelLoader()->getSRDF();
+        const std::string semantic = robotDescription() + "_semantic";
+        std::string key;
+        // The SRDF often comes with move_group, after the robot: its groups are wanted.
+        if (now && (!srdf || srdf->getName().empty()) && ros::param::search(semantic, key) &&
+            told_robot_.news("Loading the robot again: " + key + " has come"))
+          return startLoading();
         const bool before = move_group_there_;
         move_group_there_ = now;
         if (now != before) now ? moveGroupCame() : moveGroupGone();
