@@ -211,7 +211,9 @@ void AllowedCollisionMatrix::getMessage(moveit_msgs::AllowedCollisionMatrix& msg
   msg.entry_values.resize(msg.entry_names.size());
   for (std::size_t i = 0; i < msg.entry_names.size(); ++i)
     for (const std::string& other : msg.entry_names)
-      msg.entry_values[i].enabled.push_back(core_->entry(msg.entry_names[i], other) == Core::Allowed);
+      msg.entry_values[i].enabled.push_back(other == msg.entry_names[i] ?
+                                                core_->entry(other, other) == Core::Allowed :
+                                                core_->allowed(msg.entry_names[i], other));  // by its defaults, too
   for (const auto& item : core_->defaults())
   {
     msg.default_entry_names.push_back(item.first);

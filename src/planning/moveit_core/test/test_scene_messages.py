@@ -207,3 +207,15 @@ def test_an_octomap_survives_being_sent(editor, scene, said):
     assert scene.octomap_pose.position == pytest.approx([0, 0, 1])
     message.octomap.id = "ColorThing"
     assert not editor.octomap(message) and "ColorThing" in said[-1]
+
+
+def test_pairs_in_a_message_have_what_their_defaults_say():
+    """As disable_default_collisions and enable_collisions of an SRDF make them."""
+    matrix = motion.AllowedCollisionMatrix()
+    matrix.set("a", "b", False)
+    matrix.set("c", "d", False)
+    matrix.set_default("a", True)
+    assert matrix.allowed("a", "c") and not matrix.allowed("a", "b")
+    back = acm_from_message(acm_message(matrix))
+    for one, other in (("a", "b"), ("a", "c"), ("b", "c"), ("c", "d")):
+        assert back.allowed(one, other) == matrix.allowed(one, other), (one, other)

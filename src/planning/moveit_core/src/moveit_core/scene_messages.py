@@ -355,6 +355,8 @@ def acm_message(matrix: motion.AllowedCollisionMatrix) -> AllowedCollisionMatrix
     """A matrix as a message."""
     names, rows = matrix.matrix()
     defaults = matrix.defaults
+    if defaults:  # a pair without an entry of its own has what its defaults say: in a message every pair has an entry
+        rows = [[matrix.allowed(a, b) if i != j else rows[i][j] for j, b in enumerate(names)] for i, a in enumerate(names)]
     return AllowedCollisionMatrix(
         entry_names=list(names), entry_values=[AllowedCollisionEntry([bool(value) for value in row]) for row in rows],
         default_entry_names=sorted(defaults), default_entry_values=[bool(defaults[name]) for name in sorted(defaults)])
