@@ -84,7 +84,14 @@ def test_constraints_are_kept(scene):
     assert 0 < result.fraction < 1 and "'elbow_joint'" in result.message
 
 
-@pytest.mark.parametrize("change, error", [({"max_step": 0.0}, motion.InvalidInputError), ({"link": "nobody"}, motion.UnknownNameError), ({"max_step": 1e-8}, motion.InvalidInputError)])
+@pytest.mark.parametrize(
+    "change, error",
+    [
+        ({"max_step": 0.0}, motion.InvalidInputError),
+        ({"link": "nobody"}, motion.UnknownNameError),
+        ({"max_step": 1e-8}, motion.InvalidInputError),
+    ],
+)
 def test_bad_cartesian_requests(scene, change, error):
     start = scene.state.pose("tool")
     with pytest.raises(error):
@@ -108,7 +115,11 @@ def test_pipeline_times_what_it_plans(scene):
 
 def test_unknown_adapters_are_named():
     pipeline = motion.Pipeline(["default_planner_request_adapters/AddTimeOptimalParameterization", "my_adapters/Magic"])
-    assert len(pipeline.warnings) == 1 and "'my_adapters/Magic'" in pipeline.warnings[0] and pipeline.adapters == ["AddTimeOptimalParameterization"]
+    assert (
+        len(pipeline.warnings) == 1
+        and "'my_adapters/Magic'" in pipeline.warnings[0]
+        and pipeline.adapters == ["AddTimeOptimalParameterization"]
+    )
 
 
 def test_a_start_slightly_outside_is_brought_in(scene):
@@ -116,7 +127,9 @@ def test_a_start_slightly_outside_is_brought_in(scene):
     state.set("wrist_1_joint", -2 * np.pi - 0.04)
     result = motion.Pipeline().generate(scene, request(scene, start=state))
     assert result and result.added_prefix == [0]
-    assert result.trajectory.positions[0][3] == pytest.approx(-2 * np.pi - 0.04) and result.trajectory.positions[1][3] == pytest.approx(-2 * np.pi)
+    assert result.trajectory.positions[0][3] == pytest.approx(-2 * np.pi - 0.04) and result.trajectory.positions[1][
+        3
+    ] == pytest.approx(-2 * np.pi)
     state.set("wrist_1_joint", -2 * np.pi - 0.2)
     assert motion.Pipeline().generate(scene, request(scene, start=state)).code == -26
 
@@ -264,9 +277,11 @@ def test_an_arm_that_is_quite_straight_can_be_drawn_in(name, way):
 def test_an_arm_of_four_joints_follows_positions():
     """It cannot keep the orientation of its hand; with position_only it need not."""
     links = "".join(f'<link name="l{i}"/>' for i in range(6))
-    joints = "".join(f'<joint name="j{i}" type="revolute"><parent link="l{i}"/><child link="l{i + 1}"/><origin xyz="0 0 {0.3 if i else 0.1}"/>'
-                     f'<axis xyz="{axis}"/><limit lower="-2.5" upper="2.5" velocity="1" effort="1"/></joint>'
-                     for i, axis in enumerate(("0 0 1", "0 1 0", "0 1 0", "0 1 0")))
+    joints = "".join(
+        f'<joint name="j{i}" type="revolute"><parent link="l{i}"/><child link="l{i + 1}"/><origin xyz="0 0 {0.3 if i else 0.1}"/>'
+        f'<axis xyz="{axis}"/><limit lower="-2.5" upper="2.5" velocity="1" effort="1"/></joint>'
+        for i, axis in enumerate(("0 0 1", "0 1 0", "0 1 0", "0 1 0"))
+    )
     model = motion.load_model(f'<robot name="small">{links}{joints}<joint name="end" type="fixed"><parent link="l4"/><child link="l5"/>'
                               '<origin xyz="0 0 0.2"/></joint></robot>',
                               '<robot name="small"><group name="arm"><chain base_link="l0" tip_link="l5"/></group></robot>')

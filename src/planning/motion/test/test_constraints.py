@@ -92,12 +92,28 @@ def test_sight(scene):
     assert not motion.evaluate(scene, state, motion.Constraints(visibility=[sight]))[0]
 
 
-@pytest.mark.parametrize("constraints, error, said", [
-    (motion.Constraints(joint=[motion.JointConstraint("nobody", 0)]), motion.UnknownNameError, "no joint 'nobody'"),
-    (motion.Constraints(position=[motion.PositionConstraint("tool", [])]), motion.InvalidInputError, "no region"),
-    (motion.Constraints(position=[motion.PositionConstraint("none", [(motion.Sphere(1), ((0, 0, 0), (0, 0, 0, 1)))])]), motion.UnknownNameError, "no link 'none'"),
-    (motion.Constraints(orientation=[motion.OrientationConstraint("tool", (0, 0, 0, 1), (1, 1, 1), frame="moon")]), motion.UnknownNameError, "no frame 'moon'"),
-    (motion.Constraints(joint=[motion.JointConstraint("elbow_joint", float("nan"))]), motion.InvalidInputError, "must be finite")])
+@pytest.mark.parametrize(
+    "constraints, error, said",
+    [
+        (motion.Constraints(joint=[motion.JointConstraint("nobody", 0)]), motion.UnknownNameError, "no joint 'nobody'"),
+        (motion.Constraints(position=[motion.PositionConstraint("tool", [])]), motion.InvalidInputError, "no region"),
+        (
+            motion.Constraints(position=[motion.PositionConstraint("none", [(motion.Sphere(1), ((0, 0, 0), (0, 0, 0, 1)))])]),
+            motion.UnknownNameError,
+            "no link 'none'",
+        ),
+        (
+            motion.Constraints(orientation=[motion.OrientationConstraint("tool", (0, 0, 0, 1), (1, 1, 1), frame="moon")]),
+            motion.UnknownNameError,
+            "no frame 'moon'",
+        ),
+        (
+            motion.Constraints(joint=[motion.JointConstraint("elbow_joint", float("nan"))]),
+            motion.InvalidInputError,
+            "must be finite",
+        ),
+    ],
+)
 def test_bad_constraints_are_named(scene, constraints, error, said):
     with pytest.raises(error, match=said):
         motion.evaluate(scene, scene.state, constraints)

@@ -88,14 +88,19 @@ def test_several_tips_at_once():
         parent = "torso"
         for i, (joint, xyz, rpy, axis, lower, upper) in enumerate(robots.UR5):
             xyz = (xyz[0], xyz[1] + (y if i == 0 else 0), xyz[2])
-            body += (f'<link name="{side}{i}"/><joint name="{side}_{joint}" type="revolute"><parent link="{parent}"/><child link="{side}{i}"/>'
-                     f'<origin xyz="{robots._numbers(xyz)}" rpy="{robots._numbers(rpy)}"/><axis xyz="{robots._numbers(axis)}"/>'
-                     f'<limit lower="{lower}" upper="{upper}" velocity="1" effort="1"/></joint>')
+            body += (
+                f'<link name="{side}{i}"/><joint name="{side}_{joint}" type="revolute"><parent link="{parent}"/><child link="{side}{i}"/>'
+                f'<origin xyz="{robots._numbers(xyz)}" rpy="{robots._numbers(rpy)}"/><axis xyz="{robots._numbers(axis)}"/>'
+                f'<limit lower="{lower}" upper="{upper}" velocity="1" effort="1"/></joint>'
+            )
             parent = f"{side}{i}"
     urdf = ('<robot name="two"><link name="base"/><link name="torso"/><joint name="torso_joint" type="revolute"><parent link="base"/>'
             '<child link="torso"/><axis xyz="0 0 1"/><limit lower="-1" upper="1" velocity="1" effort="1"/></joint>' + body + "</robot>")
-    srdf = ('<robot name="two"><group name="left"><chain base_link="torso" tip_link="l5"/></group><group name="right"><chain base_link="torso" tip_link="r5"/></group>'
-            '<group name="both"><joint name="torso_joint"/><group name="left"/><group name="right"/></group></robot>')
+    srdf = (
+        '<robot name="two"><group name="left"><chain base_link="torso" tip_link="l5"/></group>'
+        '<group name="right"><chain base_link="torso" tip_link="r5"/></group>'
+        '<group name="both"><joint name="torso_joint"/><group name="left"/><group name="right"/></group></robot>'
+    )
     model = motion.load_model(urdf, srdf)
     state = model.state()
     state.randomize("both", seed=5)
@@ -109,7 +114,13 @@ def test_several_tips_at_once():
 
 
 def test_links_bolted_to_the_tip_and_attached_bodies_can_be_asked_for():
-    model = motion.load_model(*robots.arm("ur5", extra='<link name="pen"/><joint name="pen_joint" type="fixed"><parent link="tool"/><child link="pen"/><origin xyz="0 0 0.1"/></joint>'))
+    model = motion.load_model(
+        *robots.arm(
+            "ur5",
+            extra='<link name="pen"/><joint name="pen_joint" type="fixed">'
+            '<parent link="tool"/><child link="pen"/><origin xyz="0 0 0.1"/></joint>',
+        )
+    )
     state = model.state()
     state.set_group("arm", [0.3, -1.2, 1.4, -0.9, 1.1, 0.5])
     state.attach(motion.AttachedBody("cup", "tool", [motion.Sphere(0.02)], pose=((0, 0, 0.2), (0, 0, 0, 1)),

@@ -61,7 +61,8 @@ def test_planar_virtual_joint_makes_its_parent_the_planning_frame(hand):
 
 
 def test_fixed_virtual_joint_below_an_empty_world_link_names_the_root_joint():
-    urdf = '<robot name="r"><link name="world"/><link name="a"/><joint name="j" type="fixed"><parent link="world"/><child link="a"/></joint></robot>'
+    urdf = ('<robot name="r"><link name="world"/><link name="a"/><joint name="j" type="fixed"><parent link="world"/>'
+            '<child link="a"/></joint></robot>')
     srdf = ('<robot name="r"><virtual_joint name="one" type="fixed" parent_frame="world" child_link="a"/>'
             '<virtual_joint name="two" type="fixed" parent_frame="a" child_link="b"/></robot>')
     model = motion.load_model(urdf, srdf)
@@ -69,13 +70,17 @@ def test_fixed_virtual_joint_below_an_empty_world_link_names_the_root_joint():
 
 
 def test_virtual_joint_elsewhere_is_left_out_with_a_warning():
-    model = motion.load_model(GRIPPER, '<robot name="hand"><virtual_joint name="v" type="floating" parent_frame="w" child_link="palm"/></robot>')
+    model = motion.load_model(
+        GRIPPER, '<robot name="hand"><virtual_joint name="v" type="floating" parent_frame="w" child_link="palm"/></robot>'
+    )
     assert model.frame == "base" and model.root_joint == "ASSUMED_FIXED_ROOT_JOINT"
     assert any("'v'" in line and "'palm'" in line for line in model.warnings)
 
 
 def test_floating_joint_has_seven_variables_and_a_unit_quaternion():
-    model = motion.load_model(GRIPPER, '<robot name="hand"><virtual_joint name="v" type="floating" parent_frame="w" child_link="base"/></robot>')
+    model = motion.load_model(
+        GRIPPER, '<robot name="hand"><virtual_joint name="v" type="floating" parent_frame="w" child_link="base"/></robot>'
+    )
     state = model.state()
     assert state.get("v/rot_w") == 1.0 and model.frame == "w"
     state.randomize(seed=4)
@@ -128,11 +133,26 @@ def test_defaults_mimic_and_passive(hand):
 
 
 def test_joint_limits_yaml_wins_over_the_urdf():
-    limits = {"lift": {"max_position": 0.45, "has_velocity_limits": False, "max_velocity": 0, "has_acceleration_limits": True, "max_acceleration": 3},
-              "turn": {"min_position": -1, "has_velocity_limits": True, "max_velocity": 0.7}, "ghost": {"max_velocity": 1}}
+    limits = {
+        "lift": {
+            "max_position": 0.45,
+            "has_velocity_limits": False,
+            "max_velocity": 0,
+            "has_acceleration_limits": True,
+            "max_acceleration": 3,
+        },
+        "turn": {"min_position": -1, "has_velocity_limits": True, "max_velocity": 0.7},
+        "ghost": {"max_velocity": 1},
+    }
     model = motion.load_model(GRIPPER, HAND_SRDF, joint_limits={"default_velocity_scaling_factor": 0.1, "joint_limits": limits})
     lift, turn = model.variable_limits("lift"), model.variable_limits("turn")
-    assert (lift.min_position, lift.max_position, lift.has_velocity, lift.has_acceleration, lift.max_acceleration) == (0.1, 0.45, False, True, 3)
+    assert (lift.min_position, lift.max_position, lift.has_velocity, lift.has_acceleration, lift.max_acceleration) == (
+        0.1,
+        0.45,
+        False,
+        True,
+        3,
+    )
     assert not turn.has_position and turn.max_velocity == 0.7
     assert any("'ghost'" in line for line in model.warnings) and any("'turn'" in line for line in model.warnings)
 
@@ -230,9 +250,13 @@ def test_unknown_names_say_what_there_is(hand):
 
 
 def test_meshes_are_found_by_package_and_scaled(tmp_path):
-    (tmp_path / "box.stl").write_text("solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid s\n")
-    urdf = ('<robot name="r"><link name="a"><collision><geometry><mesh filename="package://shop/box.stl" scale="2 3 1"/></geometry></collision>'
-            '<collision><geometry><mesh filename="package://shop/none.stl"/></geometry></collision></link></robot>')
+    (tmp_path / "box.stl").write_text(
+        "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid s\n"
+    )
+    urdf = (
+        '<robot name="r"><link name="a"><collision><geometry><mesh filename="package://shop/box.stl" scale="2 3 1"/></geometry></collision>'
+        '<collision><geometry><mesh filename="package://shop/none.stl"/></geometry></collision></link></robot>'
+    )
     model = motion.load_model(urdf, find_package=lambda name: str(tmp_path) if name == "shop" else None)
     shape, = model.link("a").shapes
     np.testing.assert_allclose(shape.bounds(), [[0, 0, 0], [2, 3, 0]])

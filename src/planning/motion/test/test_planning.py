@@ -80,8 +80,12 @@ def test_pose_goal_from_several_families(scene, model):
 def test_region_goals_position_or_orientation_alone(scene, model):
     box = motion.PositionConstraint("tool", [(motion.Box(0.2, 0.2, 0.2), ((-0.4, 0.3, 0.5), (0, 0, 0, 1)))], offset=(0, 0, 0.05))
     turn = motion.OrientationConstraint("tool", (0, 1, 0, 0), (0.1, 0.1, 3.2))
-    for goal in (motion.Constraints(position=[box]), motion.Constraints(orientation=[turn]), motion.Constraints(position=[box], orientation=[turn]),
-                 motion.Constraints(joint=[motion.JointConstraint("elbow_joint", 1.0, 0.01, 0.01)], orientation=[turn])):
+    for goal in (
+        motion.Constraints(position=[box]),
+        motion.Constraints(orientation=[turn]),
+        motion.Constraints(position=[box], orientation=[turn]),
+        motion.Constraints(joint=[motion.JointConstraint("elbow_joint", 1.0, 0.01, 0.01)], orientation=[turn]),
+    ):
         result = motion.plan(scene, motion.MotionRequest("arm", goals=[goal], seed=3, **FINE))
         sound(scene, result)
         end = result.trajectory.state(len(result.trajectory) - 1)
@@ -113,17 +117,23 @@ def test_orientation_kept_on_the_way(scene, model):
     keep = motion.Constraints(orientation=[motion.OrientationConstraint("tool", state.pose("tool").quaternion, (0.1, 0.1, 3.2))])
     target = state.pose("tool")
     target = motion.Pose(target.position + (-0.15, 0.35, 0.1), target.quaternion)
-    result = motion.plan(scene, motion.MotionRequest("arm", goals=[motion.pose_goal("tool", target)], path_constraints=keep, seed=1, **FINE))
+    result = motion.plan(
+        scene, motion.MotionRequest("arm", goals=[motion.pose_goal("tool", target)], path_constraints=keep, seed=1, **FINE)
+    )
     sound(scene, result, keep)
 
 
 def test_position_kept_in_a_slab_and_a_joint_in_its_range(scene, model):
     state = scene.state
     here = state.pose("tool")
-    slab = motion.Constraints(position=[motion.PositionConstraint("tool", [(motion.Box(4, 4, 0.1), ((0, 0, here.position[2]), (0, 0, 0, 1)))])],
-                              joint=[motion.JointConstraint("elbow_joint", 1.4, 0.6, 0.6)])
+    slab = motion.Constraints(
+        position=[motion.PositionConstraint("tool", [(motion.Box(4, 4, 0.1), ((0, 0, here.position[2]), (0, 0, 0, 1)))])],
+        joint=[motion.JointConstraint("elbow_joint", 1.4, 0.6, 0.6)],
+    )
     target = motion.Pose(here.position + (-0.2, 0.3, 0.0), here.quaternion)
-    result = motion.plan(scene, motion.MotionRequest("arm", goals=[motion.pose_goal("tool", target)], path_constraints=slab, seed=2, **FINE))
+    result = motion.plan(
+        scene, motion.MotionRequest("arm", goals=[motion.pose_goal("tool", target)], path_constraints=slab, seed=2, **FINE)
+    )
     sound(scene, result, slab)
 
 
@@ -141,8 +151,17 @@ def test_every_planner_of_the_tables(model, planner):
     state.set_group("arm", HOME)
     scene.set_state(state)
     near = np.array(HOME) + [0.5, 0.2, -0.2, 0.3, 0.2, 0.4]
-    result = motion.plan(scene, request(model, near, planner=f"geometric::{planner}", planning_time=3.0 if planner in OPTIMISING else 60.0, seed=None,
-                                       longest_valid_segment_fraction=0.005))
+    result = motion.plan(
+        scene,
+        request(
+            model,
+            near,
+            planner=f"geometric::{planner}",
+            planning_time=3.0 if planner in OPTIMISING else 60.0,
+            seed=None,
+            longest_valid_segment_fraction=0.005,
+        ),
+    )
     sound(scene, result)
     assert result.planner == planner
 
@@ -152,7 +171,14 @@ def test_all_planners_are_covered():
 
 
 def test_parameters_reach_the_planner(scene, model):
-    result = motion.plan(scene, request(model, planner="RRTConnectkConfigDefault", planner_params={"range": 0.3, "type": "geometric::RRTConnect", "goal_bias": 0.1}))
+    result = motion.plan(
+        scene,
+        request(
+            model,
+            planner="RRTConnectkConfigDefault",
+            planner_params={"range": 0.3, "type": "geometric::RRTConnect", "goal_bias": 0.1},
+        ),
+    )
     sound(scene, result)
     assert len(result.warnings) == 1 and "no parameter 'goal_bias'" in result.warnings[0] and "'range'" in result.warnings[0]
     assert "range" in motion.planners()["RRTConnect"] and motion.planner_problem("RRT", {"range": 1}) == ""
@@ -161,7 +187,9 @@ def test_parameters_reach_the_planner(scene, model):
 def test_cancel_ends_a_long_search_at_once(scene, model):
     """RRTstar uses all its time; the token ends it from another thread."""
     token, done = motion.CancelToken(), []
-    thread = threading.Thread(target=lambda: done.append(motion.plan(scene, request(model, planner="RRTstar", seed=None, planning_time=300.0), token)))
+    thread = threading.Thread(
+        target=lambda: done.append(motion.plan(scene, request(model, planner="RRTstar", seed=None, planning_time=300.0), token))
+    )
     thread.start()
     time.sleep(0.3)
     spent = time.process_time()
@@ -232,7 +260,15 @@ def test_starts_that_cannot_be(scene, model):
 
 
 def test_attached_bodies_are_carried_round(scene, model):
-    scene.attach(motion.AttachedBody("pole", "tool", [motion.Cylinder(0.02, 0.3)], pose=((0, 0, 0.15), (0, 0, 0, 1)), touch_links=["tool", "link_6", "link_5"]))
+    scene.attach(
+        motion.AttachedBody(
+            "pole",
+            "tool",
+            [motion.Cylinder(0.02, 0.3)],
+            pose=((0, 0, 0.15), (0, 0, 0, 1)),
+            touch_links=["tool", "link_6", "link_5"],
+        )
+    )
     result = motion.plan(scene, request(model))
     sound(scene, result)
     assert result.trajectory.state(0).attached[0].id == "pole"
@@ -244,7 +280,9 @@ def test_continuous_joints_take_the_short_way():
     state = scene.state
     state.set("wrist_roll_joint", 3.0)
     goal = dict(zip(model.group("arm").variables, state.get_group("arm")), wrist_roll_joint=-3.0)
-    result = motion.plan(scene, motion.MotionRequest("arm", goals=[motion.joint_goal(model, "arm", goal)], start=state, seed=1, planning_time=30.0))
+    result = motion.plan(
+        scene, motion.MotionRequest("arm", goals=[motion.joint_goal(model, "arm", goal)], start=state, seed=1, planning_time=30.0)
+    )
     trajectory = result.trajectory.unwind()
     assert trajectory.positions[-1][-1] == pytest.approx(2 * np.pi - 3.0, abs=1e-3)
     assert np.abs(np.diff(trajectory.positions[:, -1])).max() < 0.4
@@ -252,8 +290,11 @@ def test_continuous_joints_take_the_short_way():
 
 def test_planar_base_plans_inside_its_workspace():
     ball = '<collision><geometry><sphere radius="0.2"/></geometry></collision>'
-    model = motion.load_model(f'<robot name="cart"><link name="base">{ball}</link></robot>',
-                              '<robot name="cart"><virtual_joint name="drive" type="planar" parent_frame="odom" child_link="base"/><group name="cart"><joint name="drive"/></group></robot>')
+    model = motion.load_model(
+        f'<robot name="cart"><link name="base">{ball}</link></robot>',
+        '<robot name="cart"><virtual_joint name="drive" type="planar" parent_frame="odom" child_link="base"/>'
+        '<group name="cart"><joint name="drive"/></group></robot>',
+    )
     scene = motion.PlanningScene(model)
     scene.add_object("wall", [motion.Box(0.1, 2.0, 1.0)], pose=((1.0, 0, 0), (0, 0, 0, 1)))
     goal = motion.joint_goal(model, "cart", [2.0, 0.0, 1.0])

@@ -19,10 +19,13 @@ def model():
     return motion.load_model(
         f'<robot name="rail"><link name="base">{ball}</link><link name="car">{ball}</link><link name="mast">{ball}</link>'
         '<link name="tool"/>'
-        '<joint name="slide" type="prismatic"><parent link="base"/><child link="car"/><axis xyz="1 0 0"/><limit lower="-5" upper="5" velocity="1" effort="1"/></joint>'
+        '<joint name="slide" type="prismatic"><parent link="base"/><child link="car"/><axis xyz="1 0 0"/>'
+        '<limit lower="-5" upper="5" velocity="1" effort="1"/></joint>'
         '<joint name="bolt" type="fixed"><parent link="car"/><child link="mast"/><origin xyz="0 0 1"/></joint>'
-        '<joint name="lift" type="prismatic"><parent link="mast"/><child link="tool"/><axis xyz="0 0 1"/><limit lower="-1" upper="1" velocity="1" effort="1"/></joint></robot>',
-        '<robot name="rail"><group name="car"><joint name="slide"/></group><group name="lift"><joint name="lift"/></group></robot>')
+        '<joint name="lift" type="prismatic"><parent link="mast"/><child link="tool"/><axis xyz="0 0 1"/>'
+        '<limit lower="-1" upper="1" velocity="1" effort="1"/></joint></robot>',
+        '<robot name="rail"><group name="car"><joint name="slide"/></group><group name="lift"><joint name="lift"/></group></robot>',
+    )
 
 
 @pytest.fixture
@@ -90,7 +93,9 @@ def test_self_collision_and_the_matrix(scene):
     assert scene.check(near, acm=acm) and not scene.check(near)
 
 
-@pytest.mark.parametrize("one, two, allowed", [(None, None, False), (True, None, True), (True, True, True), (True, False, False), (None, False, False)])
+@pytest.mark.parametrize(
+    "one, two, allowed", [(None, None, False), (True, None, True), (True, True, True), (True, False, False), (None, False, False)]
+)
 def test_defaults_both_must_allow(one, two, allowed):
     acm = motion.AllowedCollisionMatrix()
     acm.set_default("a", one)
@@ -133,8 +138,15 @@ def test_padding_counts_against_the_world_only(scene):
     assert scene.check(near) and scene.scale == {"car": 1.6}
 
 
-@pytest.mark.parametrize("shape, bounds", [
-    (motion.Box(1, 2, 3), (1.2, 2.2, 3.2)), (motion.Sphere(1), (2.2, 2.2, 2.2)), (motion.Cylinder(1, 2), (2.2, 2.2, 2.2)), (motion.Cone(1, 2), (2.2, 2.2, 2.2))])
+@pytest.mark.parametrize(
+    "shape, bounds",
+    [
+        (motion.Box(1, 2, 3), (1.2, 2.2, 3.2)),
+        (motion.Sphere(1), (2.2, 2.2, 2.2)),
+        (motion.Cylinder(1, 2), (2.2, 2.2, 2.2)),
+        (motion.Cone(1, 2), (2.2, 2.2, 2.2)),
+    ],
+)
 def test_padding_grows_shapes_as_geometric_shapes_does(shape, bounds):
     lower, upper = shape.grown(1.0, 0.1).bounds()
     np.testing.assert_allclose(upper - lower, bounds)
@@ -188,7 +200,12 @@ def test_objects_are_added_replaced_appended_moved_removed(scene):
     scene.move_shapes("o", [at(0, 1), at(0, 2)])
     assert scene.object("o").shape_poses[1].position[1] == 2 and scene.object("o").pose.position[0] == 7
     assert scene.remove_object("o") and not scene.remove_object("o")
-    for call in (scene.object, lambda n: scene.move_object(n, HERE), lambda n: scene.append_shapes(n, [motion.Sphere(1)]), lambda n: scene.attach_object(n, "car")):
+    for call in (
+        scene.object,
+        lambda n: scene.move_object(n, HERE),
+        lambda n: scene.append_shapes(n, [motion.Sphere(1)]),
+        lambda n: scene.attach_object(n, "car"),
+    ):
         with pytest.raises(motion.UnknownNameError, match="no object 'o'"):
             call("o")
 

@@ -70,16 +70,27 @@ def test_time_optimal_beats_parabolic_and_rounds_corners_within_tolerance(model)
     corner[1, :2] = 1.0, 0.0
     corner[2, :2] = 1.0, 1.0
     for tolerance in (0.1, 0.02):
-        timed = motion.time_parameterize(model, motion.Trajectory(model, "arm", model.state(), corner), "time_optimal", path_tolerance=tolerance, resample_dt=0.005)
+        timed = motion.time_parameterize(
+            model,
+            motion.Trajectory(model, "arm", model.state(), corner),
+            "time_optimal",
+            path_tolerance=tolerance,
+            resample_dt=0.005,
+        )
         nearest = np.linalg.norm(timed.positions - corner[1], axis=1).min()
         assert tolerance * 0.9 <= nearest <= tolerance * 1.1
-    assert motion.time_parameterize(model, path(model), "time_optimal").duration < motion.time_parameterize(model, path(model), "iterative_parabolic").duration
+    assert (
+        motion.time_parameterize(model, path(model), "time_optimal").duration
+        < motion.time_parameterize(model, path(model), "iterative_parabolic").duration
+    )
 
 
 def test_sharp_corners_come_to_rest(model):
     corner = np.zeros((3, 6))
     corner[1, 0] = corner[2, 0] = corner[2, 1] = 1.0
-    timed = motion.time_parameterize(model, motion.Trajectory(model, "arm", model.state(), corner), "time_optimal", path_tolerance=0.0, resample_dt=0.01)
+    timed = motion.time_parameterize(
+        model, motion.Trajectory(model, "arm", model.state(), corner), "time_optimal", path_tolerance=0.0, resample_dt=0.01
+    )
     at = np.argmin(np.linalg.norm(timed.positions - corner[1], axis=1))
     assert np.abs(timed.velocities[at]).max() < 0.03
     assert timed.duration == pytest.approx(2 * np.sqrt(1 / 2) + 2 * np.sqrt(1 / 1.5), rel=1e-2)
@@ -103,7 +114,9 @@ def test_unset_limits_are_one(model):
     free = motion.load_model(robots.arm("ur5")[0].replace('velocity="3"', 'velocity="0"'), robots.arm("ur5")[1])
     rows = np.zeros((2, 6))
     rows[1, 0] = 2.0
-    timed = motion.time_parameterize(free, motion.Trajectory(free, "arm", free.state(), rows), "time_optimal", velocity_scaling=0.5, acceleration_scaling=0.5)
+    timed = motion.time_parameterize(
+        free, motion.Trajectory(free, "arm", free.state(), rows), "time_optimal", velocity_scaling=0.5, acceleration_scaling=0.5
+    )
     assert timed.duration == pytest.approx(3.0, rel=2e-3)  # unscaled for this method, as upstream
 
 

@@ -24,7 +24,9 @@ PATIENCE = 300.0
 
 
 def goal(values):
-    return Constraints(name="goal", joint_constraints=[JointConstraint(name, value, 1e-3, 1e-3, 1.0) for name, value in zip(JOINTS, values)])
+    return Constraints(
+        name="goal", joint_constraints=[JointConstraint(name, value, 1e-3, 1e-3, 1.0) for name, value in zip(JOINTS, values)]
+    )
 
 
 def fill(base):

@@ -87,7 +87,8 @@ def test_broken_scenes_are_refused_with_the_line(old, new, message):
 
 
 def test_queries():
-    text = "kitchen\nstart\n1\nhome\njoint_1 = 0.5\njoint_2 = -1\n.\ngoal\n1\nlink_constraint\ngrasp\nhand\nxyz 0.3 0 0.5\nrpy 0.1 0.2 0.3\n.\n"
+    text = "kitchen\nstart\n1\nhome\njoint_1 = 0.5\njoint_2 = -1\n.\n" \
+           "goal\n1\nlink_constraint\ngrasp\nhand\nxyz 0.3 0 0.5\nrpy 0.1 0.2 0.3\n.\n"
     found = queries.read(text)
     assert found.scene == "kitchen" and found.starts == {"home": {"joint_1": 0.5, "joint_2": -1.0}}
     assert found.goals == {"grasp": ("hand", [0.3, 0, 0.5], [0.1, 0.2, 0.3])}

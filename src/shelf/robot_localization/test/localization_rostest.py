@@ -60,7 +60,10 @@ class Localization(unittest.TestCase):
         self.fail(f"no estimate on {topic} for {stamp.to_sec()} s")
 
     def drive(self, start, until):
-        """Sends what is felt for ``until`` s from ``start`` on, 25 times a second, and waits until each is taken in. Returns the last estimates."""
+        """Sends what is felt for ``until`` s from ``start`` on, 25 times a second, and waits until each is taken in.
+
+        Returns the last estimates.
+        """
         for step in range(int(until * 25) + 1):
             t = step / 25
             stamp = start + rospy.Duration.from_sec(t)

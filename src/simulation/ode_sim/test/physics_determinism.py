@@ -12,7 +12,9 @@ def busy_world(seed=7):
     world.spawn(ground())
     rng = world.rng("heap")
     for i in range(25):
-        world.spawn(box(f"box{i}", (1.0 + rng.uniform(-0.1, 0.1), rng.uniform(-0.1, 0.1), 0.1 + 0.08 * i), rpy=tuple(rng.uniform(-1, 1, 3))))
+        world.spawn(
+            box(f"box{i}", (1.0 + rng.uniform(-0.1, 0.1), rng.uniform(-0.1, 0.1), 0.1 + 0.08 * i), rpy=tuple(rng.uniform(-1, 1, 3)))
+        )
     robot = world.spawn(diff_drive())
     hand = world.spawn(gripper(), name="hand")
     hand.pose = ode_sim.Pose((-2, 0, 0))

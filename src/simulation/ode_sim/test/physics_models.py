@@ -27,7 +27,9 @@ def sphere(name="ball", at=(0, 0, 1), radius=0.1, mass=1.0, surface=Surface(), *
     return Model(name, Pose(at), (link,))
 
 
-def pendulum(length=0.5, mass=1.0, damping=0.0, friction=0.0, inertia=0.01, name="pendulum", lower=-1e16, upper=1e16, axis=(0, 1, 0), **more):
+def pendulum(
+    length=0.5, mass=1.0, damping=0.0, friction=0.0, inertia=0.01, name="pendulum", lower=-1e16, upper=1e16, axis=(0, 1, 0), **more
+):
     """A link hinged to the world at (0, 0, 2), its centre of mass ``length`` below."""
     link = Link("bob", Pose(), Inertial(mass, Pose((0, 0, -length)), inertia, 0, 0, inertia, 0, inertia))
     joint = Joint("hinge", "revolute", "world", "bob", axes=(Axis(axis, lower, upper, damping=damping, friction=friction),), **more)
@@ -66,7 +68,11 @@ def gripper(effort=20.0, height=0.3, mu=1.0, lift_effort=200.0):
     links, joints = [carriage], [Joint("lift", "prismatic", "world", "carriage",
                                        axes=(Axis((0, 0, 1), -1.0, 1.0, lift_effort, 1.0),))]
     for name, side in (("left", 1.0), ("right", -1.0)):
-        links.append(Link(name, Pose((0, side * 0.1, height - 0.06)), box_inertia(0.05, size), (Collision("pad", Pose(), Box(size), rubber),)))
+        links.append(
+            Link(
+                name, Pose((0, side * 0.1, height - 0.06)), box_inertia(0.05, size), (Collision("pad", Pose(), Box(size), rubber),)
+            )
+        )
         joints.append(Joint(name, "prismatic", "carriage", name, axes=(Axis((0, -side, 0), 0.0, 0.1, effort, 0.5),)))
     return Model("gripper", Pose(), tuple(links), tuple(joints))
 

@@ -45,7 +45,12 @@ def test_a_place_beyond_all_reason_is_refused(far, static):
 
 
 def test_a_rigid_move_that_takes_a_part_too_far_is_refused():
-    rail = Model("rail", Pose(), (Link("base"), Link("car", Pose((9e6, 0, 0)))), (Joint("j", "prismatic", "base", "car", axes=(Axis((1, 0, 0)),)),))
+    rail = Model(
+        "rail",
+        Pose(),
+        (Link("base"), Link("car", Pose((9e6, 0, 0)))),
+        (Joint("j", "prismatic", "base", "car", axes=(Axis((1, 0, 0)),)),),
+    )
     world = ode_sim.World()
     model = world.spawn(rail)
     model.pose = Pose((5e6, 0, 0))
@@ -292,8 +297,14 @@ def test_rays_from_and_to_anywhere():
 
 def test_meshes_that_name_corners_there_are_not():
     corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], float)
-    for vertices, triangles in ((corners, [[0, 1, 3]]), (corners, [[0, 1, 2 ** 32 - 1]]), (corners * 1e9, [[0, 1, 2]]),
-                                (corners * math.nan, [[0, 1, 2]]), (np.zeros((0, 3)), np.zeros((0, 3))), (corners.ravel()[:8], [[0, 1, 2]])):
+    for vertices, triangles in (
+        (corners, [[0, 1, 3]]),
+        (corners, [[0, 1, 2**32 - 1]]),
+        (corners * 1e9, [[0, 1, 2]]),
+        (corners * math.nan, [[0, 1, 2]]),
+        (np.zeros((0, 3)), np.zeros((0, 3))),
+        (corners.ravel()[:8], [[0, 1, 2]]),
+    ):
         refused(lambda: _core.MeshData(vertices, np.array(triangles)))
 
 

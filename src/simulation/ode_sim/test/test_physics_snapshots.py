@@ -46,7 +46,12 @@ def test_a_damaged_snapshot_changes_nothing():
     before = bytes(world.save())
     rng, n = random.Random(1), len(good.state)
     damaged = [replace(good, state=good.state[:k]) for k in (0, 7, 8, 16, 100, n // 2, n - 1)]
-    damaged += [replace(good, state=good.state + b"\0"), replace(good, ties=()), replace(good, generators=b"{}"), replace(good, generators=b"\x80\x04.")]
+    damaged += [
+        replace(good, state=good.state + b"\0"),
+        replace(good, ties=()),
+        replace(good, generators=b"{}"),
+        replace(good, generators=b"\x80\x04."),
+    ]
     for _ in range(200):
         at = rng.randrange(n)
         damaged.append(replace(good, state=good.state[:at] + bytes([good.state[at] ^ (1 << rng.randrange(8))]) + good.state[at + 1:]))

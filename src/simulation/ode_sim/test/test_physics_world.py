@@ -123,17 +123,40 @@ def test_physics_changes_at_run_time():
     assert world.dt == 0.002
 
 
-@pytest.mark.parametrize("name,bad", [
-    ("max_step_size", 1e300), ("max_step_size", 1e9), ("max_step_size", 1e-12), ("max_step_size", math.inf), ("real_time_update_rate", 1e-300),
-    ("real_time_update_rate", -1.0), ("max_contacts", 0), ("max_contacts", -3), ("max_contacts", 1e150), ("max_contacts", 2 ** 64),
-    ("iters", 0), ("iters", 10_001), ("iters", 2 ** 31), ("sor", 0.0), ("sor", "much"), ("cfm", -1.0), ("erp", math.nan), ("contact_surface_layer", None)])
+@pytest.mark.parametrize(
+    "name,bad",
+    [
+        ("max_step_size", 1e300),
+        ("max_step_size", 1e9),
+        ("max_step_size", 1e-12),
+        ("max_step_size", math.inf),
+        ("real_time_update_rate", 1e-300),
+        ("real_time_update_rate", -1.0),
+        ("max_contacts", 0),
+        ("max_contacts", -3),
+        ("max_contacts", 1e150),
+        ("max_contacts", 2**64),
+        ("iters", 0),
+        ("iters", 10_001),
+        ("iters", 2**31),
+        ("sor", 0.0),
+        ("sor", "much"),
+        ("cfm", -1.0),
+        ("erp", math.nan),
+        ("contact_surface_layer", None),
+    ],
+)
 def test_physics_beyond_reason_is_refused_as_a_whole(name, bad):
     world = ode_sim.World()
     world.step()
     before, gravity = world.physics.record(), world.gravity
     with pytest.raises(ValueError, match=name) as error:
-        world.set_physics(replace(before, max_step_size=0.01, **{name: bad}) if name != "max_step_size" else replace(before, iters=7, **{name: bad}),
-                          gravity=(0, 0, 1))
+        world.set_physics(
+            replace(before, max_step_size=0.01, **{name: bad})
+            if name != "max_step_size"
+            else replace(before, iters=7, **{name: bad}),
+            gravity=(0, 0, 1),
+        )
     assert "\n" not in str(error.value) and len(str(error.value)) < 200
     with pytest.raises(ValueError, match=name):
         setattr(world.physics, name, bad)
@@ -320,7 +343,8 @@ def test_a_saved_world_continues_where_it_was():
 
 
 def test_urdf_text_spawns():
-    text = """<robot name="two"><link name="a"><inertial><mass value="1"/><inertia ixx="0.1" iyy="0.1" izz="0.1" ixy="0" ixz="0" iyz="0"/></inertial></link>
+    text = """<robot name="two"><link name="a"><inertial><mass value="1"/>
+<inertia ixx="0.1" iyy="0.1" izz="0.1" ixy="0" ixz="0" iyz="0"/></inertial></link>
       <link name="b"><inertial><mass value="1"/><inertia ixx="0.1" iyy="0.1" izz="0.1" ixy="0" ixz="0" iyz="0"/></inertial></link>
       <joint name="j" type="continuous"><parent link="a"/><child link="b"/><origin xyz="0 0 1"/><axis xyz="0 1 0"/></joint></robot>"""
     world = ode_sim.World()
@@ -390,9 +414,14 @@ def test_numbers_that_are_none_are_refused_with_the_name():
     world = ode_sim.World()
     model = world.spawn(pendulum())
     joint, link = model.joints["hinge"], model.links["bob"]
-    for act, name in ((lambda: joint.add_force(math.nan), "pendulum::hinge"), (lambda: joint.set_motor(math.inf, 1), "pendulum::hinge"),
-                      (lambda: link.add_force((0, math.nan, 0)), "pendulum::bob"), (lambda: setattr(model, "pose", Pose((math.inf, 0, 0))), "pendulum"),
-                      (lambda: joint.set_position(math.nan), "pendulum::hinge"), (lambda: joint.set_limits(1, -1), "pendulum::hinge")):
+    for act, name in (
+        (lambda: joint.add_force(math.nan), "pendulum::hinge"),
+        (lambda: joint.set_motor(math.inf, 1), "pendulum::hinge"),
+        (lambda: link.add_force((0, math.nan, 0)), "pendulum::bob"),
+        (lambda: setattr(model, "pose", Pose((math.inf, 0, 0))), "pendulum"),
+        (lambda: joint.set_position(math.nan), "pendulum::hinge"),
+        (lambda: joint.set_limits(1, -1), "pendulum::hinge"),
+    ):
         with pytest.raises(ValueError, match=name):
             act()
     world.step(10)

@@ -10,7 +10,8 @@ WORLD = """<sdf version="1.6"><world name="w"><scene><background>0 0 0 1</backgr
 <model name="ground"><static>true</static><link name="l"><visual name="v"><geometry><plane><normal>0 0 1</normal>
 <size>100 100</size></plane></geometry></visual></link></model>
 <model name="red"><static>true</static><pose>3 1 0.2 0 0 0.5</pose><link name="l"><visual name="v">
-<pose>0 0 0.1 0 0 0</pose><geometry><box><size>0.6 0.1 0.1</size></box></geometry><material><ambient>1 0 0 1</ambient><diffuse>0 0 0 1</diffuse>
+<pose>0 0 0.1 0 0 0</pose><geometry><box><size>0.6 0.1 0.1</size></box></geometry>
+<material><ambient>1 0 0 1</ambient><diffuse>0 0 0 1</diffuse>
 </material></visual></link></model>
 <model name="far"><static>true</static><pose>-20 0 0.5 0 0 0</pose><link name="l"><visual name="v"><geometry><sphere>
 <radius>0.5</radius></sphere></geometry></visual></link></model>

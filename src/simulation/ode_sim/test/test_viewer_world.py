@@ -114,7 +114,8 @@ def test_contacts_bear_the_weight_and_change_no_bit():
         assert np.allclose(simulation.contacts()[:, 2], 0.0, atol=0.01)
         assert simulation.call(lambda world: bytes(world.save())) == bytes(plain.save())
         simulation.insert("late", "<sdf version='1.6'><model name='m'><allow_auto_disable>0</allow_auto_disable><link name='l'>"
-                          "<collision name='c'><geometry><box><size>1 1 1</size></box></geometry></collision></link></model></sdf>", Pose((4.0, 0.0, 0.5)))
+                          "<collision name='c'><geometry><box><size>1 1 1</size></box></geometry></collision></link></model></sdf>",
+                          Pose((4.0, 0.0, 0.5)))
         simulation.step(500)
         borne(simulation, 2 * 9.8)
         simulation.watch_contacts(False)

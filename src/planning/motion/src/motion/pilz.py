@@ -59,7 +59,11 @@ class _Trapeze:
     def times(self) -> np.ndarray:
         """0, every sampling time, and the end."""
         steps = np.arange(0.0, self.duration, _SAMPLING)
-        return np.append(steps, self.duration) if self.duration > 0 and self.duration - steps[-1] > 1e-9 else np.append(steps[:-1], self.duration)
+        return (
+            np.append(steps, self.duration)
+            if self.duration > 0 and self.duration - steps[-1] > 1e-9
+            else np.append(steps[:-1], self.duration)
+        )
 
 
 def _scalings(request: MotionRequest) -> Tuple[float, float]:
@@ -144,7 +148,18 @@ def _ptp(scene: _core.PlanningScene, start: _core.RobotState, request: MotionReq
         last = state.get_group(request.group)
     else:
         link, pose = _goal_pose(scene, start, request)
-        found = ik(scene, request.group, pose, link=link, seed=start, timeout=1.0, max_restarts=500, avoid_collisions=True, random_seed=1, solutions=8)
+        found = ik(
+            scene,
+            request.group,
+            pose,
+            link=link,
+            seed=start,
+            timeout=1.0,
+            max_restarts=500,
+            avoid_collisions=True,
+            random_seed=1,
+            solutions=8,
+        )
         if not found:
             raise _Refused("no_ik_solution", found.message)
         last = found.solutions[0]
@@ -158,7 +173,9 @@ def _ptp(scene: _core.PlanningScene, start: _core.RobotState, request: MotionReq
     times = profile.times()
     direction = (last - first) / way
     rows = np.array([profile.at(t) for t in times])
-    return Trajectory(scene.model, request.group, start, first + rows[:, :1] * direction, times, rows[:, 1:2] * direction, rows[:, 2:] * direction)
+    return Trajectory(
+        scene.model, request.group, start, first + rows[:, :1] * direction, times, rows[:, 1:2] * direction, rows[:, 2:] * direction
+    )
 
 
 def _along(scene: _core.PlanningScene, start: _core.RobotState, request: MotionRequest, link: str, length: float, angle: float,
@@ -179,12 +196,18 @@ def _along(scene: _core.PlanningScene, start: _core.RobotState, request: MotionR
         pose = pose_at(profile.at(now)[0] / way)
         found = ik(scene, request.group, pose, link=link, seed=seed, timeout=0.1, max_restarts=0)
         if not found:
-            raise _Refused("no_ik_solution", f"the {request.planner} motion cannot be followed beyond {profile.at(now)[0] / way:.0%} of its way: {found.message}")
+            raise _Refused(
+                "no_ik_solution",
+                f"the {request.planner} motion cannot be followed beyond {profile.at(now)[0] / way:.0%} of its way: {found.message}",
+            )
         step = np.abs(found.solutions[0] - positions[-1]) / (now - before)
         if (step > velocity * 1.001).any():
             worst = int(np.argmax(step / velocity))
-            raise _Refused("conversion_failed", f"the {request.planner} motion would move joint '{scene.model.group(request.group).variables[worst]}' at "
-                           f"{step[worst]:.3g}, above its velocity limit {velocity[worst]:.3g}; a smaller velocity scaling helps")
+            raise _Refused(
+                "conversion_failed",
+                f"the {request.planner} motion would move joint '{scene.model.group(request.group).variables[worst]}' at "
+                f"{step[worst]:.3g}, above its velocity limit {velocity[worst]:.3g}; a smaller velocity scaling helps",
+            )
         positions.append(found.solutions[0])
         seed.set_group(request.group, found.solutions[0])
     return _trajectory(scene, request.group, start, times, positions)
@@ -206,7 +229,9 @@ def _circle(start: np.ndarray, goal: np.ndarray, point: np.ndarray, kind: str) -
         normal = np.cross(a, b)
         if np.linalg.norm(normal) < 1e-9:
             raise _Refused("failed", "start, interim point and goal of the circle lie on one line")
-        centre = start + (np.dot(b, b) * np.cross(np.cross(a, b), a) + np.dot(a, a) * np.cross(b, np.cross(a, b))) / (2 * np.dot(normal, normal))
+        centre = start + (np.dot(b, b) * np.cross(np.cross(a, b), a) + np.dot(a, a) * np.cross(b, np.cross(a, b))) / (
+            2 * np.dot(normal, normal)
+        )
     else:
         centre = point
         normal = np.cross(start - centre, goal - centre)
@@ -225,7 +250,9 @@ def _circ(scene: _core.PlanningScene, start: _core.RobotState, request: MotionRe
     link, goal = _goal_pose(scene, start, request)
     extra = request.path_constraints
     if extra is None or extra.name not in ("interim", "center") or len(extra.position) != 1 or not extra.position[0].region:
-        raise _Refused("no_goal", "CIRC needs path constraints named 'interim' or 'center' with one position constraint: its auxiliary point")
+        raise _Refused(
+            "no_goal", "CIRC needs path constraints named 'interim' or 'center' with one position constraint: its auxiliary point"
+        )
     point = scene.frame_pose(extra.position[0].frame, start) * extra.position[0].region[0][1].position
     origin = start.pose(link)
     length, place = _circle(origin.position, goal.position, point, extra.name)
@@ -251,9 +278,17 @@ def pilz_plan(scene: _core.PlanningScene, request: MotionRequest, cancel: Option
             raise _Refused("unknown_planner", f"there is no planner '{request.planner[:40]}' (there is: {', '.join(_MOTIONS)})")
         trajectory = motion(scene, start, request, limits)
     except _Refused as refused:
-        return PlanResult(refused.status, message=str(refused), start=start, planner=request.planner, planning_time=time.perf_counter() - begun)
+        return PlanResult(
+            refused.status, message=str(refused), start=start, planner=request.planner, planning_time=time.perf_counter() - begun
+        )
     except _core.UnknownNameError as error:
-        status = "invalid_group" if str(error).startswith("no group") else "unknown_link" if str(error).startswith("no link") else "unknown_frame"
+        status = (
+            "invalid_group"
+            if str(error).startswith("no group")
+            else "unknown_link"
+            if str(error).startswith("no link")
+            else "unknown_frame"
+        )
         return PlanResult(status, message=str(error), start=start, planner=request.planner)
     except _core.MotionError as error:
         return PlanResult("invalid_request", message=str(error), start=start, planner=request.planner)
@@ -282,7 +317,9 @@ class SequenceResult:
         return self.status == "solved"
 
 
-def _blend(scene: _core.PlanningScene, first: Trajectory, second: Trajectory, link: str, radius: float, limits: CartesianLimits) -> Trajectory:
+def _blend(
+    scene: _core.PlanningScene, first: Trajectory, second: Trajectory, link: str, radius: float, limits: CartesianLimits
+) -> Trajectory:
     """One trajectory that leaves the first where it enters the ball about its end, and joins the second where that leaves it."""
     places = [np.array([t.state(i).pose(link).position for i in range(len(t))]) for t in (first, second)]
     corner = places[0][-1]
@@ -329,7 +366,11 @@ def pilz_sequence(scene: _core.PlanningScene, items: Sequence[Tuple[MotionReques
     out: List[Trajectory] = []
     pending = 0.0
     for index, (request, radius) in enumerate(items):
-        if index and request.start is not None and request.start.get_group(request.group).tolist() != state.get_group(request.group).tolist():
+        if (
+            index
+            and request.start is not None
+            and request.start.get_group(request.group).tolist() != state.get_group(request.group).tolist()
+        ):
             return SequenceResult("invalid_request", f"motion {index + 1} of the sequence has a start state: only the first may")
         wanted = MotionRequest(**{**request.__dict__, "start": request.start if index == 0 and request.start is not None else state})
         result = pilz_plan(scene, wanted, cancel, limits)

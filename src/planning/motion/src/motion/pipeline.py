@@ -115,9 +115,16 @@ def _timing(method: str):
         if not result or result.trajectory is None:
             return result
         try:
-            timed = time_parameterize(scene.model, result.trajectory, method, velocity_scaling=request.velocity_scaling,
-                                      acceleration_scaling=request.acceleration_scaling, path_tolerance=pipeline.number("path_tolerance", 0.1),
-                                      resample_dt=pipeline.number("resample_dt", 0.1), min_angle_change=pipeline.number("min_angle_change", 0.001))
+            timed = time_parameterize(
+                scene.model,
+                result.trajectory,
+                method,
+                velocity_scaling=request.velocity_scaling,
+                acceleration_scaling=request.acceleration_scaling,
+                path_tolerance=pipeline.number("path_tolerance", 0.1),
+                resample_dt=pipeline.number("resample_dt", 0.1),
+                min_angle_change=pipeline.number("min_angle_change", 0.001),
+            )
         except _core.InvalidInputError as error:
             return replace(result, status="failed", message=str(error))
         return replace(result, trajectory=timed)
@@ -177,7 +184,9 @@ def _start_collision(pipeline: Pipeline, inside: Planner, scene, request, cancel
     for _ in range(int(pipeline.number("max_sampling_attempts", 100))):
         near.set_group(request.group, np.clip(values + random.uniform(-1, 1, len(values)) * reach, lower, upper))
         if not scene.check(near, group=request.group):
-            return _with_start_before(inside(scene, replace(request, start=near), cancel), start, pipeline.number("start_state_max_dt", 0.5))
+            return _with_start_before(
+                inside(scene, replace(request, start=near), cancel), start, pipeline.number("start_state_max_dt", 0.5)
+            )
     return inside(scene, request, cancel)  # which says what touches
 
 

@@ -23,12 +23,16 @@ def _scaling(value: float) -> float:
     return float(value) if 0.0 < value <= 1.0 else 1.0
 
 
-def _limits(trajectory: Trajectory, velocity_scaling: float, acceleration_scaling: float, scale_unset: bool) -> Tuple[np.ndarray, np.ndarray]:
+def _limits(
+    trajectory: Trajectory, velocity_scaling: float, acceleration_scaling: float, scale_unset: bool
+) -> Tuple[np.ndarray, np.ndarray]:
     velocity, acceleration = [], []
     for name in trajectory.variables:
         limits = trajectory.model.variable_limits(name)
-        for has, most, scaling, into, what in ((limits.has_velocity, limits.max_velocity, velocity_scaling, velocity, "velocity"),
-                                               (limits.has_acceleration, limits.max_acceleration, acceleration_scaling, acceleration, "acceleration")):
+        for has, most, scaling, into, what in (
+            (limits.has_velocity, limits.max_velocity, velocity_scaling, velocity, "velocity"),
+            (limits.has_acceleration, limits.max_acceleration, acceleration_scaling, acceleration, "acceleration"),
+        ):
             if has and not most > 0:
                 raise _core.InvalidInputError(f"joint '{name}' has a {what} limit of {most:g}: it must be above 0 (joint_limits.yaml)")
             into.append(most * scaling if has else _UNSET * (scaling if scale_unset else 1.0))

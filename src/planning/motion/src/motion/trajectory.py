@@ -126,7 +126,10 @@ class Trajectory:
             if limits.has_position and len(self):
                 lowest, highest = self.positions[:, index].min(), self.positions[:, index].max()
                 if lowest < limits.min_position - tolerance or highest > limits.max_position + tolerance:
-                    said.append(f"joint '{name}': positions {lowest:.4g} to {highest:.4g} leave {limits.min_position:.4g} to {limits.max_position:.4g}")
+                    said.append(
+                        f"joint '{name}': positions {lowest:.4g} to {highest:.4g} leave "
+                        f"{limits.min_position:.4g} to {limits.max_position:.4g}"
+                    )
         return said
 
     def __repr__(self) -> str:

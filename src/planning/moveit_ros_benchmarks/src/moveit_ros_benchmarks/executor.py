@@ -121,10 +121,16 @@ class Executor:
                 state = self._model.state()
                 state.set_named(group, goal)
                 names = self._model.group(self.options.group).variables
-                wanted = Constraints(name=goal, joint_constraints=[JointConstraint(name, state.get(name), 1e-4, 1e-4, 1.0) for name in names])
+                wanted = Constraints(
+                    name=goal, joint_constraints=[JointConstraint(name, state.get(name), 1e-4, 1e-4, 1.0) for name in names]
+                )
                 first = self._model.state()
                 first.set_named(group, start)
-                found.append(Problem(f"{start}_{goal}", self._request(goal_constraints=[wanted], start_state=states.robot_state_message(first))))
+                found.append(
+                    Problem(
+                        f"{start}_{goal}", self._request(goal_constraints=[wanted], start_state=states.robot_state_message(first))
+                    )
+                )
         return found
 
     def _load_scene(self, warehouse: Warehouse) -> None:

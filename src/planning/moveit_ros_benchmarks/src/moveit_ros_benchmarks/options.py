@@ -65,7 +65,10 @@ def read(config: Any, where: str) -> Options:
     options.goal_offset = tuple(_number(offset, key, 0.0, where) for key in ("x", "y", "z", "roll", "pitch", "yaw"))
     space = _table(parameters, "workspace", where)
     if space:
-        corners = [tuple(_number(_table(space, corner, where), axis, 0.0, where) for axis in "xyz") for corner in ("min_corner", "max_corner")]
+        corners = [
+            tuple(_number(_table(space, corner, where), axis, 0.0, where) for axis in "xyz")
+            for corner in ("min_corner", "max_corner")
+        ]
         options.workspace = (str(space.get("frame_id", "")), *corners)
     options.pipelines = _pipelines(config.get("planning_pipelines", []), where)
     if not options.group:
@@ -83,7 +86,9 @@ def _table(config: Dict[str, Any], key: str, where: str) -> Dict[str, Any]:
 def _number(table: Dict[str, Any], key: str, default: float, where: str, least: float = -1e9) -> float:
     value = table.get(key, default)
     if isinstance(value, bool) or not isinstance(value, (int, float)) or not least <= value < 1e9:
-        raise OptionsError(f"{where}: {key} is '{str(value)[:40]}', where a number" + (f" from {least:g}" if least > -1e9 else "") + " is expected")
+        raise OptionsError(
+            f"{where}: {key} is '{str(value)[:40]}', where a number" + (f" from {least:g}" if least > -1e9 else "") + " is expected"
+        )
     return float(value)
 
 
@@ -130,7 +135,14 @@ def _old(content: str, file: str) -> Options:
         kind = parser[name].get("name", "")
         pipelines.append({"name": "ompl" if "ompl" in kind.lower() else kind, "planners": parser[name].get("planners", "").split()})
     numbers = {key: yaml.safe_load(scene[key]) for key in ("runs", "timeout") if key in scene}
-    parameters = {"name": scene.get("name", ""), "group": scene.get("group", ""), "queries": scene.get("query", ".*"),
-                  "start_states": scene.get("start", ""), "goal_constraints": scene.get("goal", ""),
-                  "path_constraints": scene.get("path_constraints", ""), "output_directory": os.path.dirname(scene.get("output", "")), **numbers}
+    parameters = {
+        "name": scene.get("name", ""),
+        "group": scene.get("group", ""),
+        "queries": scene.get("query", ".*"),
+        "start_states": scene.get("start", ""),
+        "goal_constraints": scene.get("goal", ""),
+        "path_constraints": scene.get("path_constraints", ""),
+        "output_directory": os.path.dirname(scene.get("output", "")),
+        **numbers,
+    }
     return read({"warehouse": {"scene_name": scene.get("name", "")}, "parameters": parameters, "planning_pipelines": pipelines}, file)

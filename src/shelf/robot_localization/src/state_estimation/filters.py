@@ -59,8 +59,11 @@ class Ekf:
         used = measurement.used
         self.state[used] = measurement.values[used]
         block = np.ix_(used, used)
-        self.covariance[block] = np.where(np.eye(used.sum(), dtype=bool), np.maximum(np.abs(measurement.covariance[block]), _LEAST_VARIANCE),
-                                          measurement.covariance[block])
+        self.covariance[block] = np.where(
+            np.eye(used.sum(), dtype=bool),
+            np.maximum(np.abs(measurement.covariance[block]), _LEAST_VARIANCE),
+            measurement.covariance[block],
+        )
         self.time = measurement.time
         self._flatten()
 

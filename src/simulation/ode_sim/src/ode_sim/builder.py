@@ -177,7 +177,11 @@ class Builder:
             axis = self._numbers_of(axis, where, joint)
             lower, upper = unlimited(axis.lower), unlimited(axis.upper)
             if lower == math.inf or upper == -math.inf:
-                self._problem("warning", f"{where}: no position is between the limits {axis.lower:g} and {axis.upper:g}; it has none", joint.source)
+                self._problem(
+                    "warning",
+                    f"{where}: no position is between the limits {axis.lower:g} and {axis.upper:g}; it has none",
+                    joint.source,
+                )
                 lower, upper = -math.inf, math.inf
             if lower > upper:
                 self._problem("warning", f"{where}: lower limit {lower:g} is above upper limit {upper:g}; they are swapped", joint.source)

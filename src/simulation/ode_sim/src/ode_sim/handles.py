@@ -209,7 +209,9 @@ class JointHandle:
         # The calls of every controller cycle go straight to the core.
         self.position = core.position
         self.velocity = core.velocity
-        self.effort = core.effort  # N m or N: the sum of the forces added since the last step, after truncation; that of the step if none were
+        self.effort = (
+            core.effort
+        )  # N m or N: the sum of the forces added since the last step, after truncation; that of the step if none were
         self.motor = core.motor
         self._servo = core.servo
 

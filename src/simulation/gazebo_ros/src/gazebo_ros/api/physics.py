@@ -71,7 +71,9 @@ class PhysicsServices:
             if not BOUNDS[setting].hold(values[name]):
                 raise Refused(f"{name} must be {BOUNDS[setting]}, not {values[name]:g}; nothing is changed")
         changes = {setting: values[name] for name, setting in _SETTINGS.items()}
-        self._world.set_physics(replace(self._world.physics.record(), **changes), (values["gravity_x"], values["gravity_y"], values["gravity_z"]))
+        self._world.set_physics(
+            replace(self._world.physics.record(), **changes), (values["gravity_x"], values["gravity_y"], values["gravity_z"])
+        )
         self._auto_disable = values["auto_disable_bodies"]
 
     def _get(self, request, response) -> str:
