@@ -11,6 +11,7 @@
 #include <QSlider>
 #include <fstream>
 #include <sstream>
+#include <tuple>
 
 #include "objects_tab.hpp"
 #include "scene_text.hpp"
@@ -87,6 +88,7 @@ void ObjectsTab::addShape(const std::string& kind, const shapes::ShapeConstPtr& 
         fillList(scene);
       }))
     return;
+  removed_.erase(id);
   for (int row = 0; row < list_->count(); ++row)
     if (list_->item(row)->text().toStdString() == id) list_->setCurrentRow(row);
   edited();
@@ -100,11 +102,14 @@ void ObjectsTab::remove() {
     scene.getCurrentStateNonConst().clearAttachedBody(id);
     scene.removeObjectColor(id);
   });
+  removed_.insert(id);
   edited();
 }
 
 void ObjectsTab::clear() {
-  if (change([](planning_scene::PlanningScene& scene) { scene.removeAllCollisionObjects(); })) edited();
+  if (!change([](planning_scene::PlanningScene& scene) { scene.removeAllCollisionObjects(); })) return;
+  removed_.insert(world_.begin(), world_.end());
+  edited();
 }
 
 void ObjectsTab::rename(const std::string& from, const std::string& to) {
@@ -121,6 +126,8 @@ void ObjectsTab::rename(const std::string& from, const std::string& to) {
     if (scene.hasObjectColor(from)) scene.setObjectColor(to, scene.getObjectColor(from));
     scene.getWorldNonConst()->removeObject(from);
   });
+  removed_.insert(from);
+  removed_.erase(to);
   edited();
 }
 
@@ -220,6 +227,12 @@ void ObjectsTab::publish() {
   message.is_diff = message.robot_state.is_diff = true;
   const auto monitor = dock_->display().monitor();
   if (!monitor || !publisher_) return dock_->say("there is no move_group to publish the scene to", true);
+  change([this](planning_scene::PlanningScene& scene) {  // what move_group said of them meanwhile was said before it knew
+    for (const std::string& id : removed_)
+      if (scene.getWorld()->hasObject(id)) scene.getWorldNonConst()->removeObject(id);
+  });
+  known_world_.insert(removed_.begin(), removed_.end());
+  removed_.clear();
   {
     const planning_scene_monitor::LockedPlanningSceneRO scene(monitor);
     message.name = scene->getName();
@@ -247,6 +260,7 @@ void ObjectsTab::publish() {
         gone.operation = moveit_msgs::CollisionObject::REMOVE;
         message.world.collision_objects.push_back(gone);
       }
+    std::tie(known_world_, known_attached_) = names(*scene.operator->());  // move_group has them now, whenever its scene comes back
   }
   publisher_.publish(message);
   edited_ = false;

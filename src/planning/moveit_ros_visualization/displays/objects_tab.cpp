@@ -35,6 +35,16 @@ Button* button(const QString& text, const char* name, const char* tip, QWidget* 
 }
 }  // namespace
 
+std::pair<std::set<std::string>, std::set<std::string>> ObjectsTab::names(const planning_scene::PlanningScene& scene) {
+  std::set<std::string> world, attached;
+  for (const std::string& id : scene.getWorld()->getObjectIds())
+    if (id != planning_scene::PlanningScene::OCTOMAP_NS) world.insert(id);
+  std::vector<const moveit::core::AttachedBody*> bodies;
+  scene.getCurrentState().getAttachedBodies(bodies);
+  for (const moveit::core::AttachedBody* body : bodies) attached.insert(body->getName());
+  return {world, attached};
+}
+
 ObjectsTab::ObjectsTab(Dock* dock) : Tab(dock) {
   setObjectName("scene_objects");
   auto* layout = new QGridLayout(this);
@@ -161,6 +171,7 @@ void ObjectsTab::robotGone() {
   filling_ = false;
   world_.clear();
   attached_.clear();
+  removed_.clear();
   edited_ = false;
   publish_->setStyleSheet("");
   pose_box_->setEnabled(false);
@@ -171,12 +182,7 @@ void ObjectsTab::moveGroupCame() {
 }
 
 void ObjectsTab::sceneShown(const planning_scene::PlanningScene& scene) {
-  std::set<std::string> world, attached;
-  for (const std::string& id : scene.getWorld()->getObjectIds())
-    if (id != planning_scene::PlanningScene::OCTOMAP_NS) world.insert(id);
-  std::vector<const moveit::core::AttachedBody*> bodies;
-  scene.getCurrentState().getAttachedBodies(bodies);
-  for (const moveit::core::AttachedBody* body : bodies) attached.insert(body->getName());
+  const auto [world, attached] = names(scene);
   if (!edited_) {
     known_world_ = world;
     known_attached_ = attached;

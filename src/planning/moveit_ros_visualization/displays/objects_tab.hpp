@@ -4,6 +4,8 @@
 #include <moveit_msgs/PlanningScene.h>
 
 #include <set>
+#include <string>
+#include <utility>
 
 #include "dock.hpp"
 
@@ -32,6 +34,8 @@ class ObjectsTab : public Tab {
   void dragged(const Eigen::Isometry3d& pose);
 
  private:
+  // of a scene: objects of its world, attached ones
+  static std::pair<std::set<std::string>, std::set<std::string>> names(const planning_scene::PlanningScene& scene);
   QWidget* makeList();
   QWidget* makeAdd();
   QWidget* makePose();
@@ -70,6 +74,7 @@ class ObjectsTab : public Tab {
   QPushButton* publish_;
   QWidget* pose_box_;
   std::set<std::string> world_, attached_;                // shown in the list
+  std::set<std::string> removed_;                         // by hand, since the last publication
   std::set<std::string> known_world_, known_attached_;    // to move_group, when nothing was edited
   std::vector<shapes::ShapeConstPtr> unscaled_;
   ros::Publisher publisher_;

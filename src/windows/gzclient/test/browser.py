@@ -80,6 +80,19 @@ class Browser:
     def shot(self, file):
         self.driver.save_screenshot(file)
 
+    def scene(self):
+        """The picture of the scene, as PNG."""
+        from selenium.webdriver.common.by import By
+        return self.driver.find_element(By.CSS_SELECTOR, "canvas").screenshot_as_png
+
+    def settled(self, before):
+        """Wait until the scene looks otherwise than in the picture ``before`` and does not change any more."""
+        def still():
+            first = self.scene()
+            time.sleep(2.0 / FRAMES)
+            return first != before and first == self.scene()
+        wait(still, "a scene at rest")
+
     def downloaded(self, ending):
         """The whole content of a file of that ending, once it has come."""
         def whole():
