@@ -23,6 +23,7 @@ from typing import Iterator, List, Optional
 
 ROOT = Path(__file__).resolve().parent.parent
 TIME_LIMIT = 300  # s for one file; a test that takes longer hangs
+ENDING = 30  # s in which it ends what it started, before it is killed
 
 
 @dataclass
@@ -141,8 +142,12 @@ def run(job: Job, scratch: Path) -> Result:
     try:
         output, _ = process.communicate(timeout=TIME_LIMIT)
     except subprocess.TimeoutExpired:
-        os.killpg(process.pid, signal.SIGKILL)
-        output, _ = process.communicate()
+        os.killpg(process.pid, signal.SIGINT)  # rostest's nodes have sessions of their own; it ends them on this
+        try:
+            output, _ = process.communicate(timeout=ENDING)
+        except subprocess.TimeoutExpired:
+            os.killpg(process.pid, signal.SIGKILL)
+            output, _ = process.communicate()
         output += f"\n{job.name}: stopped after {TIME_LIMIT} s\n"
     seconds = time.monotonic() - start
     if job.kind == "pytest":
