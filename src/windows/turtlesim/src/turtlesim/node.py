@@ -1,5 +1,4 @@
 """The node turtlesim: topics and services of the turtles, and the loop that moves them."""
-import os
 import queue
 import random
 import sys
@@ -10,6 +9,7 @@ import node_signals
 import rosgraph
 import rospy
 from geometry_msgs.msg import Twist
+from node_signals.display import missing_display
 from std_srvs.srv import Empty, EmptyResponse
 
 from .msg import Color, Pose
@@ -170,31 +170,10 @@ class TurtleNode:
         return EmptyResponse()
 
 
-def _no_display() -> str:
-    """Why Qt will not be able to open a window here, or "" - it would abort, with a core file and without a remedy."""
-    if os.environ.get("QT_QPA_PLATFORM") or os.environ.get("WAYLAND_DISPLAY"):
-        return ""
-    display = os.environ.get("DISPLAY")
-    if not display:
-        return "DISPLAY is not set"
-    import ctypes
-
-    try:
-        x11 = ctypes.CDLL("libX11.so.6")
-    except OSError:  # let Qt say what is missing
-        return ""
-    x11.XOpenDisplay.restype = ctypes.c_void_p
-    connection = x11.XOpenDisplay(None)
-    if not connection:
-        return f"there is no display {display}"
-    x11.XCloseDisplay(ctypes.c_void_p(connection))
-    return ""
-
-
 def main() -> int:
-    reason = _no_display()
-    if reason:
-        print(f"turtlesim_node: cannot open a window: {reason}; to run without one: QT_QPA_PLATFORM=offscreen", file=sys.stderr)
+    problem = missing_display()
+    if problem:
+        print(f"turtlesim_node: {problem}; to run without a window: QT_QPA_PLATFORM=offscreen", file=sys.stderr)
         return 1
     from python_qt_binding.QtCore import Qt, QTimer
     from python_qt_binding.QtWidgets import QApplication
