@@ -41,6 +41,15 @@ def wait_for_recorder():
     raise AssertionError("rosbag record does not listen to /scan and /odom")
 
 
+def wait_for_file(path):
+    """rosbag's script ends before the recorder behind it has closed the bag and given it its name."""
+    deadline = time.monotonic() + PATIENCE
+    while not os.path.exists(path):
+        if time.monotonic() > deadline:
+            raise AssertionError(f"no {path} after {PATIENCE} s; there are {os.listdir(os.path.dirname(path))}")
+        time.sleep(0.05)
+
+
 class MbotBag(unittest.TestCase):
     def drive(self, scans, commands):
         """Ahead at SPEED for SECONDS, then to rest. :returns: stamps of the first and last scan of the drive"""
@@ -77,6 +86,7 @@ class MbotBag(unittest.TestCase):
             finally:
                 recorder.send_signal(signal.SIGINT)
                 recorder.wait(timeout=PATIENCE)
+            wait_for_file(file)
             with rosbag.Bag(file) as bag:
                 recorded = [message for _, message, _ in bag.read_messages("/scan")]
                 self.assertGreater(bag.get_message_count("/tf"), 0)
