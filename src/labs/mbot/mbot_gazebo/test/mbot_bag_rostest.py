@@ -21,6 +21,7 @@ from sensor_msgs.msg import LaserScan
 NOISE = 0.01  # m, standard deviation of a ray
 WALL = 5.18 - 0.075  # m, ahead of where the robot starts
 SPEED, SECONDS = 0.3, 4.0
+RECORDED = 15.0  # s of the simulation: more than the drive takes
 
 
 def content(scan):
@@ -39,15 +40,6 @@ def wait_for_recorder():
             return
         time.sleep(0.05)
     raise AssertionError("rosbag record does not listen to /scan and /odom")
-
-
-def wait_for_file(path):
-    """rosbag's script ends before the recorder behind it has closed the bag and given it its name."""
-    deadline = time.monotonic() + PATIENCE
-    while not os.path.exists(path):
-        if time.monotonic() > deadline:
-            raise AssertionError(f"no {path} after {PATIENCE} s; there are {os.listdir(os.path.dirname(path))}")
-        time.sleep(0.05)
 
 
 class MbotBag(unittest.TestCase):
@@ -75,18 +67,17 @@ class MbotBag(unittest.TestCase):
         commands = rospy.Publisher("/cmd_vel", Twist, queue_size=1, latch=True)
         with tempfile.TemporaryDirectory() as folder:
             file = os.path.join(folder, "room.bag")
-            recorder = subprocess.Popen(["rosbag", "record", "-q", "-O", file, "/scan", "/odom", "/tf", "/tf_static",
-                                         "__name:=recorder"])
+            # the recorder ends by its own count of the time: a signal of ours would cost what it has not yet read
+            recorder = subprocess.Popen(["rosbag", "record", "-q", "-O", file, f"--duration={RECORDED}", "/scan", "/odom",
+                                         "/tf", "/tf_static", "__name:=recorder"])
             try:
                 wait_for_recorder()
                 run_free(5)
                 first, last = self.drive(scans, commands)
-                # the next scan: what was sent before it has been handed to the recorder
-                scans.wait_for(lambda m: m.header.stamp > last, "another scan")
+                self.assertEqual(recorder.wait(timeout=PATIENCE), 0)
             finally:
                 recorder.send_signal(signal.SIGINT)
                 recorder.wait(timeout=PATIENCE)
-            wait_for_file(file)
             with rosbag.Bag(file) as bag:
                 recorded = [message for _, message, _ in bag.read_messages("/scan")]
                 self.assertGreater(bag.get_message_count("/tf"), 0)
