@@ -57,10 +57,10 @@ class RosPid(Pid):
     def compute_command(self, error: float, dt: float, error_dot: Optional[float] = None) -> float:
         command = super().compute_command(error, dt, error_dot)
         if self._publisher is not None and self._publisher.has_subscribers:
-            self._publish(dt)
+            self._publish(self._publisher, dt)
         return command
 
-    def _publish(self, dt: float) -> None:
+    def _publish(self, publisher: RealtimePublisher, dt: float) -> None:
         gains = self.gains
         p_term, d_term = gains.p * self.p_error, gains.d * self.d_error
         i_term = gains.i * self.i_error
@@ -69,7 +69,7 @@ class RosPid(Pid):
                            i_term=i_term if gains.antiwindup else min(max(i_term, gains.i_min), gains.i_max),
                            d_term=d_term, i_max=gains.i_max, i_min=gains.i_min, output=self.command)
         message.header.stamp = rospy.get_rostime()
-        self._publisher.publish(message)
+        publisher.publish(message)
 
 
 def _to_config(gains: Gains) -> Dict[str, Any]:

@@ -142,12 +142,12 @@ class MultiInterfaceController(ControllerBase):
 
     def init_request(self, robot_hw: RobotHW, root_nh: NodeHandle,
                      controller_nh: NodeHandle) -> Tuple[InterfaceResources, ...]:
-        present = [robot_hw.get(interface) for interface in self.interfaces]
-        if not self.optional and None in present:
-            raise _missing([wanted.type_name for wanted, have in zip(self.interfaces, present) if have is None],
+        there = [robot_hw.get(interface) for interface in self.interfaces]
+        if not self.optional and None in there:
+            raise _missing([wanted.type_name for wanted, have in zip(self.interfaces, there) if have is None],
                            robot_hw)
         view = RobotHW()
-        present = [interface for interface in present if interface is not None]
+        present = [interface for interface in there if interface is not None]
         for interface in present:
             view.register_interface(interface)
         return self._init_with(view, present, root_nh, controller_nh)

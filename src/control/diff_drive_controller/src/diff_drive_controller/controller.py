@@ -102,9 +102,10 @@ class DiffDriveController(WheeledBase, Controller):
             message.twist.angular.z = angular
             self._command_publisher.publish(message)
         if self._wheel_publisher is not None:
-            self._publish_wheels(time, period, left_velocity, right_velocity)
+            self._wheel_publisher.publish(self._wheel_state(time, period, left_velocity, right_velocity))
 
-    def _publish_wheels(self, time: float, period: float, left_velocity: float, right_velocity: float) -> None:
+    def _wheel_state(self, time: float, period: float, left_velocity: float,
+                     right_velocity: float) -> JointTrajectoryControllerState:
         """State of every wheel, left ones first."""
         states = [handle.state for handle in (*self._left, *self._right)]
         desired = [left_velocity] * len(self._left) + [right_velocity] * len(self._right)
@@ -126,7 +127,7 @@ class DiffDriveController(WheeledBase, Controller):
                                                                  getattr(message.actual, field))])
         message.error.time_from_start = message.desired.time_from_start
         self._last_velocities = (desired, actual)
-        self._wheel_publisher.publish(message)
+        return message
 
 
 def wheel_names(nh: NodeHandle, name: str) -> List[str]:

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from enum import Enum
-from typing import Dict, List, Optional, Sequence, Tuple, Type, TypeVar, Union
+from typing import Dict, List, Optional, Sequence, Tuple, Type, TypeVar, Union, overload
 
 import rospy
 
@@ -61,7 +61,13 @@ class RobotHW:
         self._children.append(hw)
         self._merged.clear()
 
-    def get(self, interface: Union[Type[InterfaceT], str]) -> Optional[InterfaceT]:
+    @overload
+    def get(self, interface: Type[InterfaceT]) -> Optional[InterfaceT]: ...
+
+    @overload
+    def get(self, interface: str) -> Optional[HardwareInterface]: ...
+
+    def get(self, interface: Union[Type[HardwareInterface], str]) -> Optional[HardwareInterface]:
         """The interface of that class (or C++ name), or None. The same object every time, as long as nothing is
         registered in between: claims live in it."""
         name = interface if isinstance(interface, str) else interface.type_name

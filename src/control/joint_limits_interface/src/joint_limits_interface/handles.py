@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import time
 from math import inf
-from typing import Dict
+from typing import Any, Dict
 
 import rospy
 from hardware_interface import JointHandle
@@ -48,7 +48,7 @@ class _LimitHandle:
 
     def reset(self) -> None:
         """Forget the last command (after the robot was moved by other means)."""
-        self._previous = 0.0
+        self._previous: Any = 0.0  # a number in all but the position handles
 
     def enforce_limits(self, dt: float) -> None:
         raise NotImplementedError

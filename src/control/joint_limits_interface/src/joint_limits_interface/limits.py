@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import Any, Dict, Optional
+from typing import Any, Dict, List, Optional
 
 import rospy
 
@@ -58,7 +58,9 @@ def limits_from_urdf(joint: JointDescription, limits: JointLimits = JointLimits(
 def soft_limits_from_urdf(joint: JointDescription) -> Optional[SoftJointLimits]:
     """What ``<safety_controller>`` says; None without one."""
     safety = joint.safety
-    return safety and SoftJointLimits(safety.lower, safety.upper, safety.k_position, safety.k_velocity)
+    if safety is None:
+        return None
+    return SoftJointLimits(safety.lower, safety.upper, safety.k_position, safety.k_velocity)
 
 
 def _read(nh: Any, joint: str) -> Optional[Dict[str, Any]]:
@@ -97,7 +99,7 @@ def soft_limits_from_params(nh: Any, joint: str) -> Optional[SoftJointLimits]:
 
 
 def soft_limits_of(values: Dict[str, Any]) -> Optional[SoftJointLimits]:
-    numbers = [values.get(name) for name in ("soft_lower_limit", "soft_upper_limit", "k_position", "k_velocity")]
+    numbers: List[Any] = [values.get(name) for name in ("soft_lower_limit", "soft_upper_limit", "k_position", "k_velocity")]
     if values.get("has_soft_limits") is not True or not all(map(_is_number, numbers)):
         return None
     return SoftJointLimits(*map(float, numbers))

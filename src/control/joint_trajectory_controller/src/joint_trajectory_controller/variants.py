@@ -2,10 +2,11 @@
 from __future__ import annotations
 
 import math
+from typing import ClassVar, Type
 
 from control_toolbox import load_pid
 from controller_interface import ParameterError
-from hardware_interface import (EffortJointInterface, PosVelAccJointInterface, PosVelJointInterface,
+from hardware_interface import (EffortJointInterface, HardwareInterface, PosVelAccJointInterface, PosVelJointInterface,
                                 PositionJointInterface, VelocityJointInterface)
 
 from .controller import JointTrajectoryController
@@ -32,7 +33,7 @@ class PositionTrajectoryController(JointTrajectoryController):
 class PosVelTrajectoryController(JointTrajectoryController):
     """Desired positions and velocities."""
 
-    interface = PosVelJointInterface
+    interface: ClassVar[Type[HardwareInterface]] = PosVelJointInterface
 
     def init_output(self, handles, controller_nh):
         self._handles = handles

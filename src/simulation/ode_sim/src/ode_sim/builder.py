@@ -154,7 +154,7 @@ class Builder:
         where = f"joint '{joint.name}' of model '{model.name}'"
         kind = JOINT_TYPES.get(joint.type)
         child, parent = model.links.get(joint.child), model.links.get(joint.parent)
-        reason = None
+        reason = ""
         if kind is None:
             reason = f"type '{joint.type}' is not simulated (there are {', '.join(JOINT_TYPES)})"
         elif child is None:
@@ -165,7 +165,7 @@ class Builder:
             reason = "parent and child are the same link"
         elif kind == "universal" and len(joint.axes) < 2:
             reason = "it needs two axes"
-        if reason:
+        if kind is None or child is None or reason:
             self._problem("error", f"{where} is left out, its links are not joined: {reason}", joint.source)
             return
         axes = self._axes(joint, kind, where)

@@ -355,14 +355,18 @@ class JointHandle:
             "vel": lambda: self.set_motor(value, force),
             "hi_stop": lambda: self.set_limits(self.limits()[0], value),
             "lo_stop": lambda: self.set_limits(value, self.limits()[1]),
-            "stop_erp": lambda: setattr(self.core, "stop_erp", value) or self.core.changed(),
-            "stop_cfm": lambda: setattr(self.core, "stop_cfm", value) or self.core.changed(),
+            "stop_erp": lambda: self._set_stop("stop_erp", value),
+            "stop_cfm": lambda: self._set_stop("stop_cfm", value),
             "friction": lambda: setattr(self, "friction", value),
             "damping": lambda: setattr(self, "damping", value),
         }
         if name not in setters:
             raise ValueError(f"joint {self.scoped_name} has no parameter '{name}'; there are {', '.join(setters)}")
         setters[name]()
+
+    def _set_stop(self, name: str, value: float) -> None:
+        setattr(self.core, name, value)
+        self.core.changed()
 
 
 class Attachment:

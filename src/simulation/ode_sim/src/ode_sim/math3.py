@@ -221,8 +221,14 @@ def from_matrix(m: Sequence[Sequence[float]]) -> Pose:
 
 # ---------------------------------------------------------------------------------------------- inertia
 
+def mat3(rows: Sequence[Sequence[float]]) -> Mat3:
+    (a, b, c), (d, e, f), (g, h, i) = rows
+    return (a, b, c), (d, e, f), (g, h, i)
+
+
 def rotate_inertia(q_ab: Quat, i_b: Sequence[Sequence[float]]) -> Mat3:
     """The tensor (rows, kg m^2 about one point) given in the axes of B, in those of A: R I R^T."""
     r = quat_to_matrix(q_ab)
     ri = [[sum(r[i][k] * i_b[k][j] for k in range(3)) for j in range(3)] for i in range(3)]
-    return tuple(tuple(sum(ri[i][k] * r[j][k] for k in range(3)) for j in range(3)) for i in range(3))
+    rows = [[sum(ri[i][k] * r[j][k] for k in range(3)) for j in range(3)] for i in range(3)]
+    return mat3(rows)

@@ -106,7 +106,7 @@ def file_stamp(path: str) -> Tuple[int, int]:
 
 
 def _usable_scale(scale: Vec3, path: str) -> Vec3:
-    scale = tuple(float(s) for s in scale)
+    scale = float(scale[0]), float(scale[1]), float(scale[2])
     if not all(abs(s) <= FARTHEST for s in scale):
         raise DescriptionError(f"mesh {path}: scale {' '.join(f'{s:g}' for s in scale)}; at most {FARTHEST:g} makes sense")
     return scale

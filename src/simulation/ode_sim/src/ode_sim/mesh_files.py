@@ -5,7 +5,7 @@ import functools
 import os
 import struct
 from dataclasses import dataclass, replace
-from typing import Dict, List, Optional, Tuple
+from typing import Any, Dict, List, Optional, Tuple
 
 import numpy as np
 
@@ -121,7 +121,9 @@ def _read_stl(path: str, data: bytes) -> List[MeshPart]:
 
 def _read_obj(path: str, data: bytes) -> List[MeshPart]:
     """Polygons with v, vt, vn; one part for each object and material."""
-    points, texture_points, normals = [], [], []
+    points: List[List[float]] = []
+    texture_points: List[List[float]] = []
+    normals: List[List[float]] = []
     materials: Dict[str, Material] = {}
     corners: Dict[Tuple[str, str], List[Tuple[int, int, int]]] = {}
     name, material = os.path.basename(path), ""
@@ -165,16 +167,17 @@ def _read_obj(path: str, data: bytes) -> List[MeshPart]:
 def _obj_corner(word: str, points: int, texture_points: int, normals: int) -> Tuple[int, int, int]:
     """``v/vt/vn``, from 1 or, negative, from the end; -1 for what is not given."""
     fields = (word.split("/") + ["", ""])[:3]
-    counts = (points, texture_points, normals)
-    return tuple(-1 if not text else int(text) - 1 if int(text) > 0 else count + int(text)
-                 for text, count in zip(fields, counts))
+    def place(text: str, count: int) -> int:
+        return -1 if not text else int(text) - 1 if int(text) > 0 else count + int(text)
+
+    return place(fields[0], points), place(fields[1], texture_points), place(fields[2], normals)
 
 
 def _read_mtl(path: str) -> Dict[str, Material]:
     if not os.path.isfile(path):
         return {}  # the shape is there all the same, drawn white
-    materials: Dict[str, Dict[str, object]] = {}
-    current: Dict[str, object] = {}
+    materials: Dict[str, Dict[str, Any]] = {}
+    current: Dict[str, Any] = {}
     with open(path, encoding="utf-8", errors="replace") as stream:
         for line in stream.read(_LONGEST_MTL).splitlines():
             words = line.split()
@@ -191,7 +194,7 @@ def _read_mtl(path: str) -> Dict[str, Material]:
                 texture = os.path.join(os.path.dirname(path), words[-1])
                 current[key] = os.path.abspath(texture) if os.path.isfile(texture) else ""
 
-    def material(name: str, given: Dict[str, object]) -> Material:
+    def material(name: str, given: Dict[str, Any]) -> Material:
         alpha = (given.get("d", 1.0),)
         colour = {key: given[key] + alpha if key in given else None for key in ("Ka", "Kd", "Ks", "Ke")}
         texture = given.get("map_Kd", "")

@@ -55,4 +55,4 @@ def _triangulate(points) -> List[Tuple[int, int, int]]:
             break
         else:
             raise DescriptionError("the outline of a polyline crosses itself")
-    return triangles + [tuple(left)]
+    return triangles + [(left[0], left[1], left[2])]

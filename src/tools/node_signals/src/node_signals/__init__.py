@@ -100,7 +100,11 @@ def end_when_starved_at_start() -> None:
             _end_starved("can't start new thread")
         return True
 
-    rospy.core.add_preshutdown_hook(lambda reason: _starved(RuntimeError(reason)) and _end_starved(reason))
+    def at_end(reason: str) -> None:
+        if _starved(RuntimeError(reason)):
+            _end_starved(reason)
+
+    rospy.core.add_preshutdown_hook(at_end)
     logging.getLogger("rosout").addFilter(look)
 
 

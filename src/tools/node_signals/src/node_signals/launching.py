@@ -110,7 +110,7 @@ def _naming_windows_without_display(start):
     def checked(process):
         window = asked_for(["rosrun", str(process.package), os.path.basename(process.args[0])] if process.args else [""])
         problem = missing_display() if window and window not in told else None
-        if problem:
+        if window and problem:
             told.add(window)
             print(f"roslaunch: {window} opens a window: {problem}", file=sys.stderr, flush=True)
         return start(process)
@@ -121,7 +121,7 @@ def main() -> None:
     signal.signal(signal.SIGINT, signal.SIG_DFL)  # nothing has been started yet; pmon takes over with its first process
     _find_place_for_logs()
     supply_python(os.environ)
-    subprocess.Popen = _Popen
+    subprocess.Popen = _Popen  # type: ignore[misc]
     pmon.rl_signal = _on_signal
     core.Master.is_running = _unless_ending(core.Master.is_running)
     nodeprocess.LocalProcess._stop_unix = _master_first_by_sigterm(nodeprocess.LocalProcess._stop_unix)

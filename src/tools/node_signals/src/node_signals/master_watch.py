@@ -80,7 +80,7 @@ class _Watch:
         multi = xmlrpc.client.MultiCall(xmlrpc.client.ServerProxy(self._uri, _Transport()))
         for method, arguments in calls:
             getattr(multi, method)(self._name, *arguments)
-        return list(multi())
+        return list(multi())  # type: ignore[call-overload]  # what it returns has __getitem__ alone
 
     def _register(self) -> None:
         for reference in list(_restorers.values()):

@@ -65,7 +65,7 @@ def subscriber(name: str, kind: type, callback: Callable[[Any], None], **more: A
     return rospy.Subscriber(name, kind, callback, **more)
 
 
-def _of_another_type(name: str, kind: type, side: str, verb: str) -> bool:
+def _of_another_type(name: str, kind: Any, side: str, verb: str) -> bool:
     resolved = rospy.resolve_name(name)
     there = get_topic_manager().get_impl(side, resolved)
     if there is None or there.data_class is None or there.data_class._type in (kind._type, "*"):

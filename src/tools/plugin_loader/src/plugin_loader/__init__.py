@@ -23,7 +23,7 @@ import sys
 import threading
 import xml.etree.ElementTree as ET
 from dataclasses import dataclass
-from typing import Dict, Iterator, List, Optional, Tuple
+from typing import Any, Dict, Iterator, List, Optional, Tuple
 
 import rospkg
 
@@ -52,7 +52,7 @@ class PluginClass:
     def compiled(self) -> bool:
         return "::" in self.type
 
-    def load(self) -> type:
+    def load(self) -> Any:
         """Import and return the class.
 
         :raises PluginError: compiled class, module or class missing, or an exception while importing.

@@ -2,8 +2,9 @@
 from __future__ import annotations
 
 import os
+import xml.etree.ElementTree as ET
 from dataclasses import replace
-from typing import List, Optional, Tuple
+from typing import List, Optional, Tuple, Union
 
 from ode_sim.description.finder import ResourceFinder
 from ode_sim.description.model import DescriptionError, Light, Model, Problem, World, quoted
@@ -21,7 +22,8 @@ def load_world(path_or_text: str, finder: Optional[ResourceFinder] = None) -> Tu
     """
     finder = finder or ResourceFinder()
     if path_or_text.lstrip("\ufeff \t\r\n").startswith("<"):
-        file, text = "", path_or_text
+        file = ""
+        text: Union[str, bytes] = path_or_text
     else:
         file = finder.find_world(path_or_text) or ""
         if not file:
@@ -101,7 +103,7 @@ def read_light(text: str, *, name: Optional[str] = None, finder: Optional[Resour
     return (replace(light, name=name) if name else light), reader.problems
 
 
-def _entity(reader: SdfReader, root: Element) -> Element:
+def _entity(reader: SdfReader, root: Element) -> ET.Element:
     """The first model or light, an ``<include>`` resolved."""
     root = sdf_root(root)
     element = _first_with_include(root)

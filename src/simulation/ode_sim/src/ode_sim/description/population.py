@@ -41,7 +41,8 @@ def population(reader, element: ET.Element, template: Optional[ET.Element]) -> I
             row, col = divmod(i, cols)
             p = ((col - 0.5 * (cols - 1)) * step[0], (row - 0.5 * (rows - 1)) * step[1], 0.0)
         elif kind.startswith("linear-") and kind[-1] in "xyz":
-            p = tuple((fraction - 0.5) * size[k] if "xyz"[k] == kind[-1] else 0.0 for k in range(3))
+            along = [(fraction - 0.5) * size[k] if "xyz"[k] == kind[-1] else 0.0 for k in range(3)]
+            p = along[0], along[1], along[2]
         elif radius is not None:
             r, turn = radius * math.sqrt(rng.random()), rng.uniform(-math.pi, math.pi)
             p = (r * math.cos(turn), r * math.sin(turn), 0.0)

@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 import xml.etree.ElementTree as ET
 from dataclasses import replace
-from typing import Iterator, List, Optional, Set
+from typing import Any, Dict, Iterator, List, Optional, Set
 
 from ode_sim import math3
 from ode_sim.description.model import (
@@ -72,8 +72,9 @@ class SdfReader(SdfModels):
                     self.warn(child, "actors are not simulated; left out")
             elif child.tag == "population":
                 template = child.find("model")
-                if template is None and child.find("include") is not None:
-                    template = self.include(child.find("include"))
+                include = child.find("include")
+                if template is None and include is not None:
+                    template = self.include(include)
                 for copy in population(self, child, template):
                     add_model(copy)
             elif child.tag in ("actor", "road"):
@@ -141,21 +142,20 @@ class SdfReader(SdfModels):
             self.warn(block, f"the physics engine is ODE; '{quoted(kind)}' is simulated by it, its own parameters are ignored")
         default = Physics()
         ode = block.find("ode")
-        values = {
+        values: Dict[str, Any] = {  # counts as written: usable_physics makes them whole
             "max_step_size": self.number(block, "max_step_size", self.number(block, "dt", default.max_step_size)),
             "max_contacts": self.number(block, "max_contacts", default.max_contacts)}
         for name, value in values.items():
             if value <= 0.0:
                 values[name] = getattr(default, name)
                 self.warn(block, f"{name} {value:g} must be positive; using {values[name]:g}")
+        values.update((name, self.number(ode, f"solver/{name}", getattr(default, name))) for name in ("iters", "precon_iters"))
         written = Physics(
             **values,
             real_time_update_rate=self.number(block, "real_time_update_rate",
                                               self.number(block, "update_rate", default.real_time_update_rate)),
             real_time_factor=self.number(block, "real_time_factor", default.real_time_factor),
             solver=text_of(ode.find("solver/type")) or default.solver if ode is not None else default.solver,
-            iters=self.number(ode, "solver/iters", default.iters),
-            precon_iters=self.number(ode, "solver/precon_iters", default.precon_iters),
             sor=self.number(ode, "solver/sor", default.sor),
             cfm=self.number(ode, "constraints/cfm", default.cfm),
             erp=self.number(ode, "constraints/erp", default.erp),

@@ -1,7 +1,7 @@
 """SDF text to its root element, in the form of SDF 1.7 where older versions mean something else."""
 from __future__ import annotations
 
-from typing import Tuple, Union
+from typing import Tuple, Union, cast
 
 from ode_sim.description.model import DescriptionError, quoted
 from ode_sim.description.xmlsource import Element, child, parse_xml, source_of
@@ -49,5 +49,5 @@ def first_entity(root: Element) -> Element:
     for parent in [root] + root.findall("world"):
         for element in parent:
             if element.tag in ENTITIES:
-                return element
+                return cast(Element, element)
     raise DescriptionError(f"{source_of(root)}: holds no <model>, <light> or <actor>")

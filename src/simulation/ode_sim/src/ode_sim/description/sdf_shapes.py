@@ -4,14 +4,14 @@ from __future__ import annotations
 import os
 import xml.etree.ElementTree as ET
 from dataclasses import replace
-from typing import Optional, Tuple
+from typing import Optional
 
 from ode_sim import math3
 from ode_sim.description import materials
 from ode_sim.description.model import (
     FARTHEST, Box, Capsule, Cylinder, DescriptionError, Geometry, Heightmap, Light, Material, Mesh, Plane, Polyline, Sphere,
     quoted)
-from ode_sim.description.sdf_values import LONGEST, SdfValues
+from ode_sim.description.sdf_values import LONGEST, Numbers, SdfValues
 from ode_sim.description.xmlsource import source_of, text_of
 
 _MOST_CORNERS = 1000  # of a polyline; to cut one into triangles takes a time that grows with the square of their number
@@ -50,7 +50,7 @@ class SdfShapes(SdfValues):
         return None
 
     @staticmethod
-    def _sizes(shape: ET.Element, sizes: Tuple[float, ...]) -> Tuple[float, ...]:
+    def _sizes(shape: ET.Element, sizes: Numbers) -> Numbers:
         """``sizes`` (m) if a shape can have them.
 
         :raises DescriptionError: negative, or larger than :data:`FARTHEST`.

@@ -3,12 +3,14 @@ from __future__ import annotations
 
 import math
 import xml.etree.ElementTree as ET
-from typing import List, Optional, Sequence, Set, Tuple
+from typing import List, Optional, Set, Tuple, TypeVar, cast
 
 from ode_sim import math3
 from ode_sim.description.finder import ResourceFinder
 from ode_sim.description.model import FARTHEST, DescriptionError, Pose, Problem, Source, quoted
 from ode_sim.description.xmlsource import is_true, leading_numbers, source_of, text_of
+
+Numbers = TypeVar("Numbers", bound=Tuple[float, ...])
 
 LONGEST = 1e100  # of vectors that only tell a direction; the square of a longer one is infinite
 _BRIGHTEST = 1e6  # of colours, which are 0..1
@@ -39,8 +41,8 @@ class SdfValues:
             self._missing.add(uri)
             self.warn(element, f"cannot find '{quoted(uri, 200)}' ({self.finder.explain(uri)}); {consequence}")
 
-    def numbers(self, element: Optional[ET.Element], default: Sequence[float], nan: bool = False,
-                most: float = math.inf) -> Tuple[float, ...]:
+    def numbers(self, element: Optional[ET.Element], default: Numbers, nan: bool = False,
+                most: float = math.inf) -> Numbers:
         """As many numbers as ``default`` has. As in Gazebo, numbers that stand first count, whatever follows them; those
         that are missing are taken from the default, with a warning.
 
@@ -48,20 +50,20 @@ class SdfValues:
         :param most: the largest that makes sense, of either sign; beyond it the default is taken, with a warning.
         """
         text = text_of(element)
-        if not text:
-            return tuple(default)
+        if element is None or not text:
+            return default
         values = leading_numbers(text, len(default))
         if not nan and any(math.isnan(value) for value in values):
             raise DescriptionError(f"{source_of(element)}: '{quoted(text)}' is not a number; give finite values")
         if most < math.inf and any(abs(value) > most for value in values):
-            problem, values = f"is beyond {most:g}", tuple(default)
+            problem, values = f"is beyond {most:g}", default
         elif len(values) < len(default):
             problem = f"is not {len(default)} number{'s' * (len(default) > 1)}"
-            values += tuple(default)[len(values):]
+            values += default[len(values):]
         else:
-            return values
+            return cast(Numbers, values)
         self.warn(element, f"'{quoted(text)}' {problem}; using {' '.join(f'{v:g}' for v in values)}")
-        return values
+        return cast(Numbers, values)
 
     def number(self, parent: Optional[ET.Element], path: str, default: float, nan: bool = False,
                most: float = math.inf) -> float:
@@ -71,7 +73,8 @@ class SdfValues:
         """A number of that range; outside of it the default, with a warning."""
         value = self.number(parent, path, default)
         if not lowest <= value <= highest:
-            self.warn(parent.find(path), f"{value:g} is not between {lowest:g} and {highest:g}; using {default:g}")
+            self.warn(parent.find(path) if parent is not None else None,
+                      f"{value:g} is not between {lowest:g} and {highest:g}; using {default:g}")
             return default
         return value
 
@@ -79,8 +82,8 @@ class SdfValues:
         """As :meth:`between`, without what stands behind the decimal point."""
         return int(self.between(parent, path, default, lowest, highest))
 
-    def vector(self, parent: Optional[ET.Element], path: str, default, most: float = math.inf):
-        return self.numbers(parent.find(path), default, most=most) if parent is not None else tuple(default)
+    def vector(self, parent: Optional[ET.Element], path: str, default: Numbers, most: float = math.inf) -> Numbers:
+        return self.numbers(parent.find(path), default, most=most) if parent is not None else default
 
     @staticmethod
     def boolean(parent: ET.Element, path: str, default: bool) -> bool:
@@ -101,11 +104,11 @@ class SdfValues:
         :raises DescriptionError: not finite, or farther away than :data:`FARTHEST`.
         """
         text = text_of(element)
-        if not text:
+        if element is None or not text:
             return math3.IDENTITY
         by_quaternion = element.get("rotation_format") == "quat_xyzw"
         count = 7 if by_quaternion else 3 if len(text.split(None, 4)) == 3 else 6
-        values = self.numbers(element, ((0.0,) * 6 + (1.0,))[:count])
+        values: Tuple[float, ...] = self.numbers(element, ((0.0,) * 6 + (1.0,))[:count])
         if not all(math.isfinite(value) for value in values):
             raise DescriptionError(f"{source_of(element)}: '{quoted(text)}' is not a pose; give finite values")
         if max(abs(value) for value in values[:3]) > FARTHEST:
@@ -113,7 +116,7 @@ class SdfValues:
         if by_quaternion:
             if max(abs(value) for value in values[3:]) > LONGEST:
                 raise DescriptionError(f"{source_of(element)}: '{quoted(text)}' is not a pose; give a unit quaternion")
-            return Pose(values[:3], math3.quat_normalize(values[3:]))
-        if element.get("degrees") is not None and is_true(element.get("degrees")):
+            return Pose((values[0], values[1], values[2]), math3.quat_normalize(values[3:]))
+        if is_true(element.get("degrees") or ""):
             values = values[:3] + tuple(math.radians(v) for v in values[3:])
         return math3.from_rpy(*values)

@@ -9,11 +9,12 @@ from __future__ import annotations
 import math
 import xml.etree.ElementTree as ET
 from dataclasses import dataclass, field, replace
-from typing import Dict, Iterator, List, Optional, Tuple
+from typing import Dict, Iterator, List, Optional, Tuple, cast
 
 from ode_sim import math3
 from ode_sim.description import urdf_extensions as extensions
 from ode_sim.description.model import FARTHEST, DescriptionError, Mimic, Model, Pose, Vec3, quoted
+from ode_sim.description.sdf_values import Numbers
 from ode_sim.description.xmlsource import Element, child, source_of
 
 _JOINT_TYPES = ("revolute", "continuous", "prismatic", "fixed", "floating", "planar")
@@ -87,14 +88,20 @@ def _attribute(element: ET.Element, key: str) -> str:
     return value
 
 
-def _floats(element: ET.Element, key: str, default: Optional[Tuple[float, ...]]) -> Tuple[float, ...]:
-    """The numbers of an attribute; ``default`` None: it must be there (one number)."""
+def _number(element: ET.Element, key: str) -> float:
+    """The number of an attribute that must be there."""
+    if not (element.get(key) or "").strip():
+        raise DescriptionError(f"{source_of(element)}: attribute '{key}' is missing; it is a number")
+    return _floats(element, key, (0.0,))[0]
+
+
+def _floats(element: ET.Element, key: str, default: Numbers) -> Numbers:
+    """The numbers of an attribute, as many as ``default`` has."""
     text = (element.get(key) or "").strip()
     if not text:
-        if default is None:
-            raise DescriptionError(f"{source_of(element)}: attribute '{key}' is missing; it is a number")
         return default
-    count = len(default) if default is not None else 1
+    count = len(default)
+    values: Tuple[float, ...]
     try:
         values = tuple(float(word) for word in text.split())
     except ValueError:
@@ -104,7 +111,7 @@ def _floats(element: ET.Element, key: str, default: Optional[Tuple[float, ...]])
                                + ("a number" if count == 1 else f"{count} numbers")
                                + ("; this is xacro text, run it through 'rosrun xacro xacro FILE' first"
                                   if "${" in text or "$(" in text else ""))
-    return values
+    return cast(Numbers, values)
 
 
 def _origin(parent: ET.Element) -> Pose:
@@ -195,16 +202,20 @@ class _Conversion:
                                    f"link '{quoted(roots[0].name)}'; a robot must be a tree")
         return roots[0]
 
+    @staticmethod
+    def _part(inertial: ET.Element, tag: str, link: str) -> ET.Element:
+        part = inertial.find(tag)
+        if part is None:
+            raise DescriptionError(f"{source_of(inertial)} of link '{quoted(link)}': <{tag}> is missing")
+        return part
+
     def _link(self, name: str, element: ET.Element) -> _UrdfLink:
         link = _UrdfLink(name, element)
         inertial = element.find("inertial")
         if inertial is not None:
-            mass, tensor = inertial.find("mass"), inertial.find("inertia")
-            for part, tag in ((mass, "mass"), (tensor, "inertia")):
-                if part is None:
-                    raise DescriptionError(f"{source_of(inertial)} of link '{quoted(name)}': <{tag}> is missing")
-            kilograms = _floats(mass, "value", None)[0]
-            i = {key: _floats(tensor, key, None)[0] for key in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")}
+            mass, tensor = (self._part(inertial, tag, name) for tag in ("mass", "inertia"))
+            kilograms = _number(mass, "value")
+            i = {key: _number(tensor, key) for key in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")}
             if not all(math.isfinite(value) for value in (kilograms, *i.values())):
                 raise DescriptionError(f"{source_of(inertial)} of link '{quoted(name)}': mass and inertia must be finite")
             if kilograms > 0.0:
@@ -251,15 +262,15 @@ class _Conversion:
 
     # ------------------------------------------------------------------ lumping
 
-    def _lumps(self, joint: Optional[_UrdfJoint]) -> bool:
-        return (joint is not None and joint.type == "fixed" and joint.parent.name != "world"
+    def _lumps(self, joint: _UrdfJoint) -> bool:
+        return (joint.type == "fixed" and joint.parent.name != "world"
                 and not self.extensions.keeps_fixed_joint(joint.name))
 
     def _reduce(self, root: _UrdfLink) -> None:
         """Lump what hangs on fixed joints into its parent, from the ends of the tree to its root."""
         for link in reversed(list(_tree_of(root, last_first=True))):
             joint = link.parent_joint
-            if not self._lumps(joint):
+            if joint is None or not self._lumps(joint):
                 continue
             self._lump(link, joint.parent, joint.pose)
             joint.parent.fixed_below = max(joint.parent.fixed_below, link.fixed_below + 1)
@@ -314,9 +325,11 @@ class _Conversion:
         element = child(sdf, "link", attrib={"name": link.name}, like=link.element)
         _write_pose(element, x_ml)
         inertial = child(element, "inertial")
+        assert link.inertial is not None  # else it was dropped
         if link.raw_inertial is not None:
             pose, raw = link.raw_inertial
-            values = {key: raw.find("inertia").get(key) for key in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")}
+            tensor = self._part(raw, "inertia", link.name)
+            values = {key: tensor.get(key, "0") for key in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")}
         else:
             pose, (a, b, c) = Pose(link.inertial.com), link.inertial.inertia
             values = {"ixx": repr(a[0]), "ixy": repr(a[1]), "ixz": repr(a[2]), "iyy": repr(b[1]), "iyz": repr(b[2]),
@@ -338,15 +351,15 @@ class _Conversion:
         element = child(parent, kind, attrib={"name": name}, like=shape.element)
         _write_pose(element, shape.pose)
         geometry = child(element, "geometry")
-        given = next(iter(shape.element.find("geometry")))
+        given = shape.element.findall("geometry/*")[0]
         form = child(geometry, given.tag, like=given)
         if given.tag == "box":
             child(form, "size", " ".join(repr(v) for v in _floats(given, "size", (0.0, 0.0, 0.0))))
         elif given.tag in ("cylinder", "capsule"):
-            child(form, "radius", repr(_floats(given, "radius", None)[0]))
-            child(form, "length", repr(_floats(given, "length", None)[0]))
+            child(form, "radius", repr(_number(given, "radius")))
+            child(form, "length", repr(_number(given, "length")))
         elif given.tag == "sphere":
-            child(form, "radius", repr(_floats(given, "radius", None)[0]))
+            child(form, "radius", repr(_number(given, "radius")))
         elif given.tag == "mesh":
             child(form, "uri", _attribute(given, "filename"))
             child(form, "scale", " ".join(repr(v) for v in _scale(given)))
@@ -382,9 +395,10 @@ class _Conversion:
             child(limit, "upper", "0")
             return
         child(axis, "xyz", " ".join(repr(v) for v in xyz))
-        if joint.element.find("dynamics") is not None:
+        losses = joint.element.find("dynamics")
+        if losses is not None:
             for key in ("damping", "friction"):
-                child(dynamics, key, repr(_floats(joint.element.find("dynamics"), key, (0.0,))[0]))
+                child(dynamics, key, repr(_floats(losses, key, (0.0,))[0]))
         limits = joint.element.find("limit")
         if limits is None:
             return
@@ -399,13 +413,13 @@ class _Conversion:
         for key in ("effort", "velocity"):
             if not (limits.get(key) or "").strip():
                 raise DescriptionError(f"{source_of(limits)} of joint '{quoted(joint.name)}': attribute '{key}' is missing")
-            child(limit, key, repr(_floats(limits, key, None)[0]))
+            child(limit, key, repr(_number(limits, key)))
 
 
 def _scale(mesh: ET.Element) -> Tuple[float, ...]:
     """Three numbers; one stands for all three axes."""
     words = (mesh.get("scale") or "1 1 1").split()
-    return _floats(mesh, "scale", (1.0, 1.0, 1.0)) if len(words) != 1 else _floats(mesh, "scale", None) * 3
+    return _floats(mesh, "scale", (1.0, 1.0, 1.0)) if len(words) != 1 else (_number(mesh, "scale"),) * 3
 
 
 def _combined(parent: Optional[_Mass], lumped: _Mass, x_pl: Pose) -> _Mass:
@@ -422,4 +436,4 @@ def _combined(parent: Optional[_Mass], lumped: _Mass, x_pl: Pose) -> _Mass:
         for i in range(3):
             for j in range(3):
                 rows[i][j] += body.inertia[i][j] + body.mass * ((square if i == j else 0.0) - d[i] * d[j])
-    return _Mass(mass, com, tuple(tuple(row) for row in rows))
+    return _Mass(mass, com, math3.mat3(rows))

@@ -203,7 +203,7 @@ class Extensions:
             if tag in block.values:
                 self._set(element, path, text_of(block.values[tag]), block.values[tag])
 
-    def _set(self, element: Element, path: str, text: str, like: Optional[ET.Element] = None) -> None:
+    def _set(self, element: ET.Element, path: str, text: str, like: Optional[ET.Element] = None) -> None:
         """Give the element at ``path`` this text, made if it is not there."""
         tags = path.split("/")
         for tag in tags[:-1]:

@@ -34,12 +34,7 @@ def parse_xml(text: Union[str, bytes], file: str = "") -> Element:
     """
     if len(text) > MOST_BYTES:
         raise DescriptionError(f"{file or 'text'}: is longer than {MOST_BYTES // 1_000_000} MB; nothing that large is read")
-    if isinstance(text, bytes):
-        try:
-            text = text.decode("utf-8")
-        except UnicodeDecodeError:
-            text = text.decode("latin-1")
-    text = _without_comments(text.lstrip("\ufeff"))
+    text = _without_comments(_decoded(text).lstrip("\ufeff"))
     body = text.lstrip()
     reader = _Reader(file, text.count("\n", 0, len(text) - len(body)))
     try:
@@ -53,6 +48,15 @@ def parse_xml(text: Union[str, bytes], file: str = "") -> Element:
             raise DescriptionError(f"{place}: the text is empty; expected XML with <sdf> or <robot>") from None
         raise DescriptionError(f"{place}: not well-formed XML, {expat.ErrorString(error.code)}"
                                + (f", at: {words}" if words else "")) from None
+
+
+def _decoded(text: Union[str, bytes]) -> str:
+    if isinstance(text, str):
+        return text
+    try:
+        return text.decode("utf-8")
+    except UnicodeDecodeError:
+        return text.decode("latin-1")
 
 
 def _without_comments(text: str) -> str:
@@ -90,6 +94,7 @@ class _Reader:
         finally:  # else parser and reader hold each other, and the tree, until the collector comes
             self._parser.StartElementHandler = self._parser.EndElementHandler = None
             self._parser.CharacterDataHandler = self._parser.EntityDeclHandler = None
+        assert self._root is not None  # else the parser has raised
         return self._root
 
     def _place(self) -> str:

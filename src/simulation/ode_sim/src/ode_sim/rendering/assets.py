@@ -66,8 +66,9 @@ class Assets:
 
     def __init__(self, load_mesh: Optional[Callable] = None):
         if load_mesh is None:
-            from ode_sim.mesh import load_visual as load_mesh
-        self._load_mesh = load_mesh
+            from ode_sim.mesh import load_visual
+            load_mesh = load_visual
+        self._load_mesh: Callable = load_mesh
         self.meshes: Dict[Hashable, TriMesh] = {}
         self.problems: List[str] = []
         self._files: Dict[Hashable, List[Tuple[Hashable, Optional[d.Material]]]] = {}
@@ -130,7 +131,7 @@ class Assets:
     def _mesh_file(self, shape: d.Mesh):
         shape = replace(shape, uri="")  # the same file by two names is drawn as one mesh
         if shape not in self._files:
-            pieces = []
+            pieces: List[Tuple[Hashable, Optional[d.Material]]] = []
             for number, (vertices, triangles, normals, uv, material) in enumerate(
                     self._load_mesh(shape.path, shape.scale, shape.submesh, shape.center)):
                 key = (shape, number)

@@ -137,7 +137,8 @@ def read_distortion(element: Optional[ET.Element]) -> Distortion:
     text = (element.findtext("center") if element is not None else None) or "0.5 0.5"
     center = leading_numbers(text, 2)
     center += (0.5, 0.5)[len(center):]
-    return Distortion(*(_number(element, key, 0.0) for key in ("k1", "k2", "k3", "p1", "p2")), center=center)
+    k1, k2, k3, p1, p2 = (_number(element, key, 0.0) for key in ("k1", "k2", "k3", "p1", "p2"))
+    return Distortion(k1, k2, k3, p1, p2, center=(center[0], center[1]))
 
 
 def read_camera(element: ET.Element, sensor_pose: Pose = Pose(), link: str = "", name: str = "",
@@ -167,4 +168,5 @@ def look_at(eye: Vec3, target: Vec3) -> Pose:
     forward = np.asarray(target, float) - np.asarray(eye, float)
     yaw = math.atan2(forward[1], forward[0])
     pitch = math.atan2(-forward[2], math.hypot(forward[0], forward[1]))
-    return from_rpy(*(float(v) for v in eye), 0.0, pitch, yaw)
+    x, y, z = (float(v) for v in eye)
+    return from_rpy(x, y, z, 0.0, pitch, yaw)

@@ -159,7 +159,7 @@ def _ear_clip(ring: np.ndarray) -> np.ndarray:
             position, (i, j, k) = 1, left[:3]  # self-crossing outline: cut anyway rather than loop for ever
         triangles.append((i, j, k))
         del left[position]
-    triangles.append(tuple(left))
+    triangles.append((left[0], left[1], left[2]))
     return np.array(triangles, np.uint32)
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 import os
 from collections import OrderedDict
 from dataclasses import dataclass
-from typing import Dict, Hashable, List, Optional, Sequence, Tuple
+from typing import Any, Dict, Hashable, List, Optional, Sequence, Tuple
 
 import cv2
 import numpy as np
@@ -58,8 +58,8 @@ class _Batch:
     mesh: Hashable
     texture: str
     rows: np.ndarray  # of the scene's part arrays
-    instances: object  # moderngl buffer, room for all rows
-    arrays: Dict[frozenset, object]  # shader flags -> vertex array
+    instances: Any  # moderngl buffer, room for all rows
+    arrays: Dict[Tuple[frozenset, int], Any]  # (shader flags, program) -> vertex array
     transparent: bool = False
 
 
@@ -132,9 +132,9 @@ class Renderer:
         self._shadows = shadows
         self._assets = assets or Assets()
         self._mesh_buffers: Dict[Hashable, tuple] = {}
-        self._textures: Dict[str, object] = {}
-        self._programs: Dict[tuple, object] = {}
-        self._targets: "OrderedDict[tuple, tuple]" = OrderedDict()
+        self._textures: Dict[str, Any] = {}
+        self._programs: Dict[tuple, Any] = {}
+        self._targets: "OrderedDict[tuple, _Target]" = OrderedDict()
         self._lenses: Dict[tuple, Lens] = {}
         self._shadow: Optional[ShadowMap] = None
         self.set_scene(SceneDescription())
@@ -200,7 +200,7 @@ class Renderer:
         count = len(parts)
         ambient = np.array(self._scene.scene.ambient[:3])
         self._links = np.array([row for row, _, _, _ in parts], int)
-        self._local = pose_matrices([_row(part.pose) for _, _, _, part in parts])
+        self._local = pose_matrices(np.array([_row(part.pose) for _, _, _, part in parts], float))
         scale = np.array([part.scale for _, _, _, part in parts], float).reshape(-1, 3)
         self._local[:, :3, :3] *= scale[:, None, :]
         spheres = [bounding_sphere(self._assets.meshes[part.key]) for _, _, _, part in parts]
@@ -360,6 +360,7 @@ class Renderer:
     def _draw_shadow(self, direction: np.ndarray, world: np.ndarray, eye: np.ndarray) -> None:
         casters = np.flatnonzero(self._casts)
         centres = np.einsum("pij,pj->pi", world[casters, :3, :3], self._centres[casters]) + world[casters, :3, 3]
+        assert self._shadow is not None  # else nobody asks
         clip = self._shadow.aim(direction, centres, self._radii[casters], eye)
         if not self._shadow.begin(clip.tobytes() + world[casters].tobytes()):
             return

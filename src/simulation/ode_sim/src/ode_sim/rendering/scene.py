@@ -65,7 +65,8 @@ def arrange(models: Iterable[Model], lights: Iterable[Light] = (),
 
     :return: (scene, link poses (L,7): x y z qx qy qz qw, world frame).
     """
-    names, visuals, shining, poses = [], [], [], []
+    names: List[str] = []
+    visuals, shining, poses = [], [], []
     for model in models:
         for link in model.links:
             scoped = f"{model.name}::{link.name}"

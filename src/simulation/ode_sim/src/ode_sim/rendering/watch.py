@@ -27,6 +27,8 @@ class SceneWatch:
     def changed(self) -> bool:
         """Whether the scene is another one than at the last call. Physics thread."""
         world = self._world()
+        if world is None:
+            return False
         settings = (world.scene, *world.lights.values(), *(
             part for model in world.models.values() for link in model.links.values()
             for part in (link.description.visuals, *link.lights.values())))
@@ -37,7 +39,8 @@ class SceneWatch:
 
     def news(self) -> Optional[SceneDescription]:
         """The scene if it :meth:`changed`, else None. Physics thread."""
-        return describe(self._world()) if self.changed() else None
+        world = self._world()
+        return describe(world) if world is not None and self.changed() else None
 
     def close(self) -> None:
         world = self._world()

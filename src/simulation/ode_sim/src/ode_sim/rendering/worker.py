@@ -8,7 +8,7 @@ import mmap
 import signal
 from dataclasses import replace
 from multiprocessing.connection import Connection
-from typing import Dict, List, Tuple
+from typing import Any, Dict, List, Optional, Tuple
 
 import cv2
 import numpy as np
@@ -26,9 +26,9 @@ class Worker:
     def __init__(self, connection: Connection, memory: int):
         self._connection = connection
         self._memory_fd = memory
-        self._memory = None
+        self._memory: Optional[mmap.mmap] = None
         self._cameras: Dict[int, AddCamera] = {}
-        self._renderer = None
+        self._renderer: Optional[Renderer] = None
         self._no_renderer = ""
 
     def run(self) -> None:
@@ -64,7 +64,9 @@ class Worker:
     def _set_scene(self, scene: SceneDescription) -> List[str]:
         """Show ``scene``, or as much of it as can be shown; lines about what cannot."""
         trouble: List[str] = []
-        for less in ({}, {"lights": ()}, {"visuals": ()}, {"lights": (), "visuals": ()}):
+        assert self._renderer is not None  # else nobody asks
+        without: Tuple[Dict[str, Any], ...] = ({}, {"lights": ()}, {"visuals": ()}, {"lights": (), "visuals": ()})
+        for less in without:
             try:
                 self._renderer.set_scene(replace(scene, **less))
                 break
