@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from ode_sim import World, math3
 from ode_sim.description import model as d
+from ode_sim.description.sdf_writer import model_text
 from ode_sim.math3 import Pose
 
 viser = pytest.importorskip("viser")
@@ -15,7 +16,7 @@ viser = pytest.importorskip("viser")
 from ode_sim.viewer import LocalSimulation, Page, Refused  # noqa: E402
 from ode_sim.viewer.overlays import Overlays, inertia_box  # noqa: E402
 from ode_sim.viewer.panels.base import escaped, free_name  # noqa: E402
-from ode_sim.viewer.panels.insert import shape_model  # noqa: E402
+from ode_sim.viewer.shapes import shape_model  # noqa: E402
 from ode_sim.viewer.panels.play import clock  # noqa: E402
 from ode_sim.viewer.selection import History  # noqa: E402
 from ode_sim.viewer.website import Guard, Website  # noqa: E402
@@ -111,6 +112,7 @@ def test_names_of_people_stay_out_of_nodes_and_markup(page):
 def test_models_come_and_go(page):
     client = Client()
     insert = panel(page, "InsertPanel")
+    use(insert._by_hand, client, False)
     use(insert._shapes, client, "Sphere")
     wait(page, lambda: page.world.model("unit_sphere") is not None)
     assert page.drawing.model_root("unit_sphere") is not None and not client.told
@@ -183,6 +185,36 @@ def test_pick_move_copy_delete_undo(page):
     use(world._history, client, "Redo")
     wait(page, lambda: page.world.model("box_0") is not None)
     assert not client.told
+
+
+def test_a_click_on_what_has_just_gone_counts_when_it_comes_back(page):
+    """The page of a browser is always a little behind: its buttons must not have gone under the hand."""
+    client, world = Client(), panel(page, "WorldPanel")
+    row = world._rows[("box", "box", "", "")]
+    page.simulation.delete("box")
+    wait(page, lambda: page.world.model("box") is None)
+    assert not row.visible
+    use(row, client)
+    page.turn()
+    assert page.selection.model == "" and world._properties is None and not client.told
+    page.simulation.insert("box", model_text(shape_model("box", d.Box())), Pose())
+    wait(page, lambda: page.selection.model == "box")
+    assert world._rows[("box", "box", "", "")] is row and row.visible and world._properties.mass.value == 1.0
+    page.selection.select()
+    page.simulation.delete("box")
+    wait(page, lambda: page.world.model("box") is None)
+    world._hidden = {key: since - 100.0 for key, since in world._hidden.items()}
+    world.on_frame(page.frame)
+    assert ("box", "box", "", "") not in world._rows and not world._hidden
+
+
+def test_a_job_that_stumbles_does_not_take_the_others_along(page):
+    said, done = [], []
+    page._say = said.append
+    page.later(lambda: 1 // 0)
+    page.later(lambda: done.append(True))
+    page.turn()
+    assert done and "ZeroDivisionError" in said[0]
 
 
 def test_mass_and_light_are_set(page):

@@ -15,7 +15,7 @@ pytest.importorskip("viser")
 from ode_sim.viewer import LocalSimulation, Page, Refused  # noqa: E402
 from ode_sim.viewer.arrows import arrow_points  # noqa: E402
 from ode_sim.viewer.eye import FIELD, view_of  # noqa: E402
-from ode_sim.viewer.panels.insert import shape_model  # noqa: E402
+from ode_sim.viewer.shapes import shape_model  # noqa: E402
 from ode_sim.viewer.simulation import SurfaceProperties  # noqa: E402
 from viewer_page import Client, page, panel, position, use, wait  # noqa: E402, F401
 

@@ -7,7 +7,7 @@ from ode_sim import World
 from ode_sim.description import model as d
 from ode_sim.math3 import Pose
 from ode_sim.viewer import LocalSimulation, Page
-from ode_sim.viewer.panels.insert import shape_model
+from ode_sim.viewer.shapes import shape_model
 
 EVIL = "<img src=x onerror=alert(1)>"
 

@@ -177,6 +177,19 @@ class Browser:
         return (box[0] + box[2] / 2 + scale * (away @ right),
                 box[1] + box[3] / 2 - scale * (away @ np.cross(right, ahead)))
 
+    def hover(self, point):
+        """Move the pointer there (CSS pixels), without a click."""
+        from selenium.webdriver.common.action_chains import ActionChains
+        actions = ActionChains(self.driver, duration=20)
+        actions.w3c_actions.pointer_action.move_to_location(*(int(round(v)) for v in point))
+        actions.perform()
+
+    def canvas(self, x, y):
+        """(x, y) in CSS pixels of a part of the scene's picture, 0 to 1 from the upper left corner."""
+        box = self.driver.execute_script(
+            "const r = document.querySelector('canvas').getBoundingClientRect(); return [r.x, r.y, r.width, r.height]")
+        return box[0] + x * box[2], box[1] + y * box[3]
+
     def mouse(self, *points, drag=False, keys=()):
         """Click at a point (CSS pixels), or drag from the first through all to the last."""
         from selenium.webdriver.common.action_chains import ActionChains

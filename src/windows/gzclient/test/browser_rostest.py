@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """gzclient as a user starts it, and Debian's Chromium: real clicks, and what they did is asked by ROS."""
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -11,7 +12,8 @@ import numpy as np
 import rosgraph
 import rospy
 import rostest
-from gazebo_msgs.srv import GetModelState, GetPhysicsProperties, GetWorldProperties
+from gazebo_msgs.srv import GetModelState, GetPhysicsProperties, GetWorldProperties, SpawnModel
+from geometry_msgs.msg import Pose, Twist, Vector3
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from browser import PATIENCE, Browser, missing, wait  # noqa: E402
@@ -35,6 +37,10 @@ def position(name):
     return np.array((p.x, p.y, p.z))
 
 
+def sim_time():
+    return call("get_world_properties", GetWorldProperties).sim_time
+
+
 def paused():
     return call("get_physics_properties", GetPhysicsProperties).pause
 
@@ -52,9 +58,9 @@ class Clicks(unittest.TestCase):
         if missing():
             raise unittest.SkipTest(f"not installed: {missing()} (apt install chromium chromium-driver)")
         cls.home = tempfile.TemporaryDirectory(prefix="home_", ignore_cleanup_errors=True)
-        cls.server = cls.start("gzserver", "-u", os.path.join(HERE, "table.world"))
+        cls.server = cls.start("rosrun", "gazebo_ros", "gzserver", "-u", os.path.join(HERE, "table.world"))
         call("get_world_properties", GetWorldProperties)
-        cls.client = cls.start("gzclient", "--port", "0")
+        cls.client = cls.start("rosrun", "gazebo_ros", "gzclient", "--port", "0")
         address = cls.client.stdout.readline().split()[-1]
         assert not streams(), "nobody looks yet"
         cls.page = Browser(address)
@@ -62,8 +68,8 @@ class Clicks(unittest.TestCase):
     @classmethod
     def start(cls, *words):
         environment = {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY")}
-        return subprocess.Popen(["rosrun", "gazebo_ros", *words], text=True, start_new_session=True,
-                                env={**environment, "HOME": cls.home.name}, stdout=subprocess.PIPE)
+        return subprocess.Popen(words, text=True, start_new_session=True, env={**environment, "HOME": cls.home.name},
+                                stdout=subprocess.PIPE)
 
     @classmethod
     def tearDownClass(cls):
@@ -111,7 +117,8 @@ class Clicks(unittest.TestCase):
         wait(lambda: "box_0" not in names(), "undo")
         page.click("Redo")
         wait(lambda: "box_0" in names(), "redo")
-        wait(lambda: page.click("box_0") or page.text().count("box_0") > 1, "properties of the copy")
+        page.click("box_0")  # at once, while the tree is drawn anew
+        wait(lambda: page.text().count("box_0") > 1, "properties of the copy")
         page.click("Delete")
         wait(lambda: "box_0" not in names(), "delete")
         page.click("Undo")
@@ -120,12 +127,21 @@ class Clicks(unittest.TestCase):
     def test_3_insert(self):
         page = self.page
         page.click("Insert")
+        page.choose("Model", "cafe_table")
+        page.click("Insert model")
+        page.see("click where it shall stand")
+        page.hover(page.canvas(0.4, 0.7))
+        page.see("cafe_table at")  # under the pointer, before the click
+        self.assertNotIn("cafe_table", names())
+        page.mouse(page.canvas(0.5, 0.75))
+        wait(lambda: "cafe_table" in names(), "a model of the model path")
+        page.see("cafe_table is at")
+        said = re.search(r"cafe_table is at (\S+), (\S+) m", page.text())
+        np.testing.assert_allclose(position("cafe_table")[:2], [float(part) for part in said.groups()], atol=0.006)
+        page.check("Put it down with the mouse")
         page.click("Cylinder")
         wait(lambda: "unit_cylinder" in names(), "a cylinder")
         np.testing.assert_allclose(position("unit_cylinder"), (0.0, 0.0, 0.5), atol=1e-6)
-        page.choose("Model", "cafe_table")
-        page.click("Insert model")
-        wait(lambda: "cafe_table" in names(), "a model of the model path")
 
     def test_4_go_back_in_time(self):
         page = self.page
@@ -152,7 +168,7 @@ class Clicks(unittest.TestCase):
         page.click("Building")
         before = page.scene()
         page.check("Edit a building")
-        page.fill("Name", "one room")
+        page.fill("Name", "room")
 
         def at(x, y):  # seen from above; see BuildingPanel._look
             return page.pixel((x, y, 0.0), (0.0, -0.01, 13.0), (0.0, 0.0, 0.0), FIELD)
@@ -168,19 +184,19 @@ class Clicks(unittest.TestCase):
         page.see("Picked: door")
         page.click("Save")
         page.see("saved in")
-        folder = os.path.join(self.home.name, "building_editor_models", "one room")
-        self.assertEqual(sorted(os.listdir(folder)), ["model.config", "model.sdf", "one room.world", "plan.yaml",
-                                                      "preview.png"])
+        folder = os.path.join(self.home.name, "building_editor_models", "room")
+        self.assertEqual(sorted(os.listdir(folder)), ["model.config", "model.sdf", "plan.yaml", "preview.png",
+                                                      "room.world"])
         from gazebo_ros.building import read_plan
         level, = read_plan(os.path.join(folder, "plan.yaml")).levels
         corners = {(-2.0, -1.5), (2.0, -1.5), (2.0, 1.5), (-2.0, 1.5)}
         self.assertEqual({wall.start for wall in level.walls} | {wall.end for wall in level.walls}, corners)
         self.assertEqual([opening.kind for wall in level.walls for opening in wall.openings], ["door"])
         page.click("Put into the world")
-        wait(lambda: "one room" in names(), "the building in the world")
+        wait(lambda: "room" in names(), "the building in the world")
         page.check("Edit a building")
         page.click("World")
-        page.see("one room")
+        page.see("room")
 
     def test_7_reconnects_and_another_page(self):
         page = self.page
@@ -199,15 +215,32 @@ class Clicks(unittest.TestCase):
             page.click("Pause")
             wait(paused, "pause from the first page")
 
-    def test_8_the_server_ends_and_comes_back(self):
+    def test_8_the_server_ends_and_a_robot_drives_in_the_room_that_was_drawn(self):
         os.killpg(self.server.pid, signal.SIGINT)
         self.server.wait(PATIENCE)
         self.page.see("no simulator answers")
-        type(self).server = self.start("gzserver", os.path.join(HERE, "table.world"))
-        self.page.see("real-time factor", "door")
+        file = os.path.join(self.home.name, "building_editor_models", "room", "room.world")
+        type(self).server = self.start("roslaunch", "gazebo_ros", "empty_world.launch", f"world_name:={file}", "gui:=false")
+        self.page.see("real-time factor", "room")
         wait(lambda: "unit_cylinder" not in self.page.text(), "the models of the new world only")
+        with open(os.path.join(HERE, "cart.sdf"), encoding="utf-8") as stream:
+            answer = call("spawn_sdf_model", SpawnModel, "cart", stream.read(), "/", Pose(), "world")
+        self.assertTrue(answer.success, answer.status_message)
+        self.page.see("cart")
+        self.drive(-1.0)
+        wait(lambda: position("cart")[1] < -2.0, "the cart behind the door")
+        self.drive(1.0)
+        wait(lambda: position("cart")[1] > 1.1, "the cart back in the room")
+        until = sim_time() + 1.0
+        wait(lambda: sim_time() > until, "a second more")
+        self.assertLess(position("cart")[1], 1.3)  # half of it before the face of the wall at 1.425
         self.page.click("Pause")
         wait(paused, "pause of the new server")
+
+    def drive(self, speed):
+        if not hasattr(self, "commands"):
+            type(self).commands = rospy.Publisher("/cmd_vel", Twist, queue_size=1, latch=True)
+        self.commands.publish(Twist(linear=Vector3(x=speed)))
 
     def test_9_closing_the_page_ends_the_stream(self):
         self.page.close()  # a page that is only left may be kept by the browser, to go back to

@@ -8,6 +8,7 @@
 ``desktop``           a window of the desktop that shows the page
 ``panels``            the tabs beside those of ``ode_sim.viewer``: sensors, TF, topics, controllers, the editors
 ``sensor_drawing``    how messages of sensors are drawn, ``sensor_frames`` where
+``markers``           how RViz's markers are drawn; ``tf_frames`` where the frames of TF are
 ``building``          the building editor without its controls, ``modelling`` the model editor
 ====================  ======================================================
 """

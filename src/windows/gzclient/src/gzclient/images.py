@@ -3,15 +3,15 @@ from __future__ import annotations
 
 from typing import Any
 
-import cv2
 import numpy as np
 
+# OpenCV is imported where a picture is made: it takes half a second, which a page need not wait for
 _DEPTH = {"32FC1": np.float32, "16UC1": np.uint16}
-_COLOURS = {"rgb8": (3, None), "bgr8": (3, cv2.COLOR_BGR2RGB), "rgba8": (4, cv2.COLOR_RGBA2RGB),
-            "bgra8": (4, cv2.COLOR_BGRA2RGB), "mono8": (1, cv2.COLOR_GRAY2RGB), "8UC1": (1, cv2.COLOR_GRAY2RGB),
-            "8UC3": (3, cv2.COLOR_BGR2RGB), "bayer_rggb8": (1, cv2.COLOR_BayerBG2RGB),
-            "bayer_bggr8": (1, cv2.COLOR_BayerRG2RGB), "bayer_gbrg8": (1, cv2.COLOR_BayerGR2RGB),
-            "bayer_grbg8": (1, cv2.COLOR_BayerGB2RGB)}
+#: encoding -> channels, OpenCV's conversion to RGB
+_COLOURS = {"rgb8": (3, ""), "bgr8": (3, "BGR2RGB"), "rgba8": (4, "RGBA2RGB"), "bgra8": (4, "BGRA2RGB"),
+            "mono8": (1, "GRAY2RGB"), "8UC1": (1, "GRAY2RGB"), "8UC3": (3, "BGR2RGB"),
+            "bayer_rggb8": (1, "BayerBG2RGB"), "bayer_bggr8": (1, "BayerRG2RGB"), "bayer_gbrg8": (1, "BayerGR2RGB"),
+            "bayer_grbg8": (1, "BayerGB2RGB")}
 _LARGEST = 640  # pixels along a side that a page is sent
 
 
@@ -26,6 +26,7 @@ def picture_of(message: Any) -> np.ndarray:
 
 
 def _compressed(message: Any) -> np.ndarray:
+    import cv2
     picture = cv2.imdecode(np.frombuffer(message.data, np.uint8), cv2.IMREAD_COLOR)
     if picture is None:
         raise ValueError(f"the image of format '{message.format}' cannot be read")
@@ -49,7 +50,10 @@ def _raw(message: Any) -> np.ndarray:
             f"images of encoding '{encoding}' cannot be shown; there are {', '.join((*_COLOURS, *_DEPTH))}")
     channels, conversion = _COLOURS[encoding]
     pixels = _rows(message, np.uint8, channels)
-    return pixels if conversion is None else cv2.cvtColor(np.ascontiguousarray(pixels), conversion)
+    if not conversion:
+        return pixels
+    import cv2
+    return cv2.cvtColor(np.ascontiguousarray(pixels), getattr(cv2, f"COLOR_{conversion}"))
 
 
 def _rows(message: Any, kind: type, channels: int) -> np.ndarray:

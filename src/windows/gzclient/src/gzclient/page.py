@@ -21,10 +21,11 @@ def make_page(website: Any, shadows: bool) -> Any:
     from gzclient.panels.building import BuildingPanel
     from gzclient.panels.controllers import ControllersPanel
     from gzclient.panels.frames import FramesPanel
+    from gzclient.panels.markers import MarkersPanel
     from gzclient.panels.model import ModelPanel
     from gzclient.panels.sensors import SensorsPanel
     from gzclient.panels.topics import TopicsPanel
     page = Page(simulation, title="Gazebo", website=website, say=lambda line: rospy.logwarn("%s", line),
-                panels=(SensorsPanel, FramesPanel, TopicsPanel, ControllersPanel, BuildingPanel, ModelPanel))
+                panels=(SensorsPanel, FramesPanel, MarkersPanel, TopicsPanel, ControllersPanel, BuildingPanel, ModelPanel))
     page.drawing.shadows = shadows or bool(glob.glob("/dev/dri/renderD*"))
     return page

@@ -21,6 +21,7 @@ from gazebo_ros.srv import (CollisionSurface, CommandJoint, CommandJointRequest,
                             StepWorld, Timeline, TimelineRequest)
 from ode_sim.description import model as d
 from ode_sim.description.exchange import loads
+from ode_sim.description.sdf_writer import light_text
 from ode_sim.viewer.simulation import (Frame, KeptMoment, LinkProperties, Refused, Simulation, SurfaceProperties,
                                        WorldRecord)
 
@@ -83,8 +84,11 @@ class RosSimulation(Simulation):
         return self._known
 
     def model_names(self) -> Dict[str, str]:
+        return self.finder().models()
+
+    def finder(self) -> Any:
         import rospkg
-        return make_finder(rospkg.RosPack()).models()
+        return make_finder(rospkg.RosPack())
 
     def _take(self, message: WorldView) -> None:
         self._frame = Frame(message.revision, message.sim_time.to_sec(), message.real_time, message.iterations,
@@ -159,6 +163,11 @@ class RosSimulation(Simulation):
             self._call("delete_model", DeleteModel, name)
 
     def set_light(self, light: d.Light) -> None:
+        known = next((other for other in self._known.lights if other.name == light.name), None) if self._known else None
+        if known is not None and (known.range, known.spot) != (light.range, light.spot):  # the service has no place for them
+            self._call("delete_light", DeleteLight, light.name)
+            self.insert(light.name, light_text(replace(light, pose=d.Pose())), light.pose)
+            return
         self._call("set_light_properties", SetLightProperties, light.name, light.cast_shadows,
                    ColorRGBA(*light.diffuse),
                    ColorRGBA(*light.specular), light.constant, light.linear, light.quadratic, Vector3(*light.direction),
@@ -204,6 +213,8 @@ class RosSimulation(Simulation):
         config = self._call("get_physics_properties", GetPhysicsProperties).ode_config
         config.sor_pgs_iters, config.sor_pgs_w = physics.iters, physics.sor
         config.cfm, config.erp = physics.cfm, physics.erp
+        config.contact_max_correcting_vel = physics.contact_max_correcting_vel
+        config.contact_surface_layer, config.max_contacts = physics.contact_surface_layer, physics.max_contacts
         self._call("set_physics_properties", SetPhysicsProperties, physics.max_step_size, physics.real_time_update_rate,
                    Vector3(*gravity), config)
 

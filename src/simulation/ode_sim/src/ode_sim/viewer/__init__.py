@@ -16,7 +16,9 @@
 ``drawing``             models and lights
 ``overlays``            collisions, centres of mass, inertias, joints, frames, labels
 ``selection``           what is picked, its gizmo, copy, delete, undo
+``shapes resizing``     simple shapes; other sizes for simple shapes, typed or by hand
 ``pulling``             a body pulled at with the mouse
+``placing pointer``     what is inserted hangs at the pointer until a click puts it down
 ``contacts arrows``     where bodies touch and with what force; forces as arrows
 ``surfaces saving``     colours of a running world; the world as a file
 ``movie``               films (MP4)

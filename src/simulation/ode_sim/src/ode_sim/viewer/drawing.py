@@ -3,6 +3,8 @@ from __future__ import annotations
 
 import itertools
 import math
+import struct
+import zlib
 from typing import Any, Callable, Dict, List, Optional, Tuple
 
 import numpy as np
@@ -25,6 +27,15 @@ def wxyz(q: d.Quat) -> Tuple[float, float, float, float]:
 
 def rgb255(colour) -> Tuple[int, int, int]:
     return tuple(int(round(255 * min(1.0, max(0.0, c)))) for c in colour[:3])
+
+
+def plain_png(colour: Tuple[int, int, int]) -> bytes:
+    """A picture of two by two pixels."""
+    def chunk(kind: bytes, data: bytes) -> bytes:
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+    rows = (b"\0" + 2 * bytes(colour)) * 2
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", 2, 2, 8, 2, 0, 0, 0))
+            + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
 
 
 def take_away(node: Any) -> None:
@@ -205,8 +216,13 @@ class Drawing:
             frame = next((m.links[row] for m in self._models.values() if row in m.links), None)
             if frame is not None:
                 self._lights.append(self._lamp(f"{frame.name}/light{number}", light, False))
-        self._server.scene.set_background_image(
-            np.full((2, 2, 3), rgb255(world.scene.background), np.uint8), format="png")
+        self._background(rgb255(world.scene.background))
+
+    def _background(self, colour: Tuple[int, int, int]) -> None:
+        """viser's own way would load OpenCV to write this picture, half a second before anything is seen."""
+        from viser._messages import BackgroundImageMessage
+        self._scene._websock_interface.queue_message(BackgroundImageMessage(
+            format="png", rgb_data=plain_png(colour), depth_data=None))
 
     def _lamp(self, node: str, light: d.Light, shadows: bool):
         common = dict(color=rgb255(light.diffuse), cast_shadow=shadows and light.cast_shadows)

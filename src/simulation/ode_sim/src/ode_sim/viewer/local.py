@@ -6,7 +6,7 @@ import threading
 import time
 from concurrent.futures import Future
 from dataclasses import replace
-from typing import Callable, Dict, Optional, Tuple
+from typing import Any, Callable, Dict, Optional, Tuple
 
 import numpy as np
 
@@ -132,6 +132,9 @@ class LocalSimulation(Simulation):
 
     def model_names(self) -> Dict[str, str]:
         return self._world.finder.models() if self._world.finder is not None else {}
+
+    def finder(self) -> Any:
+        return self._world.finder
 
     def frame(self) -> Optional[Frame]:
         return self._frame

@@ -13,7 +13,9 @@ from ode_sim.viewer.eye import Eyes, view_of
 from ode_sim.viewer.overlays import Overlays
 from ode_sim.viewer.panels import STANDARD
 from ode_sim.viewer.panels.base import Panel
+from ode_sim.viewer.placing import Placing
 from ode_sim.viewer.pulling import Pull
+from ode_sim.viewer.resizing import Resizing
 from ode_sim.viewer.selection import Selection
 from ode_sim.viewer.simulation import Frame, Refused, Simulation, WorldRecord
 from ode_sim.viewer.website import DEFAULT_PORT, Website
@@ -59,9 +61,11 @@ class Page:
         self.server.gui.set_panel_label(title)
         self.eyes = Eyes(self.server)
         self.pull = Pull(self)
+        self.placing = Placing(self)
         self.drawing = Drawing(self.server, self._picked, self.pull.attach)
         self.overlays = Overlays(self)
         self.selection = Selection(self)
+        self.resizing = Resizing(self)
         self.panels: List[Panel] = []
         self._build([*STANDARD, *panels])
         self.server.on_client_connect(self._on_connect)
@@ -178,6 +182,7 @@ class Page:
             self.drawing.move(frame)
             self.overlays.move(frame)
             self.pull.move(frame)
+            self.resizing.move(frame)
             self._each(lambda panel: panel.on_move(frame))
         now = time.monotonic()
         if now >= self._next_text:
@@ -216,6 +221,9 @@ class Page:
                 job()
             except Refused as error:
                 self._say(str(error))
+            except Exception as error:  # those behind it are done all the same
+                _log.debug("a job stumbled", exc_info=True)
+                self._say(f"{type(error).__name__}: {one_line(error, 200)}")
 
     def _each(self, f: Callable[[Panel], None]) -> None:
         for panel in self.panels:
@@ -233,7 +241,8 @@ class Page:
                     self.panels.append(kind(self))
 
     def _picked(self, model: str, link: str, event: Any) -> None:
-        self.attempt(event, lambda: self.later(lambda: self.selection.select(model, link)))
+        if not self.placing.takes(event):
+            self.attempt(event, lambda: self.later(lambda: self.selection.select(model, link)))
 
     def _on_connect(self, client: Any) -> None:
         self._count()

@@ -59,6 +59,9 @@ class History:
 class Selection:
     """One model, link or light at a time, the same for all pages.
 
+    What was picked last is picked again when it comes back (undo of a delete), and what was clicked on a page that is
+    ahead of this one or behind it when it is there.
+
     :ivar model: name, '' = nothing or a light. :ivar link: name, '' = the whole model. :ivar light: name or ''.
     """
 
@@ -68,6 +71,7 @@ class Selection:
         self.model = ""
         self.link = ""
         self.light = ""
+        self._wanted = ("", "", "")  # model, link, light: the last click
         self.on_change: List[Callable[[], None]] = []
         self._dragged: Optional[Pose] = None  # where the drag began
         self._updates: List[Tuple[Any, Pose, str]] = []  # of the drag, to be done
@@ -91,14 +95,27 @@ class Selection:
 
     def select(self, model: str = "", link: str = "", light: str = "") -> None:
         """Drawing thread."""
+        self._wanted = (model, link, light)
+        self._become(*self._present(self._page.world))
+
+    def update(self, world: WorldRecord) -> None:
+        now = self._present(world)
+        if now != (self.model, self.link, self.light):
+            self._become(*now)
+
+    def _present(self, world: WorldRecord) -> Tuple[str, str, str]:
+        """What is wanted, if it is there; else nothing."""
+        model, link, light = self._wanted
+        record = world.model(model) if model else None
+        there = (record is not None and (not link or link in record.links) if model else
+                 any(other.name == light for other in world.lights))
+        return self._wanted if there else ("", "", "")
+
+    def _become(self, model: str, link: str, light: str) -> None:
         self.model, self.link, self.light = model, link, light
         self._show()
         for f in self.on_change:
             f()
-
-    def update(self, world: WorldRecord) -> None:
-        if self.model and world.model(self.model) is None or self.light and self.light_record is None:
-            self.select()
 
     def pose(self) -> Optional[Pose]:
         """X_W of what is picked, in the newest frame."""

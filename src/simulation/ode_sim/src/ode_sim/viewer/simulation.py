@@ -3,7 +3,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, field, replace
-from typing import Dict, List, Optional, Tuple
+from typing import Any, Dict, List, Optional, Tuple
 
 import numpy as np
 
@@ -120,6 +120,10 @@ class Simulation(ABC):
     def model_names(self) -> Dict[str, str]:
         """Models of the model path: name -> path of the SDF file."""
         return {}
+
+    def finder(self) -> Any:
+        """What finds ``model://`` and other names of files (:class:`ode_sim.description.ResourceFinder`), or None."""
+        return None
 
     @abstractmethod
     def frame(self) -> Optional[Frame]:

@@ -186,9 +186,11 @@ def _start(viser: Any, door: socket.socket, guard: Guard, title: str) -> Any:
 
         return usual(handler, sock=door, process_request=guarded, **options)
 
-    with _starting, contextlib.redirect_stdout(io.StringIO()):  # where viser draws a frame round its address
-        library.serve = serve
+    import rich
+    with _starting, contextlib.redirect_stdout(io.StringIO()):
+        # viser draws a frame round an address that is not ours: not loaded, not drawn
+        library.serve, write, rich.print = serve, rich.print, lambda *_, **__: None
         try:
             return viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
         finally:
-            library.serve = usual
+            library.serve, rich.print = usual, write

@@ -12,7 +12,7 @@ from ode_sim.description import DescriptionError, model as d, read_sdf_model
 from ode_sim.description.sdf_writer import model_text
 from ode_sim.math3 import Pose
 from ode_sim.viewer.panels.base import free_name
-from ode_sim.viewer.panels.insert import shape_model
+from ode_sim.viewer.shapes import shape_model
 from ode_sim.viewer.simulation import Refused
 
 #: As upstream's editor names it, in the home folder.

@@ -52,7 +52,8 @@ class BuildingPanel(Panel):
         self._note = gui.add_html(note("nothing is drawn yet"))
         self._add_measures()
         self._add_files()
-        self._sketch = gui.add_image(np.full((8, 8, 3), 255, np.uint8), label="Plan", format="png", visible=False)
+        self._paper = gui.add_folder("Plan", visible=False)
+        self._sketch: Any = None
         self.on_update(self._on, lambda on: page.later(lambda: self._switch(bool(on))))
         self._views.on_click(self._on_view)
         self._history.on_click(lambda event: self._do(event, {"Undo": self._plan.undo, "Redo": self._plan.redo}[
@@ -162,9 +163,16 @@ class BuildingPanel(Panel):
         self._busy = False
         walls = sum(len(level.walls) for level in building.levels) if building is not None else 0
         self._note.content = note(f"{walls} walls on {plan.levels} levels" if walls else "nothing is drawn yet")
-        self._sketch.visible = building is not None
+        self._paper.visible = building is not None
         if building is not None:
-            self._sketch.image = np.asarray(building_image.draw(building, 400))
+            self._show_sketch(np.asarray(building_image.draw(building, 400)))
+
+    def _show_sketch(self, picture: np.ndarray) -> None:
+        if self._sketch is None:
+            with self._paper:
+                self._sketch = self.gui.add_image(picture, format="png")
+        else:
+            self._sketch.image = picture
 
     # ------------------------------------------------------------------------------------------ the hand
 

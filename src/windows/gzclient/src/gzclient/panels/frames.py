@@ -1,46 +1,16 @@
 """The frames of TF, where they are in the world."""
 from __future__ import annotations
 
-import threading
-from typing import Any, Dict, List, Optional, Tuple
+from typing import Any, Dict, Optional
 
 import numpy as np
-import rospy
-from ode_sim.math3 import Pose, compose, inverse
+from ode_sim.math3 import Pose
 from ode_sim.viewer.panels.base import Panel, note
-from ode_sim.viewer.simulation import Frame, WorldRecord
-from tf2_msgs.msg import TFMessage
+from ode_sim.viewer.simulation import Frame
 
-_MOST = 200  # frames
+from gzclient.tf_frames import TfFrames
+
 _SIZE = 0.15  # m
-
-Transforms = Dict[str, Tuple[str, Pose]]  # child -> (parent, X_PC)
-
-
-def name_of(frame: str) -> str:
-    return frame.strip("/")
-
-
-def place_frames(transforms: Transforms, links: Dict[str, Pose]) -> Dict[str, Pose]:
-    """X_WF of every frame: each tree hangs on the first of its frames that is a link of the world, else on the origin.
-
-    :param links: name -> X_WL
-    """
-    in_tree: Dict[str, Dict[str, Pose]] = {}  # root -> frame -> X_RF
-    for frame in {name for child, (parent, _) in transforms.items() for name in (child, parent)}:
-        chain, here = Pose(), frame
-        for _ in range(len(transforms) + 1):  # a loop ends somewhere
-            if here not in transforms:
-                break
-            here, step = transforms[here]
-            chain = compose(step, chain)
-        in_tree.setdefault(here, {})[frame] = chain
-    placed: Dict[str, Pose] = {}
-    for frames in in_tree.values():
-        anchor = next((frame for frame in sorted(frames) if frame in links), None)
-        x_wr = compose(links[anchor], inverse(frames[anchor])) if anchor else Pose()
-        placed.update({frame: compose(x_wr, x_rf) for frame, x_rf in frames.items()})
-    return placed
 
 
 class FramesPanel(Panel):
@@ -50,9 +20,7 @@ class FramesPanel(Panel):
 
     def __init__(self, page: Any):
         super().__init__(page)
-        self._lock = threading.Lock()
-        self._transforms: Transforms = {}
-        self._subscribers: List[rospy.Subscriber] = []
+        self._frames = TfFrames()
         self._axes: Optional[Any] = None
         self._labels: Dict[str, Any] = {}
         self._named = self.gui.add_checkbox("Names", True)
@@ -61,31 +29,15 @@ class FramesPanel(Panel):
         self.on_update(self._on, self._switch)
 
     def _switch(self, on: bool) -> None:
-        if on and not self._subscribers:
-            self._subscribers = [rospy.Subscriber(topic, TFMessage, self._take, queue_size=100)
-                                 for topic in ("/tf", "/tf_static")]
-        elif not on:
-            for subscriber in self._subscribers:
-                subscriber.unregister()
-            self._subscribers = []
-            with self._lock:
-                self._transforms = {}
+        if on:
+            self._frames.listen()
+        else:
+            self._frames.end()
             self.page.later(lambda: self._draw({}))
 
-    def _take(self, message: TFMessage) -> None:
-        with self._lock:
-            for stamped in message.transforms:
-                t, q = stamped.transform.translation, stamped.transform.rotation
-                numbers = (t.x, t.y, t.z, q.x, q.y, q.z, q.w)
-                child, parent = name_of(stamped.child_frame_id), name_of(stamped.header.frame_id)
-                if np.isfinite(numbers).all() and child != parent and len(self._transforms) < _MOST:
-                    self._transforms[child] = (parent, Pose(numbers[:3], numbers[3:]))
-
     def on_frame(self, frame: Frame) -> None:
-        if self._subscribers and frame.revision == self.page.world.revision:
-            with self._lock:
-                transforms = dict(self._transforms)
-            self._draw(place_frames(transforms, links_of(self.page.world, frame)))
+        if self._frames.listening and frame.revision == self.page.world.revision:
+            self._draw(self._frames.placed(self.page.world, frame))
 
     def _draw(self, placed: Dict[str, Pose]) -> None:
         scene = self.page.server.scene
@@ -107,12 +59,3 @@ class FramesPanel(Panel):
             if name not in self._labels:
                 self._labels[name] = scene.add_label(f"/tf_name_{abs(hash(name))}", name)
             self._labels[name].position = placed[name].p
-
-
-def links_of(world: WorldRecord, frame: Frame) -> Dict[str, Pose]:
-    """Link name -> X_WL; the first model that has it."""
-    found: Dict[str, Pose] = {}
-    for model in world.models:
-        for name, row in model.links.items():
-            found.setdefault(name.rpartition("::")[2], frame.pose(row))
-    return found

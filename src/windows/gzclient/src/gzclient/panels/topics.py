@@ -41,7 +41,8 @@ class TopicsPanel(Panel):
         self._chosen = self.gui.add_dropdown("Topic", (_NONE,))
         self._field = self.gui.add_text("Plot", "", hint="a number of the message, as in pose[0].position.x")
         self._state = self.gui.add_html(note("no topic"))
-        self._image = self.gui.add_image(np.zeros((8, 8, 3), np.uint8), format="jpeg", visible=False)
+        self._picture = self.gui.add_folder("Picture", visible=False)
+        self._image: Any = None
         self._text = self.gui.add_html("", visible=False)
         self._plots = self.gui.add_folder("Plot", visible=False)
         self._topics: Tuple[str, ...] = ()
@@ -69,7 +70,7 @@ class TopicsPanel(Panel):
             self._subscriber = None
         self._topic, self._message, self._count, self._drawn = topic, None, 0, 0
         self._points.clear()
-        self._image.visible = self._text.visible = False
+        self._picture.visible = self._text.visible = False
         if topic == _NONE:
             self._state.content = note("no topic")
             return
@@ -106,14 +107,21 @@ class TopicsPanel(Panel):
         self._state.content = note(f"{self._topic} ({self._type}), {self._count} messages")
         if self._type in _IMAGES:
             try:
-                self._image.image = picture_of(message)
-                self._image.visible = True
+                self._show_image(picture_of(message))
             except ValueError as error:
                 self._state.content = note(f"{self._topic}: {error}")
         else:
             self._show_text(message)
         if self._path:
             self._show_plot(message)
+
+    def _show_image(self, picture: np.ndarray) -> None:
+        if self._image is None:
+            with self._picture:
+                self._image = self.gui.add_image(picture, format="jpeg")
+        else:
+            self._image.image = picture
+        self._picture.visible = True
 
     def _show_text(self, message: Any) -> None:
         text = genpy.message.strify_message(message, fixed_numeric_width=None)

@@ -18,7 +18,15 @@ class PhysicsPanel(Panel):
         self._step = self.gui.add_number("Step (s)", 0.001, min=1e-6, max=0.1, step=0.001)
         self._rate = self.gui.add_number("Steps per second", 1000.0, min=0.0, step=100.0, hint="0: as fast as possible")
         self._iterations = self.gui.add_number("Solver iterations", 50, min=1, max=10_000, step=10)
-        for control in (self._gravity, self._step, self._rate, self._iterations):
+        self._sor = self.gui.add_number("Relaxation (SOR)", 1.3, min=0.01, max=2.0, step=0.05)
+        self._soft = self.gui.add_vector2("CFM, ERP", (0.0, 0.2), min=(0.0, 0.0), max=(1.0, 1.0), step=0.01,
+                                          hint="how soft contacts are, and how much of an error a step mends")
+        self._correcting = self.gui.add_number("Contacts: fastest correction (m/s)", 100.0, min=0.0, step=1.0)
+        self._layer = self.gui.add_number("Contacts: depth that stays (m)", 0.001, min=0.0, max=0.1, step=0.0005)
+        self._contacts = self.gui.add_number("Contacts of a pair at most", 20, min=1, max=1000, step=1)
+        self._controls = (self._gravity, self._step, self._rate, self._iterations, self._sor, self._soft, self._correcting,
+                          self._layer, self._contacts)
+        for control in self._controls:
             self.on_update(control, lambda _: self._set())
         self.on_click(self.gui.add_button("Read again"), self._read)
 
@@ -33,12 +41,18 @@ class PhysicsPanel(Panel):
         self._step.value = float(physics.max_step_size)
         self._rate.value = float(physics.real_time_update_rate)
         self._iterations.value = int(physics.iters)
+        self._sor.value, self._soft.value = float(physics.sor), (float(physics.cfm), float(physics.erp))
+        self._correcting.value = float(physics.contact_max_correcting_vel)
+        self._layer.value, self._contacts.value = float(physics.contact_surface_layer), int(physics.max_contacts)
 
     def _set(self) -> None:
         physics, _ = self.simulation.physics()
         try:
             self.simulation.set_physics(
                 replace(physics, max_step_size=float(self._step.value), real_time_update_rate=float(self._rate.value),
-                        iters=int(self._iterations.value)), tuple(float(v) for v in self._gravity.value))
+                        iters=int(self._iterations.value), sor=float(self._sor.value), cfm=float(self._soft.value[0]),
+                        erp=float(self._soft.value[1]), contact_max_correcting_vel=float(self._correcting.value),
+                        contact_surface_layer=float(self._layer.value), max_contacts=int(self._contacts.value)),
+                tuple(float(v) for v in self._gravity.value))
         finally:
             self._read()

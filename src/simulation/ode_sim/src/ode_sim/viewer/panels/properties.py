@@ -6,7 +6,8 @@ from dataclasses import replace
 from typing import Any, List
 
 from ode_sim.math3 import Pose, quat_from_rpy, to_rpy
-from ode_sim.viewer.simulation import Frame, LinkProperties, ModelRecord, SurfaceProperties
+from ode_sim.viewer.resizing import shape_of, size_of, with_size
+from ode_sim.viewer.simulation import Frame, LinkProperties, ModelRecord, Refused, SurfaceProperties
 
 
 class Properties:
@@ -18,6 +19,12 @@ class Properties:
         self.gui = panel.gui
         self.handles: List[Any] = []
         self._texts: dict = {}
+
+    def build(self) -> None:
+        """Add the controls; a refusal leaves those that are there already.
+
+        :raises Refused: the simulator does not tell what they show
+        """
 
     def add(self, handle: Any) -> Any:
         self.handles.append(handle)
@@ -49,8 +56,7 @@ class Properties:
 
 
 class ModelProperties(Properties):
-    def __init__(self, panel: Any):
-        super().__init__(panel)
+    def build(self) -> None:
         selection = self.page.selection
         record = selection.record
         self._model = record.name
@@ -58,6 +64,7 @@ class ModelProperties(Properties):
         self._pose_controls()
         for control in (self.position, self.angles):
             control.disabled = bool(selection.link)  # a link is moved by its joints, or with its model
+        self._size_controls(record)
         if self._link and not record.static:
             self._mass_controls(self.page.simulation.link_properties(self._model, self._link))
         self._look_controls(record)
@@ -65,9 +72,32 @@ class ModelProperties(Properties):
     def on_frame(self, frame: Frame) -> None:
         self._show_pose()
 
+    def _size_controls(self, record: ModelRecord) -> None:
+        shape = shape_of(record.description)
+        if shape is not None:
+            self.size = self.add(self.gui.add_vector3("Size (m)", size_of(shape[0]), min=(0.01,) * 3, step=0.05,
+                                                      hint="what is round stays round"))
+            self.panel.on_update(self.size, self._set_size)
+
+    def _set_size(self, sizes: tuple) -> None:
+        """The side that was changed; of a round thing the others follow."""
+        shape = shape_of(self.page.selection.record.description)[0]
+        for axis, (before, now) in enumerate(zip(size_of(shape), sizes)):
+            if abs(float(now) - before) > 1e-9:
+                self.page.resizing.apply(with_size(shape, axis, float(now)))
+                return
+
     def _mass_controls(self, now: LinkProperties) -> None:
         self.mass = self.add(self.gui.add_number("Mass (kg)", float(now.mass), min=1e-6, step=0.1))
         self.gravity = self.add(self.gui.add_checkbox("Gravity", now.gravity))
+        self.com = self.add(self.gui.add_vector3("Centre of mass (m)", tuple(map(float, now.com)), step=0.01,
+                                                 hint="in the frame of the link"))
+        self.diagonal = self.add(self.gui.add_vector3("Inertia xx yy zz", tuple(float(now.inertia[i]) for i in (0, 3, 5)),
+                                                      step=0.001, hint="kg m², about the centre of mass"))
+        self.products = self.add(self.gui.add_vector3("Inertia xy xz yz", tuple(float(now.inertia[i]) for i in (1, 2, 4)),
+                                                      step=0.001))
+        for control in (self.com, self.diagonal, self.products):
+            self.panel.on_update(control, lambda _: self._set_inertia())
         self.force = self.add(self.gui.add_vector3("Force (N)", (0.0, 0.0, 10.0), step=1.0))
         self.torque = self.add(self.gui.add_vector3("Torque (N m)", (0.0, 0.0, 0.0), step=0.1))
         self.duration = self.add(self.gui.add_number("For (s)", 0.1, min=0.001, max=1000.0, step=0.1))
@@ -110,13 +140,23 @@ class ModelProperties(Properties):
         factor = mass / before.mass if before.mass else 1.0
         now = replace(before, mass=mass, inertia=tuple(v * factor for v in before.inertia),
                       gravity=bool(self.gravity.value))
+        self.diagonal.value = tuple(float(now.inertia[i]) for i in (0, 3, 5))
+        self.products.value = tuple(float(now.inertia[i]) for i in (1, 2, 4))
         self.page.selection.history.do(f"mass of {link}", lambda: simulation.set_link_properties(model, link, now),
                                        lambda: simulation.set_link_properties(model, link, before))
 
 
+    def _set_inertia(self) -> None:
+        simulation, model, link = self.page.simulation, self._model, self._link
+        (ixx, iyy, izz), (ixy, ixz, iyz) = (tuple(map(float, part.value)) for part in (self.diagonal, self.products))
+        before = simulation.link_properties(model, link)
+        now = replace(before, com=tuple(map(float, self.com.value)), inertia=(ixx, ixy, ixz, iyy, iyz, izz))
+        self.page.selection.history.do(f"inertia of {link}", lambda: simulation.set_link_properties(model, link, now),
+                                       lambda: simulation.set_link_properties(model, link, before))
+
+
 class LightProperties(Properties):
-    def __init__(self, panel: Any):
-        super().__init__(panel)
+    def build(self) -> None:
         light = self.page.selection.light_record
         self._pose_controls()
         self.diffuse = self.add(self.gui.add_rgb("Colour", tuple(int(255 * min(1.0, c)) for c in light.diffuse[:3])))
@@ -124,9 +164,28 @@ class LightProperties(Properties):
         self.panel.on_update(self.diffuse, lambda value: self._set(
             diffuse=tuple(c / 255 for c in value) + (1.0,)))
         self.panel.on_update(self.shadows, lambda value: self._set(cast_shadows=bool(value)))
+        self.specular = self.add(self.gui.add_rgb("Highlights", tuple(int(255 * min(1.0, c)) for c in light.specular[:3])))
+        self.panel.on_update(self.specular, lambda value: self._set(specular=tuple(c / 255 for c in value) + (1.0,)))
+        if light.type != "point":
+            self.direction = self.add(self.gui.add_vector3("Shines along", tuple(map(float, light.direction)), step=0.05))
+            self.panel.on_update(self.direction, lambda value: self._aim(tuple(map(float, value))))
         if light.type != "directional":
+            self.fading = self.add(self.gui.add_vector3(
+                "Fading", (float(light.constant), float(light.linear), float(light.quadratic)), min=(0.0,) * 3, step=0.01,
+                hint="constant, linear, quadratic part"))
+            self.panel.on_update(self.fading, lambda value: self._set(**dict(zip(
+                ("constant", "linear", "quadratic"), map(float, value)))))
             self.range = self.add(self.gui.add_number("Range (m)", float(light.range), min=0.0, step=0.5))
             self.panel.on_update(self.range, lambda value: self._set(range=float(value)))
 
+    def _aim(self, direction: tuple) -> None:
+        if not any(direction):
+            raise Refused("A direction is not zero.")
+        self._set(direction=direction)
+
     def _set(self, **changes: Any) -> None:
-        self.page.simulation.set_light(replace(self.page.selection.light_record, **changes))
+        """A step that can be undone."""
+        before, simulation = self.page.selection.light_record, self.page.simulation
+        now = replace(before, **changes)
+        self.page.selection.history.do(f"light {before.name}", lambda: simulation.set_light(now),
+                                       lambda: simulation.set_light(before))

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import math
+import time
 from typing import Any, Callable, Dict, Optional, Tuple
 
 from ode_sim.math3 import Pose
@@ -11,6 +12,7 @@ from ode_sim.viewer.panels.properties import LightProperties, ModelProperties, P
 from ode_sim.viewer.simulation import Frame, WorldRecord
 
 _MOST_ROWS = 30
+_KEPT = 10.0  # wall s that a row is kept after it was hidden: a click on it may be under way, an undo may bring it back
 Row = Tuple[str, str, str, str]  # label, model, link, light
 
 
@@ -22,17 +24,20 @@ class WorldPanel(Panel):
         self._search = self.gui.add_text("Search", "", hint="of models, links and lights whose name has this in it")
         self._list = self.gui.add_folder("Models and lights")
         self._rows: Dict[Row, Any] = {}
+        self._hidden: Dict[Row, float] = {}  # row -> wall s when it was hidden
         self._more: Optional[Any] = None
         self._listed: Optional[Tuple] = None
         self._folder = self.gui.add_folder("Nothing is picked")
         self._properties: Optional[Properties] = None
         with self.gui.add_folder("Edit"):
             self._gizmo = self.gui.add_checkbox("Move and rotate by hand", False)
+            self._resize = self.gui.add_checkbox("Resize by hand", False, hint="the three knobs of a box, sphere or cylinder")
             self._snap = self.gui.add_number("Snap to (m)", 0.0, min=0.0, max=10.0, step=0.05)
             self._edit = self.gui.add_button_group("Picked", ("Copy", "Delete", "Look at"))
             self._history = self.gui.add_button_group("History", ("Undo", "Redo"))
         self._search.on_update(lambda event: self.page.later(self._list_rows))
         self.on_update(self._gizmo, lambda _: self._set_gizmo())
+        self.on_update(self._resize, lambda _: self._set_gizmo())
         self.on_update(self._snap, lambda _: self._set_gizmo())
         self._edit.on_click(self._on_edit)
         self._history.on_click(lambda event: page.attempt(event, self._undo_redo(event.target.value)))
@@ -44,6 +49,10 @@ class WorldPanel(Panel):
     def on_frame(self, frame: Frame) -> None:
         if self._properties is not None:
             self._properties.on_frame(frame)
+        long_ago = time.monotonic() - _KEPT
+        for row in [row for row, since in self._hidden.items() if since < long_ago]:
+            del self._hidden[row]
+            self._rows.pop(row).remove()
 
     # ------------------------------------------------------------------------------------------ tree
 
@@ -53,17 +62,22 @@ class WorldPanel(Panel):
         if rows == self._listed:
             return
         self._listed = rows
-        for row in [row for row in self._rows if row not in rows[:_MOST_ROWS]]:
-            self._rows.pop(row).remove()
+        shown = rows[:_MOST_ROWS]
+        for row, button in self._rows.items():
+            if row not in shown and row not in self._hidden:
+                button.visible = False
+                self._hidden[row] = time.monotonic()
         if self._more is not None:
             self._more.remove()
             self._more = None
         with self._list:
-            for number, row in enumerate(rows[:_MOST_ROWS]):  # rows that stay are not drawn anew under the hand
-                if row in self._rows:
-                    self._rows[row].order = float(number)
-                else:
+            for number, row in enumerate(shown):  # rows that stay are not drawn anew under the hand
+                if row not in self._rows:
                     self._rows[row] = self._row(row, float(number))
+                    continue
+                self._rows[row].order = float(number)
+                if self._hidden.pop(row, None) is not None:
+                    self._rows[row].visible = True
             if len(rows) > _MOST_ROWS:
                 self._more = self.gui.add_html(note(f"and {len(rows) - _MOST_ROWS} more: search"), order=1e6)
 
@@ -96,14 +110,14 @@ class WorldPanel(Panel):
         name = selection.light or (f"{selection.model}::{selection.link}" if selection.link else selection.model)
         self._folder.label = name or "Nothing is picked"
         with self._folder:
-            if selection.light:
-                self._properties = LightProperties(self)
-            elif selection.model:
-                self._properties = ModelProperties(self)
+            if name:
+                self._properties = (LightProperties if selection.light else ModelProperties)(self)
+                self._properties.build()
 
     def _set_gizmo(self) -> None:
-        on, snap = self._gizmo.value, float(self._snap.value)
+        on, resize, snap = self._gizmo.value, self._resize.value, float(self._snap.value)
         self.page.later(lambda: self.page.selection.gizmo(on, snap))
+        self.page.later(lambda: self.page.resizing.show(resize, snap))
 
     def _on_edit(self, event: Any) -> None:
         selection = self.page.selection
