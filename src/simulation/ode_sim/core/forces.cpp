@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kStopSkin = 1e-12;  // a joint put exactly on its stop is to be found there despite rounding
 constexpr double kNearStop = 1e-9;   // within the reach of the skin
+constexpr double kStiffLaw = 1;      // share of a speed error that a controller makes good in one step; more swings
 constexpr double kJump = 30;  // m/s, rad/s: a servo joint commanded to move faster than this is teleported
 
 }  // namespace
@@ -174,43 +175,17 @@ void World::apply_axis_force(Joint& j, int axis, double f) {
   }
 }
 
-// Motor, friction, limits, damping and spring of one axis for this step.
-void World::update_axis(Joint& j, int i) {
-  Axis& a = j.axes[i];
-  double velocity = 0, most = 0, softness = 1e-10, force = a.force;
-  double damping = a.damping;
-  const double stiffness = a.spring_stiffness;
-  const double pull = stiffness > 0 ? -stiffness * (a.q - a.spring_reference) : 0;
-  const double stiff = dt * (damping + dt * stiffness) * j.inverse_inertia[i];
-  if (i == 0 && j.servo == ServoMode::Motor) {
-    motor_load(j);
-    const double fastest = a.velocity > 0 && a.velocity < kUnlimited ? a.velocity : 100.0;
-    velocity = std::min(std::max((j.target - a.q) / dt, -fastest), fastest);
-    most = j.load;
-  } else if (a.motor_force > 0) {
-    velocity = a.motor_velocity;
-    most = a.motor_force;
-  } else if (a.friction > 0) {
-    most = a.friction;
-  } else if (damping + stiffness > 0 && (j.implicit_spring_damper || (stiff > 0.05 && !like_gazebo)) &&
-             a.q - a.lower > kNearStop && a.upper - a.q > kNearStop) {
-    // Implicit: a motor row whose softness is the damper, and whose speed is that at which the spring balances it. Not at a
-    // stop, where ODE turns motors into torques of their greatest size.
-    const double d = damping + dt * stiffness;
-    velocity = pull / d;
-    softness = 1 / d;
-    most = dInfinity;
-    damping = 0;
-  }
-  if (softness <= 1e-10) {
-    if (stiff > 0.05 && !like_gazebo) damping /= 1 + stiff;
-    force += pull - damping * a.qd;
-  }
-  set_limot(j, i, dParamFMax, most);
-  a.drive = velocity * j.sign;
-  set_limot(j, i, dParamVel, a.drive);
-  set_limot(j, i, dParamCFM, softness);
-  // ODE knows angles within a turn: its stops move along with the turns.
+// A controller's law as the speed that a soft motor row aims at: the row gives what the law gives at the speed that the step arrives
+// at. What it gives at the speed before, held through the step, throws a light wheel to and fro. Friction is taken off first.
+static double speed_by_law(const Axis& a) {
+  double speed = a.qd + a.law / a.slope;
+  if (a.velocity > 0) speed = std::min(std::max(speed, -a.velocity), a.velocity);
+  return std::copysign(std::max(std::abs(speed) - a.friction / a.slope, 0.0), speed);
+}
+
+// ODE knows angles within a turn: its stops move along with the turns.
+void World::set_stops(Joint& j, int i) {
+  const Axis& a = j.axes[i];
   double lower = a.lower, upper = a.upper;
   if (j.type == JointType::Revolute && std::abs(a.q) > 3) {
     const double turns = 2 * kPi * std::round((a.q - j.sign * dJointGetHingeAngle(j.joint)) / (2 * kPi));
@@ -228,6 +203,52 @@ void World::update_axis(Joint& j, int i) {
   set_limot(j, i, dParamLoStop, std::isfinite(lower) ? lower : -dInfinity);
   set_limot(j, i, dParamHiStop, std::isfinite(upper) ? upper : dInfinity);
   set_limot(j, i, dParamLoStop, std::isfinite(lower) ? lower : -dInfinity);  // ODE refuses a low stop above the old high one
+}
+
+// Motor, friction, limits, damping and spring of one axis for this step.
+void World::update_axis(Joint& j, int i) {
+  Axis& a = j.axes[i];
+  double velocity = 0, most = 0, softness = 1e-10, force = a.force;
+  double damping = a.damping;
+  const double stiffness = a.spring_stiffness;
+  const double pull = stiffness > 0 ? -stiffness * (a.q - a.spring_reference) : 0;
+  const double stiff = dt * (damping + dt * stiffness) * j.inverse_inertia[i];
+  // At a stop ODE turns motors into torques of their greatest size.
+  const bool off_stops = a.q - a.lower > kNearStop && a.upper - a.q > kNearStop;
+  const bool by_law = !like_gazebo && off_stops && j.servo != ServoMode::Motor && a.motor_force <= 0 &&
+                      dt * a.slope * j.inverse_inertia[i] > kStiffLaw && (a.law == 0 || a.admitted(a.law) != 0);
+  if (i == 0 && j.servo == ServoMode::Motor) {
+    motor_load(j);
+    const double fastest = a.velocity > 0 && a.velocity < kUnlimited ? a.velocity : 100.0;
+    velocity = std::min(std::max((j.target - a.q) / dt, -fastest), fastest);
+    most = j.load;
+  } else if (a.motor_force > 0) {
+    velocity = a.motor_velocity;
+    most = a.motor_force;
+  } else if (by_law) {
+    velocity = speed_by_law(a);
+    softness = 1 / a.slope;
+    most = a.effort >= 0 ? std::min(a.law_bound, a.effort) : a.law_bound;
+    force -= a.lawful();
+  } else if (a.friction > 0) {
+    most = a.friction;
+  } else if (damping + stiffness > 0 && (j.implicit_spring_damper || (stiff > 0.05 && !like_gazebo)) && off_stops) {
+    // Implicit: a motor row whose softness is the damper, and whose speed is that at which the spring balances it.
+    const double d = damping + dt * stiffness;
+    velocity = pull / d;
+    softness = 1 / d;
+    most = dInfinity;
+    damping = 0;
+  }
+  if (softness <= 1e-10 || by_law) {
+    if (stiff > 0.05 && !like_gazebo) damping /= 1 + stiff;
+    force += pull - damping * a.qd;
+  }
+  set_limot(j, i, dParamFMax, most);
+  a.drive = velocity * j.sign;
+  set_limot(j, i, dParamVel, a.drive);
+  set_limot(j, i, dParamCFM, softness);
+  set_stops(j, i);
   apply_axis_force(j, i, force);
 }
 

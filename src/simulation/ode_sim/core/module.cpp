@@ -174,12 +174,17 @@ PYBIND11_MODULE(_core, m) {
       .def("effort", [](Joint& j, int i) { return axis_of(j, i).effort_now(); }, py::arg("axis") = 0)
       .def("add_force", [](Joint& j, double f, int i) {
         Axis& a = axis_of(j, i);
-        f = limited(f, kStrongest, "a force");
-        if (a.velocity >= 0 && ((a.qd > a.velocity && f > 0) || (a.qd < -a.velocity && f < 0))) f = 0;
-        if (a.effort >= 0) f = std::min(std::max(f, -a.effort), a.effort);
-        a.force += f;
+        a.force += a.admitted(limited(f, kStrongest, "a force"));
         a.commanded = true;
       }, py::arg("force"), py::arg("axis") = 0)
+      .def("add_law", [](Joint& j, double f, double slope, double bound, int i) {
+        Axis& a = axis_of(j, i);
+        a.law = limited(f, kStrongest, "a force");
+        a.slope = std::max(limited(slope, kStrongest, "a controller's slope"), 0.0);
+        a.law_bound = std::max(limited(bound, kInf, "the bound of a force"), 0.0);
+        a.force += a.lawful();
+        a.commanded = true;
+      }, py::arg("force"), py::arg("slope"), py::arg("bound"), py::arg("axis") = 0)
       .def("set_motor", [](Joint& j, double velocity, double force, int i) {
         Axis& a = axis_of(j, i);
         const double v = limited(velocity, kFastestSet, "a motor's velocity"), f = limited(force, kInf, "a motor's force");

@@ -12,7 +12,7 @@ namespace ode_sim {
 
 namespace {
 
-constexpr uint64_t kVersion = 0x356d69735f65646full;  // "ode_sim5"; counts up when what is written changes
+constexpr uint64_t kVersion = 0x366d69735f65646full;  // "ode_sim6"; counts up when what is written changes
 
 uint64_t digest(const char* data, size_t size) {  // FNV-1a
   uint64_t h = 0xcbf29ce484222325ull;
@@ -79,7 +79,7 @@ template <class F> void visit(F& f, Surface& s) {
 template <class F> void visit(F& f, Axis& a) {
   visit(f, a.xyz);
   for (double* v : {&a.lower, &a.upper, &a.effort, &a.velocity, &a.damping, &a.friction, &a.spring_reference, &a.spring_stiffness,
-                    &a.q, &a.qd, &a.force, &a.applied, &a.motor_velocity, &a.motor_force})
+                    &a.q, &a.qd, &a.force, &a.applied, &a.motor_velocity, &a.motor_force, &a.law, &a.slope, &a.law_bound})
     f.number(*v);
   f.flag(a.commanded);
 }

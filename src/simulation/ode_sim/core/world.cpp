@@ -269,7 +269,7 @@ void World::abandon_step() {
       if (l->body) dBodySetForce(l->body, 0, 0, 0), dBodySetTorque(l->body, 0, 0, 0), dBodyDisable(l->body);
     }
     for (auto& j : m->joints)
-      for (auto& a : j->axes) a.applied = a.force, a.force = 0, a.commanded = false;
+      for (auto& a : j->axes) a.stepped();
   }
 }
 
@@ -324,7 +324,7 @@ void World::step_once() {
   for (auto& m : models_) {
     for (auto& l : m->links) l->force = l->torque = {};
     for (auto& j : m->joints)
-      for (auto& a : j->axes) a.applied = a.force, a.force = 0, a.commanded = false;
+      for (auto& a : j->axes) a.stepped();
   }
   read_back();
   for (auto& m : models_)

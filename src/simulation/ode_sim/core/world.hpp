@@ -14,6 +14,7 @@
 #pragma once
 #include <ode/ode.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <map>
@@ -134,11 +135,20 @@ struct Axis {
   // State.
   double q = 0, qd = 0, force = 0, applied = 0;  // applied: the force of the last step
   bool commanded = false;                        // a force was added since the last step
+  // The part of the force that a controller gives at the speed qd, before its bound; it gives `slope` less per unit of speed.
+  double law = 0, slope = 0, law_bound = 0;
   double motor_velocity = 0, motor_force = 0;
   double drive = 0;  // speed that ODE's motor row aims at in the step under way
 
   double effort_now() const { return commanded ? force : applied; }
-  void relax() { qd = force = applied = 0, commanded = false; }
+  void relax() { qd = force = applied = law = slope = 0, commanded = false; }
+  void stepped() { applied = force, force = law = slope = 0, commanded = false; }
+  // What the limits of effort and speed leave of a force.
+  double admitted(double f) const {
+    if (velocity >= 0 && ((qd > velocity && f > 0) || (qd < -velocity && f < 0))) return 0;
+    return effort >= 0 ? std::min(std::max(f, -effort), effort) : f;
+  }
+  double lawful() const { return admitted(std::min(std::max(law, -law_bound), law_bound)); }
 };
 
 struct Feedback {
@@ -411,6 +421,7 @@ class World {
   void feed_forward(Joint& joint);
   void apply_forces();
   void apply_axis_force(Joint& joint, int axis, double force);
+  void set_stops(Joint& joint, int axis);
   void update_axis(Joint& joint, int axis);
   void make_contact_joints();
   const Borne* borne_before(const Contact& contact) const;

@@ -85,3 +85,13 @@ class Pid:
             command = 0.0
         self.command = command
         return command
+
+    def slope_of_position(self, dt: float) -> float:
+        """How much less the next command gets per unit of speed of what is measured, where the error is one of position."""
+        gains = self.gains
+        return gains.d + gains.p * dt
+
+    def slope_of_velocity(self, dt: float) -> float:
+        """The same where the error is one of speed."""
+        gains = self.gains
+        return gains.p + gains.d / dt if dt > 0.0 else gains.p

@@ -96,6 +96,7 @@ class PidPositionController(_PidController):
         error = self._description.error(position, target)
         command = self._pid.compute_command(error, period)
         self.joint.command = command
+        self.joint.slope = self._pid.slope_of_position(period)
         self._publish(time, period, target, position, self.joint.state.velocity, error, command)
 
 
@@ -120,6 +121,7 @@ class JointVelocityController(_PidController):
         error = target - velocity
         command = self._pid.compute_command(error, period)
         self.joint.command = command
+        self.joint.slope = self._pid.slope_of_velocity(period)
         self._publish(time, period, target, velocity, 0.0, error, command)
 
 
@@ -144,3 +146,4 @@ class JointGroupPositionController(ForwardJointGroupCommandController):
         for joint, description, pid, command in zip(self.joints, self._descriptions, self._pids, self._commands):
             error = description.error(joint.state.position, description.clamp(command))
             joint.command = pid.compute_command(error, period)
+            joint.slope = pid.slope_of_position(period)

@@ -132,6 +132,8 @@ class EffortGripperController(GripperActionController):
 
     def write_output(self, target, max_effort, error, velocity, period):
         limit = abs(max_effort)
-        effort = min(max(self._pid.compute_command(error, period, -velocity), -limit), limit)
+        wanted = self._pid.compute_command(error, period, -velocity)
+        effort = min(max(wanted, -limit), limit)
         self._handle.command = effort
+        self._handle.slope = self._pid.slope_of_position(period) if effort == wanted else 0.0
         return effort

@@ -49,9 +49,15 @@ class _CommandHandle:
 
 @dataclass(eq=False, slots=True)
 class JointHandle(_CommandHandle):
-    """A joint and one command: position, velocity or effort, depending on the interface it is registered in."""
+    """A joint and one command: position, velocity or effort, depending on the interface it is registered in.
+
+    :param slope: of the law behind an effort command: how much less effort a controller that closes a loop commands per rad/s or
+        m/s that its joint gets faster, N m s/rad or N s/m; 0 where nothing is known. A simulation may hold a stiff law with it;
+        hardware need not look at it.
+    """
 
     command: float = 0.0
+    slope: float = 0.0
 
 
 class ActuatorHandle(JointHandle):

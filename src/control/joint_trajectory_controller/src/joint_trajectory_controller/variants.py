@@ -70,6 +70,7 @@ class _FeedbackTrajectoryController(JointTrajectoryController):
     def write_output(self, desired, errors, period):
         for (handle, pid, velocity_ff), point, error in zip(self._outputs, desired, errors):
             handle.command = velocity_ff * point[1] + pid.compute_command(error[0], period, error[1])
+            handle.slope = pid.slope_of_position(period)
 
 
 class VelocityTrajectoryController(_FeedbackTrajectoryController):

@@ -128,7 +128,7 @@ class DefaultRobotHWSim(RobotHWSim):
         effort_limit = hard.max_effort if hard and hard.has_effort_limits else sys.float_info.max
         _warn_of_zero_limits(description, hard, interface)
         if interface is EffortJointInterface:
-            return EffortMode(joint, handle, limits)
+            return EffortMode(joint, handle, limits, effort_limit)
         pid = _load_gains(nh.sub(f"gazebo_ros_control/pid_gains/{description.name}"), description.name)
         if pid is None and description.name not in self._without_gains:
             self._without_gains.append(description.name)
@@ -169,6 +169,7 @@ class DefaultRobotHWSim(RobotHWSim):
                 for name in claimed.resources:
                     sim = self._joints.get(name)
                     if sim is not None and claimed.hardware_interface in sim.modes:
+                        sim.modes[claimed.hardware_interface].handle.slope = 0.0  # the law of whoever commanded before
                         sim.switch(claimed.hardware_interface)
 
 

@@ -4,6 +4,7 @@ These run in every step of the world, so they avoid look-ups and calls.
 """
 from __future__ import annotations
 
+import math
 from typing import Dict, Optional
 
 from control_toolbox import Pid
@@ -40,13 +41,29 @@ class Mode:
 
 
 class EffortMode(Mode):
-    """The command is the joint's force or torque."""
+    """The command is the joint's force or torque; of a controller that closes a loop the law behind it is known too."""
 
-    __slots__ = ()
+    __slots__ = ("_effort_limit",)
+
+    def __init__(self, joint, handle: JointHandle, limits, effort_limit: float):
+        super().__init__(joint, handle, limits)
+        self._effort_limit = effort_limit
+
+    def enter(self) -> None:
+        super().enter()
+        self.handle.slope = 0.0
 
     def write(self, dt: float) -> None:
+        handle = self.handle
+        wanted = handle.command
         self.limits.enforce_limits(dt)
-        self.joint.add_force(0.0 if self.e_stop else self.handle.command)
+        allowed = handle.command
+        if self.e_stop:
+            self.joint.add_force(0.0)
+        elif handle.slope > 0.0 and (wanted == allowed or self._effort_limit <= abs(allowed) < abs(wanted) < math.inf):
+            self.joint.add_law(wanted, handle.slope, self._effort_limit)
+        else:  # what other limits made of the command is no law
+            self.joint.add_force(allowed)
         self.state.effort = self.joint.effort()
 
 
@@ -87,7 +104,10 @@ class PositionMode(Mode):
 
 
 class _ByPid:
-    """Mixed into a mode: its ``_pid`` gives the joint's effort, within ``_effort_limit``."""
+    """Mixed into a mode: its ``_pid`` gives the joint's effort, within ``_effort_limit``.
+
+    What the PID would give at other speeds goes with it: the simulation holds gains that are too high for its step.
+    """
 
     __slots__ = ()
 
@@ -98,10 +118,9 @@ class _ByPid:
     def leave(self) -> None:
         self.state.effort = 0.0
 
-    def push(self, error: float, dt: float) -> None:
+    def push(self, error: float, slope: float, dt: float) -> None:
         """Apply what the PID says to this error."""
-        limit = self._effort_limit
-        self.joint.add_force(min(max(self._pid.compute_command(error, dt), -limit), limit))
+        self.joint.add_law(self._pid.compute_command(error, dt), max(slope, 0.0), self._effort_limit)
         self.state.effort = self.joint.effort()
 
 
@@ -118,7 +137,8 @@ class PositionPidMode(_ByPid, PositionMode):
         self._effort_limit = effort_limit
 
     def write(self, dt: float) -> None:
-        self.push(self._description.error(self.joint.position(), self.target(dt)), dt)
+        error = self._description.error(self.joint.position(), self.target(dt))
+        self.push(error, self._pid.slope_of_position(dt), dt)
 
 
 class VelocityMode(Mode):
@@ -152,7 +172,7 @@ class VelocityPidMode(_ByPid, VelocityMode):
         self._pid = pid
 
     def write(self, dt: float) -> None:
-        self.push(self.target(dt) - self.joint.velocity(), dt)
+        self.push(self.target(dt) - self.joint.velocity(), self._pid.slope_of_velocity(dt), dt)
 
 
 class JointSim:

@@ -230,6 +230,20 @@ class JointHandle:
             raise ValueError(f"force on joint {self.scoped_name} must be a finite number, not {force}")
         self.core.add_force(force, axis)
 
+    def add_law(self, force: float, slope: float, bound: float = math.inf, axis: int = 0) -> None:
+        """The force of a controller, for the next step: ``force`` N m or N at the joint's present speed, ``slope`` less for each
+        rad/s or m/s that it gets faster, and never more than ``bound``.
+
+        As ``add_force`` of ``force``, cut to the bound, where that holds for a step. Where the slope would make good more than the
+        whole error of the speed within one step, the force is that at the speed which the step arrives at: a controller whose
+        gains are too high for the joint's inertia and the step then drives the joint instead of throwing it to and fro. Not with
+        the ``gazebo`` solver. One controller per axis and step.
+        """
+        finite((force, slope), f"force of a controller on joint {self.scoped_name}")
+        if math.isnan(bound):
+            raise ValueError(f"the bound of a controller's force on joint {self.scoped_name} must be a number")
+        self.core.add_law(force, slope, bound, axis)
+
     def set_motor(self, velocity: float, max_force: float, axis: int = 0) -> None:
         """Drive to ``velocity`` (rad/s, m/s) with at most ``max_force`` until changed; 0 switches the motor off."""
         finite((velocity,), f"motor velocity of joint {self.scoped_name}")
