@@ -23,7 +23,7 @@ _noetic_absent("It belongs to the tutorials of desktop-full, is not supplied her
   actionlib_tutorials nodelet_tutorial_math pluginlib_tutorials roscpp_tutorials rospy_tutorials
   urdf_sim_tutorial visualization_marker_tutorials librviz_tutorial rviz_plugin_tutorials stage stage_ros)
 _noetic_absent("It is small, is not packaged by Debian, and builds from source in your workspace." costmap_converter ddynamic_reconfigure
-  filters laser_assembler laser_filters
+  filters laser_assembler
   teb_local_planner smach smach_ros executive_smach
   serial rosserial rosserial_python rosbridge_server rosauth imu_tools warehouse_ros)
 

@@ -1,0 +1,211 @@
+"""What both filters' nodes do: read, ask the filter, publish. Topics as upstream: imu/data_raw, imu/mag in, imu/data out."""
+from __future__ import annotations
+
+import math
+from typing import Optional, Tuple
+
+import message_filters
+import node_signals
+import rospy
+import tf2_ros
+from dynamic_parameters import Parameter, Server
+from geometry_msgs.msg import Quaternion, TransformStamped, Vector3, Vector3Stamped
+from sensor_msgs.msg import Imu, MagneticField
+from std_msgs.msg import Bool
+
+from .complementary import Complementary
+from .madgwick import Madgwick, shifted
+from .rotation import conjugate, level_or_north, roll_pitch_yaw, turned
+
+_QUEUE = 5
+_TOGETHER = 0.1  # s that a reading of the field may be from one of the accelerations
+
+
+def _numbers(vector) -> Tuple[float, float, float]:
+    return vector.x, vector.y, vector.z
+
+
+def _non_negative(name: str) -> float:
+    value = float(rospy.get_param(f"~{name}", 0.0))
+    if value < 0.0:
+        rospy.logwarn("parameter ~%s is %g, which must not be negative; 0 is taken", name, value)
+    return max(value, 0.0)
+
+
+class Node:
+    """``answer`` is what a kind of filter adds: the orientation that a reading leads to, or None while there is none."""
+
+    use_mag = False
+    publish_tf = False
+
+    def __init__(self):
+        use_mag = rospy.get_param("~use_mag", self.use_mag)
+        self.fixed_frame = rospy.get_param("~fixed_frame", "odom")
+        self.stddev = float(rospy.get_param("~orientation_stddev", 0.0))
+        self._dt = _non_negative("constant_dt")
+        self._jump = rospy.Duration(_non_negative("time_jump_threshold"))
+        self._reverse = rospy.get_param("~reverse_tf", False)
+        self._tf = tf2_ros.TransformBroadcaster() if rospy.get_param("~publish_tf", self.publish_tf) else None
+        self._last: Optional[rospy.Time] = None
+        self._now = rospy.Time.now()
+        name = rospy.resolve_name("imu")
+        self._data = rospy.Publisher(f"{name}/data", Imu, queue_size=_QUEUE)
+        debug = rospy.get_param("~publish_debug_topics", False)
+        self._rpy = rospy.Publisher(f"{name}/rpy/filtered", Vector3Stamped, queue_size=_QUEUE) if debug else None
+        self.prepare(name, debug)
+        if use_mag:
+            pair = [message_filters.Subscriber(f"{name}/{topic}", kind, queue_size=_QUEUE)
+                    for topic, kind in (("data_raw", Imu), ("mag", MagneticField))]
+            self._pairs = message_filters.ApproximateTimeSynchronizer(pair, _QUEUE, _TOGETHER)
+            self._pairs.registerCallback(self._take)
+        else:
+            self._subscriber = rospy.Subscriber(f"{name}/data_raw", Imu, self._take, queue_size=_QUEUE)
+
+    def prepare(self, name: str, debug: bool) -> None:
+        raise NotImplementedError
+
+    def answer(self, reading: Imu, field: Optional[tuple], dt: float):
+        raise NotImplementedError
+
+    def reset(self) -> None:
+        raise NotImplementedError
+
+    def finish(self, message: Imu, orientation) -> None:
+        """What else a filter changes in the message or publishes beside it."""
+
+    def _take(self, reading: Imu, mag: Optional[MagneticField] = None) -> None:
+        now = rospy.Time.now()
+        if now + self._jump < self._now:
+            rospy.logwarn("time jumped back by %.1f s: the filter starts anew", (self._now - now).to_sec())
+            self._last = None
+            self.reset()
+        self._now = now
+        field = _numbers(mag.magnetic_field) if mag else None
+        if field and not all(map(math.isfinite, field)):
+            field = None
+        stamp = reading.header.stamp
+        dt = self._dt or ((stamp - self._last).to_sec() if self._last is not None else 0.0)
+        if stamp.is_zero() and not self._dt:
+            rospy.logwarn_throttle(5, "the readings carry no time and ~constant_dt is not set: the orientation stands still")
+        self._last = stamp
+        orientation = self.answer(reading, field, dt)
+        if orientation is not None:
+            self._publish(reading, orientation)
+
+    def _publish(self, reading: Imu, orientation) -> None:
+        w, x, y, z = orientation
+        variance = self.stddev ** 2
+        message = Imu(reading.header, Quaternion(x, y, z, w), [variance, 0, 0, 0, variance, 0, 0, 0, variance],
+                      Vector3(*_numbers(reading.angular_velocity)), reading.angular_velocity_covariance,
+                      Vector3(*_numbers(reading.linear_acceleration)), reading.linear_acceleration_covariance)
+        self.finish(message, orientation)
+        self._data.publish(message)
+        if self._rpy:
+            self._rpy.publish(Vector3Stamped(reading.header, Vector3(*roll_pitch_yaw(orientation))))
+        if self._tf:
+            transform = TransformStamped(header=reading.header)
+            parent, child = self.fixed_frame, reading.header.frame_id
+            if self._reverse:
+                w, x, y, z = conjugate(orientation)
+                parent, child = child, parent
+            transform.header.frame_id, transform.child_frame_id = parent, child
+            transform.transform.rotation = Quaternion(x, y, z, w)
+            self._tf.sendTransform(transform)
+
+
+class ComplementaryNode(Node):
+    """``complementary_filter_node``."""
+
+    def prepare(self, name: str, debug: bool) -> None:
+        bias = rospy.get_param("~do_bias_estimation", True)
+        gains = {key: float(rospy.get_param(f"~{key}", 0.01)) for key in ("gain_acc", "gain_mag", "bias_alpha")}
+        for key, value in gains.items():
+            if not 0.0 <= value <= 1.0:
+                rospy.logwarn("parameter ~%s is %g, and has to lie between 0 and 1; 0.01 is taken", key, value)
+                gains[key] = 0.01
+        self.filter = Complementary(gains["gain_acc"], gains["gain_mag"], rospy.get_param("~do_adaptive_gain", True),
+                                    gains["bias_alpha"] if bias else None)
+        self._steady = rospy.Publisher(f"{name}/steady_state", Bool, queue_size=_QUEUE) if debug and bias else None
+        self._started = False
+
+    def reset(self) -> None:
+        self.filter.reset()
+        self._started = False
+
+    def answer(self, reading, field, dt):
+        if not self._started:  # the first reading gives the time alone
+            self._started = True
+            return None
+        self.filter.update(_numbers(reading.linear_acceleration), _numbers(reading.angular_velocity), field, dt)
+        return self.filter.orientation
+
+    def finish(self, message, orientation):
+        rate = message.angular_velocity
+        rate.x, rate.y, rate.z = (w - b for w, b in zip(_numbers(rate), self.filter.bias))
+        if self._steady:
+            self._steady.publish(self.filter.steady)
+
+
+class MadgwickNode(Node):
+    """``imu_filter_node``."""
+
+    use_mag = True
+    publish_tf = True
+
+    def prepare(self, name: str, debug: bool) -> None:
+        world = rospy.get_param("~world_frame", "enu")
+        if world not in ("enu", "nwu", "ned"):
+            rospy.logerr("parameter ~world_frame is '%s', and has to be enu, nwu or ned; enu is taken", world)
+            world = "enu"
+        self._stateless = rospy.get_param("~stateless", False)
+        self._bare = rospy.get_param("~remove_gravity_vector", False)
+        self._yaw = float(rospy.get_param("~yaw_offset", 0.0)) - float(rospy.get_param("~declination", 0.0))
+        self._raw = rospy.Publisher(f"{name}/rpy/raw", Vector3Stamped, queue_size=_QUEUE) if debug else None
+        self.filter = Madgwick(world)
+        self._iron = 0.0, 0.0, 0.0
+        self._started = False
+        table = [Parameter("gain", float, 0.1, 0.0, 1.0, "rad/s that the turn rates may be wrong"),
+                 Parameter("zeta", float, 0.0, -1.0, 1.0, "drift of their bias"),
+                 *(Parameter(f"mag_bias_{axis}", float, 0.0, -10.0, 10.0, "hard iron, taken off the field") for axis in "xyz"),
+                 Parameter("orientation_stddev", float, 0.0, 0.0, 100.0, "rad, goes into the covariance")]
+        self._server = Server(rospy.get_name(), table, self._reconfigure)
+
+    def _reconfigure(self, config, _level) -> None:
+        self.filter.gain, self.filter.zeta = config["gain"], config["zeta"]
+        self._iron = tuple(config[f"mag_bias_{axis}"] for axis in "xyz")
+        self.stddev = config["orientation_stddev"]
+
+    def reset(self) -> None:
+        self._started = False
+
+    def answer(self, reading, field, dt):
+        acceleration = _numbers(reading.linear_acceleration)
+        if field:
+            field = tuple(f - b for f, b in zip(field, self._iron))
+        now = level_or_north(self.filter.world, acceleration, field) if not self._started or self._stateless or self._raw else None
+        if not self._started or self._stateless:
+            if now is None:
+                rospy.logwarn_throttle(5, "no direction of gravity%s: is it in free fall?", " and the field" if field else "")
+                return None
+            self.filter.orientation = now
+        self._started = True
+        if not self._stateless:
+            self.filter.update(acceleration, _numbers(reading.angular_velocity), field, dt)
+        if self._raw and now is not None and field:
+            self._raw.publish(Vector3Stamped(reading.header, Vector3(*roll_pitch_yaw(now))))
+        return shifted(self.filter.orientation, self._yaw)
+
+    def finish(self, message, orientation):
+        if self._bare:
+            up = (0.0, 0.0, -9.80665 if self.filter.world == "ned" else 9.80665)
+            seen = turned(conjugate(orientation), up)
+            acceleration = message.linear_acceleration
+            acceleration.x, acceleration.y, acceleration.z = (a - g for a, g in zip(_numbers(acceleration), seen))
+
+
+def main(name: str, kind) -> int:
+    node_signals.init_node(name)
+    node = kind()
+    node_signals.spin()
+    del node
+    return 0
