@@ -1,0 +1,103 @@
+"""One submission from the outside: makes the job, starts the examiner behind the wall, writes the reports."""
+from __future__ import annotations
+
+import json
+import os
+import pathlib
+import shutil
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import uuid
+from dataclasses import asdict
+from typing import Optional
+
+from . import report, sandbox
+from .job import Job
+from .outcome import Result
+from .spec import Spec
+
+
+
+def free_port(first: int = 0) -> int:
+    """Of this machine; from ``first`` on when that is given."""
+    for port in range(first, first + 100) if first else (0,):
+        with socket.socket() as s:
+            s.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+            try:
+                s.bind(("localhost", port))
+            except OSError:
+                continue
+            return s.getsockname()[1]
+    raise OSError(f"no free port from {first} on")
+
+
+def check(spec: Spec, submission: pathlib.Path, out: pathlib.Path, unsafe: bool = False, films: bool = True, port: int = 0) -> Result:
+    """
+    :param out: reports go there; what an earlier examination left there goes
+    :raises sandbox.SandboxError: this machine cannot shut it in
+    """
+    platform = sandbox.Platform.here()
+    if out.is_dir():
+        for name in ("result.json", "report.html", "report.json", "junit.xml", "results.json", "build.log", "pictures", ".examiner.log"):
+            path = out / name
+            shutil.rmtree(path) if path.is_dir() else path.unlink(missing_ok=True)
+    out.mkdir(parents=True, exist_ok=True)
+    scratch = tempfile.mkdtemp(prefix="lab_check.")
+    os.chmod(scratch, 0o755)
+    limits = {name: spec.limit(name) for name in spec.data["limits"]}
+    job = Job(spec.data, str(spec.path.parent), os.path.abspath(submission), scratch, str(out.resolve()), unsafe,
+              free_port(port) if unsafe else 11311, limits, asdict(platform), f"LAB_CHECK_RUN={uuid.uuid4().hex}", films=films)
+    if not unsafe:
+        # What stands between this submission and the other files of its owner: nothing of them is bound into the inner wall.
+        job.platform = asdict(platform)
+    job_file = out / ".job"
+    job.save(job_file)
+    words = [sys.executable, "-m", "lab_check.examiner", str(job_file)]
+    sessions = len({task["launch"] for task in spec.data["tasks"]})
+    patience = spec.data["build"]["timeout"] * 2 + sessions * (limits["time"] + 90)
+    try:
+        fault = _run(words if unsafe else sandbox.outer_words() + words, out, patience)
+        result = _read(out, fault, spec, submission)
+    finally:
+        shutil.rmtree(scratch, ignore_errors=True)
+        for name in (".job", ".job.json"):
+            (out / name).unlink(missing_ok=True)
+    report.write(result, spec, out)
+    return result
+
+
+def _run(words, out: pathlib.Path, patience: float) -> str:
+    """'' or why there is no result."""
+    with open(out / ".examiner.log", "w", encoding="utf-8") as log:
+        process = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=log, stderr=log, start_new_session=True)
+        try:
+            code = process.wait(patience)
+        except subprocess.TimeoutExpired:
+            code = None
+        finally:
+            if process.poll() is None:
+                os.killpg(process.pid, signal.SIGKILL)
+                process.wait()
+    if code is None:
+        return f"the examination was stopped after {patience:.0f} s"
+    if code:
+        lines = (out / ".examiner.log").read_text(encoding="utf-8", errors="replace").strip().splitlines()
+        return f"the examiner ended with code {code}: {lines[-1] if lines else 'no reason given'}"
+    return ""
+
+
+def _read(out: pathlib.Path, fault: str, spec: Spec, submission) -> Result:
+    path = out / "result.json"
+    data: Optional[dict] = None
+    if not fault:
+        try:
+            data = json.loads(path.read_text(encoding="utf-8"))
+        except (OSError, ValueError) as error:
+            fault = f"the examiner left no result: {error}"
+    if data is None:
+        return Result(spec.data["title"], str(submission), 0.0, spec.points, fault=fault)
+    path.unlink()
+    return Result.from_data(data)

@@ -1,0 +1,31 @@
+"""Expectations by kind; each is a :class:`lab_check.checks.base.Check`."""
+from __future__ import annotations
+
+import importlib.util
+from typing import Any, Dict, Tuple
+
+from .base import Check, Context
+
+
+class PythonCheck(Check):
+    """A function of the teacher: ``f(context, **arguments)`` returns True, False, or (passed, sentence)."""
+
+    def verdict(self) -> Tuple[bool, str, Dict[str, Any]]:
+        path = self.context.spec_folder / self.wanted["file"]
+        spec = importlib.util.spec_from_file_location("lab_check_teacher", path)
+        module = importlib.util.module_from_spec(spec)
+        spec.loader.exec_module(module)
+        answer = getattr(module, self.wanted["function"])(self.context, **self.wanted.get("arguments", {}))
+        passed, reason = answer if isinstance(answer, tuple) else (answer, "as asked" if answer else "not as asked")
+        return bool(passed), str(reason), {}
+
+
+def make(kind: str, wanted: Any, context: Context) -> Check:
+    from . import files, graph, motion
+    kinds = {"file": files.FileCheck, "urdf": files.UrdfCheck, "node": graph.NodeCheck, "topic": graph.TopicCheck,
+             "service": graph.ServiceCheck, "param": graph.ParamCheck, "tf": graph.TfCheck, "controllers": graph.ControllersCheck,
+             "no_errors": graph.NoErrorsCheck, "exit": graph.ExitCheck, "answer": graph.AnswerCheck, "joint": motion.JointCheck,
+             "still": motion.StillCheck, "moved": motion.MovedCheck, "path": motion.PathCheck, "distance": motion.DistanceCheck,
+             "odometry": motion.OdometryCheck, "energy": motion.EnergyCheck, "image": motion.ImageCheck,
+             "no_collision": motion.NoCollisionCheck, "real_time_factor": motion.RealTimeFactorCheck, "python": PythonCheck}
+    return kinds[kind](wanted, context)

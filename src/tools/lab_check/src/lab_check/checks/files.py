@@ -1,0 +1,115 @@
+"""Facts of files and of the robot's description."""
+from __future__ import annotations
+
+import math
+import re
+import xml.etree.ElementTree as ET
+from typing import Any, Dict, List, Tuple
+
+from .base import Check, names
+
+
+class FileCheck(Check):
+    """A file of the submission: ``path`` below the packages, ``*`` allowed."""
+
+    def verdict(self) -> Tuple[bool, str, Dict[str, Any]]:
+        path = self.wanted["path"]
+        found = self._find(path)
+        if self.wanted.get("absent"):
+            return not found, f"{path} is {'still there' if found else 'not there, as it should be'}", {}
+        if not found:
+            return False, f"there is no file {path} in your submission", {}
+        contains = self.wanted.get("contains")
+        if contains:
+            texts = [file.read_text(encoding="utf-8", errors="replace") for file in found]
+            if not any(re.search(contains, text) for text in texts):
+                return False, f"{path} is there, but holds nothing like '{contains}'", {}
+        return True, f"{path} is there" + (f" and holds '{contains}'" if contains else ""), {}
+
+    def _find(self, path: str) -> List:
+        package, _, rest = path.partition("/")
+        if package in self.context.packages and rest:
+            found = self.context.packages[package].glob(rest)
+        else:
+            try:
+                found = self.context.source.rglob(path)
+            except (ValueError, NotImplementedError):
+                return []
+        return [file for file in sorted(found) if file.is_file() and not file.is_symlink()]
+
+
+class UrdfCheck(Check):
+    """The robot description on the parameter server."""
+
+    def verdict(self) -> Tuple[bool, str, Dict[str, Any]]:
+        import rosgraph
+        name = self.wanted.get("param", "/robot_description")
+        try:
+            text = rosgraph.Master("/lab_check").getParam(name)
+        except rosgraph.MasterException:
+            return False, f"the parameter {name} is not set: no robot description was loaded", {}
+        try:
+            robot = ET.fromstring(text)
+        except (ET.ParseError, TypeError, ValueError) as error:
+            return False, f"the parameter {name} is no XML: {error}", {}
+        complaints = complain(robot, self.wanted)
+        return not complaints, "; ".join(complaints) or "the robot description is as asked", {}
+
+
+def complain(robot: ET.Element, wanted: Dict[str, Any]) -> List[str]:
+    """What of the description is not as wanted."""
+    joints = {joint.get("name"): joint for joint in robot.findall("joint")}
+    moving = [joint for joint in joints.values() if joint.get("type") != "fixed"]
+    links = {link.get("name") for link in robot.findall("link")}
+    plugins = {plugin.get("filename") for plugin in robot.iter("plugin")}
+    sensors = {sensor.get("type") for sensor in robot.iter("sensor")}
+    found = []
+    for kind, wished, there in (("joint", wanted.get("joints", []), joints), ("link", wanted.get("links", []), links),
+                                ("plugin", wanted.get("plugins", []), plugins), ("sensor of type", wanted.get("sensors", []), sensors)):
+        for name in wished:
+            if name not in there:
+                found.append(f"there is no {kind} '{name}' (there are: {names(sorted(filter(None, there)))})")
+    if "moving" in wanted and len(moving) != wanted["moving"]:
+        found.append(f"{len(moving)} joints can move, {wanted['moving']} should: {names(j.get('name', '?') for j in moving)}")
+    transmissions = len(robot.findall("transmission"))
+    if "transmissions" in wanted and transmissions < wanted["transmissions"]:
+        found.append(f"{transmissions} transmissions are there, {wanted['transmissions']} are needed")
+    if wanted.get("limits"):
+        found += [f"joint '{joint.get('name')}' has no limit with effort and velocity" for joint in moving
+                  if joint.get("type") in ("revolute", "prismatic") and not _limited(joint)]
+    if wanted.get("collisions"):
+        found += [f"link '{link.get('name')}' has a visual, but no collision" for link in robot.findall("link")
+                  if link.find("visual") is not None and link.find("collision") is None]
+    if wanted.get("inertias") == "sane":
+        found += [text for link in robot.findall("link") if (text := insane(link))]
+    return found
+
+
+def _limited(joint: ET.Element) -> bool:
+    limit = joint.find("limit")
+    try:
+        return limit is not None and float(limit.get("effort", "")) > 0 and float(limit.get("velocity", "")) > 0
+    except ValueError:
+        return False
+
+
+def insane(link: ET.Element) -> str:
+    """Why the inertia of a link cannot be, '' when it can, or when there is none."""
+    inertial = link.find("inertial")
+    if inertial is None:
+        return ""
+    name = link.get("name")
+    try:
+        mass = float(inertial.find("mass").get("value"))
+        inertia = inertial.find("inertia")
+        xx, yy, zz = (float(inertia.get(key)) for key in ("ixx", "iyy", "izz"))
+    except (AttributeError, TypeError, ValueError):
+        return f"the inertia of link '{name}' is not complete"
+    if mass <= 0 or min(xx, yy, zz) <= 0:
+        return f"link '{name}' has a mass or a moment of inertia that is not positive"
+    if 2 * max(xx, yy, zz) > (xx + yy + zz) * (1 + 1e-6):
+        return f"the moments of inertia of link '{name}' ({xx:g}, {yy:g}, {zz:g}) belong to no body: none may exceed the sum of the others"
+    radius = math.sqrt(max(xx, yy, zz) / mass)
+    if radius > 10.0:
+        return f"link '{name}' of {mass:g} kg has the inertia of a body {radius:.0f} m across; wrong units?"
+    return ""

@@ -1,0 +1,89 @@
+"""The commands of ``rosrun lab_check``."""
+from __future__ import annotations
+
+import argparse
+import pathlib
+import sys
+from typing import List, Optional
+
+
+def _load(path: str):
+    """The spec; its faults go to the terminal, and the program ends with 2."""
+    from .spec import SpecError, load
+    try:
+        return load(path)
+    except SpecError as error:
+        for line in error.problems:
+            print(line, file=sys.stderr)
+        raise SystemExit(2) from None
+
+
+def _allowed(unsafe: bool) -> None:
+    from .sandbox import Platform, SandboxError
+    from .sandbox import check as try_it
+    try:
+        Platform.here()
+        if unsafe:
+            print("lab_check: --unsafe: the submission's code runs as you, and may do what you may", file=sys.stderr)
+        else:
+            try_it()
+    except SandboxError as error:
+        print(f"lab_check: {error}", file=sys.stderr)
+        raise SystemExit(3) from None
+
+
+def _parser(name: str, text: str) -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog=f"rosrun lab_check {name}", description=text)
+    parser.add_argument("spec", help="YAML: what is asked for; docs/grading.md")
+    return parser
+
+
+def _sandbox_options(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--unsafe", action="store_true", help="without a sandbox, for code that you trust and machines that allow none")
+    parser.add_argument("--no-films", action="store_true", help="leave the films out, which cost most of the time")
+    parser.add_argument("--port", type=int, default=0, help="with --unsafe: first port to try for the ROS master")
+
+
+def check(arguments: Optional[List[str]] = None) -> int:
+    """Exit code 0 full marks, 1 less, 2 the spec is faulty, 3 no sandbox, 4 the checker itself failed."""
+    from .check import check as examine
+    parser = _parser("check", "Mark one submission; reports in --out.")
+    parser.add_argument("submission", type=pathlib.Path, nargs="?", help="a folder with packages, or a zip or tar of one; without it the spec "
+                        "alone is checked")
+    parser.add_argument("--out", type=pathlib.Path, help="default: lab_check/<name of the submission>")
+    _sandbox_options(parser)
+    options = parser.parse_args(arguments)
+    spec = _load(options.spec)
+    if options.submission is None:
+        print(f"{options.spec}: {len(spec.data['tasks'])} tasks, {spec.points:g} points")
+        return 0
+    _allowed(options.unsafe)
+    out = options.out or pathlib.Path("lab_check", options.submission.name or "submission")
+    result = examine(spec, options.submission, out, options.unsafe, not options.no_films, options.port)
+    for task in result.tasks:
+        print(f"{task.points:6g} of {task.of:<5g} {task.name}")
+        for verdict in task.verdicts:
+            if not verdict.passed:
+                print(f"                - {verdict.reason}")
+    for note in result.notes:
+        print(f"note: {note}")
+    if result.fault:
+        print(f"lab_check: the checker itself failed: {result.fault}", file=sys.stderr)
+    print(f"{result.points:g} of {result.of:g} points in {result.seconds:.1f} s; {out / 'report.html'}")
+    return 4 if result.fault else int(result.points < result.of)
+
+
+def grade(arguments: Optional[List[str]] = None) -> int:
+    from .grade import main
+    return main(arguments)
+
+
+def similar(arguments: Optional[List[str]] = None) -> int:
+    from .similar import main
+    return main(arguments)
+
+
+def faults(arguments: Optional[List[str]] = None) -> int:
+    from .faults import main
+    return main(arguments)
+

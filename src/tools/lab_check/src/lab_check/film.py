@@ -1,0 +1,44 @@
+"""Pictures and short films of a task, drawn by the simulator while its time stands still."""
+from __future__ import annotations
+
+import os
+from typing import List
+
+_PERIOD, _RATE, _MOST = 0.2, 10, 120  # s of simulation between frames, frames/s of the film, frames
+
+
+class Film:
+    def __init__(self, bench, model: str):
+        self._bench, self._model = bench, model
+        self._frames: List[bytes] = []
+        self._due = -1.0
+
+    def sample(self, sample) -> None:
+        if sample.time >= self._due - 1e-9 and len(self._frames) < _MOST:
+            self._due = sample.time + _PERIOD
+            self._frames.append(self._bench.picture(self._model, 480, 320))
+
+    def write(self, path: str) -> str:
+        """The film's path, '' when there is none: nothing could be drawn."""
+        import cv2
+        import numpy as np
+        frames = [cv2.imdecode(np.frombuffer(png, np.uint8), cv2.IMREAD_COLOR) for png in self._frames if png]
+        if not frames:
+            return ""
+        os.makedirs(os.path.dirname(path), exist_ok=True)
+        writer = cv2.VideoWriter(path, cv2.VideoWriter_fourcc(*"avc1"), _RATE, frames[0].shape[1::-1])
+        for frame in frames:
+            writer.write(frame)
+        writer.release()
+        return path if os.path.exists(path) else ""
+
+
+def picture(bench, model: str, stem: str) -> List[str]:
+    """Paths of the picture at a task's end."""
+    png = bench.picture(model)
+    if not png:
+        return []
+    os.makedirs(os.path.dirname(stem), exist_ok=True)
+    with open(stem + ".png", "wb") as file:
+        file.write(png)
+    return [stem + ".png"]

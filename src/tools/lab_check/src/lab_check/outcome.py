@@ -1,0 +1,93 @@
+"""What came of a submission: plain data that travels as JSON between the processes and into the reports."""
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass, field
+from typing import Any, Dict, List
+
+
+@dataclass
+class Verdict:
+    """One expectation: ``reason`` is a sentence for the student, ``figures`` what was measured."""
+
+    kind: str
+    passed: bool
+    reason: str
+    points: float = 0.0
+    of: float = 0.0
+    figures: Dict[str, Any] = field(default_factory=dict)
+
+
+@dataclass
+class TaskResult:
+    name: str
+    points: float
+    of: float
+    verdicts: List[Verdict] = field(default_factory=list)
+    commands: List[str] = field(default_factory=list)  # to repeat it by hand
+    pictures: List[str] = field(default_factory=list)
+    film: str = ""
+    log: List[str] = field(default_factory=list)  # excerpt, first cause first
+    hint: str = ""
+    series: Dict[str, List[List[float]]] = field(default_factory=dict)  # name -> [[time, value], ...]
+
+
+@dataclass
+class Result:
+    """``fault``: the checker itself failed, which says nothing about the submission."""
+
+    title: str
+    submission: str
+    points: float = 0.0
+    of: float = 0.0
+    tasks: List[TaskResult] = field(default_factory=list)
+    notes: List[str] = field(default_factory=list)  # of the sandbox and of staging
+    fault: str = ""
+    seconds: float = 0.0
+    sandbox: str = ""
+
+    def add(self, task: TaskResult) -> None:
+        self.tasks.append(task)
+        self.points = rounded(sum(t.points for t in self.tasks))
+        self.of = rounded(sum(t.of for t in self.tasks))
+
+    def data(self) -> Dict[str, Any]:
+        return asdict(self)
+
+    @classmethod
+    def from_data(cls, data: Dict[str, Any]) -> Result:
+        tasks = [task_from(task) for task in data["tasks"]]
+        return cls(**{**data, "tasks": tasks})
+
+
+def task_from(data: Dict[str, Any]) -> TaskResult:
+    return TaskResult(**{**data, "verdicts": [Verdict(**verdict) for verdict in data["verdicts"]]})
+
+
+def rounded(points: float) -> float:
+    """Marks to a millionth: sums of thirds come out the same in any order."""
+    return round(points + 0.0, 6)
+
+
+def share(task: Dict[str, Any], verdicts: List[Verdict]) -> TaskResult:
+    """Deals a task's points out to its verdicts.
+
+    Expectations with ``points`` of their own weigh that much, the others equally; the sum is the task's points.
+    """
+    weights = [float(expectation.get("points", 1.0)) for expectation in task["expect"]]
+    total = sum(weights) or 1.0
+    for weight, verdict in zip(weights, verdicts):
+        verdict.of = rounded(task["points"] * weight / total)
+        verdict.points = verdict.of if verdict.passed else 0.0
+    met = all(verdict.passed for verdict in verdicts)
+    points = sum(task["points"] * weight / total for weight, verdict in zip(weights, verdicts) if verdict.passed)
+    if task["all"] and not met:
+        points = 0.0
+        for verdict in verdicts:
+            verdict.points = 0.0
+    return TaskResult(task["name"], rounded(points), rounded(task["points"]), verdicts, hint=task.get("hint", ""))
+
+
+def failed_task(task: Dict[str, Any], reason: str) -> TaskResult:
+    """No marks for any expectation, for one reason."""
+    kinds = [next(k for k in e if k not in ("points", "say")) for e in task["expect"]]
+    return share(task, [Verdict(kind, False, reason) for kind in kinds])

@@ -1,0 +1,203 @@
+"""Programs of a submission, watched: what they say is bounded, and so is what they take."""
+from __future__ import annotations
+
+import os
+import resource
+import signal
+import subprocess
+import threading
+import time
+from typing import Callable, Dict, List, Optional
+
+_HEAD, _TAIL = 400_000, 200_000  # bytes of output that are kept
+_LOOK = 0.1  # s between two looks at memory and processes
+
+
+class Output:
+    """The beginning and the end of what was said, and how much it was."""
+
+    def __init__(self):
+        self.total = 0
+        self._head, self._tail = bytearray(), bytearray()
+        self._lock = threading.Lock()
+
+    def add(self, data: bytes) -> None:
+        with self._lock:
+            self.total += len(data)
+            room = _HEAD - len(self._head)
+            self._head += data[:max(room, 0)]
+            self._tail += data[max(room, 0):]
+            if len(self._tail) > 2 * _TAIL:
+                del self._tail[:-_TAIL]
+
+    def text(self) -> str:
+        with self._lock:
+            left_out = self.total - len(self._head) - len(self._tail)
+            gap = f"\n... {left_out} bytes left out ...\n".encode() if left_out else b""
+            return (bytes(self._head) + gap + bytes(self._tail)).decode("utf-8", "replace")
+
+
+class Program:
+    """A process with all that it starts, its output kept.
+
+    :param limits: of the spec, in bytes and numbers: memory, processes, log
+    """
+
+    def __init__(self, words: List[str], limits: Dict[str, float], environment: Optional[Dict[str, str]] = None, cwd: Optional[str] = None):
+        self.output = Output()
+        self.broke = ""  # the limit that it broke, in words
+        self.words = words
+        self._limits = limits
+        self.process = subprocess.Popen(words, env=environment, cwd=cwd, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                                        stderr=subprocess.STDOUT, start_new_session=True, preexec_fn=self._bound)
+        self._reader = threading.Thread(target=self._read, daemon=True)
+        self._reader.start()
+
+    def _bound(self) -> None:
+        signal.signal(signal.SIGINT, signal.SIG_DFL)
+        for what, most in ((resource.RLIMIT_CORE, 0), (resource.RLIMIT_FSIZE, int(self._limits.get("disk", 1e9))),
+                           (resource.RLIMIT_NOFILE, 4096)):
+            hard = resource.getrlimit(what)[1]
+            most = most if hard == resource.RLIM_INFINITY else min(most, hard)
+            resource.setrlimit(what, (most, most))
+
+    def _read(self) -> None:
+        while True:
+            try:
+                data = os.read(self.process.stdout.fileno(), 65536)
+            except (OSError, ValueError):
+                return
+            if not data:
+                return
+            self.output.add(data)
+            if self.output.total > self._limits.get("log", 5e7) and not self.broke:
+                self.breaks(f"it printed more than {self._limits['log'] / 1e6:.0f} MB")
+
+    def breaks(self, what: str) -> None:
+        """Ended for breaking a limit."""
+        self.broke = self.broke or what
+        self.kill()
+
+    @property
+    def running(self) -> bool:
+        return self.process.poll() is None
+
+    @property
+    def code(self) -> Optional[int]:
+        return self.process.poll()
+
+    def write(self, text: str) -> None:
+        """To its standard input, as keys."""
+        try:
+            self.process.stdin.write(text.encode())
+            self.process.stdin.flush()
+        except (BrokenPipeError, ValueError):
+            pass
+
+    def wait(self, seconds: float, meanwhile: Callable[[], None] = lambda: None) -> bool:
+        """True when it ended by itself in time; otherwise it has been killed."""
+        end = time.monotonic() + seconds
+        while self.running and time.monotonic() < end:
+            meanwhile()
+            time.sleep(0.02)
+        ended = not self.running
+        if not ended:
+            self.breaks(f"it did not end within {seconds:g} s")
+        self._reader.join(2.0)
+        return ended
+
+    def interrupt(self) -> None:
+        """Ctrl-C for the program inside; bwrap itself would not pass it on."""
+        for pid in descendants(self.process.pid):
+            try:
+                if os.readlink(f"/proc/{pid}/exe").endswith("/bwrap"):
+                    continue
+                os.kill(pid, signal.SIGINT)
+            except OSError:
+                continue
+
+    def kill(self) -> None:
+        """At once, with everything in its namespace."""
+        pids = descendants(self.process.pid)
+        try:
+            os.killpg(self.process.pid, signal.SIGKILL)
+        except (ProcessLookupError, PermissionError):
+            pass
+        for pid in pids:
+            try:
+                os.kill(pid, signal.SIGKILL)
+            except OSError:
+                continue
+
+
+def _parents() -> Dict[int, int]:
+    found = {}
+    for name in os.listdir("/proc"):
+        if name.isdigit():
+            try:
+                with open(f"/proc/{name}/stat", "rb") as file:
+                    found[int(name)] = int(file.read().rpartition(b")")[2].split()[1])
+            except (OSError, IndexError, ValueError):
+                continue
+    return found
+
+
+def descendants(pid: int) -> List[int]:
+    """``pid`` and all that it started and that still has a parent there."""
+    children: Dict[int, List[int]] = {}
+    for child, parent in _parents().items():
+        children.setdefault(parent, []).append(child)
+    found, waiting = [], [pid]
+    while waiting:
+        found.append(waiting.pop())
+        waiting += children.get(found[-1], [])
+    return found
+
+
+class Guard(threading.Thread):
+    """Looks at memory, processes and time of all programs together, and ends them when a limit is broken.
+
+    Memory is what lies in RAM for them alone, shared pages counted by share.
+    """
+
+    def __init__(self, programs: Callable[[], List[Program]], limits: Dict[str, float]):
+        super().__init__(daemon=True)
+        self._programs, self._limits = programs, limits
+        self._over = threading.Event()
+        self.broke = ""
+        self.peak_memory = 0.0
+        self.peak_processes = 0
+        self._end = time.monotonic() + limits["time"]
+
+    def run(self) -> None:
+        while not self._over.wait(_LOOK):
+            programs = [p for p in self._programs() if p.running]
+            pids = [pid for program in programs for pid in descendants(program.process.pid)]
+            memory = sum(map(_resident, pids))
+            self.peak_memory = max(self.peak_memory, memory)
+            self.peak_processes = max(self.peak_processes, len(pids))
+            broke = ""
+            if len(pids) > self._limits["processes"]:
+                broke = f"it started more than {self._limits['processes']:g} processes"
+            elif memory > self._limits["memory"]:
+                broke = f"it took more than {self._limits['memory'] / 1e9:g} GB of memory"
+            elif time.monotonic() > self._end:
+                broke = f"it was not done after {self._limits['time']:g} s"
+            if broke:
+                self.broke = self.broke or broke
+                for program in programs:
+                    program.breaks(broke)
+
+    def stop(self) -> None:
+        self._over.set()
+        self.join(5.0)
+
+
+def _resident(pid: int) -> float:
+    """Bytes without shared pages: statm is cheap, and Python's shared libraries would count in each process."""
+    try:
+        with open(f"/proc/{pid}/statm", "rb") as file:
+            fields = file.read().split()
+        return (int(fields[1]) - int(fields[2])) * 4096.0
+    except (OSError, IndexError, ValueError):
+        return 0.0
