@@ -394,7 +394,7 @@ double CloseMotion::gone(const ob::State* a, const ob::State* b) const
 
 bool CloseMotion::checkMotion(const ob::State* a, const ob::State* b) const
 {
-  const bool valid = si_->isValid(b) && gone(a, b) >= 1;
+  const bool valid = coarse_.checkMotion(a, b) && gone(a, b) >= 1;
   valid ? ++valid_ : ++invalid_;
   return valid;
 }

@@ -1,6 +1,7 @@
 // The joint space of a group as OMPL sees it, in MoveIt's metric: the sum over joints of their distances.
 #pragma once
 
+#include <ompl/base/DiscreteMotionValidator.h>
 #include <ompl/base/MotionValidator.h>
 #include <ompl/base/StateSpace.h>
 #include <ompl/base/StateValidityChecker.h>
@@ -120,7 +121,7 @@ class CloseMotion : public ompl::base::MotionValidator
 {
 public:
   CloseMotion(const ompl::base::SpaceInformationPtr& si, const JointSpace& space, std::shared_ptr<const CollisionChecker> checker)
-    : MotionValidator(si), space_(space), checker_(std::move(checker))
+    : MotionValidator(si), space_(space), coarse_(si), checker_(std::move(checker))
   {
   }
   bool checkMotion(const ompl::base::State* a, const ompl::base::State* b) const override;
@@ -130,6 +131,7 @@ public:
 private:
   double gone(const ompl::base::State* a, const ompl::base::State* b) const;
   const JointSpace& space_;
+  const ompl::base::DiscreteMotionValidator coarse_;  // most motions that touch something are soon refused by it
   std::shared_ptr<const CollisionChecker> checker_;
 };
 

@@ -13,6 +13,7 @@ namespace
 constexpr double RESOLUTION = 5e-4;  // m: shapes that move by less and touch at neither end are believed not to touch
 constexpr double COARSE = 0.01;      // m: the same for shapes whose distance is not known (planes, octrees)
 constexpr double UNKNOWN = -1;
+constexpr double ENOUGH = 1.2;       // times what a step needs: how much larger a distance is, is not asked
 
 // How far the points of a shape move at most, the way between the two poses being short.
 double moved(const CollisionShape& shape, const Transform& from, const Transform& to)
@@ -70,11 +71,11 @@ bool PathWalk::touch(const CollisionShape& a, const Transform& at_a, const Colli
   return fcl::collide(a.geometry.get(), at_a, b.geometry.get(), at_b, fcl::CollisionRequestd(1, false), result) != 0;
 }
 
-double PathWalk::gap(const Side& a, const Side& b) const
+double PathWalk::gap(const Side& a, const Side& b, double enough) const
 {
   if (!measurable(*a.shape) || !measurable(*b.shape))
     return UNKNOWN;
-  fcl::DistanceResultd result;
+  fcl::DistanceResultd result(enough);  // what is farther away than this is not looked at
   const double found = fcl::distance(a.shape->geometry.get(), *a.now, b.shape->geometry.get(), *b.now, fcl::DistanceRequestd(), result);
   return std::max(0.0, found);
 }
@@ -85,7 +86,7 @@ PathWalk::Verdict PathWalk::look(const Side& a, const Side& b, double boxes, dou
     margin = std::max(margin, boxes);
   if (margin < need)
   {
-    const double exact = gap(a, b);
+    const double exact = gap(a, b, ENOUGH * need);
     margin = std::max(margin, exact);
     if (margin < need)
     {

@@ -37,7 +37,7 @@ private:
   };
   Verdict step();
   Verdict look(const Side& a, const Side& b, double boxes, double need, double& margin, double& following);
-  double gap(const Side& a, const Side& b) const;
+  double gap(const Side& a, const Side& b, double enough) const;  // m; at most `enough`
   bool touch(const CollisionShape& a, const Transform& at_a, const CollisionShape& b, const Transform& at_b) const;
 
   std::shared_ptr<const CollisionChecker> checker_;

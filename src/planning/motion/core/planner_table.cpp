@@ -1,5 +1,10 @@
 #include "planner_table.hpp"
 
+#include <ompl/base/objectives/MaximizeMinClearanceObjective.h>
+#include <ompl/base/objectives/MechanicalWorkOptimizationObjective.h>
+#include <ompl/base/objectives/MinimaxObjective.h>
+#include <ompl/base/objectives/PathLengthOptimizationObjective.h>
+#include <ompl/base/objectives/StateCostIntegralObjective.h>
 #include <ompl/geometric/planners/AnytimePathShortening.h>
 #include <ompl/geometric/planners/est/BiEST.h>
 #include <ompl/geometric/planners/est/EST.h>
@@ -99,5 +104,20 @@ std::vector<std::string> plannerNames()
 ob::PlannerPtr makePlanner(const std::string& name, const ob::SpaceInformationPtr& si)
 {
   return table().at(name)(si);
+}
+
+ob::OptimizationObjectivePtr makeObjective(const std::string& name, const ob::SpaceInformationPtr& si)
+{
+  if (name == "MinimaxObjective")
+    return std::make_shared<ob::MinimaxObjective>(si);
+  if (name == "StateCostIntegralObjective")
+    return std::make_shared<ob::StateCostIntegralObjective>(si);
+  if (name == "MechanicalWorkOptimizationObjective")
+    return std::make_shared<ob::MechanicalWorkOptimizationObjective>(si);
+  if (name == "MaximizeMinClearanceObjective")
+    return std::make_shared<ob::MaximizeMinClearanceObjective>(si);
+  if (name == "PathLengthOptimizationObjective")
+    return std::make_shared<ob::PathLengthOptimizationObjective>(si);
+  return nullptr;
 }
 }  // namespace motion

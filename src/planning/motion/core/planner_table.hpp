@@ -1,6 +1,7 @@
 // OMPL's planners by the names of ompl_planning.yaml.
 #pragma once
 
+#include <ompl/base/OptimizationObjective.h>
 #include <ompl/base/Planner.h>
 
 #include <map>
@@ -12,4 +13,8 @@ namespace motion
 std::string plannerName(const std::string& given);
 std::vector<std::string> plannerNames();
 ompl::base::PlannerPtr makePlanner(const std::string& name, const ompl::base::SpaceInformationPtr& si);
+// Null for a name that is not known.
+ompl::base::OptimizationObjectivePtr makeObjective(const std::string& name, const ompl::base::SpaceInformationPtr& si);
+// OMPL writes on the console; what matters comes back in the result.
+void quiet();
 }  // namespace motion

@@ -1,27 +1,19 @@
 #include "motion/planning.hpp"
 
-#include <ompl/base/goals/GoalSampleableRegion.h>
-#include <ompl/base/objectives/MaximizeMinClearanceObjective.h>
-#include <ompl/base/objectives/MechanicalWorkOptimizationObjective.h>
-#include <ompl/base/objectives/MinimaxObjective.h>
-#include <ompl/base/objectives/PathLengthOptimizationObjective.h>
-#include <ompl/base/objectives/StateCostIntegralObjective.h>
-#include <ompl/base/spaces/RealVectorStateSpace.h>
 #include <ompl/base/terminationconditions/CostConvergenceTerminationCondition.h>
 #include <ompl/base/terminationconditions/IterationTerminationCondition.h>
 #include <ompl/geometric/PathGeometric.h>
 #include <ompl/geometric/PathSimplifier.h>
 #include <ompl/tools/multiplan/ParallelPlan.h>
-#include <ompl/util/Console.h>
 #include <ompl/util/RandomNumbers.h>
 
 #include <algorithm>
 #include <chrono>
 #include <random>
-#include <set>
 #include <shared_mutex>
 #include <thread>
 
+#include "found_goals.hpp"
 #include "goal_sampler.hpp"
 #include "joint_space.hpp"
 #include "planner_table.hpp"
@@ -34,52 +26,13 @@ namespace motion
 namespace
 {
 using Clock = std::chrono::steady_clock;
+constexpr int CLOSER = 3;      // times that a path which cuts corners is looked at again; the last time all along
+constexpr double FINER = 4.0;  // how much nearer to each other are the states then, each time
 
 double since(Clock::time_point started)
 {
   return std::chrono::duration<double>(Clock::now() - started).count();
 }
-
-// OMPL writes on the console; what matters comes back in the result.
-void quiet()
-{
-  static const bool done = (ompl::msg::noOutputHandler(), true);
-  (void)done;
-}
-
-// The states that were found for the goal. OMPL's own GoalStates may not be sampled by several threads at once.
-class FoundGoals : public ob::GoalSampleableRegion
-{
-public:
-  FoundGoals(const ob::SpaceInformationPtr& si, const std::vector<std::vector<double>>& goals) : GoalSampleableRegion(si)
-  {
-    setThreshold(1e-9);
-    for (const auto& values : goals)
-    {
-      ob::State* state = si_->allocState();
-      std::copy(values.begin(), values.end(), JointSpace::values(state));
-      states_.push_back(state);
-    }
-  }
-  ~FoundGoals() override
-  {
-    for (ob::State* state : states_)
-      si_->freeState(state);
-  }
-  void sampleGoal(ob::State* state) const override { si_->copyState(state, states_[next_++ % states_.size()]); }
-  unsigned int maxSampleCount() const override { return static_cast<unsigned int>(states_.size()); }
-  double distanceGoal(const ob::State* state) const override
-  {
-    double least = std::numeric_limits<double>::infinity();
-    for (const ob::State* goal : states_)
-      least = std::min(least, si_->distance(state, goal));
-    return least;
-  }
-
-private:
-  std::vector<ob::State*> states_;
-  mutable std::atomic<std::size_t> next_{0};
-};
 
 // OMPL draws the seeds of all random numbers from one place: a seeded plan has it for itself.
 std::shared_timed_mutex& seeding()
@@ -124,6 +77,7 @@ public:
     , free_(scene, start, request.group)
     , path_(scene, request.path)
     , random_(request.seed ? *request.seed : std::random_device{}())
+    , time_(request.time)
   {
   }
 
@@ -167,7 +121,7 @@ private:
   }
 
   bool cancelled() const { return cancel_ && *cancel_; }
-  bool stopped() const { return cancelled() || since(started_) >= request_.time; }
+  bool stopped() const { return cancelled() || since(started_) >= time_; }
 
   PlanResult stopResult()
   {
@@ -319,8 +273,6 @@ private:
     si_->setStateValidityCheckingResolution(request_.segment_fraction);
     if (space_->projects())
       si_->setMotionValidator(std::make_shared<ProjectedMotion>(si_));
-    else if (request_.closely && !request_.feasible && path_.empty())  // of other conditions only states can be asked
-      si_->setMotionValidator(std::make_shared<CloseMotion>(si_, *space_, scene_.checker(start_, group_.name)));
     si_->setup();
     problem_ = std::make_shared<ob::ProblemDefinition>(si_);
     ob::State* start = si_->allocState();
@@ -368,19 +320,10 @@ private:
   ob::OptimizationObjectivePtr objective()
   {
     const std::string name = parameter("optimization_objective");
-    if (name == "MinimaxObjective")
-      return std::make_shared<ob::MinimaxObjective>(si_);
-    if (name == "StateCostIntegralObjective")
-      return std::make_shared<ob::StateCostIntegralObjective>(si_);
-    if (name == "MechanicalWorkOptimizationObjective")
-      return std::make_shared<ob::MechanicalWorkOptimizationObjective>(si_);
-    if (name == "MaximizeMinClearanceObjective")
-      return std::make_shared<ob::MaximizeMinClearanceObjective>(si_);
-    if (name == "PathLengthOptimizationObjective")
-      return std::make_shared<ob::PathLengthOptimizationObjective>(si_);
-    if (!name.empty())
+    const ob::OptimizationObjectivePtr made = makeObjective(name, si_);
+    if (!name.empty() && !made)
       warn("optimization_objective '" + name.substr(0, 60) + "' is not known; the planner's own is used");
-    return nullptr;
+    return made;
   }
 
   ob::PlannerTerminationCondition termination()
@@ -420,23 +363,68 @@ private:
       result_.warnings.push_back(text);
   }
 
+  // A path may cut corners between the states that were looked at. Then it is shortened once more with states nearer to each other,
+  // in the end all along its motions; the search itself is repeated only if what it found, not yet shortened, is no way.
   void solve()
   {
+    og::PathGeometric found(si_);
+    if (!search(found))
+      return;
+    for (int look = 0;; ++look)
+    {
+      og::PathGeometric path(found);
+      if (request_.simplify)
+        simplify(path);
+      if (cancelled())
+      {
+        stopResult();
+        return;
+      }
+      if (!request_.closely || hit(path) < 0)
+        return take(path);
+      if (look == CLOSER)
+        return take(found, hit(found));
+      lookCloser(look);
+      if (!found.check() && !search(found))
+        return;
+    }
+  }
+
+  int hit(const og::PathGeometric& path) const { return firstHit(scene_, start_, group_, rows(path)); }
+
+  void lookCloser(int look)
+  {
+    if (look + 1 == CLOSER)
+      si_->setMotionValidator(std::make_shared<CloseMotion>(si_, *space_, scene_.checker(start_, group_.name)));
+    else
+      si_->setStateValidityCheckingResolution(request_.segment_fraction / std::pow(FINER, look + 1));
+    si_->setup();
+    time_ = std::max(time_, since(started_) + std::min(1.0, request_.time));
+  }
+
+  bool search(og::PathGeometric& found)
+  {
+    problem_->clearSolutionPaths();
+    result_.attempts = 0;
     const ob::PlannerTerminationCondition done = termination();
     try
     {
       const ob::PlannerStatus status = request_.attempts > 1 ? solveSeveral(done) : solveOnce(done);
-      report(status);
+      if (!report(status))
+        return false;
     }
     catch (const ompl::Exception& error)
     {
       fail(PlanStatus::Failed, std::string("planner ") + result_.planner + ": " + error.what());
+      return false;
     }
+    found = *problem_->getSolutionPath()->as<og::PathGeometric>();
+    return true;
   }
 
   ob::PlannerStatus solveOnce(const ob::PlannerTerminationCondition& done)
   {
-    result_.attempts = 1;
+    ++result_.attempts;
     const ob::PlannerPtr one = planner();
     one->setup();
     return one->solve(done);
@@ -447,9 +435,10 @@ private:
   {
     const int side_by_side = request_.seed ? 1 : request_.threads > 0 ? request_.threads : 4;
     ob::PlannerStatus status = ob::PlannerStatus::TIMEOUT;
-    while (result_.attempts < request_.attempts && !done)
+    for (int made = 0; made < request_.attempts && !done;)
     {
-      const int batch = std::min(side_by_side, request_.attempts - result_.attempts);
+      const int batch = std::min(side_by_side, request_.attempts - made);
+      made += batch;
       if (batch == 1)
       {
         ++result_.attempts;
@@ -469,19 +458,14 @@ private:
     return status;
   }
 
-  void report(const ob::PlannerStatus& status)
+  // Is there a path?
+  bool report(const ob::PlannerStatus& status)
   {
-    if (problem_->hasExactSolution())
-    {
-      if (cancelled())
-      {
-        stopResult();
-        return;
-      }
-      takePath();
-      return;
-    }
-    if (stopped() || status == ob::PlannerStatus::TIMEOUT)
+    if (cancelled())
+      stopResult();
+    else if (problem_->hasExactSolution())
+      return true;
+    else if (stopped() || status == ob::PlannerStatus::TIMEOUT)
       stopResult();
     else if (problem_->hasApproximateSolution())
       fail(PlanStatus::Approximate, "planner " + result_.planner + " came near the goal, but not there");
@@ -491,27 +475,28 @@ private:
       fail(PlanStatus::InvalidStart, "planner " + result_.planner + " refused the start state");
     else
       fail(PlanStatus::Failed, "planner " + result_.planner + " ended with '" + status.asString() + "'");
+    return false;
   }
 
-  void takePath()
+  void simplify(og::PathGeometric& path)
   {
-    og::PathGeometric path(*problem_->getSolutionPath()->as<og::PathGeometric>());
-    if (request_.simplify && since(started_) < request_.time)
-    {
-      const auto before = Clock::now();
-      og::PathSimplifier simplifier(si_, problem_->getGoal(), problem_->getOptimizationObjective());
-      og::PathGeometric simpler(path);
-      // Simplifying may not make a valid path invalid; check, for it interpolates anew.
-      simplifier.simplify(simpler, ob::PlannerTerminationCondition([this]() { return stopped(); }), false);
-      if (simpler.check())
-        path = simpler;
-      result_.simplify_time = since(before);
-    }
-    if (cancelled())
-    {
-      stopResult();
+    if (stopped())
       return;
-    }
+    const auto before = Clock::now();
+    og::PathSimplifier simplifier(si_, problem_->getGoal(), problem_->getOptimizationObjective());
+    og::PathGeometric simpler(path);
+    // Simplifying may not make a valid path invalid; check, for it interpolates anew.
+    simplifier.simplify(simpler, ob::PlannerTerminationCondition([this]() { return stopped(); }), false);
+    if (simpler.check())
+      path = simpler;
+    result_.simplify_time += since(before);
+  }
+
+  // `hit`: after which way point the path touches something; -1 if it does nowhere.
+  void take(og::PathGeometric& path, int hit = -1)
+  {
+    si_->setStateValidityCheckingResolution(request_.segment_fraction);  // way points are as far apart as was asked for
+    si_->setup();
     if (request_.interpolate)
     {
       if (request_.maximum_waypoint_distance > 0)
@@ -522,13 +507,25 @@ private:
       if (path.getStateCount() < static_cast<std::size_t>(std::max(2, request_.minimum_waypoints)))
         path.interpolate(static_cast<unsigned int>(std::max(2, request_.minimum_waypoints)));
     }
-    for (const ob::State* state : path.getStates())
-    {
-      const double* values = JointSpace::values(state);
-      result_.path.emplace_back(values, values + space_->size());
-    }
+    result_.path = rows(path);
     result_.status = PlanStatus::Solved;
     result_.message.clear();
+    if (hit < 0)
+      return;
+    result_.status = PlanStatus::InvalidPath;
+    result_.hit = firstHit(scene_, start_, group_, result_.path);
+    result_.message = cutsCorners(result_.hit, result_.path.size());
+  }
+
+  std::vector<std::vector<double>> rows(const og::PathGeometric& path) const
+  {
+    std::vector<std::vector<double>> out;
+    for (std::size_t i = 0; i < path.getStateCount(); ++i)
+    {
+      const double* values = JointSpace::values(path.getState(i));
+      out.emplace_back(values, values + space_->size());
+    }
+    return out;
   }
 
   const PlanningScene& scene_;
@@ -541,6 +538,7 @@ private:
   const ConstraintSet path_;
   Random random_;
   const Clock::time_point started_ = Clock::now();
+  double time_;  // s from then on
   PlanResult result_;
   std::vector<std::vector<double>> goals_;
   std::shared_ptr<JointSpace> space_;
@@ -549,16 +547,6 @@ private:
   ob::ProblemDefinitionPtr problem_;
 };
 
-// Keys of ompl_planning.yaml that are not the planner's own.
-const std::set<std::string>& generalKeys()
-{
-  static const std::set<std::string> keys{"type", "optimization_objective", "termination_condition", "interpolate", "hybridize",
-                                          "multi_query_planning_enabled", "load_planner_data", "store_planner_data",
-                                          "planner_data_path", "projection_evaluator", "longest_valid_segment_fraction",
-                                          "enforce_joint_model_state_space", "enforce_constrained_state_space",
-                                          "maximum_waypoint_distance", "minimum_waypoint_count", "simplify_solutions"};
-  return keys;
-}
 }  // namespace
 
 PlanResult plan(const PlanningScene& scene, const RobotState& start, const PlanRequest& request, const CancelFlag& cancel)
@@ -573,41 +561,4 @@ PlanResult plan(const PlanningScene& scene, const RobotState& start, const PlanR
   return Planning(scene, from, request, cancel).run();
 }
 
-std::map<std::string, std::map<std::string, std::string>> plannerParameters()
-{
-  quiet();
-  auto space = std::make_shared<ob::RealVectorStateSpace>(2);
-  space->setBounds(-1, 1);
-  const auto si = std::make_shared<ob::SpaceInformation>(space);
-  si->setStateValidityChecker([](const ob::State*) { return true; });
-  si->setup();
-  std::map<std::string, std::map<std::string, std::string>> out;
-  for (const std::string& name : plannerNames())
-    makePlanner(name, si)->params().getParams(out[name]);
-  return out;
-}
-
-std::string plannerProblem(const std::string& name, const std::map<std::string, std::string>& parameters)
-{
-  const std::string known = plannerName(name);
-  if (known.empty())
-  {
-    for (const char* other : {"STOMP", "CHOMP"})
-      if (name.find(other) != std::string::npos)
-        return std::string(other) + " is not part of this library; use an OMPL planner such as RRTConnect";
-    return "there is no planner '" + name.substr(0, 60) + "' (there is: " + listed(plannerNames()) + ")";
-  }
-  if (parameters.empty())
-    return "";
-  static const auto all = plannerParameters();
-  for (const auto& [key, value] : parameters)
-    if (!all.at(known).count(key) && !generalKeys().count(key))
-    {
-      std::vector<std::string> keys;
-      for (const auto& [own, unused] : all.at(known))
-        keys.push_back(own);
-      return "planner " + known + " has no parameter '" + key.substr(0, 60) + "' (there is: " + listed(keys) + ")";
-    }
-  return "";
-}
 }  // namespace motion

@@ -11,9 +11,8 @@ namespace motion
 namespace
 {
 using Rows = std::vector<std::vector<double>>;
-constexpr double STEP = 0.02;  // rad or m of any joint, at most, between two looks
-constexpr int FINER = 2;       // times that a path which cuts a corner is planned again with states nearer to each other
-constexpr int AGAIN = 4;       // and in all: then all along its motions
+constexpr double STEP = 0.01;  // rad or m of any joint, at most, between two looks
+constexpr int AGAIN = 3;       // times that a path which cuts a corner is planned again with states nearer to each other
 
 double largestStep(const Rows& path)
 {
@@ -58,12 +57,23 @@ Rows thinned(const Rows& path, double spacing)
   return kept;
 }
 
+// Of states alone can be asked whether they keep constraints; planar and floating joints do not go straight in their variables.
+bool straight(const PlanningScene& scene, const PlanRequest& request)
+{
+  if (request.feasible || !request.path.empty())
+    return false;
+  for (int j : scene.model()->group(request.group).active_joints)
+    if (!scene.model()->joints[j].singleVariable())
+      return false;
+  return true;
+}
+}  // namespace
+
 std::string cutsCorners(int hit, std::size_t count)
 {
   return "each path that was found touches something between its way points, the last one after way point " +
          std::to_string(hit + 1) + " of " + std::to_string(count) + "; plan again, with more time";
 }
-}  // namespace
 
 int firstHit(const PlanningScene& scene, const RobotState& start, const JointModelGroup& group, const Rows& path)
 {
@@ -111,6 +121,12 @@ int firstHit(const PlanningScene& scene, const RobotState& start, const JointMod
 
 PlanResult planClosely(const PlanningScene& scene, const RobotState& start, const PlanRequest& request, const CancelFlag& cancel)
 {
+  if (straight(scene, request))
+  {
+    PlanRequest closely(request);
+    closely.closely = true;
+    return plan(scene, start, closely, cancel);
+  }
   const auto began = std::chrono::steady_clock::now();
   PlanResult result = plan(scene, start, request, cancel);
   const double spacing = largestStep(result.path);
@@ -127,10 +143,7 @@ PlanResult planClosely(const PlanningScene& scene, const RobotState& start, cons
       break;
     }
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - began;
-    if (again < FINER)
-      finer.segment_fraction /= 4;
-    else
-      finer.closely = true;
+    finer.segment_fraction /= 4;
     finer.time = std::max(request.time - spent.count(), std::min(1.0, request.time));
     PlanResult next = plan(scene, start, finer, cancel);
     next.planning_time += result.planning_time;

@@ -29,7 +29,7 @@ struct PlanRequest
   double segment_fraction = 0.01;           // of the space's extent, between checked states
   double maximum_waypoint_distance = 0.0;  // 0 = as far apart as states are checked
   int minimum_waypoints = 2;
-  bool closely = false;  // motions are looked at all along, not only at states `segment_fraction` apart; slower
+  bool closely = false;  // for planClosely: the path is looked at all along, not only at states `segment_fraction` apart
   std::string projection;  // "joints(a,b)" or "link(l)"
   int goal_samples = 10;
   int threads = 0;  // 0 = up to four
@@ -74,12 +74,15 @@ struct PlanResult
 PlanResult plan(const PlanningScene& scene, const RobotState& start, const PlanRequest& request, const CancelFlag& cancel);
 
 // As `plan`, and the path is looked at closely in the end: a planner looks at states that are `segment_fraction` apart, and a path
-// may cut a corner between them. One that does is planned again, with `closely`.
+// may cut a corner between them. One that does is made of shorter steps.
 PlanResult planClosely(const PlanningScene& scene, const RobotState& start, const PlanRequest& request, const CancelFlag& cancel);
 
 // The first way point after which the straight line to the next one touches something; -1 if none does.
 int firstHit(const PlanningScene& scene, const RobotState& start, const JointModelGroup& group,
              const std::vector<std::vector<double>>& path);
+
+// What to say of a path that touches something after way point `hit`.
+std::string cutsCorners(int hit, std::size_t count);
 
 // Planner name -> its parameters and their defaults.
 std::map<std::string, std::map<std::string, std::string>> plannerParameters();
