@@ -80,7 +80,7 @@ def inner_words(platform: Platform, home: str, environment: Dict[str, str]) -> L
         words += ["--size", "4096", "--perms", "0555", "--tmpfs", place]
     words += ["--bind", home, HOME, "--chdir", HOME, "--clearenv"]
     for passwd, text in (("passwd", "student:x:1000:1000::/home/student:/bin/bash\n"), ("group", "student:x:1000:\n"),
-                         ("hosts", "127.0.0.1 localhost lab\n")):
+                         ("hosts", "127.0.0.1 localhost lab\n"), ("nsswitch.conf", "passwd: files\ngroup: files\nhosts: files\n")):
         file = pathlib.Path(home).parent / f"etc_{passwd}"
         if not file.exists():
             file.write_text(text)

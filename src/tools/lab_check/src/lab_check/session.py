@@ -62,7 +62,7 @@ class Session:
 
     def _examine(self) -> List[TaskResult]:
         launch = self.tasks[0]["launch"]
-        self.launch = self.start(f"exec python3 -m lab_check.held_launch {self.job.spec['seed']} --wait {launch}")
+        self.launch = self.start(f"exec python3 -m lab_check.held_launch {self.job.spec['seed']} {launch}")
         self.guard.start()
         try:
             self._get_ready(self.tasks[0]["ready"])
