@@ -44,6 +44,7 @@ def test_old_sources_build(package, standard):
     """Placeholders without namespace, an undeclared package's messages, headers under their names of before 2018."""
     ended = package("roscpp std_msgs pluginlib", """
         #include <ros/ros.h>
+        #include <angles/angles.h>
         #include <std_msgs/Float64.h>
         #include <control_msgs/JointControllerState.h>
         #include <pluginlib/class_list_macros.h>
@@ -55,6 +56,7 @@ def test_old_sources_build(package, standard):
             return nh.subscribe<std_msgs::Float64>("x", 1, boost::bind(&Node::heard, this, _1, 3));
           }
           control_msgs::JointControllerState state;
+          double turn = angles::normalize_angle(4.0);
         };
         PLUGINLIB_EXPORT_CLASS(Node, Base)
         """, standard)
