@@ -9,10 +9,15 @@ from __future__ import annotations
 import os
 import signal
 import time
-from typing import Dict, Iterable, List, Optional, Set
+from collections import Counter, deque
+from typing import Deque, Dict, Iterable, List, Optional, Set, Tuple
 
 _REST = 0.0016  # s of rest, longer than roscpp's look at the clock
 _STEP = 0.0004  # s between two looks
+_LONG_STEP = 0.01  # the same where rest is long: starts of programs
+_LOOKS = 4  # looks that rest takes at least
+_FLICKER = 0.008  # s after which those who are seldom at work are taken to rest
+_SELDOM = 0.35  # part of the looks
 _PATIENCE = 2.0  # s until a process that never rests is waited for no more
 
 
@@ -28,6 +33,7 @@ class Nodes:
         self._own = set(own)
         self._known: Dict[int, bool] = {}
         self._restless: Set[int] = set()
+        self._threads: Dict[Tuple[int, int], int] = {}  # -> descriptor of its state
         self._simulator: Optional[int] = None
         self.restless_names: List[str] = []
         self.pids: List[int] = []
@@ -73,32 +79,74 @@ class Nodes:
         for pid in self.strangers():
             _signal(pid, signal.SIGCONT)
 
-    def busy(self) -> List[int]:
-        """Who runs, or waits for the disk, now."""
-        me = os.getpid()
-        return [pid for pid in self.pids if pid not in self._restless and _runs(pid, skip_main=pid == me)]
+    def busy(self) -> Set[Tuple[int, int]]:
+        """(process, thread) of all that run, or wait for the disk, now."""
+        found = set()
+        for key, file in list(self._threads.items()):
+            try:
+                state = os.pread(file, 128, 0).rpartition(b")")[2][1:2]
+            except OSError:  # it ended
+                os.close(self._threads.pop(key))
+                continue
+            if state in (b"R", b"D"):
+                found.add(key)
+        return found
+
+    def _look_for_threads(self) -> None:
+        """Opens the state of each thread once: opening costs more than reading."""
+        me, there = (os.getpid(), os.getpid()), set()
+        for pid in self.pids:
+            if pid in self._restless:
+                continue
+            try:
+                threads = os.listdir(f"/proc/{pid}/task")
+            except OSError:
+                continue
+            for thread in threads:
+                key = (pid, int(thread))
+                there.add(key)
+                if key != me and key not in self._threads:
+                    try:
+                        self._threads[key] = os.open(f"/proc/{pid}/task/{thread}/stat", os.O_RDONLY)
+                    except OSError:
+                        continue
+        for key in set(self._threads) - there:
+            os.close(self._threads.pop(key))
 
     def settle(self, rest: float = _REST, patience: float = _PATIENCE) -> bool:
-        """Waits until all rest, for ``rest`` seconds on end. False when somebody never did, who is waited for no more."""
-        start = time.monotonic()
-        quiet_since = None
-        while True:
-            busy = self.busy()
-            now = time.monotonic()
-            if busy or (self._mark is None and _unread()):  # a shared network carries other people's bytes
-                quiet_since = None
-                if now - start > patience:
-                    self._give_up(busy)
-                    return False
-            elif quiet_since is None:
-                quiet_since = now
-            elif now - quiet_since >= rest:
-                return True
-            time.sleep(_STEP if rest < 0.05 else 0.01)
-            if rest >= 0.05:
-                self.find()
+        """Waits until all rest, for ``rest`` seconds on end. False when somebody never did, who is waited for no more.
 
-    def _give_up(self, busy: List[int]) -> None:
+        A thread that only looks at the clock, and sleeps again, is seen at work now and then for ever: it rests when most looks of
+        a longer time see it asleep.
+        """
+        start = time.monotonic()
+        pause = _STEP if rest < 0.05 else _LONG_STEP
+        needed = max(_LOOKS, int(rest / pause))
+        looks: Deque[Set[Tuple[int, int]]] = deque(maxlen=max(2 * _LOOKS, needed))
+        quiet_since, dry_since = None, None
+        self._look_for_threads()
+        while True:
+            time.sleep(pause)
+            if pause == _LONG_STEP:
+                self.find()
+                self._look_for_threads()
+            busy = self.busy()
+            unread = self._mark is None and _unread()  # a shared network carries other people's bytes
+            now = time.monotonic()
+            looks.append(busy)
+            dry_since = None if unread else dry_since or now
+            quiet_since = None if busy or unread else quiet_since or now
+            if quiet_since is not None and now - quiet_since >= rest:
+                return True
+            if dry_since is not None and now - dry_since >= rest and len(looks) == looks.maxlen and now - start >= _FLICKER:
+                seen = Counter(key for look in looks for key in look)
+                if all(count <= _SELDOM * len(looks) for count in seen.values()):
+                    return True
+            if now - start > patience:
+                self._give_up({pid for pid, _ in busy})
+                return False
+
+    def _give_up(self, busy: Set[int]) -> None:
         for pid in busy:
             if pid in self._own or pid == self._simulator:
                 continue
@@ -118,24 +166,6 @@ def _signal(pid: int, number: int) -> None:
         os.kill(pid, number)
     except OSError:
         pass
-
-
-def _runs(pid: int, skip_main: bool) -> bool:
-    try:
-        threads = os.listdir(f"/proc/{pid}/task")
-    except OSError:
-        return False
-    for thread in threads:
-        if skip_main and int(thread) == pid:
-            continue
-        try:
-            with open(f"/proc/{pid}/task/{thread}/stat", "rb") as file:
-                state = file.read().rpartition(b")")[2].split(None, 1)[0]
-        except (OSError, IndexError):
-            continue
-        if state in (b"R", b"D"):
-            return True
-    return False
 
 
 def _unread() -> bool:
