@@ -23,7 +23,7 @@ class Client:
     def add_notification(self, title, body, **_):
         self.told.append(body)
 
-    def send_file_download(self, name, content):
+    def send_file_download(self, name, content, save_immediately=False):
         self.files[name] = content
 
 

@@ -193,10 +193,10 @@ class Browser:
     def mouse(self, *points, drag=False, keys=()):
         """Click at a point (CSS pixels), or drag from the first through all to the last."""
         from selenium.webdriver.common.action_chains import ActionChains
+        for key in keys:  # of their own: the keys' steps and the pointer's would be taken side by side
+            ActionChains(self.driver).key_down(key).perform()
         actions = ActionChains(self.driver, duration=20)
         actions.w3c_actions.pointer_action.move_to_location(*(int(round(v)) for v in points[0]))
-        for key in keys:
-            actions.key_down(key)
         if drag:
             actions.w3c_actions.pointer_action.pointer_down()
             for begin, end in zip(points, points[1:]):
@@ -208,6 +208,6 @@ class Browser:
             actions.w3c_actions.pointer_action.pointer_up()
         else:
             actions.w3c_actions.pointer_action.click()
-        for key in keys:
-            actions.key_up(key)
         actions.perform()
+        for key in keys:
+            ActionChains(self.driver).key_up(key).perform()

@@ -42,7 +42,8 @@ class ModelSketch:
             node = self._links[link][1][0]
             node.position, node.wxyz = pose.p, wxyz(pose.q)
 
-    def show(self, model: d.Model, picked: str) -> None:
+    def show(self, model: d.Model, picked: str, movable: bool = True) -> None:
+        """:param movable: by the gizmo; it would be in the way of a click on the link."""
         wanted = {link.name: (link, link.name == picked) for link in model.links}
         for name in [name for name, (content, _) in self._links.items() if wanted.get(name) != content]:
             for node in reversed(self._links.pop(name)[1]):
@@ -52,7 +53,7 @@ class ModelSketch:
                 self._links[name] = (content, self._draw(*content))
         self._show_joints(model)
         self._picked = picked
-        self._gizmo.visible = picked in wanted
+        self._gizmo.visible = movable and picked in wanted
         if picked in wanted:
             pose = wanted[picked][0].pose
             self._gizmo.position, self._gizmo.wxyz = pose.p, wxyz(pose.q)

@@ -117,6 +117,7 @@ class BuildingPanel(Panel):
         if on == (self._drawing is not None):
             return
         self.page.drawing.hide(on)
+        self.page.selection.select()  # its handles would stay
         if on:
             self._drawing = PlanDrawing(self.page.server.scene, self._listen)
             self._refresh()

@@ -80,7 +80,7 @@ class ModelPanel(Panel):
             self._fix = gui.add_button("Fix the picked link to the world")
             self._joint = gui.add_dropdown("Joints", ("(none)",))
             self._unjoin = gui.add_button("Delete joint")
-        self.on_update(self._join, lambda on: self._ends.clear())
+        self.on_update(self._join, lambda on: self._later(self._ends.clear))
         self.on_click(self._fix, lambda: self._later(lambda: self._draft.add_joint("fixed", "world", self._picked)))
         self.on_click(self._unjoin, lambda: self._later(lambda: self._draft.delete(self._joint.value)))
 
@@ -121,6 +121,7 @@ class ModelPanel(Panel):
         if on == (self._sketch is not None):
             return
         self.page.drawing.hide(on)
+        self.page.selection.select()  # its handles would stay
         if on:
             self._sketch = ModelSketch(self.page.server.scene, self._click, self._move)
             for client in self.page.server.get_clients().values():
@@ -136,7 +137,7 @@ class ModelPanel(Panel):
             self._picked = ""
         if self._sketch is not None:
             with self.page.server.atomic():
-                self._sketch.show(model, self._picked)
+                self._sketch.show(model, self._picked, not self._join.value)
         self._joint.options = tuple(joint.name for joint in model.joints) or ("(none)",)
         self._note.content = note(f"{len(model.links)} links, {len(model.joints)} joints, {len(model.plugins)} plugins"
                                   + (f"; joint of {self._ends[0]} and ...?" if self._ends else ""))

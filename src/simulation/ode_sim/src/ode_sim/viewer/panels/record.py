@@ -17,8 +17,8 @@ class RecordPanel(Panel):
         self._save = self.gui.add_button("Save world", hint="a world file of everything as it is now")
         self._shot = self.gui.add_button("Screenshot", hint="what this page shows, as PNG")
         self._replay = self.gui.add_button("Record", hint="a page that plays by itself, without a simulator")
-        self._save.on_click(lambda event: page.attempt(event, lambda: event.client.send_file_download(
-            f"{page.world.name or 'world'}.world", self.simulation.save().encode())))
+        self._save.on_click(lambda event: page.attempt(event, lambda: keep(
+            event.client, f"{page.world.name or 'world'}.world", self.simulation.save().encode())))
         self._shot.on_click(lambda event: page.attempt(event, lambda: self._screenshot(event.client)))
         self._replay.on_click(lambda event: page.attempt(event, lambda: self._toggle(event.client)))
         self._film = self.gui.add_button("Film", hint="MP4 of what this page looks at, drawn when it ends; 2 minutes")
@@ -51,7 +51,7 @@ class RecordPanel(Panel):
             return
         movie, self._movie, self._filming = self._movie, None, None
         self._film.label = "Film"
-        client.send_file_download("film.mp4", movie.render())
+        keep(client, "film.mp4", movie.render())
 
     def _screenshot(self, client: Any) -> None:
         import cv2
@@ -62,7 +62,7 @@ class RecordPanel(Panel):
         good, data = cv2.imencode(".png", picture[..., ::-1])
         if not good:
             raise Refused("The picture could not be written as PNG.")
-        client.send_file_download("screenshot.png", data.tobytes())
+        keep(client, "screenshot.png", data.tobytes())
 
     def _toggle(self, client: Any) -> None:
         if self._recording is None:
@@ -71,4 +71,9 @@ class RecordPanel(Panel):
             return
         recording, self._recording = self._recording, None
         self._replay.label = "Record"
-        client.send_file_download("replay.html", recording.as_html().encode())
+        keep(client, "replay.html", recording.as_html().encode())
+
+
+def keep(client: Any, name: str, content: bytes) -> None:
+    """A download, without a further click."""
+    client.send_file_download(name, content, save_immediately=True)

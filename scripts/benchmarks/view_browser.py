@@ -1,0 +1,301 @@
+#!/usr/bin/env python3
+"""What the simulator's window bears, in a real browser: how soon it is usable, ten reconnects, a heavy world, three pages at
+once, a slow network, broken meshes.
+
+    scripts/benchmarks/view_browser.py                          all of it, a table
+    scripts/benchmarks/view_browser.py usable slow              some
+    scripts/benchmarks/view_browser.py --shots DIR --json FILE  with pictures, and for programs
+
+Wanted: chromium, chromium-driver and the Python package selenium. Seconds are wall time of this machine as it is: the load is
+among the figures.
+"""
+import argparse
+import contextlib
+import json
+import math
+import os
+import re
+import signal
+import socket
+import struct
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+
+import psutil
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path[:0] = [HERE, os.path.join(HERE, "..", "..", "src", "windows", "gzclient", "test")]
+from browser import Browser, missing  # noqa: E402
+from run import master  # noqa: E402
+
+WORLD = ("<sdf version='1.6'><world name='default'><include><uri>model://sun</uri></include>"
+         "<include><uri>model://ground_plane</uri></include>{}</world></sdf>")
+LINK = ("<model name='{name}'><pose>{x} {y} {z} 0 0 0</pose><link name='l'><inertial><mass>1</mass><inertia><ixx>0.01</ixx>"
+        "<iyy>0.01</iyy><izz>0.01</izz></inertia></inertial><collision name='c'><geometry><sphere><radius>0.3</radius></sphere>"
+        "</geometry>{surface}</collision><visual name='v'><geometry>{shape}</geometry></visual></link></model>")
+BALL = "<sphere><radius>0.3</radius></sphere>"
+BOUNCE = ("<surface><bounce><restitution_coefficient>1</restitution_coefficient><threshold>0</threshold></bounce><contact><ode>"
+          "<max_vel>100</max_vel></ode></contact></surface>")
+PLAIN = "table"
+
+
+def body(name, x, y, z, shape, surface=""):
+    return LINK.format(name=name, x=x, y=y, z=z, shape=shape, surface=surface)
+
+
+def balls(count):
+    """They bounce for ever."""
+    return "".join(body(f"b{i}", i % 6, i // 6, 1 + 0.5 * (i % 5), BALL, BOUNCE) for i in range(count))
+
+
+def sphere_file(file, rows, columns):
+    """A binary STL of rows x columns x 2 triangles."""
+    def point(row, column):
+        polar, turn = math.pi * row / rows, 2 * math.pi * column / columns
+        radius = 0.3 * (1 + 0.1 * math.sin(9 * turn) * math.sin(7 * polar))
+        return (radius * math.sin(polar) * math.cos(turn), radius * math.sin(polar) * math.sin(turn), radius * math.cos(polar))
+    with open(file, "wb") as stream:
+        stream.write(bytes(80) + struct.pack("<I", 2 * rows * columns))
+        for row in range(rows):
+            for column in range(columns):
+                a, b, c, d = (point(row + i, column + j) for i, j in ((0, 0), (1, 0), (1, 1), (0, 1)))
+                for triangle in ((a, b, c), (a, c, d)):
+                    stream.write(struct.pack("<12fH", 0, 0, 1, *(v for p in triangle for v in p), 0))
+
+
+class Bench:
+    """The simulator and its window; a world at a time."""
+
+    def __init__(self, environment, folder, shots):
+        self.environment = {name: value for name, value in environment.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY")}
+        self.folder, self.shots = folder, shots
+
+    @contextlib.contextmanager
+    def run(self, *words, **options):
+        process = subprocess.Popen(["rosrun", "gazebo_ros", *words], env=self.environment, text=True, start_new_session=True,
+                                   stderr=subprocess.DEVNULL, **options)
+        try:
+            yield process
+        finally:
+            os.killpg(process.pid, signal.SIGINT)
+            try:
+                process.wait(30)
+            except subprocess.TimeoutExpired:
+                os.killpg(process.pid, signal.SIGKILL)
+
+    @contextlib.contextmanager
+    def world(self, models, *options):
+        file = os.path.join(self.folder, "bench.world")
+        with open(file, "w", encoding="utf-8") as stream:
+            stream.write(WORLD.format(models))
+        quiet = {"env": self.environment, "stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+        with self.run("gzserver", *options, file, stdout=subprocess.DEVNULL) as server:
+            while subprocess.run(["rosservice", "call", "/gazebo/get_world_properties"], **quiet).returncode:
+                time.sleep(0.2)
+            yield server
+
+    @contextlib.contextmanager
+    def client(self):
+        """(process, address)."""
+        with self.run("gzclient", "--port", "0", stdout=subprocess.PIPE) as process:
+            yield process, process.stdout.readline().split()[-1]
+
+    def shot(self, page, name):
+        if self.shots:
+            page.shot(os.path.join(self.shots, f"{name}.png"))
+
+
+def processor(process):
+    parts = [process, *process.children(recursive=True)]
+    return sum(part.cpu_times().user + part.cpu_times().system for part in parts)
+
+
+# ---------------------------------------------------------------------------------------------- what is measured
+
+def usable(bench):
+    """A browser that is open already goes to the address as soon as it is printed."""
+    figures = {}
+    with bench.world(balls(30)), Browser("about:blank", frames=0) as page:
+        seen, cost = [], []
+        for _ in range(3):
+            begin = time.monotonic()
+            with bench.client() as (process, address):
+                page.driver.get(address)
+                page.see("Iterations", "b20")
+                seen.append(time.monotonic() - begin)
+                cost.append(processor(psutil.Process(process.pid)))
+                page.driver.get("about:blank")
+        figures["page usable, s after the command, best of 3"] = min(seen)
+        figures["page usable: processor s of gzclient"] = min(cost)
+    return figures
+
+
+def reconnects(bench):
+    with bench.world(balls(30)), bench.client() as (process, address), Browser(address) as page:
+        page.see("Iterations", "b20")
+        before, times = psutil.Process(process.pid).memory_info().rss, []
+        for _ in range(10):
+            begin = time.monotonic()
+            page.driver.refresh()
+            page.see("Iterations", "real-time factor", "b20")
+            times.append(time.monotonic() - begin)
+        bench.shot(page, "reconnects")
+        return {"ten reconnects: slowest, s": max(times),
+                "ten reconnects: memory of gzclient grew by, MB": (psutil.Process(process.pid).memory_info().rss - before) / 1e6,
+                "ten reconnects: errors on the page": len(page.complaints())}
+
+
+def heavy(bench):
+    """200 models of 5 000 triangles."""
+    file = os.path.join(bench.folder, "ball.stl")
+    sphere_file(file, 50, 50)
+    shape = f"<mesh><uri>file://{file}</uri></mesh>"
+    models = "".join(body(f"m{i}", i % 20, i // 20, 0.3, shape) for i in range(200))
+    with bench.world(models, "-u"), bench.client() as (process, address), Browser(address) as page:
+        begin = time.monotonic()
+        page.see("more: search")
+        listed = time.monotonic() - begin
+        before = page.scene()
+        page.settled(before)
+        drawn = time.monotonic() - begin
+        bench.shot(page, "heavy")
+        page.fill("Search", "m199")
+        page.click("m199")
+        page.see("Mass (kg)")
+        return {"200 models, 1 000 000 triangles: listed, s": listed, "200 models, 1 000 000 triangles: at rest, s": drawn,
+                "200 models, 1 000 000 triangles: a model picked by search, s": time.monotonic() - begin - drawn,
+                "200 models, 1 000 000 triangles: processor s of gzclient": processor(psutil.Process(process.pid)),
+                "200 models, 1 000 000 triangles: errors on the page": len(page.complaints())}
+
+
+def factor(page):
+    found = re.search(r"real-time factor (\d+\.\d+)", page.text())
+    return float(found.group(1)) if found else None
+
+
+def pages(bench):
+    """Three at once; the simulation runs on."""
+    with contextlib.ExitStack() as stack:
+        stack.enter_context(bench.world(balls(30)))
+        process, address = stack.enter_context(bench.client())
+        shown = [stack.enter_context(Browser(address, frames=2)) for _ in range(3)]
+        for page in shown:
+            page.see("real-time factor", "b20")
+        client, factors = psutil.Process(process.pid), []
+        before, begin = processor(client), time.monotonic()
+        while time.monotonic() < begin + 8.0:
+            factors.append(min(value for value in map(factor, shown) if value is not None))
+            time.sleep(0.5)
+        load = (processor(client) - before) / (time.monotonic() - begin)
+        shown[0].click("Pause")
+        for page in shown:
+            page.see("paused")
+        return {"3 pages: least real-time factor of 8 s": min(factors), "3 pages: part of a core in gzclient": load,
+                "3 pages: errors": sum(len(page.complaints()) for page in shown)}
+
+
+class SlowNetwork:
+    """A relay that lets through so many bytes a second in each direction, each of them late."""
+
+    def __init__(self, port, rate=250_000, delay=0.1):
+        self._target, self._rate, self._delay = port, rate, delay
+        self._door = socket.create_server(("127.0.0.1", 0))
+        self.port = self._door.getsockname()[1]
+        self.carried = 0
+        threading.Thread(target=self._accept, daemon=True).start()
+
+    def _accept(self):
+        with contextlib.suppress(OSError):
+            while True:
+                near = self._door.accept()[0]
+                far = socket.create_connection(("127.0.0.1", self._target))
+                for one, other in ((near, far), (far, near)):
+                    threading.Thread(target=self._carry, args=(one, other), daemon=True).start()
+
+    def _carry(self, source, target):
+        with contextlib.suppress(OSError):
+            time.sleep(self._delay)
+            while data := source.recv(4096):
+                target.sendall(data)
+                self.carried += len(data)
+                time.sleep(len(data) / self._rate)
+            target.shutdown(socket.SHUT_WR)
+
+    def close(self):
+        self._door.close()
+
+
+def slow(bench):
+    """2 Mbit/s, 0.1 s late; 30 bodies move all the time."""
+    with bench.world(balls(30)), bench.client() as (_, address):
+        network = SlowNetwork(int(address.rsplit(":", 1)[1].strip("/")))
+        try:
+            begin = time.monotonic()
+            with Browser(f"http://localhost:{network.port}/") as page:
+                page.see("real-time factor", "b20", seconds=120)
+                loaded, carried = time.monotonic() - begin, network.carried
+                time.sleep(10.0)
+                rate = (network.carried - carried) / 10.0
+                begin = time.monotonic()
+                page.click("Pause")
+                page.see("paused")
+                answered = time.monotonic() - begin
+                bench.shot(page, "slow")
+                return {"2 Mbit/s: page usable, s": loaded, "2 Mbit/s: carried until then, MB": carried / 1e6,
+                        "2 Mbit/s: stream, kB/s": rate / 1e3, "2 Mbit/s: from a click to what it did, s": answered,
+                        "2 Mbit/s: errors on the page": len(page.complaints())}
+        finally:
+            network.close()
+
+
+def broken(bench):
+    """Meshes that are not there, cut off, of text, of nothing; what is whole is drawn."""
+    files = {"cut.stl": bytes(80) + struct.pack("<I", 4_000_000) + b"x" * 500, "text.dae": b"<COLLADA><open>", "none.obj": b"",
+             "nan.stl": bytes(80) + struct.pack("<I", 1) + struct.pack("<12fH", *[float("nan")] * 12, 0),
+             "far.obj": b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 99\n"}
+    models = [body(PLAIN, 0, 0, 0.3, BALL)]
+    for number, (name, content) in enumerate((*files.items(), ("missing.dae", None))):
+        file = os.path.join(bench.folder, name)
+        if content is not None:
+            with open(file, "wb") as stream:
+                stream.write(content)
+        models.append(body(name, 2, number, 0.3, f"<mesh><uri>file://{file}</uri></mesh>"))
+    with bench.world("".join(models)), bench.client() as (_, address), Browser(address) as page:
+        page.see("real-time factor", PLAIN, *files, "missing.dae")
+        page.click(PLAIN)
+        page.see("Mass (kg)")
+        bench.shot(page, "broken")
+        return {"6 broken meshes: models listed beside them": float(PLAIN in page.text()),
+                "6 broken meshes: real-time factor": factor(page) or 0.0, "6 broken meshes: errors on the page": len(page.complaints())}
+
+
+PARTS = {f.__name__: f for f in (usable, reconnects, heavy, pages, slow, broken)}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("parts", nargs="*", metavar="PART", help=f"of {', '.join(PARTS)}; all, if none")
+    parser.add_argument("--json", metavar="FILE")
+    parser.add_argument("--shots", metavar="DIR", help="keep pictures of the page there")
+    options = parser.parse_args()
+    if missing():
+        sys.exit(f"not installed: {missing()} (apt install chromium chromium-driver)")
+    if unknown := [part for part in options.parts if part not in PARTS]:
+        parser.error(f"there is no part {unknown[0]}; there are {', '.join(PARTS)}")
+    figures = {}
+    with master() as environment, tempfile.TemporaryDirectory() as folder:
+        bench = Bench(environment, folder, options.shots)
+        for name in options.parts or PARTS:
+            for key, value in {**PARTS[name](bench), f"({name}: load of the machine)": os.getloadavg()[0]}.items():
+                figures[f"view, {key}"] = value
+                print(f"view, {key:70} {value:.4g}", flush=True)
+    if options.json:
+        with open(options.json, "w", encoding="utf-8") as file:
+            json.dump(figures, file)
+
+
+if __name__ == "__main__":
+    main()
