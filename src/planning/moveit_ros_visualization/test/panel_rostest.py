@@ -16,8 +16,10 @@ from geometry_msgs.msg import PoseStamped
 from moveit_msgs.msg import PlanningScene
 from moveit_msgs.srv import GetPlanningScene, GetPlanningSceneRequest, GetPositionFK, GetPositionFKRequest
 from rqt_testing.desktop import Desktop
-from sensor_msgs.msg import JointState
+from sensor_msgs.msg import JointState, Joy
+from visualization_msgs.msg import InteractiveMarkerFeedback, InteractiveMarkerInit
 
+MARKERS = "rviz_moveit_motion_planning_display/robot_interaction_interactive_marker_topic/"
 HERE = os.path.dirname(os.path.abspath(__file__))
 JOINTS = [f"joint_{number}" for number in range(1, 7)]
 LEFT = dict(zip(JOINTS, (1.2, -0.6, 1.6, 0.0, 1.0, 0.0)))
@@ -69,6 +71,15 @@ class Panel(unittest.TestCase):
 
     def result(self, begin, timeout=60):
         self.rviz.wait(lambda: self.rviz.text("result_label").startswith(begin), f"result {begin}", timeout)
+
+    def goal(self):
+        """Joint values of the goal, from the tab Joints."""
+        return [float(self.rviz.text("joint_value_" + name).split()[0]) for name in JOINTS]
+
+    def marker(self):
+        """The marker at the goal's hand."""
+        markers = rospy.wait_for_message(MARKERS + "update_full", InteractiveMarkerInit, 10).markers
+        return next(marker for marker in markers if marker.name == "EE:goal_hand")
 
     def test_1_all_displays_load_without_a_complaint(self):
         self.rviz.wait(lambda: all(entry[1] == "Status: Ok" for entry in self.statuses().values()),
@@ -126,9 +137,7 @@ class Panel(unittest.TestCase):
         pose = rospy.ServiceProxy("compute_fk", GetPositionFK)(request).pose_stamped[0]
         publisher = rospy.Publisher("/rviz/moveit/move_marker/goal_hand", PoseStamped, queue_size=1)
         self.rviz.wait(lambda: publisher.get_num_connections(), "subscriber")
-
-        def goal():
-            return [float(self.rviz.text("joint_value_" + name).split()[0]) for name in JOINTS]
+        goal = self.goal
 
         def to(dz):
             message = PoseStamped(pose=pose.pose)
@@ -174,13 +183,54 @@ class Panel(unittest.TestCase):
         self.rviz.wait(lambda: objects() == [], "scene without it")
         self.rviz.click_text("Planning")
 
-    def test_7_configurations_of_generated_packages_open_as_they_are(self):
+    def test_7_the_marker_has_a_menu_that_plans_and_moves(self):
+        publisher = rospy.Publisher(MARKERS + "feedback", InteractiveMarkerFeedback, queue_size=5)
+        self.rviz.wait(lambda: publisher.get_num_connections(), "subscriber")
+        marker = self.marker()
+
+        def choose(title):
+            entry, = [entry for entry in marker.menu_entries if entry.title == title]
+            publisher.publish(InteractiveMarkerFeedback(client_id="test", marker_name=marker.name, menu_entry_id=entry.id,
+                                                        event_type=InteractiveMarkerFeedback.MENU_SELECT, pose=marker.pose))
+
+        self.rviz.click("velocity_scaling_factor", at=(0.3, 0.5))
+        self.desktop.keys("ctrl+a")
+        self.desktop.type("1.0\n")
+        choose("home")
+        self.rviz.wait(lambda: self.rviz.text("goal_state_combo_box") == "home", "goal that the menu set")
+        choose("Plan and Execute")
+        self.rviz.wait(lambda: off(HOME) < 0.01, "arm at home")
+
+    def test_8_a_gamepad_moves_the_goal(self):
+        joy = rospy.Publisher("joy", Joy, queue_size=1)
+        self.rviz.wait(lambda: joy.get_num_connections(), "subscriber")
+        start = self.marker().pose.position
+
+        def off_start():
+            now = self.marker().pose.position
+            return math.dist((now.x, now.y, now.z), (start.x, start.y, start.z))
+
+        end = time.monotonic() + 60
+        while off_start() < 0.03:
+            self.assertLess(time.monotonic(), end, "the stick does not move the goal")
+            joy.publish(Joy(axes=[0.0, -1.0] + [0.0] * 6, buttons=[0] * 11))
+            time.sleep(0.05)
+        self.assertLess(off_start(), 0.2)
+        self.choose("goal_state_combo_box", "left")
+        self.result("Executed")  # of the plan before
+        for button, result in ((2, "Time: "), (1, "Executed")):
+            joy.publish(Joy(axes=[0.0] * 8, buttons=[int(i == button) for i in range(11)]))
+            self.result(result)
+            joy.publish(Joy(axes=[0.0] * 8, buttons=[0] * 11))
+        self.rviz.wait(lambda: off(LEFT) < 0.01, "arm on the left")
+
+    def test_9_configurations_of_generated_packages_open_as_they_are(self):
         paths = rospkg.RosPack()
         with open(os.path.join(paths.get_path("moveit_setup_assistant"), "templates", "launch", "moveit.rviz.in")) as file:
             template = file.read().replace("@{planning_frame}", "world")
         with open(os.path.join(paths.get_path("myur5_moveit_config"), "launch", "moveit.rviz")) as file:
             lab = file.read()
-        for name, text, display in (("generated", template, "MotionPlanning"), ("lab", lab, "RobotModel")):
+        for name, text, display in (("generated", template, "MotionPlanning"), ("lab", lab, "MotionPlanning")):
             config = os.path.join(self.folder, name + ".rviz")
             with open(config, "w") as file:
                 file.write(text)
