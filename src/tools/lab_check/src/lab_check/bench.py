@@ -10,6 +10,7 @@ import rospy
 from gazebo_ros.srv import StepWorld, TakePicture
 from std_srvs.srv import SetBool, Trigger
 
+from . import connections
 from .lockstep import Nodes
 
 CONNECTED = 0.12  # s of rest after something new: connections are made by threads that look every hundredth of a second
@@ -80,6 +81,12 @@ class Bench:
         if not self.nodes.settle(rest, patience=10.0):
             self.unsettled += 1
         self.alive()
+
+    def connect(self) -> None:
+        """As :meth:`settle`, and every subscriber is connected to every publisher."""
+        self.settle(0.05)
+        connections.wait(self.alive)
+        self.settle(CONNECTED)
 
     def tick(self) -> Sample:
         """One quantum: the world moves while the nodes stand still, then they answer."""

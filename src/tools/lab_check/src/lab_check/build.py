@@ -9,6 +9,7 @@ from typing import Dict, List
 
 from .explain import error_lines, excerpt, meaning
 from .job import Job
+from .supervise import Guard
 
 
 @dataclass
@@ -42,7 +43,10 @@ def _make(job: Job, built: Built, timeout: float, only: List[str]) -> bool:
     line = (f"cd {job.workspace} && catkin_make -j2 -DCMAKE_BUILD_TYPE=Release -DCATKIN_ENABLE_TESTING=OFF "
             f"-DPYTHON_EXECUTABLE=/usr/bin/python3 {chosen}")
     program = job.start(line, built=False)
+    guard = Guard(lambda: [program], {**job.limits, "time": timeout})
+    guard.start()
     program.wait(timeout)
+    guard.stop()
     text = program.output.text()
     built.log += text
     built.broke = program.broke
@@ -64,6 +68,7 @@ def _one_by_one(job: Job, built: Built, timeout: float) -> None:
             good.append(name)
         else:
             cause = next((line for line in error_lines(built.log[before:])), "its build failed")
+            cause = f"it was stopped: {built.broke}" if built.broke else cause
             built.failed[name] = f"{cause[:200]}{'. ' + meaning(cause) if meaning(cause) else ''}"
             built.broke = ""
     shutil.rmtree(os.path.join(job.home, "catkin_ws", "build"), ignore_errors=True)

@@ -4,6 +4,7 @@ from __future__ import annotations
 import json
 import shlex
 import threading
+import time
 from typing import Any, Callable, Dict, List
 
 import genpy
@@ -11,8 +12,11 @@ import rospy
 import roslib.message
 from rosservice import ROSServiceException, get_service_class_by_name
 
+from . import connections
 from .bench import CONNECTED, Bench
 from .supervise import Program
+
+_START = 15.0  # s of wall time that a program gets to become a node
 
 
 class CommandError(ValueError):
@@ -65,7 +69,7 @@ class Actor:
         self.by_hand.append(f"rostopic pub {'-r %g' % rate if rate else '-1'} {name} {wanted['type']} {shlex.quote(json.dumps(wanted.get('message', {})))}")
         publisher = rospy.Publisher(name, kind, queue_size=10, latch=not rate)
         self._publishers.append(publisher)
-        self._bench.settle(CONNECTED)
+        self._bench.connect()
         if not publisher.get_num_connections():
             raise CommandError(f"nobody listens to {name}" + _near(name, "subscribe to"))
         publisher.publish(message)
@@ -134,13 +138,23 @@ class Actor:
     def _run(self, wanted: Dict[str, Any]) -> None:
         key = wanted.get("name", "it")
         self.by_hand.append(f"rosrun {wanted['command']}")
+        before = connections.nodes()
         program = self.runs[key] = self._start(f"exec rosrun {wanted['command']}", "keys" in wanted)
-        self._bench.settle(0.3)
+        self._wait_for_node(program, before)
         for stroke in wanted.get("keys", ""):
             program.write(stroke)
             self._bench.pass_time(wanted.get("every", 0.2))
         if "wait" in wanted:
             self._bench.until(lambda: not program.running, wanted["wait"])
+
+    def _wait_for_node(self, program: Program, before) -> None:
+        """Simulated time stands still until the program is a node that is connected, or has ended."""
+        end = time.monotonic() + _START
+        while program.running and time.monotonic() < end and not connections.nodes() - before:
+            self._bench.alive()
+            time.sleep(0.02)
+        self._bench.settle(0.1)
+        self._bench.connect()
 
     def _stop(self, name: str) -> None:
         program = self.runs.get(name)
@@ -151,10 +165,13 @@ class Actor:
 
 
 def find_topic(pattern: str) -> str:
-    """A name as it is; with ``*`` in it the one topic of the graph that fits.
+    """A name as it is; with ``*`` in it the one topic of the graph that fits; ``command of JOINT`` is the topic by which the running
+    controller of that joint takes commands, whatever it was called.
 
     :raises CommandError: none or several fit
     """
+    if pattern.startswith("command of "):
+        return _command_of(pattern[len("command of "):])
     if "*" not in pattern:
         return pattern
     import fnmatch
@@ -165,6 +182,24 @@ def find_topic(pattern: str) -> str:
     if len(names) != 1:
         raise CommandError(f"{'several topics fit' if names else 'no topic fits'} {pattern}" + (f": {', '.join(names[:6])}" if names else ""))
     return names[0]
+
+
+def _command_of(joint: str) -> str:
+    import rosgraph
+    from controller_manager_msgs.srv import ListControllers
+    services = [name for name, _ in rosgraph.Master("/lab_check").getSystemState()[2] if name.endswith("/controller_manager/list_controllers")]
+    holders = []
+    for service in sorted(services):
+        try:
+            found = rospy.ServiceProxy(service, ListControllers)().controller
+        except (rospy.ServiceException, rospy.ROSException) as error:
+            raise CommandError(f"the controller manager does not answer: {error}") from error
+        base = service[:-len("controller_manager/list_controllers")]
+        holders += [f"{base}{c.name}/command" for c in found if c.state == "running"
+                    and any(joint in claimed.resources for claimed in c.claimed_resources)]
+    if len(holders) != 1:
+        raise CommandError(f"{'several running controllers claim' if holders else 'no running controller claims'} the joint {joint}")
+    return holders[0]
 
 
 def _near(name: str, what: str) -> str:

@@ -24,6 +24,16 @@ from .staging import StagingError, stage
 TRUSTED = {"lab_check", "gazebo_ros", "gazebo_ros_control", "gazebo_msgs", "gazebo_plugins", "ode_sim", "node_signals", "rospy", "roslaunch",
            "rosgraph", "roslib", "rosmaster", "std_srvs", "controller_manager", "controller_manager_msgs", "realtime_tools", "plugin_loader"}
 
+# What the kernel says at the walls -> what that means.
+REFUSED = (("No space left on device", "the disk that a submission gets is full"),
+           ("File too large", "a file grew beyond what a submission may write"),
+           ("Read-only file system", "something tried to write where a submission may not"),
+           ("Network is unreachable", "something tried to open a network connection; there is no network"),
+           ("Temporary failure in name resolution", "something tried to open a network connection; there is no network"),
+           ("Name or service not known", "something tried to open a network connection; there is no network"),
+           ("Operation not permitted", "something was tried that a submission may not do"),
+           ("Resource temporarily unavailable", "more processes were started than a submission may"))
+
 
 class Examiner:
     def __init__(self, job: Job):
@@ -42,8 +52,20 @@ class Examiner:
         else:
             built = self._build()
             self._tasks(built)
+            self._look_through_logs()
         self.result.seconds = time.monotonic() - start
         return self.result
+
+    def _look_through_logs(self) -> None:
+        """What the walls refused, as far as the submission's programs said so."""
+        for path in sorted(pathlib.Path(self.job.out).glob("*.log")):
+            if path.name.startswith("."):
+                continue
+            text = path.read_text(encoding="utf-8", errors="replace")
+            for words, note in REFUSED:
+                line = next((line.strip() for line in text.splitlines() if words in line), None)
+                if line is not None:
+                    self.result.notes.append(f"{path.name}: {note}: {line[:160]}")
 
     def _own_world(self) -> None:
         """The loopback of this network, and a disk of bounded size that nobody else sees."""

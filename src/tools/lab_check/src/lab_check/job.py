@@ -67,4 +67,6 @@ class Job:
         if self.unsafe:
             return Program(words, self.limits, environment, cwd=self.home)
         platform = sandbox.Platform(**self.platform)
-        return Program(sandbox.inner_words(platform, self.home, environment) + words, self.limits)
+        # The kernel counts threads, and not at all for root: the Guard counts processes as well.
+        most = ["prlimit", f"--nproc={int(self.limits['processes']) * 8}", "--"]
+        return Program(sandbox.inner_words(platform, self.home, environment) + most + words, self.limits)

@@ -128,6 +128,7 @@ class Session:
                 raise Gone(f"not ready after {ready['timeout']:g} s: still missing {', '.join(missing)}")
             if missing:
                 self.bench.pass_time(_READY_STEP)
+        self.bench.connect()
         # Whatever the start took, tasks begin at a moment that is the same in every run.
         begin = max(ready.get("at", 0.0), self.bench.dt * self.bench.count)
         while begin < self.bench.now.time + 0.5:

@@ -53,7 +53,7 @@ class TopicCheck(Check):
         except CommandError:
             return
         self._subscriber = rospy.Subscriber(name, rospy.AnyMsg, self._receive, queue_size=None, tcp_nodelay=True)
-        self.context.bench.settle(0.12)
+        self.context.bench.connect()
         self._begin = self.context.bench.now.time
         del self._arrivals[:]
 
@@ -132,7 +132,7 @@ class TfCheck(Check):
         from tf2_msgs.msg import TFMessage
         self._subscribers = [rospy.Subscriber(name, TFMessage, lambda message, static=static: self._take(message, static), queue_size=None)
                              for name, static in (("/tf", False), ("/tf_static", True))]
-        self.context.bench.settle(0.12)
+        self.context.bench.connect()
 
     def _take(self, message, static: bool) -> None:
         set_it = self._buffer.set_transform_static if static else self._buffer.set_transform

@@ -236,7 +236,7 @@ class _Listening(Timed):
             return
         self._subscriber = rospy.Subscriber(name, message, lambda m: self.messages.append((self.context.bench.now.time, m)),
                                             queue_size=None, buff_size=1 << 24, tcp_nodelay=True)
-        self.context.bench.settle(0.12)
+        self.context.bench.connect()
 
     def stop(self) -> None:
         if self._subscriber is not None:

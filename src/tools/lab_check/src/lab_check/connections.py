@@ -1,0 +1,59 @@
+"""Is everybody connected who wants to be? Nodes connect in wall time; simulated time waits for them."""
+from __future__ import annotations
+
+import socket
+import time
+import xmlrpc.client
+from collections import Counter
+from typing import Callable, Dict, Set
+
+import rosgraph
+
+
+class _Transport(xmlrpc.client.Transport):
+    def make_connection(self, host):
+        connection = super().make_connection(host)
+        connection.timeout = 1.0
+        return connection
+
+
+def nodes() -> Set[str]:
+    """Names of all nodes that the master knows."""
+    return {node for part in rosgraph.Master("/lab_check").getSystemState() for _, found in part for node in found}
+
+
+def complete(master: rosgraph.Master, deaf: Set[str]) -> bool:
+    """Each subscriber has a connection from each publisher of its topic.
+
+    :param deaf: nodes that did not answer, which are asked no more; filled here
+    """
+    published, subscribed, _ = master.getSystemState()
+    publishers = {topic: set(found) - deaf for topic, found in published}
+    wanted: Dict[str, Dict[str, int]] = {}
+    for topic, found in subscribed:
+        for node in set(found) - deaf:
+            if publishers.get(topic):
+                wanted.setdefault(node, {})[topic] = len(publishers[topic])
+    for node, topics in wanted.items():
+        try:
+            proxy = xmlrpc.client.ServerProxy(master.lookupNode(node), transport=_Transport())
+            entries = proxy.getBusInfo("/lab_check")[2]
+            have = Counter(entry[4] for entry in entries if entry[2] == "i" and (len(entry) < 6 or entry[5]))
+        except (OSError, xmlrpc.client.Error, rosgraph.MasterException, socket.timeout, IndexError, TypeError, ValueError):
+            deaf.add(node)
+            continue
+        if any(have[topic] < count for topic, count in topics.items()):
+            return False
+    return True
+
+
+def wait(alive: Callable[[], None], seconds: float = 3.0) -> bool:
+    """False when somebody is still not connected after that many wall seconds."""
+    master, deaf = rosgraph.Master("/lab_check"), set()
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        alive()
+        if complete(master, deaf):
+            return True
+        time.sleep(0.02)
+    return False
