@@ -7,7 +7,7 @@ import sys
 from typing import List, Optional
 
 
-def _load(path: str):
+def load_spec(path: str):
     """The spec; its faults go to the terminal, and the program ends with 2."""
     from .spec import SpecError, load
     try:
@@ -18,7 +18,7 @@ def _load(path: str):
         raise SystemExit(2) from None
 
 
-def _allowed(unsafe: bool) -> None:
+def allowed(unsafe: bool) -> None:
     from .sandbox import Platform, SandboxError
     from .sandbox import check as try_it
     try:
@@ -32,13 +32,13 @@ def _allowed(unsafe: bool) -> None:
         raise SystemExit(3) from None
 
 
-def _parser(name: str, text: str) -> argparse.ArgumentParser:
+def parser_for(name: str, text: str) -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog=f"rosrun lab_check {name}", description=text)
     parser.add_argument("spec", help="YAML: what is asked for; docs/grading.md")
     return parser
 
 
-def _sandbox_options(parser: argparse.ArgumentParser) -> None:
+def sandbox_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--unsafe", action="store_true", help="without a sandbox, for code that you trust and machines that allow none")
     parser.add_argument("--no-films", action="store_true", help="leave the films out, which cost most of the time")
     parser.add_argument("--port", type=int, default=0, help="with --unsafe: first port to try for the ROS master")
@@ -47,17 +47,17 @@ def _sandbox_options(parser: argparse.ArgumentParser) -> None:
 def check(arguments: Optional[List[str]] = None) -> int:
     """Exit code 0 full marks, 1 less, 2 the spec is faulty, 3 no sandbox, 4 the checker itself failed."""
     from .check import check as examine
-    parser = _parser("check", "Mark one submission; reports in --out.")
+    parser = parser_for("check", "Mark one submission; reports in --out.")
     parser.add_argument("submission", type=pathlib.Path, nargs="?", help="a folder with packages, or a zip or tar of one; without it the spec "
                         "alone is checked")
     parser.add_argument("--out", type=pathlib.Path, help="default: lab_check/<name of the submission>")
-    _sandbox_options(parser)
+    sandbox_options(parser)
     options = parser.parse_args(arguments)
-    spec = _load(options.spec)
+    spec = load_spec(options.spec)
     if options.submission is None:
         print(f"{options.spec}: {len(spec.data['tasks'])} tasks, {spec.points:g} points")
         return 0
-    _allowed(options.unsafe)
+    allowed(options.unsafe)
     out = options.out or pathlib.Path("lab_check", options.submission.name or "submission")
     result = examine(spec, options.submission, out, options.unsafe, not options.no_films, options.port)
     for task in result.tasks:
