@@ -6,6 +6,13 @@
 
 namespace ode_sim {
 
+namespace {
+
+constexpr double kFlat = 0.005;    // rad: a wheel that is tilted by less stands on its whole tread
+constexpr double kOneEdge = 1e-5;  // m along the axis, within which contacts are those of one edge
+
+}  // namespace
+
 // ------------------------------------------------------------------------------------------------ collisions
 
 bool World::allowed(const Shape& a, const Shape& b) const {
@@ -84,6 +91,26 @@ void World::collide() {
   counters.contacts = contacts_.size();
 }
 
+// How deep a point lies in a shape with flat sides, m; far outside of any other shape.
+static double depth_in(dGeomID g, const Vec3& p) {
+  switch (dGeomGetClass(g)) {
+    case dPlaneClass: return dGeomPlanePointDepth(g, p.x, p.y, p.z);
+    case dBoxClass: return dGeomBoxPointDepth(g, p.x, p.y, p.z);
+    default: return -kInf;
+  }
+}
+
+// A description that says 3.14 or 1.57 tilts its wheels by a milliradian: no tyre stands on one edge for that.
+void World::lay_flat(const Shape& wheel, const Vec3& axis, Contact& c) const {
+  const double off = dot(axis, wheel.link->X_WL * wheel.X_LC.p - c.pos), tilt = std::abs(dot(axis, c.normal));
+  const Shape& other = c.a == &wheel ? *c.b : *c.a;
+  const Vec3 middle = c.pos + axis * off;
+  if (tilt >= kFlat || depth_in(other.geom, middle) < -2 * tilt * std::abs(off) - kOneEdge) return;
+  c.pos = middle;
+  c.depth = std::max(c.depth - tilt * std::abs(off), 0.0);
+  c.merged = std::max(c.merged, 2);  // both edges
+}
+
 // A wheel touches with the middle of its tread. ODE gives a contact at either edge; a robot that turns would then pivot on
 // one of them (two rings under dry friction leave it open on which), and its effective track be off by the tread's width.
 void World::merge_tread(const Shape& wheel, size_t first) {
@@ -104,6 +131,7 @@ void World::merge_tread(const Shape& wheel, size_t first) {
         contacts_.erase(contacts_.begin() + k);
       }
       c.pos += axis * ((low + high) / 2 - dot(axis, c.pos));
+      if (high - low < kOneEdge) lay_flat(wheel, axis, c);
     }
     contacts_[kept++] = c;
   }

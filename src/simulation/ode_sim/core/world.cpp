@@ -284,6 +284,11 @@ void World::step_once() {
       set_rates(*m);
     }
   spread_carried();
+  for (auto& m : models_)  // what is pushed wakes up, before its contacts are looked for
+    if (m->may_sleep && std::any_of(m->links.begin(), m->links.end(), [](const auto& l) {
+          return dot(l->force, l->force) > 0 || dot(l->torque, l->torque) > 0;
+        }))
+      wake(*m);
   collide();
   if (promote()) {
     refresh();

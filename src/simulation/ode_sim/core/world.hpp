@@ -412,6 +412,7 @@ class World {
   void set_rates(Model& model);
   void collide();
   void merge_tread(const Shape& wheel, size_t first);
+  void lay_flat(const Shape& wheel, const Vec3& axis, Contact& contact) const;
   bool allowed(const Shape& a, const Shape& b) const;
   bool promote();
   void demote();

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import ode_sim
-from ode_sim.description.model import Axis, Collision, Cylinder, Inertial, Joint, Link, Model, Pose, Sphere, Surface
+from ode_sim.description.model import Axis, Box, Collision, Cylinder, Inertial, Joint, Link, Model, Pose, Sphere, Surface
 from ode_sim.math3 import quat_from_rpy
 from physics_models import ground
 
@@ -137,3 +137,35 @@ def test_put_into_the_floor_it_comes_out_without_being_thrown(depth, max_vel):
         fastest = max(fastest, np.linalg.norm(model.twist().linear))
     assert highest < 0.02 and fastest < 1.5
     assert model.pose.p == pytest.approx((0, 0, 0), abs=5e-3) and np.linalg.norm(model.twist().linear) < 1e-3
+
+
+def tilted(angle, floor=None):
+    """Contact of a wheel whose description says an angle that is a little off: its place along the axle, m, and its load, N."""
+    world = ode_sim.World()
+    world.spawn(floor or ground())
+    model = rover(((0.2, 0.2), (0.2, -0.2), (-0.2, 0.2), (-0.2, -0.2)), (), (0.0, 0.0, 0.05))
+    links = [replace(link, collisions=tuple(replace(c, pose=Pose(q=quat_from_rpy(math.pi / 2 + angle, 0, 0))) for c in link.collisions))
+             if link.name == "w0" else link for link in model.links]
+    joints = [replace(joint, axes=(Axis((0.0, math.cos(angle), math.sin(angle))),)) if joint.name == "w0" else joint
+              for joint in model.joints]
+    rover_ = world.spawn(replace(model, links=tuple(links), joints=tuple(joints)))
+    for link in rover_.links.values():
+        for collision in link.collisions.values():
+            world.watch_contacts(collision)
+    world.step(500)
+    told = [c for c in world.contacts() if world.collision(c["collision2"]).link.name == "w0"]
+    return [c["position"][1] - rover_.links["w0"].pose.p[1] for c in told], sum(-c["force"][2] for c in told)
+
+
+@pytest.mark.parametrize("angle", (3.14 - math.pi, 1.57 - math.pi / 2, 0.003))
+def test_a_wheel_that_is_tilted_by_rounding_stands_on_its_whole_tread(angle):
+    (place,), load = tilted(angle)
+    assert abs(place) < RADIUS * abs(angle) + 1e-4 and load == pytest.approx(14 * G / 4, rel=0.05)
+
+
+def test_a_wheel_that_leans_or_hangs_over_an_edge_stands_on_what_touches():
+    (place,), _ = tilted(0.02)
+    assert abs(place) == pytest.approx(0.025 - RADIUS * 0.02, abs=1e-3)
+    shelf = Collision("shelf", Pose((0.0, -0.01, -0.05)), Box((2.0, 0.4, 0.1)))  # its edge is at y = 0.19, the tyre from 0.175 to 0.225
+    places, _ = tilted(0.003, Model("floor", Pose(), (Link("link", collisions=(shelf,)),), static=True))
+    assert all(place < -0.009 for place in places)
