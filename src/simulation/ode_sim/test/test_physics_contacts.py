@@ -170,6 +170,22 @@ def test_rest_is_quiet_and_sleeps():
     assert ball.pose.p[2] > 0.1
 
 
+@pytest.mark.parametrize("push", [lambda link: link.add_force((50.0, 0.0, 0.0)), lambda link: link.set_force((50.0, 0.0, 0.0)),
+                                  lambda link: link.add_torque((0.0, 0.0, 5.0))])
+def test_a_force_wakes_what_sleeps(push):
+    world = ode_sim.World()
+    world.spawn(ground())
+    model = world.spawn(box(at=(0, 0, 0.06)))
+    world.step(1500)
+    assert model.asleep
+    link = next(iter(model.links.values()))
+    for _ in range(50):
+        push(link)
+        world.step()
+    assert not model.asleep
+    assert np.linalg.norm(link.linear_velocity()) + np.linalg.norm(link.angular_velocity()) > 0.1
+
+
 def test_models_with_joints_or_told_so_do_not_sleep():
     world = ode_sim.World()
     world.spawn(ground())
