@@ -98,8 +98,9 @@ class PlanExecution:
         left = (attempts or int(self.config["max_replan_attempts"])) if replan else 1
         while True:
             left -= 1
-            plan = self._plan(make, diff)
-            if stop.is_set():
+            with self._execution.calling_at_stop(stop.token.cancel):
+                plan = self._plan(make, diff)
+            if stop.is_set() or self._execution.stops != stops:
                 plan.code, plan.message = MoveItErrorCodes.PREEMPTED, "stopped before the execution"
                 return plan
             if plan.code == MoveItErrorCodes.SUCCESS:

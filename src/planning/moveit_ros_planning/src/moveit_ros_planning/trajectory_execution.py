@@ -5,8 +5,9 @@ import bisect
 import math
 import threading
 import time
+from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import Callable, Dict, List, Optional, Sequence, Tuple
+from typing import Callable, Dict, Iterator, List, Optional, Sequence, Tuple
 
 import rospy
 from moveit_msgs.msg import MoveItErrorCodes, RobotTrajectory
@@ -68,6 +69,7 @@ class TrajectoryExecution:
         self._running: Optional[Execution] = None
         #: how often it was said to stop; who has seen it change is not to start a motion
         self.stops = 0
+        self._on_stop: List[Callable[[], None]] = []
         self.config: Dict[str, object] = {}
         self._server = Server(namespace + "trajectory_execution", _PARAMETERS, self._reconfigure)
         manage = bool(rospy.get_param(namespace + "moveit_manage_controllers", False))
@@ -101,9 +103,20 @@ class TrajectoryExecution:
     def stop(self) -> None:
         """Stop what is being executed, or is about to be."""
         self.stops += 1
+        for call in list(self._on_stop):
+            call()
         running = self._running
         if running is not None:
             running.stop()
+
+    @contextmanager
+    def calling_at_stop(self, call: Callable[[], None]) -> Iterator[None]:
+        """``call()`` whenever it is said to stop, inside the block."""
+        self._on_stop.append(call)
+        try:
+            yield
+        finally:
+            self._on_stop.remove(call)
 
     def start(self, trajectories: Sequence[RobotTrajectory],
               on_segment: Optional[Callable[[int], bool]] = None, stops: Optional[int] = None) -> "Execution":
