@@ -158,15 +158,19 @@ def heavy(bench):
         begin = time.monotonic()
         page.see("more: search")
         listed = time.monotonic() - begin
-        before = page.scene()
-        page.settled(before)
-        drawn = time.monotonic() - begin
-        bench.shot(page, "heavy")
         page.fill("Search", "m199")
         page.click("m199")
         page.see("Mass (kg)")
-        return {"200 models, 1 000 000 triangles: listed, s": listed, "200 models, 1 000 000 triangles: at rest, s": drawn,
-                "200 models, 1 000 000 triangles: a model picked by search, s": time.monotonic() - begin - drawn,
+        picked = time.monotonic() - begin - listed
+        begin = time.monotonic()
+        page.click("Play")
+        page.see("real-time factor")
+        played = time.monotonic() - begin
+        with contextlib.suppress(Exception):  # without a graphics card one picture may take longer than the driver waits
+            bench.shot(page, "heavy")
+        return {"200 models, 1 000 000 triangles: listed, s": listed,
+                "200 models, 1 000 000 triangles: a model picked by search, s": picked,
+                "200 models, 1 000 000 triangles: from Play to the time that runs, s": played,
                 "200 models, 1 000 000 triangles: processor s of gzclient": processor(psutil.Process(process.pid)),
                 "200 models, 1 000 000 triangles: errors on the page": len(page.complaints())}
 

@@ -190,8 +190,8 @@ class Browser:
             "const r = document.querySelector('canvas').getBoundingClientRect(); return [r.x, r.y, r.width, r.height]")
         return box[0] + x * box[2], box[1] + y * box[3]
 
-    def mouse(self, *points, drag=False, keys=()):
-        """Click at a point (CSS pixels), or drag from the first through all to the last."""
+    def mouse(self, *points, drag=False, keys=(), hold=0.2):
+        """Click at a point (CSS pixels), or drag from the first through all to the last, and stay there for ``hold`` s."""
         from selenium.webdriver.common.action_chains import ActionChains
         for key in keys:  # of their own: the keys' steps and the pointer's would be taken side by side
             ActionChains(self.driver).key_down(key).perform()
@@ -204,7 +204,7 @@ class Browser:
                     at = [int(round(a + part * (b - a))) for a, b in zip(begin, end)]
                     actions.w3c_actions.pointer_action.move_to_location(*at)
                     actions.w3c_actions.pointer_action.pause(0.06)
-            actions.w3c_actions.pointer_action.pause(0.2)
+            actions.w3c_actions.pointer_action.pause(hold)
             actions.w3c_actions.pointer_action.pointer_up()
         else:
             actions.w3c_actions.pointer_action.click()

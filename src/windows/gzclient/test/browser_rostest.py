@@ -14,6 +14,8 @@ import rospy
 import rostest
 from gazebo_msgs.srv import GetModelState, GetPhysicsProperties, GetWorldProperties, SpawnModel
 from geometry_msgs.msg import Pose, Twist, Vector3
+from std_msgs.msg import ColorRGBA
+from visualization_msgs.msg import Marker
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from browser import PATIENCE, Browser, missing, wait  # noqa: E402
@@ -154,6 +156,31 @@ class Clicks(unittest.TestCase):
         page.click("First")
         page.see("Iterations\t25")
 
+    def test_4b_a_body_is_pulled_and_filmed(self):
+        from selenium.webdriver.common.keys import Keys
+        page = self.page
+        page.click("World")
+        page.click("box")
+        page.see("Mass (kg)")
+        before = page.scene()
+        page.click("Look at")
+        page.settled(before)
+        page.click("Record")
+        page.click("Film")
+        page.see("Stop and keep the film")
+        page.click("Play")
+        wait(lambda: not paused(), "play")
+        begin, middle = position("box"), page.canvas(0.5, 0.5)
+        page.mouse(middle, page.canvas(0.65, 0.5), page.canvas(0.65, 0.35), drag=True, keys=(Keys.CONTROL,), hold=1.5)
+        wait(lambda: np.linalg.norm(position("box") - begin) > 0.02, "the box where it was pulled to")
+        page.click("Pause")
+        wait(paused, "pause")
+        page.click("Stop and keep the film")
+        film = page.downloaded(".mp4")
+        self.assertEqual(film[4:8], b"ftyp")
+        page.click("All")
+        page.see("Iterations\t0")
+
     def test_5_overlays(self):
         page = self.page
         page.click("View")
@@ -162,6 +189,19 @@ class Clicks(unittest.TestCase):
         wait(lambda: streams("/gazebo/view_contacts"), "contacts are asked for")
         page.click("TF")
         page.check("TF frames")
+        cube = Marker(type=Marker.CUBE, ns="test", scale=Vector3(1.0, 1.0, 1.0), color=ColorRGBA(1.0, 1.0, 0.0, 1.0))
+        cube.header.frame_id, cube.pose.position.z = "leaf", 1.0
+        markers = rospy.Publisher("/test_marker", Marker, queue_size=1, latch=True)
+        markers.publish(cube)
+        page.click("Markers")
+        page.click("Look for markers")
+        page.see("/test_marker")
+        before = page.scene()
+        page.check("/test_marker")
+        page.settled(before)
+        wait(lambda: markers.get_num_connections(), "the page listens")
+        page.check("/test_marker")
+        wait(lambda: not markers.get_num_connections(), "the page does not listen any more")
 
     def test_6_a_wall_with_a_door_is_drawn_saved_and_put_into_the_world(self):
         page = self.page

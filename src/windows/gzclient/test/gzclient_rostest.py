@@ -10,6 +10,8 @@ import rostest
 from gazebo_msgs.srv import GetModelState, GetWorldProperties
 from gazebo_ros.srv import CommandJoint, CommandJointRequest
 from ode_sim import World, math3
+from ode_sim.description import model as d
+from ode_sim.description.sdf_writer import light_text
 from ode_sim.math3 import Pose
 from ode_sim.viewer import Refused
 from ode_sim.viewer.simulation import SurfaceProperties
@@ -119,12 +121,21 @@ class Stream(unittest.TestCase):
         self.simulation.set_link_properties("box", "link", replace(now, mass=3.0, gravity=True))
         self.assertEqual(self.simulation.link_properties("box", "link").mass, 3.0)
         physics, gravity = self.simulation.physics()
-        self.simulation.set_physics(replace(physics, iters=77), (0.0, 0.0, -5.0))
-        self.assertEqual((self.simulation.physics()[0].iters, self.simulation.physics()[1]), (77, (0.0, 0.0, -5.0)))
+        self.simulation.set_physics(replace(physics, iters=77, max_contacts=9, contact_surface_layer=0.002), (0.0, 0.0, -5.0))
+        now = self.simulation.physics()
+        self.assertEqual((now[0].iters, now[0].max_contacts, now[0].contact_surface_layer, now[1]),
+                         (77, 9, 0.002, (0.0, 0.0, -5.0)))
         self.simulation.set_physics(physics, gravity)
         light = self.simulation.describe().lights[0]
         self.simulation.set_light(replace(light, diffuse=(1.0, 0.0, 0.0, 1.0)))
         self.assertEqual(self.simulation.describe().lights[0].diffuse, (1.0, 0.0, 0.0, 1.0))
+        spot = d.Light("lamp", "spot", range=5.0, spot=(0.3, 0.6, 1.0))
+        self.simulation.insert("lamp", light_text(spot), Pose((1.0, 2.0, 3.0)))
+        self.simulation.describe()
+        self.simulation.set_light(replace(spot, range=33.0, pose=Pose((1.0, 2.0, 3.0))))  # Gazebo's service has no range
+        now = next(light for light in self.simulation.describe().lights if light.name == "lamp")
+        self.assertEqual((now.range, now.pose.p), (33.0, (1.0, 2.0, 3.0)))
+        self.simulation.delete("lamp")
 
     def test_the_saved_world_can_be_started(self):
         saved = World.load(self.simulation.save())

@@ -1,0 +1,111 @@
+"""Sizes, inertia, lights and physics, changed in a page without a browser; each a step that can be undone."""
+import asyncio
+import types
+
+import numpy as np
+import pytest
+
+pytest.importorskip("viser")
+
+from ode_sim.description import model as d  # noqa: E402
+from ode_sim.math3 import Pose  # noqa: E402
+from ode_sim.viewer import Refused  # noqa: E402
+from ode_sim.viewer.resizing import resized, shape_of, size_of, with_size  # noqa: E402
+from ode_sim.viewer.shapes import shape_model  # noqa: E402
+from viewer_page import Client, page, panel, position, use, wait  # noqa: E402, F401
+
+
+def size(page):
+    return size_of(shape_of(page.world.model("box").description)[0])
+
+
+def knobs(page):
+    return sorted(name for name in page.server.scene._handle_from_node_name if name.startswith("/knob"))
+
+
+@pytest.mark.parametrize("shape, axis, length, now", [
+    (d.Box((1.0, 2.0, 3.0)), 1, 5.0, (1.0, 5.0, 3.0)), (d.Sphere(0.5), 2, 3.0, (3.0, 3.0, 3.0)),
+    (d.Cylinder(0.5, 2.0), 0, 3.0, (3.0, 3.0, 2.0)), (d.Cylinder(0.5, 2.0), 2, 3.0, (1.0, 1.0, 3.0))])
+def test_round_stays_round_and_the_inertia_follows(shape, axis, length, now):
+    made = resized(shape_model("m", shape, 2.0), with_size(shape, axis, length))
+    assert size_of(shape_of(made)[0]) == now and shape_of(made)[1] == Pose()
+    assert made.links[0].inertial.mass == 2.0
+    assert made.links[0].inertial.ixx == shape_model("m", shape_of(made)[0], 2.0).links[0].inertial.ixx
+    for wrong in (0.0, -1.0, float("nan"), 1e9):
+        with pytest.raises(Refused):
+            with_size(shape, axis, wrong)
+
+
+def test_only_simple_shapes_have_sizes():
+    one = shape_model("m", d.Box())
+    two = d.Model("m", links=(*one.links, d.Link("other")))
+    odd = d.Model("m", links=(d.Link("l", visuals=(d.Visual("v", Pose(), d.Mesh("a.stl", "a.stl")),)),))
+    assert shape_of(two) is None and shape_of(odd) is None and shape_of(d.Model("m")) is None
+
+
+def test_a_size_is_typed_and_undone(page):
+    client, world = Client(), panel(page, "WorldPanel")
+    page.simulation.set_pose("box", Pose((2.0, 0.0, 1.0)))
+    wait(page, lambda: position(page, "box") == pytest.approx((2.0, 0.0, 1.0)))
+    page.selection.select("box")
+    use(world._properties.size, client, (1.0, 3.0, 1.0))
+    wait(page, lambda: page.world.model("box") is not None and size(page) == (1.0, 3.0, 1.0))
+    assert page.selection.model == "box" and position(page, "box") == pytest.approx((2.0, 0.0, 1.0))
+    use(world._history, client, "Undo")
+    wait(page, lambda: page.world.model("box") is not None and size(page) == (1.0, 1.0, 1.0))
+    use(world._properties.size, client, (1.0, 1.0, 0.001))
+    assert "A side is" in client.told[-1]
+
+
+def test_a_knob_is_dragged_with_snapping(page):
+    client, world = Client(), panel(page, "WorldPanel")
+    page.selection.select("box")
+    use(world._resize, client, True)
+    use(world._snap, client, 0.5)
+    wait(page, lambda: len(knobs(page)) == 3)
+    knob = page.server.scene._handle_from_node_name["/knob0"]
+    assert knob.position[0] == pytest.approx(0.5 + 0.12)
+    callback = knob._impl.drag_cb[0].callback
+    for phase, x in (("start", 0.62), ("update", 0.9), ("end", 1.21)):
+        asyncio.run(callback(types.SimpleNamespace(client=client, client_id=1, phase=phase, end_position=(x, 0.3, 0.0))))
+        page._do_jobs()
+    wait(page, lambda: page.world.model("box") is not None and size(page) == (2.0, 1.0, 1.0))  # 2 x (1.21 - 0.12) = 2.18
+    page.selection.select()
+    wait(page, lambda: not knobs(page))
+    assert not client.told
+
+
+def test_inertia_is_typed(page):
+    client, world = Client(), panel(page, "WorldPanel")
+    page.selection.select("box")
+    use(world._properties.com, client, (0.1, 0.0, 0.0))
+    use(world._properties.diagonal, client, (0.4, 0.5, 0.6))
+    now = page.simulation.link_properties("box", "link")
+    assert now.com == pytest.approx((0.1, 0.0, 0.0)) and now.inertia == pytest.approx((0.4, 0.0, 0.0, 0.5, 0.0, 0.6))
+    use(world._history, client, "Undo")
+    assert page.simulation.link_properties("box", "link").inertia[0] == pytest.approx(1 / 6)
+    assert not client.told
+
+
+def test_lights_fade_shine_and_aim(page):
+    client, world = Client(), panel(page, "WorldPanel")
+    page.selection.select(light="sun")
+    use(world._properties.direction, client, (1.0, 0.0, -1.0))
+    wait(page, lambda: page.world.lights[0].direction == (1.0, 0.0, -1.0))
+    use(world._properties.specular, client, (255, 0, 0))
+    wait(page, lambda: page.world.lights[0].specular == (1.0, 0.0, 0.0, 1.0))
+    use(world._history, client, "Undo")
+    wait(page, lambda: page.world.lights[0].specular != (1.0, 0.0, 0.0, 1.0))
+    use(world._properties.direction, client, (0.0, 0.0, 0.0))
+    assert client.told == ["A direction is not zero."]
+
+
+def test_the_solver_is_set(page):
+    client, physics = Client(), panel(page, "PhysicsPanel")
+    use(physics._soft, client, (1e-5, 0.3))
+    use(physics._contacts, client, 7)
+    use(physics._layer, client, 0.002)
+    now = page.simulation.physics()[0]
+    assert (now.cfm, now.erp, now.max_contacts, now.contact_surface_layer) == (1e-5, 0.3, 7, 0.002)
+    np.testing.assert_allclose(physics._soft.value, (1e-5, 0.3))
+    assert not client.told
