@@ -34,7 +34,8 @@ def command(address: str, profile: str) -> Optional[List[str]]:
                     "--disable-sync",
                     "--class=gzclient",
                     "--window-size=1280,800", "--enable-unsafe-swiftshader",
-                    *(["--no-sandbox"] if os.geteuid() == 0 else [])]  # which it refuses to run with as root
+                    # as root it does not run in its sandbox; the second takes the bar away that says so
+                    *(["--no-sandbox", "--test-type"] if os.geteuid() == 0 else [])]
     for name in _OTHERS:
         program = shutil.which(name)
         if program:
