@@ -102,7 +102,7 @@ static double depth_in(dGeomID g, const Vec3& p) {
 
 // A description that says 3.14 or 1.57 tilts its wheels by a milliradian: no tyre stands on one edge for that.
 void World::lay_flat(const Shape& wheel, const Vec3& axis, Contact& c) const {
-  const double off = dot(axis, wheel.link->X_WL * wheel.X_LC.p - c.pos), tilt = std::abs(dot(axis, c.normal));
+  const double off = dot(axis, wheel.link->X_WL * (wheel.X_LC * wheel.tread) - c.pos), tilt = std::abs(dot(axis, c.normal));
   const Shape& other = c.a == &wheel ? *c.b : *c.a;
   const Vec3 middle = c.pos + axis * off;
   if (tilt >= kFlat || depth_in(other.geom, middle) < -2 * tilt * std::abs(off) - kOneEdge) return;
@@ -114,7 +114,7 @@ void World::lay_flat(const Shape& wheel, const Vec3& axis, Contact& c) const {
 // A wheel touches with the middle of its tread. ODE gives a contact at either edge; a robot that turns would then pivot on
 // one of them (two rings under dry friction leave it open on which), and its effective track be off by the tread's width.
 void World::merge_tread(const Shape& wheel, size_t first) {
-  const Vec3 axis = rotate(wheel.link->X_WL.q * wheel.X_LC.q, Vec3{0, 0, 1});
+  const Vec3 axis = rotate(wheel.link->X_WL.q * wheel.X_LC.q, wheel.axle);
   size_t kept = first;
   for (size_t i = first; i < contacts_.size(); ++i) {
     Contact c = contacts_[i];
@@ -131,6 +131,7 @@ void World::merge_tread(const Shape& wheel, size_t first) {
         contacts_.erase(contacts_.begin() + k);
       }
       c.pos += axis * ((low + high) / 2 - dot(axis, c.pos));
+      if (wheel.mesh) c.merged = std::min(c.merged, 2);
       if (high - low < kOneEdge) lay_flat(wheel, axis, c);
     }
     contacts_[kept++] = c;

@@ -1,6 +1,8 @@
 #include "geometry.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace ode_sim {
 
@@ -17,6 +19,30 @@ MeshData::MeshData(std::vector<double> v, std::vector<dTriIndex> i) : vertices(s
   data = dGeomTriMeshDataCreate();
   dGeomTriMeshDataBuildDouble(data, vertices.data(), 3 * sizeof(double), static_cast<int>(vertices.size() / 3),
                               indices.data(), static_cast<int>(indices.size()), 3 * sizeof(dTriIndex));
+}
+
+// A mesh is a wheel if what is furthest from its axis stands all round it, and is no wider than it is high.
+void Shape::look_for_tread(const Vec3& axis_L, const Vec3& on_axis) {
+  if (dGeomGetClass(geom) == dCylinderClass)
+    wheel = std::abs(dot(axis_L, rotate(X_LC.q, Vec3{0, 0, 1}))) > 0.9999 && norm(cross(X_LC.p - on_axis, axis_L)) < 1e-4;
+  if (dGeomGetClass(geom) != dTriMeshClass || !mesh) return;
+  const Vec3 axis = rotate(conjugate(X_LC.q), axis_L), at = inverse(X_LC) * on_axis;
+  const Vec3 x = cross(axis, std::abs(axis.x) < 0.9 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}), y = cross(axis, x);
+  constexpr int kSectors = 12;
+  double radius = 0, low = kInf, high = -kInf;
+  bool seen[kSectors] = {};
+  const auto corner = [&](size_t i) { return Vec3{mesh->vertices[i], mesh->vertices[i + 1], mesh->vertices[i + 2]} - at; };
+  const auto from_axis = [&](const Vec3& d) { return norm(cross(d, axis)); };
+  for (size_t i = 0; i < mesh->vertices.size(); i += 3) radius = std::max(radius, from_axis(corner(i)));
+  for (size_t i = 0; i < mesh->vertices.size(); i += 3) {
+    const Vec3 d = corner(i);
+    if (from_axis(d) < 0.98 * radius) continue;
+    const double turn = std::atan2(dot(d, y), dot(d, x)) / (2 * kPi) + 0.5;
+    seen[std::min(static_cast<int>(turn * kSectors), kSectors - 1)] = true;
+    low = std::min(low, dot(d, axis)), high = std::max(high, dot(d, axis));
+  }
+  wheel = std::all_of(std::begin(seen), std::end(seen), [](bool s) { return s; }) && high - low < 2 * radius;
+  axle = axis, tread = at + axis * ((low + high) / 2);
 }
 
 MeshData::~MeshData() { dGeomTriMeshDataDestroy(data); }

@@ -156,12 +156,7 @@ void World::finish(Model& model) {
   judge_masses(model);
   for (auto& j : model.joints)
     if (j->type == JointType::Revolute)
-      for (auto& shape : j->child->shapes)
-        if (dGeomGetClass(shape->geom) == dCylinderClass) {
-          const Vec3 axis = rotate(j->X_CJ.q, j->axes[0].xyz);
-          const Vec3 from_axis = cross(shape->X_LC.p - j->X_CJ.p, axis);
-          shape->wheel = std::abs(dot(axis, rotate(shape->X_LC.q, Vec3{0, 0, 1}))) > 0.9999 && norm(from_axis) < 1e-4;
-        }
+      for (auto& shape : j->child->shapes) shape->look_for_tread(rotate(j->X_CJ.q, j->axes[0].xyz), j->X_CJ.p);
   model.finished = true;
   renumber(&model);
   refresh();

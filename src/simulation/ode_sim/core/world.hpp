@@ -80,7 +80,9 @@ struct Shape {
   dHeightfieldDataID field = nullptr;
   std::vector<double> heights;
   bool infinite = false;  // a plane: fixed in the world
-  bool wheel = false;     // a cylinder that turns on a hinge about its own axis
+  bool wheel = false;     // a cylinder, or a mesh as round as one, that turns on a hinge about its own axis
+  Vec3 axle{0, 0, 1}, tread;  // of a wheel: its axis and the middle of its tread, in the shape's frame
+  void look_for_tread(const Vec3& axis, const Vec3& on_axis);  // of the hinge, in the link's frame
   bool out_of_reach = false;  // beyond where ODE can collide
   Pose X_LC;
   Vec3 plane_normal{0, 0, 1};  // world axes

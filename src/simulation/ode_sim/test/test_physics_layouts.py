@@ -4,9 +4,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import trimesh
 
 import ode_sim
-from ode_sim.description.model import Axis, Box, Collision, Cylinder, Inertial, Joint, Link, Model, Pose, Sphere, Surface
+from ode_sim.description.model import (
+    Axis, Box, Collision, Cylinder, Inertial, Joint, Link, Mesh, Model, Pose, Sphere, Surface)
 from ode_sim.math3 import quat_from_rpy
 from physics_models import ground
 
@@ -169,3 +171,24 @@ def test_a_wheel_that_leans_or_hangs_over_an_edge_stands_on_what_touches():
     shelf = Collision("shelf", Pose((0.0, -0.01, -0.05)), Box((2.0, 0.4, 0.1)))  # its edge is at y = 0.19, the tyre from 0.175 to 0.225
     places, _ = tilted(0.003, Model("floor", Pose(), (Link("link", collisions=(shelf,)),), static=True))
     assert all(place < -0.009 for place in places)
+
+
+def round_mesh(tmp_path, corners):
+    """A prism about z, of radius RADIUS and as wide as the tyre."""
+    mesh = trimesh.creation.cylinder(RADIUS, 0.05, sections=corners)
+    mesh.export(tmp_path / "wheel.stl")
+    return Mesh(str(tmp_path / "wheel.stl"), "wheel.stl")
+
+
+def test_a_wheel_that_is_a_mesh_turns_about_the_middle_of_its_tread(tmp_path):
+    model = rover(BESIDE, ((-0.2, 0.0),), (-0.04, 0.0, 0.05))
+    shape = round_mesh(tmp_path, 48)
+    links = tuple(replace(link, collisions=tuple(replace(c, geometry=shape, surface=Surface(mu=50.0, mu2=50.0)) for c in link.collisions))
+                  if link.name != "base" else link for link in model.links)
+    world = ode_sim.World()
+    world.spawn(ground())
+    robot = world.spawn(replace(model, links=links))
+    robot.joints["w0"].set_motor(-2.0, 50.0)
+    robot.joints["w1"].set_motor(2.0, 50.0)
+    world.step(2000)
+    assert robot.twist().angular[2] == pytest.approx(2.0 * RADIUS / 0.2, rel=0.02)
