@@ -4,7 +4,7 @@ from __future__ import annotations
 import os
 from typing import List
 
-_PERIOD, _RATE, _MOST = 0.2, 10, 120  # s of simulation between frames, frames/s of the film, frames
+_PERIOD, _RATE, _MOST = 0.5, 4, 24  # s of simulation between frames, frames/s of the film, frames
 
 
 class Film:

@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 import time
+import uuid
 from dataclasses import asdict
 from typing import Any, Dict, List, Optional
 
@@ -35,7 +36,7 @@ class Session:
         self.programs: List[Program] = []
         self.notes: List[str] = []
         self.bench: Optional[Bench] = None
-        self.launch: Optional[Program] = None
+        self.launches: List[Program] = []
         self.guard = Guard(lambda: self.programs, job.limits)
         self._begin = time.monotonic()
 
@@ -62,7 +63,9 @@ class Session:
 
     def _examine(self) -> List[TaskResult]:
         launch = self.tasks[0]["launch"]
-        self.launch = self.start(f"exec python3 -m lab_check.held_launch {self.job.spec['seed']} {launch}")
+        # What roscore's launcher does: roslaunch would otherwise make one of its own, and a second would not fit.
+        rosgraph.Master("/lab_check").setParam("/run_id", str(uuid.uuid4()))
+        self._launch(launch.split(" + ")[0])
         self.guard.start()
         try:
             self._get_ready(self.tasks[0]["ready"])
@@ -71,7 +74,8 @@ class Session:
         results = []
         for index, task in enumerate(self.tasks):
             mark = len(self._log())
-            print(f"task '{task['name']}' begins at {self.bench.now.time:.3f} s of simulation, {time.monotonic() - self._begin:.1f} s of wall time", flush=True)
+            print(f"task '{task['name']}' begins at {self.bench.now.time:.3f} s of simulation, "
+                  f"{time.monotonic() - self._begin:.1f} s of wall time", flush=True)
             try:
                 results.append(self._task(task))
             except Gone as error:
@@ -84,7 +88,8 @@ class Session:
 
     def _remarks(self) -> None:
         for name in self.nodes.restless_names:
-            self.notes.append(f"{name} never rests: a loop without sleep? It is no longer waited for, and what it does may differ from run to run")
+            self.notes.append(f"{name} never rests: a loop without sleep? It is no longer waited for, and what it does may differ "
+                              "from run to run")
 
     # ------------------------------------------------------------------------------------------ programs
 
@@ -92,6 +97,9 @@ class Session:
         program = self.job.start(line, keys)
         self.programs.append(program)
         return program
+
+    def _launch(self, words: str) -> None:
+        self.launches.append(self.start(f"exec python3 -m lab_check.held_launch {self.job.spec['seed']} {words}"))
 
     def _log(self) -> str:
         return "".join(program.output.text() for program in self.programs)
@@ -102,11 +110,13 @@ class Session:
         """
         if self.guard.broke:
             raise Gone(f"your code was stopped: {self.guard.broke}")
-        if self.launch.broke:
-            raise Gone(f"your code was stopped: {self.launch.broke}")
-        if not self.launch.running:
-            line, meaning = first_cause(self.launch.output.text())
-            raise Gone(f"roslaunch ended by itself with code {self.launch.code}" + (f": {line}" if line else "") + (f" ({meaning})" if meaning else ""))
+        for launch in self.launches:
+            if launch.broke:
+                raise Gone(f"your code was stopped: {launch.broke}")
+            # A later one that only loads something is done when its nodes are.
+            if not launch.running and (launch.code != 0 or launch is self.launches[0]):
+                line, meaning = first_cause(launch.output.text())
+                raise Gone(f"roslaunch ended by itself with code {launch.code}" + (f": {line}" if line else "") + (f" ({meaning})" if meaning else ""))
         if rospy.is_shutdown():
             raise Gone("the examiner's node was told to shut down by your code")
 
@@ -114,10 +124,14 @@ class Session:
 
     def _get_ready(self, ready: Dict[str, Any]) -> None:
         end = time.monotonic() + ready["timeout"]
-        simulated = wait_for_simulator(self._alive, ready["timeout"], lambda: not self._expects_simulator())
+        simulated = wait_for_simulator(self._alive, ready["timeout"], lambda: False)
         if not simulated:
             raise Gone(f"no simulator came up within {ready['timeout']:g} s: does the launch file include gazebo_ros's empty_world.launch?")
         self._make_bench()
+        for part in self.tasks[0]["launch"].split(" + ")[1:]:  # as in a second shell, when the first has come up
+            self.nodes.settle(_READY_REST, patience=max(end - time.monotonic(), 1.0))
+            self.bench.pass_time(_READY_STEP)
+            self._launch(part)
         missing = ["everything"]
         while missing:
             self.nodes.find()
@@ -134,9 +148,6 @@ class Session:
         while begin < self.bench.now.time + 0.5:
             begin += 1.0
         self.bench.pass_time(begin - self.bench.now.time)
-
-    def _expects_simulator(self) -> bool:
-        return True
 
     def _make_bench(self) -> None:
         self.nodes.find()
@@ -208,7 +219,7 @@ class Session:
         stem = os.path.join(job.out, "pictures", f"session{self.number}_task{self.tasks.index(task)}")
         result.pictures = film.picture(bench, task.get("model", ""), stem)
         result.film = filming.write(stem + ".mp4") if filming else ""
-        result.commands = [f"roslaunch {task['launch']}", *actor.by_hand]
+        result.commands = [*_typed(task["launch"]), *actor.by_hand]
         actor.end()
         bench.settle(0.05)
         return self._with_log(result, mark) if result.points < result.of else result
@@ -240,8 +251,12 @@ class Session:
     def _with_log(self, result: TaskResult, mark: int) -> TaskResult:
         text = self._log()
         result.log = excerpt(text[mark:] or text)
-        result.commands = result.commands or [f"roslaunch {self.tasks[0]['launch']}"]
+        result.commands = result.commands or _typed(self.tasks[0]["launch"])
         return result
+
+
+def _typed(launch: str) -> List[str]:
+    return [f"roslaunch {part}" for part in launch.split(" + ")]
 
 
 def main() -> None:

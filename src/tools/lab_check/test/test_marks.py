@@ -1,0 +1,209 @@
+"""Staging, points, reports, logs, the class's store and near-identical submissions: without ROS and without a sandbox."""
+import io
+import json
+import os
+import pathlib
+import tarfile
+import xml.etree.ElementTree as ET
+import zipfile
+
+import pytest
+from lab_check import explain, faults, gradebook, grade, report, similar, spec, staging, store
+from lab_check.checks.files import complain, insane
+from lab_check.outcome import Result, TaskResult, Verdict, failed_task, share
+
+MANIFEST = "<package format='2'><name>{}</name></package>"
+
+
+def package(folder, name="p"):
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "package.xml").write_text(MANIFEST.format(name))
+    return folder
+
+
+# ---------------------------------------------------------------------------------------------- staging
+
+def stage(submission, tmp_path, limit=1e6):
+    return staging.stage(pathlib.Path(submission), tmp_path / "ws" / "src", limit)
+
+
+def test_an_empty_submission_and_one_without_package(tmp_path):
+    (tmp_path / "empty").mkdir()
+    with pytest.raises(staging.StagingError, match="empty"):
+        stage(tmp_path / "empty", tmp_path)
+    (tmp_path / "text").mkdir()
+    (tmp_path / "text" / "essay.txt").write_text("x")
+    with pytest.raises(staging.StagingError, match="no package.xml"):
+        staging.stage(tmp_path / "text", tmp_path / "other", 1e6)
+
+
+def test_links_are_not_followed(tmp_path):
+    folder = package(tmp_path / "sub" / "p")
+    (folder / "root").symlink_to("/")
+    (folder / "secret").symlink_to("/etc/passwd")
+    found = stage(tmp_path / "sub", tmp_path)
+    assert list(found.packages) == ["p"]
+    assert not any(path.name in ("root", "secret", "passwd") for path in (tmp_path / "ws").rglob("*"))
+    assert sum("links are left out" in note for note in found.notes) == 2
+    (tmp_path / "slash").symlink_to("/")
+    with pytest.raises(staging.StagingError, match="link to /"):
+        staging.stage(tmp_path / "slash", tmp_path / "third", 1e6)
+
+
+def test_two_gigabytes_are_refused_before_they_are_copied(tmp_path):
+    folder = package(tmp_path / "sub" / "p")
+    with open(folder / "big.bag", "wb") as file:
+        file.truncate(2_000_000_000)
+    with pytest.raises(staging.StagingError, match="larger than 200 MB"):
+        stage(tmp_path / "sub", tmp_path, 2e8)
+
+
+def test_names_and_manifests_that_are_no_utf8(tmp_path):
+    folder = package(tmp_path / "sub" / "p")
+    pathlib.Path(os.fsdecode(os.fsencode(folder) + b"/caf\xe9.py")).write_text("x")
+    bad = tmp_path / "sub" / "q"
+    bad.mkdir()
+    (bad / "package.xml").write_bytes(b"<?xml version='1.0' encoding='utf-8'?><package><name>\xff\xfe</name></package>")
+    found = stage(tmp_path / "sub", tmp_path)
+    assert list(found.packages) == ["p"] and any("no XML" in note for note in found.notes)
+
+
+def test_archives_write_nothing_outside(tmp_path):
+    with zipfile.ZipFile(tmp_path / "a.zip", "w") as file:
+        file.writestr("p/package.xml", MANIFEST.format("p"))
+        file.writestr("../../evil.txt", "x")
+    assert list(stage(tmp_path / "a.zip", tmp_path).packages) == ["p"] and not (tmp_path / "evil.txt").exists()
+    with tarfile.open(tmp_path / "a.tar.gz", "w:gz") as file:
+        for name, text in (("p/package.xml", MANIFEST.format("p")), ("/tmp/lab_check_evil", "x")):
+            entry = tarfile.TarInfo(name)
+            entry.size = len(text)
+            file.addfile(entry, io.BytesIO(text.encode()))
+    found = staging.stage(tmp_path / "a.tar.gz", tmp_path / "tar", 1e6)
+    assert list(found.packages) == ["p"] and not os.path.exists("/tmp/lab_check_evil")
+
+
+# ---------------------------------------------------------------------------------------------- points and reports
+
+TASK = {"name": "A", "points": 10, "all": False, "expect": [{"node": "a"}, {"node": "b"}, {"node": "c", "points": 2}]}
+
+
+def test_points_are_dealt_by_weight_and_to_the_last_digit():
+    verdicts = [Verdict("node", True, ""), Verdict("node", False, ""), Verdict("node", True, "")]
+    assert share(TASK, verdicts).points == 7.5
+    thirds = {**TASK, "points": 1, "expect": [{"node": "a"}] * 3}
+    assert share(thirds, [Verdict("node", True, "")] * 3).points == 1.0
+    assert share({**TASK, "all": True}, verdicts).points == 0.0
+    assert failed_task(TASK, "why").points == 0.0
+
+
+def a_result():
+    result = Result("Title <b>", "/x/sub", notes=["a note"], sandbox="bubblewrap")
+    result.add(TaskResult("T & U", 5.0, 10.0, [Verdict("joint", True, "good", 5.0, 5.0), Verdict("joint", False, "bad \x01 <script>", 0.0, 5.0)],
+                          ["roslaunch a b"], log=["[ERROR] first"], hint="a hint", series={"j0": [[0.0, 0.0], [1.0, 1.0]]}))
+    return result
+
+
+def test_reports_agree_and_let_no_markup_through(tmp_path):
+    (tmp_path / "spec.yaml").write_text("title: t\ntasks: [{name: a, launch: '', expect: [{file: {path: x}}]}]\n")
+    report.write(a_result(), spec.load(tmp_path / "spec.yaml"), tmp_path)
+    page = (tmp_path / "report.html").read_text()
+    assert "<script>" not in page and "&lt;script&gt;" in page and "a hint" in page and "roslaunch a b" in page and "svg+xml" in page
+    suite = ET.parse(tmp_path / "junit.xml").getroot()
+    assert suite.get("tests") == "1" and suite.get("failures") == "1" and suite.find("testcase/failure").get("message") == "5 of 10 points"
+    scores = json.loads((tmp_path / "results.json").read_text())
+    assert scores["score"] == 5 and scores["tests"][0]["max_score"] == 10
+    again = Result.from_data(json.loads((tmp_path / "report.json").read_text()))
+    assert report.marks(again) == report.marks(a_result())
+
+
+def test_the_first_cause_comes_first():
+    log = "\n".join(["fine", "[ERROR] [1.0]: Could not find joint 'j9' in the robot", "more", "[ERROR] [2.0]: later", "process has died [pid 3]"])
+    line, meaning = explain.first_cause(log)
+    assert "j9" in line and "transmission" in meaning
+    assert explain.excerpt(log)[1] == line
+    assert explain.error_lines("[ERROR] [1]: No p gain specified for pid.") == []
+
+
+# ---------------------------------------------------------------------------------------------- descriptions
+
+def robot(inertia="ixx='1' iyy='1' izz='1'", limit="<limit effort='1' velocity='1'/>"):
+    return ET.fromstring(f"<robot><link name='a'><inertial><mass value='1'/><inertia {inertia}/></inertial></link><link name='b'/>"
+                         f"<joint name='j' type='revolute'>{limit}</joint></robot>")
+
+
+def test_descriptions_that_cannot_be():
+    assert complain(robot(), {"moving": 1, "joints": ["j"], "inertias": "sane", "limits": True}) == []
+    assert "no joint 'k'" in complain(robot(), {"joints": ["k"]})[0]
+    assert "no limit" in complain(robot(limit=""), {"limits": True})[0]
+    assert "exceed the sum" in insane(robot("ixx='1' iyy='1' izz='3'").find("link"))
+    assert "wrong units" in insane(robot("ixx='1e8' iyy='1e8' izz='1e8'").find("link"))
+    assert "not positive" in insane(robot("ixx='0' iyy='1' izz='1'").find("link"))
+
+
+# ---------------------------------------------------------------------------------------------- a class
+
+class FakePool:
+    """Workers that need no time; ``deaths`` says how often the worker of a submission dies."""
+
+    def __init__(self, deaths):
+        self.running, self.deaths, self.begun = {}, dict(deaths), []
+
+    def start(self, name, path):
+        self.running[name] = path
+        self.begun.append(name)
+
+    def ended(self):
+        return list(self.running)
+
+    def take(self, name):
+        del self.running[name]
+        self.deaths[name] = self.deaths.get(name, 0) - 1
+        return "its worker was killed by signal 9" if self.deaths[name] >= 0 else a_result()
+
+
+def test_a_dead_worker_is_replaced_once_and_what_is_done_stays_done(tmp_path):
+    book = store.Store(tmp_path / "class.sqlite")
+    for name in "abc":
+        book.enlist(name, tmp_path / name, "1")
+    pool, lines = FakePool({"b": 1, "c": 2}), []
+    grade.run(book, pool, 2, lines.append)
+    assert book.counts() == {"done": 2, "failed": 1} and sorted(pool.begun) == ["a", "b", "b", "c", "c"]
+    assert any("signal 9" in line and "tried again" in line for line in lines)
+    book.enlist("a", tmp_path / "a", "1")
+    book.enlist("b", tmp_path / "b", "changed")
+    book.begin_again()
+    pool = FakePool({})
+    grade.run(book, pool, 2, lines.append)
+    assert sorted(pool.begun) == ["b", "c"] and book.counts() == {"done": 3}
+
+
+def test_gradebook(tmp_path):
+    (tmp_path / "spec.yaml").write_text("title: t\ntasks: [{name: 'T & U', points: 10, launch: '', expect: [{file: {path: x}}]}]\n")
+    book = store.Store(tmp_path / "class.sqlite")
+    book.enlist("=cmd()", tmp_path / "x", "1")
+    book.done("=cmd()", a_result())
+    gradebook.write(spec.load(tmp_path / "spec.yaml"), book, tmp_path)
+    assert (tmp_path / "gradebook.csv").read_text().splitlines()[1].startswith("'=cmd(),5.0,10.0,5.0")
+    assert "T &amp; U" in (tmp_path / "gradebook.html").read_text() and "bad" in (tmp_path / "comparison.html").read_text()
+
+
+def test_copies_are_found_under_another_layout(tmp_path):
+    code = "\n".join(f"int f{i}(int a) {{ return a * {i} + g{i}(a, {i * 3}); }}" for i in range(40))
+    other = "\n".join(f"double h{i}(double b) {{ if (b > {i}) return k{i}(b); return {i}.5 / b; }}" for i in range(40))
+    for name, text in (("a", code), ("b", "// mine\n" + code.replace(" {", "\n{").replace("; }", ";\n  /* own */ }")), ("c", other)):
+        package(tmp_path / name)
+        (tmp_path / name / "x.cpp").write_text(text)
+    found = similar.pairs({name: tmp_path / name for name in "abc"})
+    assert [(pair.first, pair.second) for pair in found] == [("a", "b")] and found[0].share > 0.95
+
+
+def test_seeded_faults_are_the_same_every_time(tmp_path):
+    good = pathlib.Path(__file__).parents[3] / "labs" / "arm"
+    first, second = (faults.make(good, tmp_path / name, len(faults.FAULTS), seed=3) for name in "ab")
+    assert first == second and len({entry["fault"] for entry in first}) == len(faults.FAULTS)
+    for entry in first:
+        a, b = (tmp_path / name / entry["submission"] for name in "ab")
+        texts = [{str(f.relative_to(x)): f.read_bytes() for f in x.rglob("*") if f.is_file()} for x in (a, b)]
+        assert texts[0] == texts[1]
+        same = texts[0] == {str(f.relative_to(good)): f.read_bytes() for f in good.rglob("*") if f.is_file()}
+        assert same == (entry["fault"] == "none")
