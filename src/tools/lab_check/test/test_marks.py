@@ -1,4 +1,5 @@
 """Staging, points, reports, logs, the class's store and near-identical submissions: without ROS and without a sandbox."""
+
 import io
 import json
 import os
@@ -22,6 +23,7 @@ def package(folder, name="p"):
 
 
 # ---------------------------------------------------------------------------------------------- staging
+
 
 def stage(submission, tmp_path, limit=1e6):
     return staging.stage(pathlib.Path(submission), tmp_path / "ws" / "src", limit)
@@ -98,8 +100,18 @@ def test_points_are_dealt_by_weight_and_to_the_last_digit():
 
 def a_result():
     result = Result("Title <b>", "/x/sub", notes=["a note"], sandbox="bubblewrap")
-    result.add(TaskResult("T & U", 5.0, 10.0, [Verdict("joint", True, "good", 5.0, 5.0), Verdict("joint", False, "bad \x01 <script>", 0.0, 5.0)],
-                          ["roslaunch a b"], log=["[ERROR] first"], hint="a hint", series={"j0": [[0.0, 0.0], [1.0, 1.0]]}))
+    result.add(
+        TaskResult(
+            "T & U",
+            5.0,
+            10.0,
+            [Verdict("joint", True, "good", 5.0, 5.0), Verdict("joint", False, "bad \x01 <script>", 0.0, 5.0)],
+            ["roslaunch a b"],
+            log=["[ERROR] first"],
+            hint="a hint",
+            series={"j0": [[0.0, 0.0], [1.0, 1.0]]},
+        )
+    )
     return result
 
 
@@ -109,7 +121,9 @@ def test_reports_agree_and_let_no_markup_through(tmp_path):
     page = (tmp_path / "report.html").read_text()
     assert "<script>" not in page and "&lt;script&gt;" in page and "a hint" in page and "roslaunch a b" in page and "svg+xml" in page
     suite = ET.parse(tmp_path / "junit.xml").getroot()
-    assert suite.get("tests") == "1" and suite.get("failures") == "1" and suite.find("testcase/failure").get("message") == "5 of 10 points"
+    assert (
+        suite.get("tests") == "1" and suite.get("failures") == "1" and suite.find("testcase/failure").get("message") == "5 of 10 points"
+    )
     scores = json.loads((tmp_path / "results.json").read_text())
     assert scores["score"] == 5 and scores["tests"][0]["max_score"] == 10
     again = Result.from_data(json.loads((tmp_path / "report.json").read_text()))
@@ -117,7 +131,9 @@ def test_reports_agree_and_let_no_markup_through(tmp_path):
 
 
 def test_the_first_cause_comes_first():
-    log = "\n".join(["fine", "[ERROR] [1.0]: Could not find joint 'j9' in the robot", "more", "[ERROR] [2.0]: later", "process has died [pid 3]"])
+    log = "\n".join(
+        ["fine", "[ERROR] [1.0]: Could not find joint 'j9' in the robot", "more", "[ERROR] [2.0]: later", "process has died [pid 3]"]
+    )
     line, meaning = explain.first_cause(log)
     assert "j9" in line and "transmission" in meaning
     assert explain.excerpt(log)[1] == line
@@ -126,9 +142,12 @@ def test_the_first_cause_comes_first():
 
 # ---------------------------------------------------------------------------------------------- descriptions
 
+
 def robot(inertia="ixx='1' iyy='1' izz='1'", limit="<limit effort='1' velocity='1'/>"):
-    return ET.fromstring(f"<robot><link name='a'><inertial><mass value='1'/><inertia {inertia}/></inertial></link><link name='b'/>"
-                         f"<joint name='j' type='revolute'>{limit}</joint></robot>")
+    return ET.fromstring(
+        f"<robot><link name='a'><inertial><mass value='1'/><inertia {inertia}/></inertial></link><link name='b'/>"
+        f"<joint name='j' type='revolute'>{limit}</joint></robot>"
+    )
 
 
 def test_descriptions_that_cannot_be():
@@ -141,6 +160,7 @@ def test_descriptions_that_cannot_be():
 
 
 # ---------------------------------------------------------------------------------------------- a class
+
 
 class FakePool:
     """Workers that need no time; ``deaths`` says how often the worker of a submission dies."""

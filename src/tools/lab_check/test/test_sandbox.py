@@ -1,4 +1,5 @@
 """Submissions that do harm, each for real: what they try is done while CMake configures them, when nothing holds them but the walls."""
+
 import json
 import os
 import pathlib
@@ -40,11 +41,15 @@ def submit(place: pathlib.Path, shell: str):
     """A package whose configuration runs ``shell``, examined."""
     package = place / "mallory" / "evil"
     package.mkdir(parents=True)
-    (package / "package.xml").write_text("<package format='2'><name>evil</name><version>1.0.0</version><description>x</description>"
-                                         "<maintainer email='mallory@example.org'>x</maintainer><license>x</license>"
-                                         "<buildtool_depend>catkin</buildtool_depend></package>")
-    (package / "CMakeLists.txt").write_text("cmake_minimum_required(VERSION 3.10)\nproject(evil)\nfind_package(catkin REQUIRED)\ncatkin_package()\n"
-                                            "execute_process(COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/evil.sh)\n")
+    (package / "package.xml").write_text(
+        "<package format='2'><name>evil</name><version>1.0.0</version><description>x</description>"
+        "<maintainer email='mallory@example.org'>x</maintainer><license>x</license>"
+        "<buildtool_depend>catkin</buildtool_depend></package>"
+    )
+    (package / "CMakeLists.txt").write_text(
+        "cmake_minimum_required(VERSION 3.10)\nproject(evil)\nfind_package(catkin REQUIRED)\ncatkin_package()\n"
+        "execute_process(COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/evil.sh)\n"
+    )
     (package / "evil.sh").write_text(shell)
     result = check(spec.load(place / "spec.yaml"), place / "mallory", place / "out")
     assert not result.fault, result.fault
@@ -53,8 +58,11 @@ def submit(place: pathlib.Path, shell: str):
 
 
 def processes_with(word: str) -> int:
-    return sum(word.encode() in pathlib.Path(f"/proc/{pid}/cmdline").read_bytes() for pid in os.listdir("/proc")
-               if pid.isdigit() and os.path.exists(f"/proc/{pid}/cmdline"))
+    return sum(
+        word.encode() in pathlib.Path(f"/proc/{pid}/cmdline").read_bytes()
+        for pid in os.listdir("/proc")
+        if pid.isdigit() and os.path.exists(f"/proc/{pid}/cmdline")
+    )
 
 
 def test_fork_bomb_is_ended_and_told(place):
@@ -64,7 +72,9 @@ def test_fork_bomb_is_ended_and_told(place):
 
 
 def test_a_full_disk_is_the_submissions_own(place):
-    result, log, page = submit(place, "dd if=/dev/zero of=$HOME/big bs=1M count=3000; for i in $(seq 5); do cat $HOME/big >> /tmp/b; done\n")
+    result, log, page = submit(
+        place, "dd if=/dev/zero of=$HOME/big bs=1M count=3000; for i in $(seq 5); do cat $HOME/big >> /tmp/b; done\n"
+    )
     assert "No space left" in log or "File too large" in log
     assert "the disk that a submission gets is full" in page or "a file grew beyond" in page
 
@@ -84,8 +94,11 @@ def test_rm_rf_home_harms_nobody(place):
 
 
 def test_neither_spec_nor_other_submissions_can_be_read(place):
-    _, log, _ = submit(place, f"cat {place}/spec.yaml {place}/other/answer.txt; grep -rs {SECRET[:7]} / --include=*.txt --include=*.yaml "
-                              f"--exclude-dir=proc --exclude-dir=sys --exclude-dir=usr; ls {place}; ls /work /root /home; echo looked\n")
+    _, log, _ = submit(
+        place,
+        f"cat {place}/spec.yaml {place}/other/answer.txt; grep -rs {SECRET[:7]} / --include=*.txt --include=*.yaml "
+        f"--exclude-dir=proc --exclude-dir=sys --exclude-dir=usr; ls {place}; ls /work /root /home; echo looked\n",
+    )
     assert "looked" in log and SECRET not in log
     assert "answer.txt" not in log.replace(f"{place}/other/answer.txt", "")
 
@@ -96,8 +109,11 @@ def test_the_labs_solutions_are_not_there(place):
 
 
 def test_there_is_no_network(place):
-    _, log, page = submit(place, "python3 -c 'import socket; socket.create_connection((\"192.0.2.1\", 80), 5)'; "
-                                 "python3 -c 'import socket; socket.create_connection((\"example.org\", 80), 5)'; echo tried\n")
+    _, log, page = submit(
+        place,
+        "python3 -c 'import socket; socket.create_connection((\"192.0.2.1\", 80), 5)'; "
+        "python3 -c 'import socket; socket.create_connection((\"example.org\", 80), 5)'; echo tried\n",
+    )
     assert "tried" in log and "unreachable" in log
     assert "there is no network" in page
 
@@ -121,8 +137,11 @@ def test_hanging_is_ended(place):
 
 def test_a_report_of_its_own_counts_for_nothing(place):
     forged = json.dumps({"points": 1000, "of": 1000})
-    result, _, _ = submit(place, f"for d in . .. ~ /tmp {place}/out /home; do mkdir -p $d; for f in result.json .result.json report.json "
-                                 f"results.json; do echo '{forged}' > $d/$f; done; done; exit 0\n")
+    result, _, _ = submit(
+        place,
+        f"for d in . .. ~ /tmp {place}/out /home; do mkdir -p $d; for f in result.json .result.json report.json "
+        f"results.json; do echo '{forged}' > $d/$f; done; done; exit 0\n",
+    )
     assert result.points == 15 and result.of == 15
     assert json.loads((place / "out" / "results.json").read_text())["score"] == 15
 

@@ -47,7 +47,7 @@ def test_a_good_one_gets_its_defaults(tmp_path):
     ("      - joint: {name: j0, value: 1, tolerance: 0.1}\n", "      - exit: {run: other}\n", 9, "no 'run' of this task is named 'other'"),
     ("      - joint: {name: j0, value: 1, tolerance: 0.1}\n", "      - {node: a, topic: {name: b}}\n", 9, "several kinds"),
     ("      - joint: {name: j0, value: 1, tolerance: 0.1}\n", "      - python: {file: no.py, function: f}\n", 9, "there is no file"),
-    ("title: T", "title: [T", 3, "no YAML"),
+    ("title: T", "title: [T", 2, "no YAML"),
 ])
 def test_mistakes_are_named_with_their_line(tmp_path, old, new, line, words):
     assert old in GOOD

@@ -1,4 +1,5 @@
 """The commands of ``rosrun lab_check``."""
+
 from __future__ import annotations
 
 import argparse
@@ -10,6 +11,7 @@ from typing import List, Optional
 def load_spec(path: str):
     """The spec; its faults go to the terminal, and the program ends with 2."""
     from .spec import SpecError, load
+
     try:
         return load(path)
     except SpecError as error:
@@ -21,6 +23,7 @@ def load_spec(path: str):
 def allowed(unsafe: bool) -> None:
     from .sandbox import Platform, SandboxError
     from .sandbox import check as try_it
+
     try:
         Platform.here()
         if unsafe:
@@ -47,9 +50,14 @@ def sandbox_options(parser: argparse.ArgumentParser) -> None:
 def check(arguments: Optional[List[str]] = None) -> int:
     """Exit code 0 full marks, 1 less, 2 the spec is faulty, 3 no sandbox, 4 the checker itself failed."""
     from .check import check as examine
+
     parser = parser_for("check", "Mark one submission; reports in --out.")
-    parser.add_argument("submission", type=pathlib.Path, nargs="?", help="a folder with packages, or a zip or tar of one; without it the spec "
-                        "alone is checked")
+    parser.add_argument(
+        "submission",
+        type=pathlib.Path,
+        nargs="?",
+        help="a folder with packages, or a zip or tar of one; without it the spec alone is checked",
+    )
     parser.add_argument("--out", type=pathlib.Path, help="default: lab_check/<name of the submission>")
     sandbox_options(parser)
     options = parser.parse_args(arguments)
@@ -75,15 +83,17 @@ def check(arguments: Optional[List[str]] = None) -> int:
 
 def grade(arguments: Optional[List[str]] = None) -> int:
     from .grade import main
+
     return main(arguments)
 
 
 def similar(arguments: Optional[List[str]] = None) -> int:
     from .similar import main
+
     return main(arguments)
 
 
 def faults(arguments: Optional[List[str]] = None) -> int:
     from .faults import main
-    return main(arguments)
 
+    return main(arguments)

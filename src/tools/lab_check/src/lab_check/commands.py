@@ -1,4 +1,5 @@
 """What a task does to the submission: messages, calls, goals, programs and key strokes."""
+
 from __future__ import annotations
 
 import json
@@ -41,7 +42,7 @@ class Actor:
         """
         :raises CommandError: nobody is there to take it
         """
-        (kind, wanted), = command.items()
+        ((kind, wanted),) = command.items()
         getattr(self, f"_{kind}")(wanted)
 
     def end(self) -> None:
@@ -66,7 +67,9 @@ class Actor:
         except (genpy.MessageException, TypeError, ValueError) as error:
             raise CommandError(f"the spec's message does not fit {wanted['type']}: {error}") from error
         rate = wanted.get("rate")
-        self.by_hand.append(f"rostopic pub {'-r %g' % rate if rate else '-1'} {name} {wanted['type']} {shlex.quote(json.dumps(wanted.get('message', {})))}")
+        self.by_hand.append(
+            f"rostopic pub {'-r %g' % rate if rate else '-1'} {name} {wanted['type']} {shlex.quote(json.dumps(wanted.get('message', {})))}"
+        )
         publisher = rospy.Publisher(name, kind, queue_size=10, latch=not rate)
         self._publishers.append(publisher)
         self._bench.connect()
@@ -111,8 +114,9 @@ class Actor:
 
     def _action(self, wanted: Dict[str, Any]) -> None:
         import actionlib
+
         kind = roslib.message.get_message_class(wanted["type"])
-        goal_kind = roslib.message.get_message_class(wanted["type"][:-len("Action")] + "Goal")
+        goal_kind = roslib.message.get_message_class(wanted["type"][: -len("Action")] + "Goal")
         if kind is None or goal_kind is None:
             raise CommandError(f"action type {wanted['type']} is not known here")
         goal = goal_kind()
@@ -171,32 +175,41 @@ def find_topic(pattern: str) -> str:
     :raises CommandError: none or several fit
     """
     if pattern.startswith("command of "):
-        return _command_of(pattern[len("command of "):])
+        return _command_of(pattern[len("command of ") :])
     if "*" not in pattern:
         return pattern
     import fnmatch
 
     import rosgraph
+
     published, subscribed, _ = rosgraph.Master("/lab_check").getSystemState()
     names = sorted({name for name, _ in published + subscribed if fnmatch.fnmatchcase(name, pattern)})
     if len(names) != 1:
-        raise CommandError(f"{'several topics fit' if names else 'no topic fits'} {pattern}" + (f": {', '.join(names[:6])}" if names else ""))
+        raise CommandError(
+            f"{'several topics fit' if names else 'no topic fits'} {pattern}" + (f": {', '.join(names[:6])}" if names else "")
+        )
     return names[0]
 
 
 def _command_of(joint: str) -> str:
     import rosgraph
     from controller_manager_msgs.srv import ListControllers
-    services = [name for name, _ in rosgraph.Master("/lab_check").getSystemState()[2] if name.endswith("/controller_manager/list_controllers")]
+
+    services = [
+        name for name, _ in rosgraph.Master("/lab_check").getSystemState()[2] if name.endswith("/controller_manager/list_controllers")
+    ]
     holders = []
     for service in sorted(services):
         try:
             found = rospy.ServiceProxy(service, ListControllers)().controller
         except (rospy.ServiceException, rospy.ROSException) as error:
             raise CommandError(f"the controller manager does not answer: {error}") from error
-        base = service[:-len("controller_manager/list_controllers")]
-        holders += [f"{base}{c.name}/command" for c in found if c.state == "running"
-                    and any(joint in claimed.resources for claimed in c.claimed_resources)]
+        base = service[: -len("controller_manager/list_controllers")]
+        holders += [
+            f"{base}{c.name}/command"
+            for c in found
+            if c.state == "running" and any(joint in claimed.resources for claimed in c.claimed_resources)
+        ]
     if len(holders) != 1:
         raise CommandError(f"{'several running controllers claim' if holders else 'no running controller claims'} the joint {joint}")
     return holders[0]
@@ -206,6 +219,7 @@ def _near(name: str, what: str) -> str:
     import difflib
 
     import rosgraph
+
     _, subscribed, _ = rosgraph.Master("/lab_check").getSystemState()
     close = difflib.get_close_matches(name, [topic for topic, _ in subscribed], 3, 0.5)
     return f"; your nodes {what} {', '.join(close)}" if close else ""

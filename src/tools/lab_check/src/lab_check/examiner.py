@@ -1,4 +1,5 @@
 """Runs one examination inside the outer wall: ``python3 -m lab_check.examiner JOB`` writes ``result.json`` beside the job's out."""
+
 from __future__ import annotations
 
 import fcntl
@@ -21,18 +22,37 @@ from .spec import kind_of
 from .staging import StagingError, stage
 
 # Packages that the examination itself stands on: one of that name in a submission would answer in their place.
-TRUSTED = {"lab_check", "gazebo_ros", "gazebo_ros_control", "gazebo_msgs", "gazebo_plugins", "ode_sim", "node_signals", "rospy", "roslaunch",
-           "rosgraph", "roslib", "rosmaster", "std_srvs", "controller_manager", "controller_manager_msgs", "realtime_tools", "plugin_loader"}
+TRUSTED = {
+    "lab_check",
+    "gazebo_ros",
+    "gazebo_ros_control",
+    "gazebo_msgs",
+    "gazebo_plugins",
+    "ode_sim",
+    "node_signals",
+    "rospy",
+    "roslaunch",
+    "rosgraph",
+    "roslib",
+    "rosmaster",
+    "std_srvs",
+    "controller_manager",
+    "controller_manager_msgs",
+    "realtime_tools",
+    "plugin_loader",
+}
 
 # What the kernel says at the walls -> what that means.
-REFUSED = (("No space left on device", "the disk that a submission gets is full"),
-           ("File too large", "a file grew beyond what a submission may write"),
-           ("Read-only file system", "something tried to write where a submission may not"),
-           ("Network is unreachable", "something tried to open a network connection; there is no network"),
-           ("Temporary failure in name resolution", "something tried to open a network connection; there is no network"),
-           ("Name or service not known", "something tried to open a network connection; there is no network"),
-           ("Operation not permitted", "something was tried that a submission may not do"),
-           ("Resource temporarily unavailable", "more processes were started than a submission may"))
+REFUSED = (
+    ("No space left on device", "the disk that a submission gets is full"),
+    ("File too large", "a file grew beyond what a submission may write"),
+    ("Read-only file system", "something tried to write where a submission may not"),
+    ("Network is unreachable", "something tried to open a network connection; there is no network"),
+    ("Temporary failure in name resolution", "something tried to open a network connection; there is no network"),
+    ("Name or service not known", "something tried to open a network connection; there is no network"),
+    ("Operation not permitted", "something was tried that a submission may not do"),
+    ("Resource temporarily unavailable", "more processes were started than a submission may"),
+)
 
 
 class Examiner:
@@ -72,10 +92,20 @@ class Examiner:
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as s:
             request = bytearray(struct.pack("16sh22x", b"lo", 0))
             fcntl.ioctl(s, 0x8913, request)  # SIOCGIFFLAGS
-            flags, = struct.unpack_from("h", request, 16)
+            (flags,) = struct.unpack_from("h", request, 16)
             fcntl.ioctl(s, 0x8914, struct.pack("16sh22x", b"lo", flags | 1))  # SIOCSIFFLAGS, IFF_UP
-        subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={int(self.job.limits['disk'])},nr_inodes=200000,mode=0755", "lab_check",
-                        self.job.scratch], check=True)
+        subprocess.run(
+            [
+                "mount",
+                "-t",
+                "tmpfs",
+                "-o",
+                f"size={int(self.job.limits['disk'])},nr_inodes=200000,mode=0755",
+                "lab_check",
+                self.job.scratch,
+            ],
+            check=True,
+        )
 
     def _stage(self) -> None:
         source = pathlib.Path(self.job.home, "catkin_ws", "src")
@@ -112,15 +142,23 @@ class Examiner:
             for name in wanted:
                 of = points / len(wanted)
                 if name not in self.job.packages:
-                    verdicts.append(Verdict("build", False, f"package {name} is not in your submission (there are: "
-                                                            f"{', '.join(sorted(self.job.packages))})", 0.0, rounded(of)))
+                    verdicts.append(
+                        Verdict(
+                            "build",
+                            False,
+                            f"package {name} is not in your submission (there are: {', '.join(sorted(self.job.packages))})",
+                            0.0,
+                            rounded(of),
+                        )
+                    )
                 elif name in built.failed:
                     verdicts.append(Verdict("build", False, f"package {name} does not build: {built.failed[name]}", 0.0, rounded(of)))
                 else:
                     verdicts.append(Verdict("build", True, f"package {name} builds", rounded(of), rounded(of)))
             good = sum(verdict.passed for verdict in verdicts)
-            self.result.add(TaskResult("Build", rounded(points * good / len(wanted)), rounded(points), verdicts,
-                                       ["catkin_make"], log=built.excerpt))
+            self.result.add(
+                TaskResult("Build", rounded(points * good / len(wanted)), rounded(points), verdicts, ["catkin_make"], log=built.excerpt)
+            )
         for name, reason in built.failed.items():
             if name not in wanted:
                 self.result.notes.append(f"package {name} does not build: {reason}")
@@ -138,7 +176,9 @@ class Examiner:
                 found.update((task["name"], self._static(task)) for task in tasks)
             elif not os.path.exists(os.path.join(self.job.home, "catkin_ws", "devel", "setup.bash")):
                 line, _ = first_cause(built.log)
-                found.update((task["name"], failed_task(task, f"not tried, as nothing was built{': ' + line if line else ''}")) for task in tasks)
+                found.update(
+                    (task["name"], failed_task(task, f"not tried, as nothing was built{': ' + line if line else ''}")) for task in tasks
+                )
             else:
                 found.update(self._session(number, tasks))
         for task in spec["tasks"]:
@@ -146,8 +186,11 @@ class Examiner:
 
     def _static(self, task) -> TaskResult:
         job = self.job
-        context = Context(pathlib.Path(job.spec_folder), pathlib.Path(job.home, "catkin_ws", "src"),
-                          {name: pathlib.Path(job.home, folder) for name, folder in job.packages.items()})
+        context = Context(
+            pathlib.Path(job.spec_folder),
+            pathlib.Path(job.home, "catkin_ws", "src"),
+            {name: pathlib.Path(job.home, folder) for name, folder in job.packages.items()},
+        )
         verdicts = []
         for expectation in task["expect"]:
             kind = kind_of(expectation)
@@ -163,8 +206,12 @@ class Examiner:
         answer = os.path.join(self.job.out, f".session_{number}.json")
         self.job.save(job_file)
         with open(os.path.join(self.job.out, ".examiner.log"), "a", encoding="utf-8") as log:
-            process = subprocess.Popen([sys.executable, "-m", "lab_check.session", job_file, str(number), answer], stdout=log, stderr=log,
-                                       stdin=subprocess.DEVNULL)
+            process = subprocess.Popen(
+                [sys.executable, "-m", "lab_check.session", job_file, str(number), answer],
+                stdout=log,
+                stderr=log,
+                stdin=subprocess.DEVNULL,
+            )
             try:
                 process.wait(self.job.limits["time"] + 60)
             except subprocess.TimeoutExpired:
@@ -175,7 +222,9 @@ class Examiner:
             data = json.loads(pathlib.Path(answer).read_text(encoding="utf-8"))
             os.unlink(answer)
         except (OSError, ValueError):
-            last = (pathlib.Path(self.job.out, ".examiner.log").read_text(encoding="utf-8").strip().splitlines() or ["no reason given"])[-1]
+            last = (pathlib.Path(self.job.out, ".examiner.log").read_text(encoding="utf-8").strip().splitlines() or ["no reason given"])[
+                -1
+            ]
             self.result.fault = f"the examination of 'roslaunch {tasks[0]['launch']}' broke off: {last}"
             return {task["name"]: failed_task(task, "not examined: the checker itself failed") for task in tasks}
         self.result.notes += data["notes"]

@@ -1,41 +1,69 @@
 """Logs for students: which lines are errors, which came first, and what they usually mean."""
+
 from __future__ import annotations
 
 import re
 from typing import List, Tuple
 
 _COLOURS = re.compile(r"\x1b\[[0-9;]*m|\x1b\].*?\x07")
-_ERROR = re.compile(r"\[ ?(ERROR|FATAL)\]|Traceback \(most recent call last\)|process has died|RLException|^ERROR|^CMake Error|\berror:|XacroException"
-                    r"|ResourceNotFound|Segmentation fault|No such file or directory|\*\*\* \[|undefined reference|^Invalid ")
+_ERROR = re.compile(
+    r"\[ ?(ERROR|FATAL)\]|Traceback \(most recent call last\)|process has died|RLException|^ERROR|^CMake Error|\berror:|XacroException"
+    r"|ResourceNotFound|Segmentation fault|No such file or directory|\*\*\* \[|undefined reference|^Invalid "
+)
 # What happens whenever a program is ended, and what upstream prints as an error although nothing is wrong.
 _HARMLESS = re.compile(r"No p gain specified|escalating to SIG|make.*\*\*\* \[.*(Makefile|all)|Error 2$")
-_MEANINGS: List[Tuple[re.Pattern, str]] = [(re.compile(pattern), meaning) for pattern, meaning in (
-    (r'Could not find a package configuration file provided by "?(\w+)|Could not find package configuration file|find_package\((\w+)\)',
-     "CMake did not find a package that CMakeLists.txt asks for. Is it named in package.xml, and does it exist?"),
-    (r"fatal error: .*\.h(pp)?: No such file", "A header was not found. Is its package in find_package(catkin ... COMPONENTS) and in "
-     "include_directories(${catkin_INCLUDE_DIRS})?"),
-    (r"undefined reference", "The linker misses a library: target_link_libraries(... ${catkin_LIBRARIES})."),
-    (r"error: ", "The compiler refuses this line; the first error is the one to mend, the others often follow from it."),
-    (r"ResourceNotFound: (\S+)", "A launch file or xacro names a package or file that is not there. Mind the spelling, and absolute paths "
-     "of your own machine."),
-    (r"is neither a launch file|is not a launch file name|\[.*\.launch\] is neither", "roslaunch did not find the launch file: is it in the "
-     "folder launch of that package, under exactly this name?"),
-    (r"Invalid <param> tag|xacro.*(error|Exception)|XacroException|undefined (macro|symbols)", "The robot description could not be made: "
-     "run xacro by hand on the file to see the line."),
-    (r"RLException: unused args", "The launch file does not declare an argument that was given: <arg name=... default=.../>."),
-    (r"RLException|XML(Parse)?Error|not well-formed", "The launch file is not valid."),
-    (r"Couldn't find executable|Cannot locate node of type", "A program is named that was not built or is not executable: add_executable in "
-     "CMakeLists.txt, or chmod +x for a script."),
-    (r"Controller Spawner couldn't find|Waiting for .*controller_manager", "The spawner looks for a controller manager in another namespace "
-     "than the gazebo_ros_control plugin's: <robotNamespace> and the spawner's ns must be the same."),
-    (r"Could not load controller|type was not specified|no controller.* named", "A controller is spawned whose parameters are not loaded, or "
-     "in another namespace: look at rosparam list."),
-    (r"Could not find joint|Could not find resource|does not exist in|No joint", "A controller names a joint that has no transmission of that "
-     "kind of interface in the URDF."),
-    (r"Traceback", "A Python program ended by an error; the last line of the traceback says which."),
-    (r"Segmentation fault|exit code -11", "A program wrote or read outside of its memory."),
-    (r"process has died", "A node ended by itself; look for what it printed just before."),
-    (r"No space left on device", "The disk that a submission gets is full."))]
+_MEANINGS: List[Tuple[re.Pattern, str]] = [
+    (re.compile(pattern), meaning)
+    for pattern, meaning in (
+        (
+            r"Could not find a package configuration file|Could not find package configuration file|find_package\(\w+\)",
+            "CMake did not find a package that CMakeLists.txt asks for. Is it named in package.xml, and does it exist?",
+        ),
+        (
+            r"fatal error: .*\.h(pp)?: No such file",
+            "A header was not found. Is its package in find_package(catkin ... COMPONENTS) and in "
+            "include_directories(${catkin_INCLUDE_DIRS})?",
+        ),
+        (r"undefined reference", "The linker misses a library: target_link_libraries(... ${catkin_LIBRARIES})."),
+        (r"error: ", "The compiler refuses this line; the first error is the one to mend, the others often follow from it."),
+        (
+            r"ResourceNotFound: (\S+)",
+            "A launch file or xacro names a package or file that is not there. Mind the spelling, and absolute paths "
+            "of your own machine.",
+        ),
+        (
+            r"is neither a launch file|is not a launch file name|\[.*\.launch\] is neither",
+            "roslaunch did not find the launch file: is it in the folder launch of that package, under exactly this name?",
+        ),
+        (
+            r"Invalid <param> tag|xacro.*(error|Exception)|XacroException|undefined (macro|symbols)",
+            "The robot description could not be made: run xacro by hand on the file to see the line.",
+        ),
+        (r"RLException: unused args", "The launch file does not declare an argument that was given: <arg name=... default=.../>."),
+        (r"RLException|XML(Parse)?Error|not well-formed", "The launch file is not valid."),
+        (
+            r"Couldn't find executable|Cannot locate node of type",
+            "A program is named that was not built or is not executable: add_executable in CMakeLists.txt, or chmod +x for a script.",
+        ),
+        (
+            r"Controller Spawner couldn't find|Waiting for .*controller_manager",
+            "The spawner looks for a controller manager in another namespace "
+            "than the gazebo_ros_control plugin's: <robotNamespace> and the spawner's ns must be the same.",
+        ),
+        (
+            r"Could not load controller|type was not specified|no controller.* named",
+            "A controller is spawned whose parameters are not loaded, or in another namespace: look at rosparam list.",
+        ),
+        (
+            r"Could not find joint|Could not find resource|does not exist in|No joint",
+            "A controller names a joint that has no transmission of that kind of interface in the URDF.",
+        ),
+        (r"Traceback", "A Python program ended by an error; the last line of the traceback says which."),
+        (r"Segmentation fault|exit code -11", "A program wrote or read outside of its memory."),
+        (r"process has died", "A node ended by itself; look for what it printed just before."),
+        (r"No space left on device", "The disk that a submission gets is full."),
+    )
+]
 
 
 def lines_of(text: str) -> List[str]:
@@ -59,7 +87,7 @@ def excerpt(text: str, before: int = 2, after: int = 6, most: int = 40) -> List[
     if not errors:
         return [line[:300] for line in lines[-8:]]
     first = errors[0]
-    shown = lines[max(0, first - before):first + after]
+    shown = lines[max(0, first - before) : first + after]
     seen = {re.sub(r"[\d.]+", "#", line) for line in shown}
     for index in errors:
         shape = re.sub(r"[\d.]+", "#", lines[index])

@@ -1,4 +1,5 @@
 """Copies of a good submission, each with one known fault: what a spec must notice. A seed chooses the same copies every time."""
+
 from __future__ import annotations
 
 import argparse
@@ -22,6 +23,7 @@ class Fault:
 
 def _in(pattern: str, what: str, to: str, count: int = 1):
     """Replaces in the first file that matches, by path, and holds ``what``."""
+
     def apply(copy: pathlib.Path, dice: random.Random) -> bool:
         del dice
         for file in sorted(copy.rglob(pattern)):
@@ -31,6 +33,7 @@ def _in(pattern: str, what: str, to: str, count: int = 1):
                 file.write_text(changed, encoding="utf-8", errors="surrogateescape")
                 return True
         return False
+
     return apply
 
 
@@ -41,6 +44,7 @@ def _without(pattern: str):
             shutil.rmtree(path) if path.is_dir() else path.unlink()
             return True
         return False
+
     return apply
 
 
@@ -55,7 +59,11 @@ FAULTS: List[Fault] = [
     Fault("no_package_xml", "a package has no manifest", _without("arm_controller/package.xml")),
     Fault("launch_missing", "the launch file is not there", _without("arm_gazebo.launch")),
     Fault("launch_not_xml", "the launch file is no XML", _in("arm_gazebo.launch", r"</launch>", "</lunch>")),
-    Fault("wrong_include", "the launch file includes a file that is not there", _in("arm_gazebo.launch", r"arm_world\.launch", "arm_word.launch")),
+    Fault(
+        "wrong_include",
+        "the launch file includes a file that is not there",
+        _in("arm_gazebo.launch", r"arm_world\.launch", "arm_word.launch"),
+    ),
     Fault("urdf_broken", "the robot's description is no XML", _in("*.urdf.xacro", r"</robot>", "</robto>")),
     Fault("joint_unknown", "a controller names a joint that is not there", _one_joint_wrong),
     Fault("wrong_type", "a controller's type is misspelt", _in("*control*.yaml", r"JointPositionController$", "JointPosController")),
@@ -63,9 +71,16 @@ FAULTS: List[Fault] = [
     Fault("controller_missing", "one of four controllers is not spawned", _in("*control*.launch", r"joint2_position_controller", "")),
     Fault("wrong_namespace", "the controllers are spawned in another namespace", _in("arm_gazebo.launch", r'ns="arm"', 'ns="arms"')),
     Fault("node_sleeps", "the node does nothing", _in("*_node.cpp", r"^(\s*)publishers\[i\]\.publish\(.*\);", r"\1;")),
-    Fault("node_wrong_joint", "the node sends the last angle to the first joint",
-          _in("*_node.cpp", r"publishers\[i\]\.publish", "publishers[0].publish")),
-    Fault("node_crashes", "the node crashes", _in("*_node.cpp", r"ros::Rate rate\(10\);", "volatile int* nowhere = nullptr; *nowhere = 1; ros::Rate rate(10);")),
+    Fault(
+        "node_wrong_joint",
+        "the node sends the last angle to the first joint",
+        _in("*_node.cpp", r"publishers\[i\]\.publish", "publishers[0].publish"),
+    ),
+    Fault(
+        "node_crashes",
+        "the node crashes",
+        _in("*_node.cpp", r"ros::Rate rate\(10\);", "volatile int* nowhere = nullptr; *nowhere = 1; ros::Rate rate(10);"),
+    ),
 ]
 
 
@@ -89,7 +104,9 @@ def make(good: pathlib.Path, folder: pathlib.Path, count: int, seed: int = 0, fa
 
 
 def main(arguments: Optional[List[str]] = None) -> int:
-    parser = argparse.ArgumentParser(prog="rosrun lab_check faults", description="Copies of a good arm homework, each with one known fault.")
+    parser = argparse.ArgumentParser(
+        prog="rosrun lab_check faults", description="Copies of a good arm homework, each with one known fault."
+    )
     parser.add_argument("good", type=pathlib.Path)
     parser.add_argument("folder", type=pathlib.Path)
     parser.add_argument("--count", type=int, default=len(FAULTS))

@@ -1,4 +1,5 @@
 """The class on one page: marks (HTML, CSV) and, task by task, what most of them lost points for."""
+
 from __future__ import annotations
 
 import csv
@@ -26,7 +27,10 @@ def write(spec: Spec, store: Store, out: pathlib.Path) -> None:
         writer.writerow(["submission", "points", "of", *tasks, "remark"])
         for row in rows:
             writer.writerow([safe(row["name"]), row["points"], row["of"], *_marks(results[row["name"]], tasks), safe(row["why"] or "")])
-    for name, text in (("gradebook.html", _page(spec, rows, results, tasks, near)), ("comparison.html", _comparison(spec, results, tasks))):
+    for name, text in (
+        ("gradebook.html", _page(spec, rows, results, tasks, near)),
+        ("comparison.html", _comparison(spec, results, tasks)),
+    ):
         (out / name).write_text(text, encoding="utf-8", errors="xmlcharrefreplace")
 
 
@@ -49,16 +53,23 @@ def _page(spec: Spec, rows, results, tasks: List[str], near: List[Pair]) -> str:
             lines.append(f"<tr><td>{html.escape(name)}<td colspan={len(tasks) + 1}>{html.escape(row['why'] or row['state'])}")
             continue
         cells = "".join(f"<td class=n style='background:{_colour(task.points, task.of)}'>{task.points:g}" for task in result.tasks)
-        lines.append(f"<tr><td><a href='{html.escape(name, quote=True)}/report.html'>{html.escape(name)}</a>"
-                     f"<td class=n><b>{result.points:g}</b> of {result.of:g}{cells}")
+        lines.append(
+            f"<tr><td><a href='{html.escape(name, quote=True)}/report.html'>{html.escape(name)}</a>"
+            f"<td class=n><b>{result.points:g}</b> of {result.of:g}{cells}"
+        )
     twins = "".join(f"<li>{html.escape(p.first)} and {html.escape(p.second)}: {p.share:.0%} in common" for p in near)
     if twins:
-        twins = f"<h2>Near-identical</h2><p class=note>Look before you judge: what the course handed out is in everybody's copy.</p><ul>{twins}</ul>"
+        twins = (
+            "<h2>Near-identical</h2><p class=note>Look before you judge: what the course handed out is in everybody's copy.</p>"
+            f"<ul>{twins}</ul>"
+        )
     title = html.escape(spec.data["title"])
-    return (f'<!doctype html>\n<html lang="en"><meta charset="utf-8"><title>{title}: gradebook</title>'
-            f"<style>{STYLE} body {{max-width: none}}</style><h1>{title}</h1>"
-            f"<p><a href='comparison.html'>Task by task</a>, <a href='gradebook.csv'>as CSV</a></p>"
-            f"<table><tr><th>Submission<th>Points{head}\n" + "\n".join(lines) + f"</table>{twins}</html>\n")
+    return (
+        f'<!doctype html>\n<html lang="en"><meta charset="utf-8"><title>{title}: gradebook</title>'
+        f"<style>{STYLE} body {{max-width: none}}</style><h1>{title}</h1>"
+        f"<p><a href='comparison.html'>Task by task</a>, <a href='gradebook.csv'>as CSV</a></p>"
+        f"<table><tr><th>Submission<th>Points{head}\n" + "\n".join(lines) + f"</table>{twins}</html>\n"
+    )
 
 
 def _colour(points: float, of: float) -> str:
@@ -77,7 +88,11 @@ def _comparison(spec: Spec, results, tasks: List[str]) -> str:
         mean = sum(task.points for task in found) / len(found)
         reasons = Counter(v.reason for task in found for v in task.verdicts if not v.passed)
         items = "".join(f"<li>{count} &times; {html.escape(reason)}" for reason, count in reasons.most_common(8))
-        parts.append(f"<h2>{html.escape(name)}</h2><p>{full} of {len(found)} have all its points; the mean is {mean:.2f} of {found[0].of:g}.</p>"
-                     f"<ul>{items}</ul>")
-    return (f'<!doctype html>\n<html lang="en"><meta charset="utf-8"><title>{html.escape(spec.data["title"])}: task by task</title>'
-            f"<style>{STYLE}</style><h1>Task by task</h1>" + "\n".join(parts) + "</html>\n")
+        parts.append(
+            f"<h2>{html.escape(name)}</h2><p>{full} of {len(found)} have all its points; the mean is {mean:.2f} of {found[0].of:g}.</p>"
+            f"<ul>{items}</ul>"
+        )
+    return (
+        f'<!doctype html>\n<html lang="en"><meta charset="utf-8"><title>{html.escape(spec.data["title"])}: task by task</title>'
+        f"<style>{STYLE}</style><h1>Task by task</h1>" + "\n".join(parts) + "</html>\n"
+    )

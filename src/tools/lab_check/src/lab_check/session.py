@@ -1,4 +1,5 @@
 """One launch and its tasks: ``python3 -m lab_check.session JOB NUMBER`` writes ``session_NUMBER.json`` into the job's folder."""
+
 from __future__ import annotations
 
 import json
@@ -41,8 +42,12 @@ class Session:
         self._begin = time.monotonic()
 
     def run(self) -> List[TaskResult]:
-        core = subprocess.Popen(["rosmaster", "--core", "-p", str(self.job.port)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-                                env={**os.environ, "ROS_LOG_DIR": self.job.scratch})
+        core = subprocess.Popen(
+            ["rosmaster", "--core", "-p", str(self.job.port)],
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+            env={**os.environ, "ROS_LOG_DIR": self.job.scratch},
+        )
         try:
             self._wait_for_master(core)
             rospy.init_node("lab_check", anonymous=True, disable_signals=True, disable_rostime=True, log_level=rospy.FATAL)
@@ -74,13 +79,16 @@ class Session:
         results = []
         for index, task in enumerate(self.tasks):
             mark = len(self._log())
-            print(f"task '{task['name']}' begins at {self.bench.now.time:.3f} s of simulation, "
-                  f"{time.monotonic() - self._begin:.1f} s of wall time", flush=True)
+            print(
+                f"task '{task['name']}' begins at {self.bench.now.time:.3f} s of simulation, "
+                f"{time.monotonic() - self._begin:.1f} s of wall time",
+                flush=True,
+            )
             try:
                 results.append(self._task(task))
             except Gone as error:
                 results.append(self._with_log(failed_task(task, str(error)), mark))
-                results += [failed_task(later, f"not tried: {error}") for later in self.tasks[index + 1:]]
+                results += [failed_task(later, f"not tried: {error}") for later in self.tasks[index + 1 :]]
                 break
         if self.bench is not None:
             self._remarks()
@@ -88,8 +96,9 @@ class Session:
 
     def _remarks(self) -> None:
         for name in self.nodes.restless_names:
-            self.notes.append(f"{name} never rests: a loop without sleep? It is no longer waited for, and what it does may differ "
-                              "from run to run")
+            self.notes.append(
+                f"{name} never rests: a loop without sleep? It is no longer waited for, and what it does may differ from run to run"
+            )
 
     # ------------------------------------------------------------------------------------------ programs
 
@@ -116,7 +125,11 @@ class Session:
             # A later one that only loads something is done when its nodes are.
             if not launch.running and (launch.code != 0 or launch is self.launches[0]):
                 line, meaning = first_cause(launch.output.text())
-                raise Gone(f"roslaunch ended by itself with code {launch.code}" + (f": {line}" if line else "") + (f" ({meaning})" if meaning else ""))
+                raise Gone(
+                    f"roslaunch ended by itself with code {launch.code}"
+                    + (f": {line}" if line else "")
+                    + (f" ({meaning})" if meaning else "")
+                )
         if rospy.is_shutdown():
             raise Gone("the examiner's node was told to shut down by your code")
 
@@ -126,7 +139,9 @@ class Session:
         end = time.monotonic() + ready["timeout"]
         simulated = wait_for_simulator(self._alive, ready["timeout"], lambda: False)
         if not simulated:
-            raise Gone(f"no simulator came up within {ready['timeout']:g} s: does the launch file include gazebo_ros's empty_world.launch?")
+            raise Gone(
+                f"no simulator came up within {ready['timeout']:g} s: does the launch file include gazebo_ros's empty_world.launch?"
+            )
         self._make_bench()
         for part in self.tasks[0]["launch"].split(" + ")[1:]:  # as in a second shell, when the first has come up
             self.nodes.settle(_READY_REST, patience=max(end - time.monotonic(), 1.0))
@@ -156,7 +171,10 @@ class Session:
                 words = pathlib.Path(f"/proc/{pid}/cmdline").read_bytes().decode("utf-8", "replace").split("\0")
             except OSError:
                 continue
-            if any(word.endswith("/lab_check/gzserver") or word.endswith("/scripts/gzserver") for word in words[:3]) and "bwrap" not in words[0]:
+            if (
+                any(word.endswith("/lab_check/gzserver") or word.endswith("/scripts/gzserver") for word in words[:3])
+                and "bwrap" not in words[0]
+            ):
                 self.nodes.simulator_is(pid)
                 self._simulator = pid
         self.bench = Bench(self.nodes, self.job.spec["quantum"], self._alive)
@@ -170,13 +188,22 @@ class Session:
 
     def _missing(self, ready: Dict[str, Any]) -> List[str]:
         import fnmatch
+
         published, subscribed, services = rosgraph.Master("/lab_check").getSystemState()
         me = rospy.get_name()
         topics = [topic for topic, nodes in published + subscribed if set(nodes) - {me}]
-        there = {"topics": topics, "services": [name for name, _ in services], "models": list(self.bench.now.models),
-                 "nodes": [node for part in (published, subscribed, services) for _, nodes in part for node in nodes]}
-        return [f"{kind[:-1]} {name}" for kind, found in there.items() for name in ready.get(kind, [])
-                if not any(fnmatch.fnmatchcase(one, name) for one in found)]
+        there = {
+            "topics": topics,
+            "services": [name for name, _ in services],
+            "models": list(self.bench.now.models),
+            "nodes": [node for part in (published, subscribed, services) for _, nodes in part for node in nodes],
+        }
+        return [
+            f"{kind[:-1]} {name}"
+            for kind, found in there.items()
+            for name in ready.get(kind, [])
+            if not any(fnmatch.fnmatchcase(one, name) for one in found)
+        ]
 
     # ------------------------------------------------------------------------------------------ tasks
 
@@ -184,10 +211,16 @@ class Session:
         mark = len(self._log())
         job, bench = self.job, self.bench
         actor = Actor(bench, self.start)
-        context = Context(pathlib.Path(job.spec_folder), pathlib.Path(job.home, "catkin_ws", "src"),
-                          {name: pathlib.Path(job.home, folder) for name, folder in job.packages.items()},
-                          log=lambda: self._log()[mark:] if task["do"] else self._log(), bench=bench, actor=actor,
-                          model=task.get("model", ""), simulator_seconds=self._simulator_seconds)
+        context = Context(
+            pathlib.Path(job.spec_folder),
+            pathlib.Path(job.home, "catkin_ws", "src"),
+            {name: pathlib.Path(job.home, folder) for name, folder in job.packages.items()},
+            log=lambda: self._log()[mark:] if task["do"] else self._log(),
+            bench=bench,
+            actor=actor,
+            model=task.get("model", ""),
+            simulator_seconds=self._simulator_seconds,
+        )
         monitors = [checks.make(kind_of(e), e[kind_of(e)], context) for e in task["expect"]]
         filming = film.Film(bench, task.get("model", "")) if task["film"] and job.films else None
 
@@ -235,6 +268,7 @@ class Session:
     @staticmethod
     def _verdict(monitor, expectation: Dict[str, Any], trouble: str):
         from .outcome import Verdict
+
         kind = kind_of(expectation)
         if trouble:
             return Verdict(kind, False, trouble)
@@ -269,8 +303,13 @@ def main() -> None:
     results = session.run()
     log = session._log()
     pathlib.Path(job.out, f"launch_{number}.log").write_text(log, encoding="utf-8")
-    answer = {"tasks": [asdict(result) for result in results], "notes": session.notes,
-              "broke": session.guard.broke, "peak_memory": session.guard.peak_memory, "peak_processes": session.guard.peak_processes}
+    answer = {
+        "tasks": [asdict(result) for result in results],
+        "notes": session.notes,
+        "broke": session.guard.broke,
+        "peak_memory": session.guard.peak_memory,
+        "peak_processes": session.guard.peak_processes,
+    }
     pathlib.Path(sys.argv[3]).write_text(json.dumps(answer), encoding="utf-8")
     sys.stdout.flush()
     os._exit(0)  # rospy's threads would take seconds to leave

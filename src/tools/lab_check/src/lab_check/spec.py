@@ -131,11 +131,11 @@ def _words(error, where: Tuple) -> List[Tuple[Tuple, str]]:
         return answers
     sentences = {
         "required": f"{place}: {error.message.split(' is a ')[0]} is missing",
-        "type": f"{place}: {value} is no {_kind(error.validator_value)}",
+        "type": f"{place}: {value} is no {_kind(str(error.validator_value))}",
         "minimum": f"{place}: {value} is less than {error.validator_value}",
         "exclusiveMinimum": f"{place}: {value} must be more than {error.validator_value}",
         "maximum": f"{place}: {value} is more than {error.validator_value}",
-        "pattern": f"{place}: {value} has not the form asked for ({_form(error.validator_value)})",
+        "pattern": f"{place}: {value} has not the form asked for ({_form(str(error.validator_value))})",
         "enum": f"{place}: {value} is none of {', '.join(map(str, error.validator_value or []))}"
                 if error.validator == "enum" else "",
         "minItems": f"{place}: needs at least {error.validator_value} entries",

@@ -1,4 +1,5 @@
 """A submission, whatever it is, into the source folder of a workspace of its own."""
+
 from __future__ import annotations
 
 import os
@@ -58,8 +59,9 @@ def stage(submission: pathlib.Path, source: pathlib.Path, limit: float) -> Stage
         raise StagingError("the submission is empty: no file in it can be taken")
     staged.packages = _packages(source, staged.notes)
     if not staged.packages:
-        raise StagingError("no package.xml is in the submission, so there is no catkin package to build; hand in the folder that holds "
-                           "your packages")
+        raise StagingError(
+            "no package.xml is in the submission, so there is no catkin package to build; hand in the folder that holds your packages"
+        )
     return staged
 
 
@@ -78,8 +80,10 @@ def _walk(folder: pathlib.Path, notes: List[str], depth: int = 0) -> Iterator[Tu
                 target = os.readlink(entry.path)
                 resolved = os.path.realpath(entry.path)
                 # A link within its own package is common; one that leaves the submission is a door.
-                notes.append(f"{_show(entry.name)}: a link to {_show(target)}; links are left out"
-                             + ("" if os.path.exists(resolved) else " (this one leads nowhere)"))
+                notes.append(
+                    f"{_show(entry.name)}: a link to {_show(target)}; links are left out"
+                    + ("" if os.path.exists(resolved) else " (this one leads nowhere)")
+                )
             elif entry.is_dir(follow_symlinks=False):
                 if entry.name not in _LEFT_OUT or (pathlib.Path(entry.path) / "package.xml").is_file():
                     yield from _walk(pathlib.Path(entry.path), notes, depth + 1)
@@ -97,7 +101,9 @@ def _count(staged: Staged, size: int, limit: float, name: str) -> None:
     staged.files += 1
     staged.size += size
     if staged.size > limit:
-        raise StagingError(f"the submission is larger than {limit / 1e6:.0f} MB (at {_show(name)}); leave build folders, bags and videos out")
+        raise StagingError(
+            f"the submission is larger than {limit / 1e6:.0f} MB (at {_show(name)}); leave build folders, bags and videos out"
+        )
     if staged.files > _MOST_FILES:
         raise StagingError(f"the submission has more than {_MOST_FILES} files")
 
@@ -182,8 +188,10 @@ def _packages(source: pathlib.Path, notes: List[str]) -> Dict[str, pathlib.Path]
         if not name:
             notes.append(f"{shown} has no <name>")
         elif name in found:
-            notes.append(f"package {name} is there twice ({found[name].relative_to(source)} and {manifest.parent.relative_to(source)}); "
-                         "the second is left out")
+            notes.append(
+                f"package {name} is there twice ({found[name].relative_to(source)} and {manifest.parent.relative_to(source)}); "
+                "the second is left out"
+            )
             (manifest.parent / "CATKIN_IGNORE").touch()
         else:
             found[name] = manifest.parent

@@ -1,4 +1,5 @@
 """What is known of a class, in SQLite: each submission's state and result, as soon as it is there."""
+
 from __future__ import annotations
 
 import hashlib
@@ -29,7 +30,9 @@ class Store:
         """Known already and unchanged: what is done stays done."""
         row = self._db.execute("SELECT fingerprint FROM submissions WHERE name = ?", (name,)).fetchone()
         if row is None or row["fingerprint"] != fingerprint:
-            self._db.execute("INSERT OR REPLACE INTO submissions (name, path, fingerprint) VALUES (?, ?, ?)", (name, str(path), fingerprint))
+            self._db.execute(
+                "INSERT OR REPLACE INTO submissions (name, path, fingerprint) VALUES (?, ?, ?)", (name, str(path), fingerprint)
+            )
 
     def begin_again(self) -> None:
         """After an interruption: what ran then, and what failed, waits."""
@@ -57,8 +60,10 @@ class Store:
         self._db.execute("UPDATE submissions SET state = 'failed', why = ?, finished = ? WHERE name = ?", (why, time.time(), name))
 
     def done(self, name: str, result: Result) -> None:
-        self._db.execute("UPDATE submissions SET state = 'done', points = ?, of = ?, seconds = ?, result = ?, why = NULL, finished = ? "
-                         "WHERE name = ?", (result.points, result.of, result.seconds, json.dumps(result.data()), time.time(), name))
+        self._db.execute(
+            "UPDATE submissions SET state = 'done', points = ?, of = ?, seconds = ?, result = ?, why = NULL, finished = ? WHERE name = ?",
+            (result.points, result.of, result.seconds, json.dumps(result.data()), time.time(), name),
+        )
 
     def rows(self) -> List[sqlite3.Row]:
         return list(self._db.execute("SELECT * FROM submissions ORDER BY name"))

@@ -8,7 +8,6 @@ import re
 from typing import Any, Dict, List, Tuple
 
 import rosgraph
-import roslib.message
 import rospy
 
 from ..bench import Sample
@@ -72,7 +71,8 @@ class TopicCheck(Check):
         side = subscribed if self.wanted.get("subscribed") else published
         there = sorted(topic for topic, nodes in side if set(nodes) - {rospy.get_name()})
         if name not in there:
-            return False, _missing("topic that anybody " + ("listens to:" if self.wanted.get("subscribed") else "publishes:"), name, there), {}
+            does = "listens to:" if self.wanted.get("subscribed") else "publishes:"
+            return False, _missing(f"topic that anybody {does}", name, there), {}
         kind = dict(master().getTopicTypes()).get(name, "?")
         if self.wanted.get("type", kind) != kind:
             return False, f"{name} carries {kind}, not {self.wanted['type']}", {}
@@ -163,7 +163,8 @@ class ControllersCheck(Check):
         manager = self.wanted.get("manager")
         mine = [s for s in services if manager in (None, s[:-len("/list_controllers")])]
         if not mine:
-            return False, (f"there is no controller manager{' ' + manager if manager else ''}: is the gazebo_ros_control plugin in the URDF? "
+            which = f" {manager}" if manager else ""
+            return False, (f"there is no controller manager{which}: is the gazebo_ros_control plugin in the URDF? "
                            f"(there are: {names(s[:-len('/list_controllers')] for s in services)})"), {}
         try:
             found = {c.name: c for service in mine for c in rospy.ServiceProxy(service, ListControllers)().controller}

@@ -1,4 +1,5 @@
 """What the simulated world shows: joints, ways, objects, distances, touches, odometry, energy, pictures."""
+
 from __future__ import annotations
 
 import math
@@ -52,7 +53,9 @@ class JointCheck(Timed):
             return
         if self._inside is None:
             self._inside = sample.time
-        if sample.time - self._inside >= self.wanted.get("hold", 0.0) - 1e-9 and self._inside <= self._begin + self.wanted.get("within", 10.0):
+        if sample.time - self._inside >= self.wanted.get("hold", 0.0) - 1e-9 and self._inside <= self._begin + self.wanted.get(
+            "within", 10.0
+        ):
             self._reached = self._inside - self._begin
             self.settled = True
 
@@ -63,11 +66,22 @@ class JointCheck(Timed):
             return False, f"no model in the simulator has a joint '{name}' (there are: {names(there)})", {}
         figures = {"last": self._last, "closest": self._best}
         if self.settled:
-            return True, f"joint {name} was at {self.wanted['value']:g} {unit} after {self._reached:.2f} s", {**figures, "after": self._reached}
+            return (
+                True,
+                f"joint {name} was at {self.wanted['value']:g} {unit} after {self._reached:.2f} s",
+                {**figures, "after": self._reached},
+            )
         held = f" and stay there for {self.wanted['hold']:g} s" if self.wanted.get("hold") else ""
-        return False, (f"joint {name} should reach {self.wanted['value']:g} {unit} within {self.wanted.get('within', 10.0):g} s{held}; it ended at "
-                       f"{self._last:.4g}, {abs(self._last - self.wanted['value']):.4g} away (closest {self._best:.4g}, "
-                       f"allowed {self.wanted['tolerance']:g})"), figures
+        return (
+            False,
+            (
+                f"joint {name} should reach {self.wanted['value']:g} {unit} within {self.wanted.get('within', 10.0):g} s{held}; "
+                f"it ended at "
+                f"{self._last:.4g}, {abs(self._last - self.wanted['value']):.4g} away (closest {self._best:.4g}, "
+                f"allowed {self.wanted['tolerance']:g})"
+            ),
+            figures,
+        )
 
 
 class StillCheck(Timed):
@@ -98,8 +112,15 @@ class StillCheck(Timed):
             return False, f"no model in the simulator has a joint '{missing[0]}'", {}
         tolerance = self.wanted.get("tolerance", 0.02)
         moved = {name: most for name, most in self._most.items() if not most <= tolerance}
-        return not moved, (f"joint {next(iter(moved))} moved by {next(iter(moved.values())):.4g}, though it should stand still" if moved
-                           else "nothing moved, as it should"), {"most": self._most}
+        return (
+            not moved,
+            (
+                f"joint {next(iter(moved))} moved by {next(iter(moved.values())):.4g}, though it should stand still"
+                if moved
+                else "nothing moved, as it should"
+            ),
+            {"most": self._most},
+        )
 
 
 def _subject(check: Check) -> str:
@@ -143,7 +164,7 @@ class MovedCheck(Timed):
 
     def _off(self, pose) -> float:
         to = self.wanted["to"]
-        return math.dist(pose[:len(to)], to)
+        return math.dist(pose[: len(to)], to)
 
     def verdict(self) -> Tuple[bool, str, Dict[str, Any]]:
         if self._first is None:
@@ -155,7 +176,9 @@ class MovedCheck(Timed):
             if key in self.wanted:
                 low, high = self.wanted[key]
                 if not low <= value <= high:
-                    said.append(f"{self._name} {'turned' if key == 'turned' else 'moved'} by {value:.4g} {unit}; {low:g} to {high:g} are asked for")
+                    said.append(
+                        f"{self._name} {'turned' if key == 'turned' else 'moved'} by {value:.4g} {unit}; {low:g} to {high:g} are asked for"
+                    )
         if "to" in self.wanted and not self._off(self._old) <= self.wanted.get("tolerance", 0.05):
             said.append(f"{self._name} is {self._off(self._old):.4g} m from {self.wanted['to']}, where it should be")
         return not said, "; ".join(said) or f"{self._name} moved by {way:.4g} m and turned by {self._turned:.4g} rad, as asked", figures
@@ -177,7 +200,7 @@ class PathCheck(Timed):
         self.note(f"{name} x", sample.time, pose[0])
         self.note(f"{name} y", sample.time, pose[1])
         point = self.wanted["points"][self._next]
-        self._closest = min(self._closest, math.dist(pose[:len(point)], point))
+        self._closest = min(self._closest, math.dist(pose[: len(point)], point))
         if self._closest <= self.wanted["tolerance"]:
             self._next, self._closest = self._next + 1, math.inf
             self.settled = self._next == len(self.wanted["points"])
@@ -186,8 +209,14 @@ class PathCheck(Timed):
         points = self.wanted["points"]
         if self.settled:
             return True, f"all {len(points)} points were passed", {}
-        return False, (f"{self._next} of {len(points)} points were passed; the next, {points[self._next]}, was missed by "
-                       f"{self._closest:.4g} m (allowed {self.wanted['tolerance']:g})"), {"passed": self._next}
+        return (
+            False,
+            (
+                f"{self._next} of {len(points)} points were passed; the next, {points[self._next]}, was missed by "
+                f"{self._closest:.4g} m (allowed {self.wanted['tolerance']:g})"
+            ),
+            {"passed": self._next},
+        )
 
 
 class DistanceCheck(Timed):
@@ -221,10 +250,12 @@ class _Listening(Timed):
 
     def start(self) -> None:
         import roslib.message
+
         self.messages: List[Tuple[float, Any]] = []
         self.problem, self._subscriber = "", None
         try:
             import rosgraph
+
             name = find_topic(self.wanted["topic"])
             kind = dict(rosgraph.Master("/lab_check").getTopicTypes()).get(name)
         except CommandError as error:
@@ -234,8 +265,14 @@ class _Listening(Timed):
         if message is None:
             self.problem = f"nobody publishes {name}" if kind is None else f"{name} carries {kind}, which is not known here"
             return
-        self._subscriber = rospy.Subscriber(name, message, lambda m: self.messages.append((self.context.bench.now.time, m)),
-                                            queue_size=None, buff_size=1 << 24, tcp_nodelay=True)
+        self._subscriber = rospy.Subscriber(
+            name,
+            message,
+            lambda m: self.messages.append((self.context.bench.now.time, m)),
+            queue_size=None,
+            buff_size=1 << 24,
+            tcp_nodelay=True,
+        )
         self.context.bench.connect()
 
     def stop(self) -> None:
@@ -265,7 +302,11 @@ class OdometryCheck(_Listening):
         told = [self.messages[k][1].pose.pose for k in (0, -1)]
         own = [[p.position.x, p.position.y, 0, p.orientation.x, p.orientation.y, p.orientation.z, p.orientation.w] for p in told]
         off = math.dist(_seen(own[0], own[1]), _seen(self._first, last))
-        return off <= self.wanted["tolerance"], f"odometry is {off:.4g} m from the truth (allowed {self.wanted['tolerance']:g})", {"off": off}
+        return (
+            off <= self.wanted["tolerance"],
+            f"odometry is {off:.4g} m from the truth (allowed {self.wanted['tolerance']:g})",
+            {"off": off},
+        )
 
 
 def _seen(first: List[float], last: List[float]) -> Tuple[float, float]:
@@ -317,7 +358,11 @@ class ImageCheck(_Listening):
             return False, f"the picture has {message.width}x{message.height} pixels, not {'x'.join(map(str, self.wanted['size']))}", {}
         if "colour" not in self.wanted:
             lively = float(pixels.std())
-            return lively > 1.0, "the picture shows something" if lively > 1.0 else "the picture is all of one colour", {"deviation": lively}
+            return (
+                lively > 1.0,
+                "the picture shows something" if lively > 1.0 else "the picture is all of one colour",
+                {"deviation": lively},
+            )
         off = np.abs(pixels.astype(int) - np.array(self.wanted["colour"])).max(axis=2)
         part = float((off <= self.wanted.get("tolerance", 40)).mean())
         low, high = self.wanted.get("share", [0.005, 1.0])
@@ -331,7 +376,7 @@ def to_rgb(message) -> Optional[np.ndarray]:
         return None
     depth = {"rgba8": 4, "bgra8": 4, "mono8": 1}.get(message.encoding, 3)
     try:
-        rows = np.frombuffer(message.data, np.uint8).reshape(message.height, message.step)[:, :message.width * depth]
+        rows = np.frombuffer(message.data, np.uint8).reshape(message.height, message.step)[:, : message.width * depth]
         return rows.reshape(message.height, message.width, depth)[:, :, channels]
     except ValueError:
         return None
