@@ -1,0 +1,69 @@
+"""A class of arm homeworks with seeded faults: how long it takes, what a second worker brings, what the sandbox costs."""
+import argparse
+import json
+import pathlib
+import subprocess
+import tempfile
+import time
+
+from lab_check import faults, sandbox
+from lab_check.outcome import Result
+from lab_check.report import marks
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+ARM = ROOT / "src" / "labs" / "arm"
+SPEC = ROOT / "src" / "tools" / "lab_check" / "specs" / "arm_homework.yaml"
+
+
+def grade(folder, out, workers):
+    """(wall seconds, marks by submission) of a class."""
+    submissions = sorted(path for path in folder.iterdir() if path.is_dir())
+    begin = time.monotonic()
+    done = subprocess.run(["rosrun", "lab_check", "grade", str(SPEC), *map(str, submissions), "--workers", str(workers), "--no-films",
+                           "--out", str(out)], capture_output=True, text=True)
+    if done.returncode:
+        raise SystemExit(f"grading.py: {done.stdout[-300:]}{done.stderr[-300:]}")
+    took = time.monotonic() - begin
+    return took, {path.name: marks(Result.from_data(json.loads((out / path.name / "report.json").read_text()))) for path in submissions}
+
+
+def sandbox_cost(scratch, runs=10):
+    """Seconds that both walls add to a program that does nothing: the outer once, the inner for each of three programs."""
+    platform = sandbox.Platform.here()
+    home = scratch / "cost" / "home"
+    home.mkdir(parents=True)
+    inner = sandbox.inner_words(platform, str(home), sandbox.environment(11311))
+    words = {"bare": ["true"], "inner": [*inner, "true"], "outer": [*sandbox.outer_words(), "true"]}
+    cost = {}
+    for name, command in words.items():
+        begin = time.monotonic()
+        for _ in range(runs):
+            subprocess.run(command, check=True, capture_output=True)
+        cost[name] = (time.monotonic() - begin) / runs
+    return (cost["outer"] - cost["bare"]) + 3 * (cost["inner"] - cost["bare"])
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--json", required=True)
+    parser.add_argument("--count", type=int, default=40)
+    options = parser.parse_args()
+    with tempfile.TemporaryDirectory() as folder:
+        scratch = pathlib.Path(folder)
+        figures = {"sandbox: seconds for a submission": sandbox_cost(scratch)}
+        faults.make(ARM, scratch / "class", options.count)
+        two, first = grade(scratch / "class", scratch / "two", 2)
+        figures[f"{options.count} arm homeworks, 2 workers: seconds"] = two
+        part = max(options.count // 4, 2)
+        faults.make(ARM, scratch / "part", part)
+        one_part, alone = grade(scratch / "part", scratch / "one", 1)
+        two_part, _ = grade(scratch / "part", scratch / "again", 2)
+        figures["class: throughput of 2 workers / 1"] = one_part / two_part
+        figures["class: share of submissions with the same marks by 1 and 2 workers"] = sum(
+            alone[name] == first[name] for name in alone) / len(alone)
+    with open(options.json, "w", encoding="utf-8") as out:
+        json.dump(figures, out)
+
+
+if __name__ == "__main__":
+    main()
