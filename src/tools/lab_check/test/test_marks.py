@@ -227,3 +227,9 @@ def test_seeded_faults_are_the_same_every_time(tmp_path):
         assert texts[0] == texts[1]
         same = texts[0] == {str(f.relative_to(good)): f.read_bytes() for f in good.rglob("*") if f.is_file()}
         assert same == (entry["fault"] == "none")
+
+
+def test_reasons_hold_no_wall_time():
+    first, second = ("[ERROR] [1795390434.547, 3.25]: x", "[ERROR] [1795390999.1, 3.25]: x")
+    assert explain.timeless(first) == explain.timeless(second) == "[ERROR] [3.25]: x"
+    assert explain.timeless("[ERROR] [1795390434.547]: y") == "[ERROR] y"

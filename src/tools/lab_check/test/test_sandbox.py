@@ -4,20 +4,26 @@ import json
 import os
 import pathlib
 import subprocess
+import time
 
 import pytest
 from lab_check import sandbox, spec
 from lab_check.check import check
 
+ROOT = pathlib.Path(__file__).resolve().parents[4]
 SECRET = "the-solution-is-42"
 SPEC = """\
 title: A trap
 packages: [evil]
-build: {points: 10, timeout: 15}
+build: {points: 10, timeout: 60}
 limits: {disk: 60 MB, memory: 400 MB, processes: 100, log: 5 MB, time: 30}
 tasks:
   - {name: A file, points: 5, launch: "", expect: [{file: {path: evil/package.xml}}]}
 """
+MANIFEST = (
+    "<package format='2'><name>evil</name><version>1.0.0</version><description>x</description>"
+    "<maintainer email='mallory@example.org'>x</maintainer><license>x</license><buildtool_depend>catkin</buildtool_depend></package>"
+)
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -37,15 +43,12 @@ def place(tmp_path):
     return tmp_path
 
 
-def submit(place: pathlib.Path, shell: str):
+def submit(place: pathlib.Path, shell: str, timeout: int = 60):
     """A package whose configuration runs ``shell``, examined."""
+    (place / "spec.yaml").write_text((place / "spec.yaml").read_text().replace("timeout: 60", f"timeout: {timeout}"))
     package = place / "mallory" / "evil"
     package.mkdir(parents=True)
-    (package / "package.xml").write_text(
-        "<package format='2'><name>evil</name><version>1.0.0</version><description>x</description>"
-        "<maintainer email='mallory@example.org'>x</maintainer><license>x</license>"
-        "<buildtool_depend>catkin</buildtool_depend></package>"
-    )
+    (package / "package.xml").write_text(MANIFEST)
     (package / "CMakeLists.txt").write_text(
         "cmake_minimum_required(VERSION 3.10)\nproject(evil)\nfind_package(catkin REQUIRED)\ncatkin_package()\n"
         "execute_process(COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/evil.sh)\n"
@@ -104,7 +107,7 @@ def test_neither_spec_nor_other_submissions_can_be_read(place):
 
 
 def test_the_labs_solutions_are_not_there(place):
-    _, log, _ = submit(place, "find / -name 'arm_controller_node*' -not -path '/proc/*' 2>/dev/null; echo looked\n")
+    _, log, _ = submit(place, f"find {ROOT} -name 'arm_controller_node*' 2>/dev/null; echo looked\n")
     assert "looked" in log and "arm_controller_node.cpp" not in log
 
 
@@ -130,7 +133,7 @@ def test_a_log_without_end_is_cut(place):
 
 
 def test_hanging_is_ended(place):
-    _, _, page = submit(place, "trap '' TERM INT HUP; while true; do sleep 1; done\n")
+    _, _, page = submit(place, "trap '' TERM INT HUP; while true; do sleep 1; done\n", timeout=8)
     assert "did not end within" in page or "was not done after" in page
     assert not processes_with("evil.sh")
 
@@ -163,3 +166,23 @@ def test_nothing_is_left_of_an_examination(place):
     submit(place, "true\n")
     assert set(pathlib.Path("/tmp").glob("lab_check.*")) <= before
     assert "lab_check." not in subprocess.run(["mount"], capture_output=True, text=True).stdout
+
+
+def test_whoever_kills_the_driver_ends_the_examination(place):
+    """kill -9 of check in mid-run: no process of the submission, nor of the examiner, goes on."""
+    package = place / "mallory" / "evil"
+    package.mkdir(parents=True)
+    (package / "package.xml").write_text(MANIFEST)
+    (package / "CMakeLists.txt").write_text("execute_process(COMMAND sleep 4711)\n")
+    words = ["rosrun", "lab_check", "check", str(place / "spec.yaml"), str(place / "mallory"), "--out", str(place / "out")]
+    driver = subprocess.Popen(words, stdout=subprocess.DEVNULL)
+    end = time.monotonic() + 30
+    while not processes_with("4711"):
+        assert driver.poll() is None and time.monotonic() < end
+        time.sleep(0.05)
+    driver.kill()
+    driver.wait()
+    end = time.monotonic() + 10
+    while processes_with("4711") or processes_with(str(place / "out")):
+        assert time.monotonic() < end, "left over"
+        time.sleep(0.05)

@@ -18,6 +18,7 @@ from . import report, sandbox
 from .job import Job
 from .outcome import Result
 from .spec import Spec
+from .supervise import die_with_parent
 
 
 
@@ -72,7 +73,8 @@ def check(spec: Spec, submission: pathlib.Path, out: pathlib.Path, unsafe: bool 
 def _run(words, out: pathlib.Path, patience: float) -> str:
     """'' or why there is no result."""
     with open(out / ".examiner.log", "w", encoding="utf-8") as log:
-        process = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=log, stderr=log, start_new_session=True)
+        process = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=log, stderr=log, start_new_session=True,
+                                   preexec_fn=die_with_parent)
         try:
             code = process.wait(patience)
         except subprocess.TimeoutExpired:

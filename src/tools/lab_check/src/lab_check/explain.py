@@ -75,6 +75,11 @@ def error_lines(text: str) -> List[str]:
     return [line for line in lines_of(text) if _ERROR.search(line) and not _HARMLESS.search(line)]
 
 
+def timeless(line: str) -> str:
+    """A line of a log without its wall clock's time, which differs from run to run."""
+    return re.sub(r"\[(WallTime: )?\d{9,}\.\d+(, )?", "[", line).replace("[]: ", "")
+
+
 def meaning(line: str) -> str:
     """What an error usually comes from, '' for one that nobody knows."""
     return next((text for pattern, text in _MEANINGS if pattern.search(line)), "")
@@ -100,5 +105,5 @@ def excerpt(text: str, before: int = 2, after: int = 6, most: int = 40) -> List[
 def first_cause(text: str) -> Tuple[str, str]:
     """(line, what it means); ('', '') when nothing is an error."""
     for line in error_lines(text):
-        return line[:300], meaning(line)
+        return timeless(line)[:300], meaning(line)
     return "", ""

@@ -16,7 +16,7 @@ from . import gradebook
 from .outcome import Result
 from .spec import Spec
 from .store import Store, fingerprint
-from .supervise import descendants
+from .supervise import descendants, die_with_parent
 
 TRIES = 2  # for a submission whose worker died
 
@@ -44,7 +44,8 @@ class Pool:
         words += ["--unsafe", "--port", str((self._options.port or 11400) + 20 * free)] if self._options.unsafe else []
         words += ["--no-films"] if self._options.no_films else []
         with open(folder / "check.txt", "w", encoding="utf-8") as log:
-            process = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=log, stderr=log, start_new_session=True)
+            process = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=log, stderr=log, start_new_session=True,
+                                       preexec_fn=die_with_parent)
         self.running[name] = Running(process, free)
 
     def ended(self) -> List[str]:

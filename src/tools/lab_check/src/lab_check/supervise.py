@@ -1,6 +1,7 @@
 """Programs of a submission, watched: what they say is bounded, and so is what they take."""
 from __future__ import annotations
 
+import ctypes
 import os
 import resource
 import signal
@@ -128,6 +129,15 @@ class Program:
                 os.kill(pid, signal.SIGKILL)
             except OSError:
                 continue
+
+
+_LIBC = ctypes.CDLL(None)
+_PR_SET_PDEATHSIG = 1
+
+
+def die_with_parent() -> None:
+    """For a ``preexec_fn``: whoever kills the driver ends its examinations, too."""
+    _LIBC.prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
 
 
 def _parents() -> Dict[int, int]:

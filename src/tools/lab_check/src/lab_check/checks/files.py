@@ -53,7 +53,17 @@ class UrdfCheck(Check):
         except (ET.ParseError, TypeError, ValueError) as error:
             return False, f"the parameter {name} is no XML: {error}", {}
         complaints = complain(robot, self.wanted)
-        return not complaints, "; ".join(complaints) or "the robot description is as asked", {}
+        return not complaints, "; ".join(complaints) or f"the robot description has {_in_words(self.wanted)}", {}
+
+
+def _in_words(wanted: Dict[str, Any]) -> str:
+    words = [f"{wanted['moving']} moving joints"] if "moving" in wanted else []
+    for key in ("joints", "links", "plugins", "sensors"):
+        words += [f"the {key} {names(wanted[key])}"] if wanted.get(key) else []
+    words += [f"{wanted['transmissions']} transmissions"] if "transmissions" in wanted else []
+    sentences = {"limits": "limits for each joint", "collisions": "a collision shape for each visible link", "inertias": "sane inertias"}
+    words += [text for key, text in sentences.items() if wanted.get(key)]
+    return " and ".join(words) or "the parameter that is asked for"
 
 
 def complain(robot: ET.Element, wanted: Dict[str, Any]) -> List[str]:

@@ -12,7 +12,7 @@ import rospy
 
 from ..bench import Sample
 from ..commands import CommandError, find_topic
-from ..explain import error_lines
+from ..explain import error_lines, timeless
 from .base import Check, names
 
 
@@ -190,7 +190,9 @@ class NoErrorsCheck(Check):
     def verdict(self) -> Tuple[bool, str, Dict[str, Any]]:
         ignored = [re.compile(pattern) for pattern in self.wanted.get("ignore", [])]
         lines = [line for line in error_lines(self.context.log()) if not any(p.search(line) for p in ignored)]
-        return not lines, f"{len(lines)} error lines, the first: {lines[0][:200]}" if lines else "nothing was reported as an error", {}
+        if lines:
+            return False, f"{len(lines)} error lines, the first: {timeless(lines[0])[:200]}", {}
+        return True, "nothing was reported as an error", {}
 
 
 class ExitCheck(Check):
@@ -217,7 +219,7 @@ class ExitCheck(Check):
         if program is None:
             return False, "the program was not started", {}
         said = program.output.text()
-        last = next((line for line in reversed(said.splitlines()) if line.strip()), "nothing")[:160]
+        last = timeless(next((line for line in reversed(said.splitlines()) if line.strip()), "nothing"))[:160]
         if program.broke:
             return False, f"the program was ended: {program.broke}", {}
         if "Couldn't find executable" in said or "[rosrun]" in said:
