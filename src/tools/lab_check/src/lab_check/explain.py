@@ -71,8 +71,10 @@ def lines_of(text: str) -> List[str]:
 
 
 def error_lines(text: str) -> List[str]:
-    """In the order in which they were printed."""
-    return [line for line in lines_of(text) if _ERROR.search(line) and not _HARMLESS.search(line)]
+    """In the order in which they were printed; CMake's with what it says in the next line."""
+    lines = lines_of(text)
+    return [f"{line} {lines[i + 1].strip()}" if line.startswith("CMake Error") and i + 1 < len(lines) else line
+            for i, line in enumerate(lines) if _ERROR.search(line) and not _HARMLESS.search(line)]
 
 
 def timeless(line: str) -> str:
