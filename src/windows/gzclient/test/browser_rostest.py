@@ -109,6 +109,33 @@ class Clicks(unittest.TestCase):
         page.click("Step")
         page.see("Iterations\t25")
 
+    def test_1b_a_body_is_pulled_and_filmed(self):
+        from selenium.webdriver.common.keys import Keys
+        page = self.page
+        page.click("box")
+        page.see("Mass (kg)")
+        before = page.scene()
+        page.click("Look at")
+        page.settled(before)
+        page.click("Record")
+        page.click("Film")
+        page.see("Stop and keep the film")
+        page.click("Play")
+        wait(lambda: not paused(), "play")
+        begin, middle = position("box"), page.canvas(0.5, 0.5)
+        page.mouse(middle, page.canvas(0.65, 0.5), page.canvas(0.65, 0.35), drag=True, keys=(Keys.CONTROL,), hold=1.5)
+        wait(lambda: np.linalg.norm(position("box") - begin) > 0.02, "the box where it was pulled to")
+        page.click("Pause")
+        wait(paused, "pause")
+        page.click("Stop and keep the film")
+        film = page.downloaded(".mp4")
+        self.assertEqual(film[4:8], b"ftyp")
+        page.click("All")
+        page.see("Iterations\t0")
+        page.click("Step")
+        page.see("Iterations\t25")
+        page.click("World")
+
     def test_2_pick_copy_delete_undo(self):
         page = self.page
         page.click("box")
@@ -155,31 +182,6 @@ class Clicks(unittest.TestCase):
         page.see("Iterations\t225")
         page.click("First")
         page.see("Iterations\t25")
-
-    def test_4b_a_body_is_pulled_and_filmed(self):
-        from selenium.webdriver.common.keys import Keys
-        page = self.page
-        page.click("World")
-        page.click("box")
-        page.see("Mass (kg)")
-        before = page.scene()
-        page.click("Look at")
-        page.settled(before)
-        page.click("Record")
-        page.click("Film")
-        page.see("Stop and keep the film")
-        page.click("Play")
-        wait(lambda: not paused(), "play")
-        begin, middle = position("box"), page.canvas(0.5, 0.5)
-        page.mouse(middle, page.canvas(0.65, 0.5), page.canvas(0.65, 0.35), drag=True, keys=(Keys.CONTROL,), hold=1.5)
-        wait(lambda: np.linalg.norm(position("box") - begin) > 0.02, "the box where it was pulled to")
-        page.click("Pause")
-        wait(paused, "pause")
-        page.click("Stop and keep the film")
-        film = page.downloaded(".mp4")
-        self.assertEqual(film[4:8], b"ftyp")
-        page.click("All")
-        page.see("Iterations\t0")
 
     def test_5_overlays(self):
         page = self.page
