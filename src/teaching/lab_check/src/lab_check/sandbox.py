@@ -46,8 +46,8 @@ class Platform:
             if labs.is_dir():  # solutions
                 names = [manifest.parent.name for manifest in labs.rglob("package.xml")]
                 hidden += [str(labs)] + [os.path.join(prefix, part, name) for part in ("share", "lib", ".private") for name in names]
-            hidden += [os.path.join(root, part) for part in ("out", "build", ".git", "logs", "src/tools/lab_check/specs",
-                                                             "src/tools/lab_check/test")]
+            hidden += [os.path.join(root, part) for part in ("out", "build", ".git", "logs", "src/teaching/lab_check/specs",
+                                                             "src/teaching/lab_check/test")]
             hidden.append(os.path.join(prefix, "share/lab_check/specs"))
         return cls(prefixes, roots, [place for place in dict.fromkeys(hidden) if os.path.isdir(place) and not os.path.islink(place)])
 
