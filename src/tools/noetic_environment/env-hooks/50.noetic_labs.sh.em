@@ -9,7 +9,11 @@ _noetic_labs_add_ons="$_noetic_labs_here/python"
 # PyPI add-ons come after the modules of all workspaces.
 case ":$PYTHONPATH:" in
   *":$_noetic_labs_add_ons:"*) ;;
-  *) PYTHONPATH="${PYTHONPATH:+$PYTHONPATH:}$_noetic_labs_add_ons" ;;
+  *)
+    PYTHONPATH="${PYTHONPATH:+$PYTHONPATH:}$_noetic_labs_add_ons"
+    if [ -d "$_noetic_labs_add_ons-teaching" ]; then  # scripts/setup --teaching
+      PYTHONPATH="$PYTHONPATH:$_noetic_labs_add_ons-teaching"
+    fi ;;
 esac
 export PYTHONPATH
 

@@ -1,0 +1,79 @@
+#!/usr/bin/env python3
+"""Learns to balance a pole on a cart: ``examples/balance.py [--generations 20]``. Needs ``scripts/setup --teaching``.
+
+CMA-ES (the library ``cma``) finds the four weights by which position and velocity of cart and pole become the force on the cart. Each
+generation's policies play side by side in a vector environment; the pole starts up to 0.3 rad off upright.
+"""
+import argparse
+import pathlib
+
+import cma
+import numpy as np
+from ode_sim.gym import Command, RobotVectorEnv
+
+FALLEN = 0.6  # rad
+ACTIONS = 500  # of an episode: 10 s
+FORCE = 10.0  # N
+
+
+def leaning(episodes, random):
+    """The pole points up, not quite."""
+    episodes.joint("hinge").set_position(random.uniform(-0.3, 0.3))
+
+
+def reward(episodes, action):
+    """1 for an upright pole on a cart in the middle of its rail."""
+    return 1.0 - (episodes.position("hinge") / FALLEN) ** 2 / 2.0 - (episodes.position("slider") / 2.4) ** 2 / 2.0
+
+
+def fallen(episodes, action):
+    return abs(episodes.position("hinge")) > FALLEN
+
+
+def make(number):
+    """:param number: of worlds."""
+    return RobotVectorEnv(number, robot=str(pathlib.Path(__file__).with_name("cartpole.urdf")), commands=[Command("slider", "effort")],
+                          joints=["slider", "hinge"], reward=reward, terminated=fallen, start=leaning, limit=ACTIONS, period=0.02)
+
+
+def play(env, weights, seed):
+    """One episode of each policy.
+
+    :param weights: (worlds, 4).
+    :param seed: of all worlds, which begin in the same state.
+    :returns: (worlds,) reward an action, 1 at best; (worlds,) s until the pole fell, 10 if it did not.
+    """
+    observations, _ = env.reset(seed=[seed] * env.num_envs)
+    sums, lasted, up = np.zeros(env.num_envs), np.zeros(env.num_envs), np.ones(env.num_envs, dtype=bool)
+    for _ in range(ACTIONS):
+        actions = FORCE * np.tanh(np.sum(weights * observations, axis=1, keepdims=True))
+        observations, rewards, terminated, _, _ = env.step(actions.astype(np.float32))
+        up &= ~terminated
+        sums[up] += rewards[up]
+        lasted[up] += 0.02
+        if not up.any():
+            break
+    return sums / ACTIONS, lasted
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--generations", type=int, default=20)
+    parser.add_argument("--population", type=int, default=16)
+    parser.add_argument("--seed", type=int, default=1)
+    options = parser.parse_args()
+    env = make(options.population)
+    search = cma.CMAEvolutionStrategy(4 * [0.0], 1.0, {"popsize": options.population, "seed": options.seed, "verbose": -9})
+    for generation in range(options.generations):
+        weights = np.array(search.ask())
+        scores, lasted = play(env, weights, seed=generation)
+        search.tell(weights, -scores)
+        print(f"generation {generation}: mean reward {scores.mean():.3f}, the pole stays up for {lasted.mean():.2f} s", flush=True)
+    one = make(1)
+    results = [play(one, search.mean[None], seed=1000 + number) for number in range(10)]
+    print(f"10 new starts: mean reward {np.mean([r[0] for r in results]):.3f}, "
+          f"the pole stays up for {np.mean([r[1] for r in results]):.2f} of 10 s")
+
+
+if __name__ == "__main__":
+    main()
