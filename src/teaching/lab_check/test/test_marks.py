@@ -166,7 +166,7 @@ class FakePool:
     """Workers that need no time; ``deaths`` says how often the worker of a submission dies."""
 
     def __init__(self, deaths):
-        self.running, self.deaths, self.begun = {}, dict(deaths), []
+        self.running, self.deaths, self.begun, self.workers = {}, dict(deaths), [], 2
 
     def start(self, name, path):
         self.running[name] = path
@@ -186,14 +186,14 @@ def test_a_dead_worker_is_replaced_once_and_what_is_done_stays_done(tmp_path):
     for name in "abc":
         book.enlist(name, tmp_path / name, "1")
     pool, lines = FakePool({"b": 1, "c": 2}), []
-    grade.run(book, pool, 2, lines.append)
+    grade.run(book, pool, lines.append)
     assert book.counts() == {"done": 2, "failed": 1} and sorted(pool.begun) == ["a", "b", "b", "c", "c"]
     assert any("signal 9" in line and "tried again" in line for line in lines)
     book.enlist("a", tmp_path / "a", "1")
     book.enlist("b", tmp_path / "b", "changed")
     book.begin_again()
     pool = FakePool({})
-    grade.run(book, pool, 2, lines.append)
+    grade.run(book, pool, lines.append)
     assert sorted(pool.begun) == ["b", "c"] and book.counts() == {"done": 3}
 
 

@@ -97,3 +97,9 @@ def faults(arguments: Optional[List[str]] = None) -> int:
     from .faults import main
 
     return main(arguments)
+
+
+def sweep(arguments: Optional[List[str]] = None) -> int:
+    from .sweep import main
+
+    return main(arguments)

@@ -58,6 +58,19 @@ def load(path: "str | pathlib.Path") -> Spec:
     :raises SpecError: the file is not there, no YAML, or not what the schema allows
     """
     path = pathlib.Path(path)
+    data, lines = read(path, SCHEMA)
+    _fill(data)
+    problems = _further(path, data, lines)
+    if problems:
+        raise SpecError(problems)
+    return Spec(path.resolve(), data, lines)
+
+
+def read(path: pathlib.Path, schema: Dict[str, Any]) -> Tuple[Dict[str, Any], Dict[Tuple, int]]:
+    """YAML that the schema allows, and the line of each of its values by the path of keys to it.
+
+    :raises SpecError: as :func:`load`
+    """
     try:
         text = path.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
@@ -71,13 +84,10 @@ def load(path: "str | pathlib.Path") -> Spec:
         mark = getattr(error, "problem_mark", None)
         where = f"{path}:{mark.line + 1}" if mark else str(path)
         raise SpecError([f"{where}: no YAML: {getattr(error, 'problem', None) or error}"]) from error
-    problems += _schema_problems(path, data, lines)
-    if not problems:
-        _fill(data)
-        problems = _further(path, data, lines)
-    if problems:
+    problems += _schema_problems(path, data, lines, schema)
+    if problems or data is None:
         raise SpecError(problems)
-    return Spec(path.resolve(), data, lines)
+    return data, lines
 
 
 def _plain(node, where: Tuple, lines: Dict[Tuple, int], problems: List[str], path, depth: int = 0) -> Any:
@@ -100,16 +110,17 @@ def _plain(node, where: Tuple, lines: Dict[Tuple, int], problems: List[str], pat
     return constructor.construct_object(node, deep=True)
 
 
-def _schema_problems(path, data, lines) -> List[str]:
-    validator = jsonschema.Draft7Validator(SCHEMA)
+def _schema_problems(path, data, lines, schema) -> List[str]:
+    validator = jsonschema.Draft7Validator(schema)
     problems = []
     for error in sorted(validator.iter_errors(data), key=lambda e: lines.get(tuple(e.absolute_path), 0)):
         where = tuple(error.absolute_path)
-        problems += [f"{path}:{_line(lines, (*where, *more))}: {text}" for more, text in _words(error, where)]
+        problems += [f"{path}:{line_of(lines, (*where, *more))}: {text}" for more, text in _words(error, where)]
     return problems
 
 
-def _line(lines: Dict[Tuple, int], where: Tuple) -> int:
+def line_of(lines: Dict[Tuple, int], where: Tuple) -> int:
+    """Of the value at this path of keys, or of the nearest that holds it."""
     while where and where not in lines:
         where = where[:-1]
     return lines.get(where, 1)
@@ -181,13 +192,13 @@ def _further(path, data, lines) -> List[str]:
     for number, task in enumerate(data["tasks"]):
         here = ("tasks", number)
         if task["name"] in names:
-            problems.append(f"{path}:{_line(lines, (*here, 'name'))}: a task '{task['name']}' is there already")
+            problems.append(f"{path}:{line_of(lines, (*here, 'name'))}: a task '{task['name']}' is there already")
         names[task["name"]] = number
         runs = {c["run"].get("name", UNNAMED) for c in task["do"] if "run" in c}
         calls = {c[k].get("name", UNNAMED) for c in task["do"] for k in ("call", "action") if k in c}
         for index, expectation in enumerate(task["expect"]):
             kinds = [key for key in expectation if key not in EXTRAS]
-            at = f"{path}:{_line(lines, (*here, 'expect', index))}: tasks.{number + 1}.expect.{index + 1}"
+            at = f"{path}:{line_of(lines, (*here, 'expect', index))}: tasks.{number + 1}.expect.{index + 1}"
             if len(kinds) != 1:
                 problems.append(f"{at}: holds {'several kinds (' + ', '.join(kinds) + ')' if kinds else 'no kind'}; give one")
                 continue
@@ -195,10 +206,10 @@ def _further(path, data, lines) -> List[str]:
             if kinds[0] not in ("file",) and not task["launch"]:
                 problems.append(f"{at}: '{kinds[0]}' needs something that runs, but neither the task nor the file says 'launch'")
     if data["build"]["points"] and not data["packages"]:
-        problems.append(f"{path}:{_line(lines, ('build',))}: build has points, but 'packages' names none")
+        problems.append(f"{path}:{line_of(lines, ('build',))}: build has points, but 'packages' names none")
     for index, folder in enumerate(data["also"]):
         if not (path.parent / folder).is_dir():
-            problems.append(f"{path}:{_line(lines, ('also', index))}: there is no folder {path.parent / folder}")
+            problems.append(f"{path}:{line_of(lines, ('also', index))}: there is no folder {path.parent / folder}")
     return problems
 
 

@@ -8,7 +8,7 @@ import os
 import pathlib
 import sqlite3
 import time
-from typing import Dict, List, Optional
+from typing import Collection, Dict, List, Optional
 
 from .outcome import Result
 
@@ -34,9 +34,15 @@ class Store:
                 "INSERT OR REPLACE INTO submissions (name, path, fingerprint) VALUES (?, ?, ?)", (name, str(path), fingerprint)
             )
 
-    def begin_again(self) -> None:
-        """After an interruption: what ran then, and what failed, waits."""
+    def begin_again(self, names: Optional[Collection[str]] = None) -> None:
+        """After an interruption: what ran then, and what failed, waits.
+
+        :param names: what is asked for; others, of an earlier run, no longer wait
+        """
         self._db.execute("UPDATE submissions SET state = 'waiting', tries = 0 WHERE state IN ('running', 'failed')")
+        if names is not None:
+            known, wanted = {row["name"] for row in self.rows()}, set(names)
+            self._db.executemany("DELETE FROM submissions WHERE name = ?", [(name,) for name in known - wanted])
 
     def waiting(self) -> List[str]:
         return [row["name"] for row in self._db.execute("SELECT name FROM submissions WHERE state = 'waiting' ORDER BY name")]

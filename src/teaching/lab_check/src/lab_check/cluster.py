@@ -1,0 +1,199 @@
+"""The engine for a cluster: one task of Ray for each submission, on the nodes that are fit for it."""
+from __future__ import annotations
+
+import pathlib
+import shutil
+import socket
+from dataclasses import dataclass
+from typing import Any, Callable, Dict, List, Tuple, Union
+
+from . import node, parcel
+from .engines import Engine, How, Pool, outcome
+from .outcome import Result
+from .spec import Spec
+
+_LOOK = 60.0  # s that a node has to answer
+
+
+class ClusterError(RuntimeError):
+    """No cluster, or no node in it that can examine; one line with the cure."""
+
+
+@dataclass
+class Node:
+    """``slots``: examinations at a time, one a core; ``busy``: numbers of those that are taken."""
+
+    name: str
+    slots: int
+    busy: set
+    alive: bool = True
+
+    def take(self) -> int:
+        slot = min(set(range(self.slots)) - self.busy)
+        self.busy.add(slot)
+        return slot
+
+
+@dataclass
+class Task:
+    reference: Any
+    node: str
+    slot: int
+
+
+class Cluster(Engine):
+    """
+    :param address: of a running cluster (``auto``: that of this machine), or ``local``: one is started here and ended again
+    :param workers: the most examinations at a time; 0: one for each core of the nodes that are fit
+    :param show: is given a line for each node that is unfit
+    :raises ClusterError: see there
+    """
+
+    def __init__(self, spec: Spec, out: pathlib.Path, how: How, workers: int, address: str, show: Callable[[str], None]):
+        self._ray = connect(address)
+        self._out, self._how = out, how
+        self._most = spec.limit("input")
+        self._spec_parcel, self._spec_path = parcel.pack_spec(spec)
+        self.running: Dict[str, Task] = {}
+        self._last: Dict[str, str] = {}  # submission -> node where it was tried last
+        self._here = Pool(lambda name: spec.path, out, how, 1)  # for what is too large to be sent: it is refused at once
+        try:
+            self._nodes = self._fit_nodes(show)
+        except BaseException:
+            self._ray.shutdown()
+            raise
+        slots = sum(n.slots for n in self._nodes.values())
+        self.workers = min(workers or slots, slots)
+        self._shared = self._ray.put(self._spec_parcel)
+        self._remote = self._ray.remote(num_cpus=1, max_retries=0)(node.examine_parcel)
+
+    def _fit_nodes(self, show: Callable[[str], None]) -> Dict[str, Node]:
+        ray = self._ray
+        version, asked = node.platform_version(), {}
+        look = ray.remote(num_cpus=0, max_retries=0)(node.faults)
+        for entry in ray.nodes():
+            slots = int(entry["Resources"].get("CPU", 0))
+            if entry["Alive"] and slots:
+                reference = look.options(scheduling_strategy=self._on(entry["NodeID"])).remote(version, self._how.unsafe)
+                asked[reference] = (entry["NodeID"], entry["NodeManagerAddress"], slots)
+        found: Dict[str, Node] = {}
+        for reference, (identity, address, slots) in asked.items():
+            try:
+                name, said = ray.get(reference, timeout=_LOOK)
+            except ray.exceptions.GetTimeoutError:
+                name, said = address, [f"it did not answer within {_LOOK:.0f} s"]
+            except ray.exceptions.RayError as error:
+                name, said = address, [_reason(error) + "; 'ray start' there in a shell that has sourced noetic_labs' setup.bash"]
+            if said:
+                show(f"node {name} ({address}) is left out: {'; '.join(said)}")
+            else:
+                found[identity] = Node(name, slots, set())
+        if not found:
+            raise ClusterError(f"none of the cluster's {len(asked)} nodes can examine")
+        return found
+
+    def _on(self, identity: str):
+        from ray.util.scheduling_strategies import NodeAffinitySchedulingStrategy
+
+        return NodeAffinitySchedulingStrategy(node_id=identity, soft=False)
+
+    def start(self, name: str, path: pathlib.Path) -> None:
+        shutil.rmtree(self._out / name, ignore_errors=True)
+        try:
+            submission = self._ray.put(parcel.pack(path, self._most))
+        except (parcel.TooLarge, OSError):
+            self._here.start(name, path)
+            self.running[name] = Task(None, "", 0)
+            return
+        identity, slot = self._place(self._last.get(name, ""))
+        work = self._remote.options(scheduling_strategy=self._on(identity))
+        reference = work.remote(path.name, submission, self._shared, self._spec_path, self._how, slot)
+        self.running[name] = Task(reference, identity, slot)
+        self._last[name] = identity
+
+    def _place(self, last: str) -> Tuple[str, int]:
+        """A slot on the emptiest node, rather not where the submission's worker died before."""
+        alive = {entry["NodeID"] for entry in self._ray.nodes() if entry["Alive"]}
+        for identity, n in self._nodes.items():
+            n.alive = identity in alive
+        free = [identity for identity, n in self._nodes.items() if n.alive and len(n.busy) < n.slots]
+        if not free:
+            raise ClusterError("no node of the cluster is left that can examine; the same command goes on from here")
+        identity = min(free, key=lambda i: (i == last, len(self._nodes[i].busy) / self._nodes[i].slots))
+        return identity, self._nodes[identity].take()
+
+    def ended(self) -> List[str]:
+        references = {task.reference: name for name, task in self.running.items() if task.reference is not None}
+        ready, _ = self._ray.wait(list(references), num_returns=len(references), timeout=0) if references else ([], [])
+        return [references[reference] for reference in ready] + self._here.ended()
+
+    def take(self, name: str) -> Union[Result, str]:
+        task = self.running.pop(name)
+        if task.reference is None:
+            return self._here.take(name)
+        n = self._nodes[task.node]
+        n.busy.discard(task.slot)
+        try:
+            code, reports = self._ray.get(task.reference)
+        except self._ray.exceptions.RayError as error:
+            return f"its worker on {n.name} died: {_reason(error)}"
+        parcel.unpack(reports, self._out / "_taken")
+        shutil.rmtree(self._out / name, ignore_errors=True)
+        (self._out / "_taken" / "out").rename(self._out / name)
+        (self._out / "_taken").rmdir()
+        return outcome(self._out / name, code)
+
+    def end(self) -> None:
+        self._here.end()
+        try:
+            for task in self.running.values():
+                if task.reference is not None:
+                    self._ray.cancel(task.reference, force=True)
+        finally:
+            self.running.clear()
+            self._ray.shutdown()
+
+
+def connect(address: str):
+    """Ray, connected.
+
+    :raises ClusterError: it is not installed, or nobody answers
+    """
+    try:
+        import ray
+    except ImportError:
+        raise ClusterError("--address needs Ray, which is not there: scripts/setup --teaching, then source devel/setup.bash") from None
+    import logging
+
+    quiet = {"log_to_driver": False, "logging_level": logging.ERROR}
+    try:
+        if address == "local":
+            ray.init(address="local", include_dashboard=False, **quiet)
+        else:
+            if address != "auto":
+                address = address if ":" in address else f"{address}:6379"
+                _knock(address)  # Ray itself would go on asking for minutes
+            ray.init(address=address, **quiet)
+    except (ConnectionError, RuntimeError, ValueError, OSError) as error:
+        raise ClusterError(f"no Ray cluster answers at '{address}' ({_first_line(error)}); start one: ray start --head, and on each other "
+                           "machine ray start --address HOST:6379") from None
+    return ray
+
+
+def _knock(address: str) -> None:
+    """
+    :raises OSError: nobody listens there
+    :raises ValueError: it has no port
+    """
+    host, _, port = address.rpartition("://")[2].rpartition(":")
+    socket.create_connection((host, int(port)), timeout=5.0).close()
+
+
+def _reason(error: BaseException) -> str:
+    """The last line of Ray's text that says something; its traces are of no use to a teacher."""
+    lines = [line.strip() for line in str(error).splitlines() if line.strip()]
+    return (lines[-1] if type(error).__name__.startswith("RayTaskError") else lines[0] if lines else type(error).__name__)[:300]
+
+
+def _first_line(error: BaseException) -> str:
+    return (str(error).strip().splitlines() or [type(error).__name__])[0][:200]

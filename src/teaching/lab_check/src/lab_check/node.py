@@ -1,0 +1,78 @@
+"""What runs on a node of a cluster: the look at whether it is fit, and one examination. Knows no Ray."""
+from __future__ import annotations
+
+import hashlib
+import importlib.util
+import os
+import pathlib
+import shutil
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+from typing import List, Optional, Tuple
+
+from . import parcel, sandbox
+from .engines import How, examine
+from .supervise import descendants
+
+_PACKAGES = ("lab_check", "ode_sim", "gazebo_ros", "gazebo_ros_control", "controller_manager", "node_signals")
+
+
+def platform_version() -> str:
+    """Of the sources on which marks depend, and of Debian: two machines with the same one give the same marks."""
+    digest = hashlib.sha256()
+    for package in _PACKAGES:
+        found = importlib.util.find_spec(package)
+        for folder in sorted(set(found.submodule_search_locations or ())) if found else ():
+            for file in sorted(pathlib.Path(folder).rglob("*.py")):
+                if "/devel/" not in f"{file}":  # catkin's relay, which has the paths of its machine
+                    digest.update(f"{file.relative_to(folder)}\0".encode() + file.read_bytes())
+    try:
+        digest.update(pathlib.Path("/etc/debian_version").read_bytes().split(b".")[0])
+    except OSError:
+        pass
+    return f"{digest.hexdigest()[:12]} on Python {sys.version_info[0]}.{sys.version_info[1]}"
+
+
+def faults(version: str, unsafe: bool) -> Tuple[str, List[str]]:
+    """The name of this machine, and what keeps it from examining: a sentence each, with the cure."""
+    said = []
+    mine = platform_version()
+    if mine != version:
+        said.append(f"its noetic_labs is another than where grade runs ({mine}, not {version}): install the same version on both")
+    try:
+        sandbox.Platform.here()
+        if not unsafe:
+            sandbox.check()
+    except sandbox.SandboxError as error:
+        said.append(str(error))
+    if shutil.disk_usage(tempfile.gettempdir()).free < 500e6:
+        said.append(f"less than 500 MB are free in {tempfile.gettempdir()}")
+    return socket.gethostname(), said
+
+
+def examine_parcel(name: str, submission: bytes, spec: bytes, spec_path: str, how: How, worker: int) -> Tuple[int, bytes]:
+    """One examination in a folder of its own.
+
+    :param name: of the submission's file or folder
+    :returns: exit code of ``check``; its reports, packed
+    """
+    folder = pathlib.Path(tempfile.mkdtemp(prefix="lab_check_node."))
+    process: Optional[subprocess.Popen] = None
+    try:
+        parcel.unpack(submission, folder / "submission")
+        parcel.unpack(spec, folder / "spec")
+        out = folder / "out"
+        process = examine(how.words(folder / "spec" / spec_path, folder / "submission" / name, out, worker), out)
+        code = process.wait()
+        return code, parcel.pack(out)
+    finally:
+        if process is not None and process.poll() is None:
+            for pid in descendants(process.pid):
+                try:
+                    os.kill(pid, signal.SIGKILL)
+                except OSError:
+                    continue
+        shutil.rmtree(folder, ignore_errors=True)
