@@ -114,7 +114,7 @@ class Screenshot(unittest.TestCase):
         path = os.path.join(self.folder, "nothing.png")
         # whoever waited would not be back within the limit of this test
         result = screenshot("-d", config, "-o", path, "--window", "--timeout", "1000", "--grace", "0.5")
-        self.assertEqual(result.returncode, 3)
+        self.assertEqual(result.returncode, 3, result.stderr)
         self.assertEqual(result.stderr.splitlines(), ["screenshot: nobody publishes /nothing of display 'Eye'",
                                                       "screenshot: nobody publishes /none of display 'Laser'"])
         self.assertTrue(os.path.getsize(path))

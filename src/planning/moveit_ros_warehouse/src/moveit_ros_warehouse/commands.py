@@ -71,6 +71,8 @@ class Listener:
         self._listener = tf2_ros.TransformListener(buffer)
         self._monitor = SceneMonitor(robot_model.load(), buffer)
         self._monitor.on_change(lambda kinds: self._guarded(self._scene))
+        if self._name():  # it came while the monitor was being made
+            self._guarded(self._scene)
         self._subscribers = [
             rospy.Subscriber(topic, kind, lambda message, handler=handler: self._guarded(handler, message), queue_size=100)
             for topic, kind, handler in (("motion_plan_request", MotionPlanRequest, self._request),
