@@ -25,6 +25,10 @@ class ScreenshotError(RuntimeError):
     """No picture; one line saying why and what to do."""
 
 
+class RvizCrashed(ScreenshotError):
+    """A signal ended RViz before it had taken the pictures."""
+
+
 def parser() -> argparse.ArgumentParser:
     p = argparse.ArgumentParser(prog="screenshot", description=__doc__, epilog=main.__doc__)
     p.add_argument("--config", "-d", default="", help="RViz configuration (default: RViz's own default.rviz)")
@@ -123,7 +127,10 @@ def take(config: str, views: List[View], output: str, *, size: str = "1280x800",
         # RViz writes ~/.rviz on exit; a picture must neither read nor change the user's.
         environment = {**os.environ, **variables, "HOME": home, "ROS_LOG_DIR": home, "XDG_RUNTIME_DIR": home,
                        "QT_LOGGING_RULES": "*=false"}
-        result = run_grabber(job, environment, timeout + watch + 45)
+        try:
+            result = run_grabber(job, environment, timeout + watch + 45)
+        except RvizCrashed:  # once in some dozens of runs RViz with image panels damages its heap; a second one starts afresh
+            result = run_grabber(job, environment, timeout + watch + 45)
     return {"pictures": paths, **result}
 
 
@@ -156,8 +163,8 @@ def run_grabber(job: dict, environment: Dict[str, str], limit: float) -> dict:
     lines = [line for line in text.splitlines() if line.strip()]
     if process.returncode < 0:
         name = signal.Signals(-process.returncode).name
-        raise ScreenshotError(f"RViz crashed ({name}); its last line: {lines[-1] if lines else 'none'} - is OpenGL there? "
-                              f"(Debian packages libgl1-mesa-dri, libosmesa6)")
+        raise RvizCrashed(f"RViz crashed ({name}); its last line: {lines[-1] if lines else 'none'} - is OpenGL there? "
+                          f"(Debian packages libgl1-mesa-dri, libosmesa6)")
     raise ScreenshotError(f"RViz ended with code {process.returncode}; its last line: {lines[-1] if lines else 'none'}")
 
 
