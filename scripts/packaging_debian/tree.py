@@ -122,7 +122,9 @@ def build(root: Path, prefix: Path) -> Path:
                    if key not in ("CMAKE_PREFIX_PATH", "ROS_PACKAGE_PATH", "PYTHONPATH", "CPLUS_INCLUDE_PATH")}
     environment["PATH"] = f"{sources}/src/tools/noetic_environment/debian_python:/usr/sbin:/usr/bin:/sbin:/bin"
     run(["catkin", "config", "--init", "--workspace", workspace, "--install", "--install-space", prefix, "--cmake-args",
-         "-DPYTHON_EXECUTABLE=/usr/bin/python3", "-DCMAKE_BUILD_TYPE=RelWithDebInfo", "-DCATKIN_ENABLE_TESTING=OFF"],
+         # catkin reads the one name on Debian 12, the other on 13; else it takes the first python3 of this build's own PATH
+         "-DPYTHON_EXECUTABLE=/usr/bin/python3", "-DPython_EXECUTABLE=/usr/bin/python3",
+         "-DCMAKE_BUILD_TYPE=RelWithDebInfo", "-DCATKIN_ENABLE_TESTING=OFF"],
         "catkin config", {**environment, "DESTDIR": str(stage)})
     run(["catkin", "build", "--workspace", workspace, "--no-notify", "--no-status", "--summarize"], "catkin build",
         {**environment, "DESTDIR": str(stage)})
