@@ -177,9 +177,16 @@ void World::apply_axis_force(Joint& j, int axis, double f) {
 
 // A controller's law as the speed that a soft motor row aims at: the row gives what the law gives at the speed that the step arrives
 // at. What it gives at the speed before, held through the step, throws a light wheel to and fro. Friction is taken off first.
-static double speed_by_law(const Axis& a) {
+// A limit of speed takes a force away that would make the joint still faster, as in Gazebo, and what one step gives a light joint is
+// over it: it goes as far beyond as one step at the limit pushes it. Legs that walk there walk here.
+static double speed_by_law(const Axis& a, double dt, double inverse_inertia) {
   double speed = a.qd + a.law / a.slope;
-  if (a.velocity > 0) speed = std::min(std::max(speed, -a.velocity), a.velocity);
+  if (a.velocity > 0) {
+    const double over = (std::abs(speed) - a.velocity) * a.slope;  // the law's force at the limit
+    const double push = std::min(std::max(over, 0.0), a.effort >= 0 ? std::min(a.law_bound, a.effort) : a.law_bound);
+    const double most = a.velocity + dt * inverse_inertia * push;
+    speed = std::min(std::max(speed, -most), most);
+  }
   return std::copysign(std::max(std::abs(speed) - a.friction / a.slope, 0.0), speed);
 }
 
@@ -226,7 +233,7 @@ void World::update_axis(Joint& j, int i) {
     velocity = a.motor_velocity;
     most = a.motor_force;
   } else if (by_law) {
-    velocity = speed_by_law(a);
+    velocity = speed_by_law(a, dt, j.inverse_inertia[i]);
     softness = 1 / a.slope;
     most = a.effort >= 0 ? std::min(a.law_bound, a.effort) : a.law_bound;
     force -= a.lawful();

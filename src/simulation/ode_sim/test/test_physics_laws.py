@@ -47,6 +47,28 @@ def test_the_bounds_of_the_force_hold():
         assert driven(world, hinge, 5.0, steps=40, bound=bound) == pytest.approx(0.02 / INERTIA * 0.04, rel=1e-3)
 
 
+def limited(solver, inertia, velocity):
+    """A joint that may turn at ``velocity`` and is told 5 rad/s by a law that is strong for it."""
+    model = pendulum(length=0.0, mass=0.1, inertia=inertia)
+    joint, = model.joints
+    model = replace(model, joints=(replace(joint, axes=(replace(joint.axes[0], velocity=velocity),)),))
+    world = ode_sim.World()
+    world.physics.solver = solver
+    hinge = world.spawn(model).joints["hinge"]
+    begin = hinge.position()
+    for _ in range(400):
+        hinge.add_law(max(min(GAIN * (5.0 - hinge.velocity()), 25.0), -25.0), GAIN, 25.0)
+        world.step(1)
+    return (hinge.position() - begin) / 0.4
+
+
+def test_a_limit_of_speed_takes_the_force_away_and_no_more():
+    """As in Gazebo: what a single step gives a light joint may be beyond the limit, and it keeps that; a heavy one stays there."""
+    one_step = 0.001 * GAIN / INERTIA
+    assert limited("quick", INERTIA, 1.5) == pytest.approx(5.0 * one_step / (1 + one_step), rel=0.01)
+    assert limited("quick", 0.1, 1.5) == pytest.approx(limited("gazebo", 0.1, 1.5), rel=0.01) == pytest.approx(1.5, rel=0.03)
+
+
 def test_where_the_gain_is_low_it_is_the_force_of_add_force():
     gain = 0.1 * GAIN
     world, joint = wheel()
