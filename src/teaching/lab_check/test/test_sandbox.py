@@ -61,11 +61,14 @@ def submit(place: pathlib.Path, shell: str, timeout: int = 60):
 
 
 def processes_with(word: str) -> int:
-    return sum(
-        word.encode() in pathlib.Path(f"/proc/{pid}/cmdline").read_bytes()
-        for pid in os.listdir("/proc")
-        if pid.isdigit() and os.path.exists(f"/proc/{pid}/cmdline")
-    )
+    return sum(word.encode() in _words(pid) for pid in os.listdir("/proc") if pid.isdigit())
+
+
+def _words(pid: str) -> bytes:
+    try:
+        return pathlib.Path(f"/proc/{pid}/cmdline").read_bytes()
+    except OSError:  # it ended meanwhile
+        return b""
 
 
 def test_fork_bomb_is_ended_and_told(place):

@@ -4,8 +4,9 @@ from __future__ import annotations
 import json
 import time
 from dataclasses import dataclass
-from typing import Any, Callable, Dict, List, Optional
+from typing import Any, Callable, Dict, List, Optional, Set
 
+import rosgraph
 import rospy
 from gazebo_ros.srv import StepWorld, TakePicture
 from std_srvs.srv import SetBool, Trigger
@@ -14,6 +15,9 @@ from . import connections
 from .lockstep import Nodes
 
 CONNECTED = 0.12  # s of rest after something new: connections are made by threads that look every hundredth of a second
+_UNCONNECTED = 0.3  # s of rest after which a connection that is missing is looked for again
+_LOOKS = 4  # at missing connections: who is asked for by a node that has ended never comes
+_ROUNDS = 20  # of news from the master that one moment can have
 
 
 class Gone(RuntimeError):
@@ -52,6 +56,7 @@ class Bench:
 
     def __init__(self, nodes: Nodes, quantum: float, alive: Callable[[], None]):
         self.nodes, self.alive = nodes, alive
+        self._master = rosgraph.Master("/lab_check")
         self.on_sample: List[Callable[[Sample], None]] = []
         self._step = rospy.ServiceProxy("/gazebo/step", StepWorld, persistent=True)
         self._state = rospy.ServiceProxy("/gazebo/lab_check_state", Trigger, persistent=True)
@@ -75,17 +80,32 @@ class Bench:
             self.alive()
             raise Gone(f"the simulator does not answer any more ({error})") from error
 
-    def settle(self, rest: float = CONNECTED) -> None:
-        """Everybody has done what there was to do; new processes included."""
-        self.nodes.find()
-        if not self.nodes.settle(rest, patience=10.0):
-            self.unsettled += 1
-        self.alive()
+    def settle(self, rest: float = CONNECTED, patience: float = 10.0) -> None:
+        """Everybody has done what there was to do; new processes included, and those who now hear of new publishers."""
+        for _ in range(_ROUNDS):
+            self.nodes.find()
+            if not self.nodes.settle(rest, patience):
+                self.unsettled += 1
+            self.alive()
+            if not self._news():
+                return
+            rest = max(rest, CONNECTED)
+
+    def _news(self) -> int:
+        try:
+            return connections.release(self._master)
+        except OSError as error:
+            self.alive()
+            raise Gone(f"the ROS master does not answer any more ({error})") from error
 
     def connect(self) -> None:
         """As :meth:`settle`, and every subscriber is connected to every publisher."""
         self.settle(0.05)
-        connections.wait(self.alive)
+        deaf: Set[str] = set()
+        for _ in range(_LOOKS):
+            if connections.complete(self._master, deaf):
+                break
+            self.settle(_UNCONNECTED)
         self.settle(CONNECTED)
 
     def tick(self) -> Sample:
@@ -101,6 +121,8 @@ class Bench:
         if not self.nodes.settle():
             self.unsettled += 1
         self.alive()
+        if self._news():
+            self.settle()
         self.now = self._read()
         for f in self.on_sample:
             f(self.now)

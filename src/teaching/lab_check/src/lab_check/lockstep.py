@@ -16,6 +16,7 @@ _REST = 0.0016  # s of rest, longer than roscpp's look at the clock
 _STEP = 0.0004  # s between two looks
 _LONG_STEP = 0.01  # the same where rest is long: starts of programs
 _LOOKS = 4  # looks that rest takes at least
+_PART = 0.5  # part of the looks that a rest of that length would have on an idle machine: on a busy one, rest takes longer
 _FLICKER = 0.008  # s after which those who are seldom at work are taken to rest
 _SELDOM = 0.35  # part of the looks
 _PATIENCE = 2.0  # s until a process that never rests is waited for no more
@@ -123,7 +124,8 @@ class Nodes:
         pause = _STEP if rest < 0.05 else _LONG_STEP
         needed = max(_LOOKS, int(rest / pause))
         looks: Deque[Set[Tuple[int, int]]] = deque(maxlen=max(2 * _LOOKS, needed))
-        quiet_since, dry_since = None, None
+        enough = max(_LOOKS, int(_PART * rest / pause))
+        quiet_since, dry_since, quiet_looks = None, None, 0
         self._look_for_threads()
         while True:
             time.sleep(pause)
@@ -136,7 +138,8 @@ class Nodes:
             looks.append(busy)
             dry_since = None if unread else dry_since or now
             quiet_since = None if busy or unread else quiet_since or now
-            if quiet_since is not None and now - quiet_since >= rest:
+            quiet_looks = 0 if quiet_since is None else quiet_looks + 1
+            if quiet_since is not None and now - quiet_since >= rest and quiet_looks >= enough:
                 return True
             if dry_since is not None and now - dry_since >= rest and len(looks) == looks.maxlen and now - start >= _FLICKER:
                 seen = Counter(key for look in looks for key in look)
