@@ -110,3 +110,15 @@ def test_what_scripts_import_of_packages_is_there(path):
             missing = [alias.name for alias in node.names
                        if not hasattr(module, alias.name) and importlib.util.find_spec(f"{node.module}.{alias.name}") is None]
             assert not missing, f"line {node.lineno}: {node.module} has no {', '.join(missing)}"
+
+
+def test_build_folders_of_moved_packages_are_forgotten(tmp_path):
+    for name, there in (("stays", True), ("moved", False)):
+        home = tmp_path / "src" / name
+        (tmp_path / "build" / name).mkdir(parents=True)
+        (tmp_path / "build" / name / "CMakeCache.txt").write_text(f"A:STRING=1\nCMAKE_HOME_DIRECTORY:INTERNAL={home}\n")
+        if there:
+            home.mkdir(parents=True)
+            (home / "CMakeLists.txt").touch()
+    out = subprocess.run(["python3", ROOT / "scripts/forget_moved.py", tmp_path / "build"], capture_output=True, text=True, check=True).stdout
+    assert [path.name for path in (tmp_path / "build").iterdir()] == ["stays"] and "moved" in out

@@ -126,6 +126,7 @@ def build(root: Path, prefix: Path) -> Path:
          "-DPYTHON_EXECUTABLE=/usr/bin/python3", "-DPython_EXECUTABLE=/usr/bin/python3",
          "-DCMAKE_BUILD_TYPE=RelWithDebInfo", "-DCATKIN_ENABLE_TESTING=OFF"],
         "catkin config", {**environment, "DESTDIR": str(stage)})
+    run([sys.executable, root / "scripts/forget_moved.py", workspace / "build"], "scripts/forget_moved.py", environment)
     run(["catkin", "build", "--workspace", workspace, "--no-notify", "--no-status", "--summarize"], "catkin build",
         {**environment, "DESTDIR": str(stage)})
     tree = stage / prefix.relative_to("/")
