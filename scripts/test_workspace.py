@@ -120,5 +120,6 @@ def test_build_folders_of_moved_packages_are_forgotten(tmp_path):
         if there:
             home.mkdir(parents=True)
             (home / "CMakeLists.txt").touch()
-    out = subprocess.run(["python3", ROOT / "scripts/forget_moved.py", tmp_path / "build"], capture_output=True, text=True, check=True).stdout
+    command = ["python3", ROOT / "scripts/forget_moved.py", tmp_path / "build"]
+    out = subprocess.run(command, capture_output=True, text=True, check=True).stdout
     assert [path.name for path in (tmp_path / "build").iterdir()] == ["stays"] and "moved" in out
