@@ -68,6 +68,23 @@ void World::set_link_twist(Link& link, const Vec3& v, const Vec3& w) {
   spread_twists(c);
 }
 
+// All of it moves faster by a rigid motion: `v` at the point `at`, turning by `w`. Joints go on as they went.
+void World::add_model_twist(Model& model, const Vec3& v, const Vec3& w, const Vec3& at) {
+  refresh();
+  wake(model);
+  for (auto& c : model.clusters) {
+    if (!c.root) continue;
+    c.root->v += v + cross(w, c.root->X_WL.p - at);
+    c.root->w += w;
+    place_cluster(c);
+    if (c.by) {
+      const dBodyID b = c.root->body;
+      set_body_twist(b, vec(dBodyGetLinearVel(b)) - c.carry_v, vec(dBodyGetAngularVel(b)) - c.carry_w);
+    }
+    spread_twists(c);
+  }
+}
+
 void World::zero_velocities(Model& model) {
   refresh();
   forget_loads(model);

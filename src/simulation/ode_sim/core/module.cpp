@@ -283,6 +283,9 @@ PYBIND11_MODULE(_core, m) {
       }, py::keep_alive<0, 1>())
       .def("finish", [](Model& model) { world_of(&model).finish(model); })
       .def("set_pose", [](Model& model, T7 from, T7 to) { world_of(&model).set_model_pose(model, in(from, kInf), in(to)); })
+      .def("add_twist", [](Model& m, T3 v, T3 w, T3 at) {
+        world_of(&m).add_model_twist(m, limited(in(v), kFastestSet, "a velocity"), limited(in(w), kFastestSet, "a velocity"), in(at));
+      })
       .def("zero_velocities", [](Model& model) { world_of(&model).zero_velocities(model); });
 
   py::class_<World::Counters>(m, "Counters")

@@ -345,6 +345,7 @@ class World {
   Tie* find_tie(int id);
   std::vector<int> ties() const;  // their numbers, which are never given twice
   void refresh();  // bring clusters up to date
+  void add_model_twist(Model& model, const Vec3& v, const Vec3& w, const Vec3& at);
   void zero_velocities(Model& model);
   std::string save();
   void restore(const std::string& data, const std::vector<int>& ties);

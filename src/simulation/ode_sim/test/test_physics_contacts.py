@@ -364,6 +364,22 @@ def test_rays_measure_every_shape():
     assert np.isinf(world.cast_rays([(0, 0, 0.5)], [(1, 0, 0)], 1.5)[0][0])
 
 
+@pytest.mark.parametrize("lies, rest", [(False, 0.15), (True, 0.05)])
+@pytest.mark.parametrize("below", [False, True])
+def test_a_wheel_that_falls_on_a_thin_floor_stays_on_its_side(lies, rest, below):
+    """Within two steps it is deeper in the floor than the floor is thick, and ODE's collider sees nothing of it any more."""
+    world = ode_sim.World()
+    up = -1.0 if below else 1.0
+    world.gravity = (0.0, 0.0, -G * up)
+    world.spawn(box("floor", at=(0, 0, 0), size=(20, 20, 0.01), static=True))
+    tyre = Collision("c", Pose(), Cylinder(0.15, 0.1), surface=Surface(kp=3e6, kd=1.0))
+    link = Link("l", inertial=Inertial(10.0, ixx=0.1, iyy=0.1, izz=0.1), collisions=(tyre,))
+    wheel = world.spawn(Model("wheel", Pose((0, 0, up * 0.3), quat_from_rpy(0 if lies else math.pi / 2, 0, 0)), (link,)))
+    wheel.set_twist((0, 0, -9.0 * up), (0, 0, 0))
+    world.step(1000)
+    assert up * wheel.pose.p[2] == pytest.approx(rest + 0.005, abs=2e-3)
+
+
 def test_rays_follow_what_moves_and_bad_rays_hit_nothing():
     world = ode_sim.World()
     wall = world.spawn(box("wall", at=(2, 0, 0.5), size=(0.2, 1, 1), static=True))

@@ -7,8 +7,8 @@ from scipy.integrate import solve_ivp
 
 import ode_sim
 from ode_sim.description.model import Axis, Inertial, Joint, Link, Model, Pose
-from ode_sim.math3 import compose, inverse
-from physics_models import arm, box, pendulum, sphere
+from ode_sim.math3 import compose, inverse, quat_to_rpy
+from physics_models import arm, box, diff_drive, pendulum, sphere
 
 G = 9.8
 
@@ -20,6 +20,24 @@ def test_free_fall_is_that_of_the_semi_implicit_rule():
     assert ball.pose.p[2] == pytest.approx(10 - G * 1e-6 * 1000 * 1001 / 2, abs=1e-9)
     assert ball.twist().linear[2] == pytest.approx(-G, abs=1e-9)
     assert world.time == pytest.approx(1.0) and world.iterations == 1000
+
+
+def test_a_model_that_is_moved_as_one_keeps_the_speeds_of_its_joints():
+    """Else motors that start its wheels anew in every step would turn the body the other way."""
+    world = ode_sim.World()
+    robot = world.spawn(diff_drive(at=(0, 0, 1.0)))
+    world.gravity = (0.0, 0.0, 0.0)
+    wheels = [joint for joint in robot.joints.values() if joint.axis_count]
+    for joint in wheels:
+        joint.set_motor(4.0, 100.0)
+    for _ in range(500):
+        robot.move_as_one((0.3, 0.0, 0.0), (0.0, 0.0, 0.5), robot.pose.p)
+        world.step(1)
+    roll, pitch, yaw = quat_to_rpy(robot.pose.q)
+    assert (roll, pitch) == pytest.approx((0.0, 0.0), abs=0.01) and yaw == pytest.approx(0.25, abs=1e-3)
+    assert [joint.velocity() for joint in wheels] == pytest.approx([4.0] * len(wheels), rel=1e-3)
+    with pytest.raises(ValueError, match="twist of model robot"):
+        robot.move_as_one((math.nan, 0, 0), (0, 0, 0), robot.pose.p)
 
 
 def test_gravity_can_be_changed_and_switched_off_for_a_link():

@@ -11,7 +11,7 @@ from gazebo_plugins.wheels import Command, OdometryPublisher, yaw_of
 
 
 class PlanarMove(ModelPlugin):
-    """Sets the velocity of every link in every step; vertical motion is suppressed, gravity included."""
+    """Sets the velocity of the model in every step; vertical motion is suppressed, gravity included."""
 
     def load(self, server, model, sdf) -> None:
         self.server, self.model = server, model
@@ -41,13 +41,14 @@ class PlanarMove(ModelPlugin):
             self.odometry.send_tf(now, pose)
 
     def _glide(self, linear, angular, origin) -> None:
-        """All links move as one rigid body about the model's origin. What no longer sinks is freed of its weight:
-        friction with the floor would take from the commanded speed."""
+        """The model moves as one body about its origin, and its wheels turn on: stopped with it in every step, as upstream does,
+        motors that start them anew lift the robot at one end. What no longer sinks is freed of its weight: friction with the
+        floor would take from the commanded speed."""
         world = self.server.world
         for link in self.model.links.values():
             if abs(link.com_velocity()[2]) < 0.5 * abs(world.gravity[2]) * world.dt and link.gravity:
                 link.add_force(math3.scale(world.gravity, -link.mass))
-            link.set_twist(math3.add(linear, math3.cross(angular, math3.sub(link.com(), origin))), angular)
+        self.model.move_as_one(linear, angular, origin)
 
     def reset(self) -> None:
         self.command.clear()

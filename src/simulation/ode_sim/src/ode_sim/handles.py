@@ -462,6 +462,14 @@ class ModelHandle:
         for link in self.links.values():
             link.set_twist(linear, angular)
 
+    def move_as_one(self, linear: Vec3, angular: Vec3, origin_W: Vec3) -> None:
+        """The first link gets these velocities, ``linear`` at the point ``origin_W``; the others go along, their joints go on."""
+        link = self.canonical_link
+        if link:
+            finite((*linear, *angular), f"twist of model {self.name}")
+            self.core.add_twist(tuple(np.subtract(linear, link.velocity_at(origin_W))),
+                                tuple(np.subtract(angular, link.angular_velocity())), tuple(origin_W))
+
     @property
     def flown_apart(self) -> bool:
         """Whether some link is where no joint can have taken it."""
