@@ -15,10 +15,12 @@ import rospy
 import rostest
 from geometry_msgs.msg import Point, Pose, PoseStamped, Quaternion
 from moveit_commander import MoveGroupCommander, MoveItCommanderException, PlanningSceneInterface, RobotCommander
-from moveit_msgs.msg import (Constraints, DisplayTrajectory, MoveItErrorCodes, OrientationConstraint, PlanningScene,
+from moveit_msgs.msg import (AttachedCollisionObject, CollisionObject, Constraints, DisplayTrajectory,
+                             MoveItErrorCodes, OrientationConstraint, PlanningScene,
                              PlanningSceneComponents,
                              RobotState)
 from sensor_msgs.msg import JointState
+from shape_msgs.msg import SolidPrimitive
 
 from moveit_ros_warehouse.storage import Warehouse
 
@@ -302,6 +304,38 @@ class Scene(Commander):
     def matrix(self):
         wanted = PlanningSceneComponents.ALLOWED_COLLISION_MATRIX
         return self.scene.get_planning_scene(wanted).allowed_collision_matrix
+
+    def test_a_subframe_of_what_is_held_goes_to_a_subframe_of_what_stands(self):
+        stick = CollisionObject(id="stick", primitives=[SolidPrimitive(SolidPrimitive.BOX, [0.02, 0.02, 0.1])])
+        stick.header.frame_id, stick.pose = "hand", stamped(z=0.15).pose
+        stick.subframe_names, stick.subframe_poses = ["tip"], [stamped(z=0.05).pose]
+        held = AttachedCollisionObject(link_name="hand", object=stick, touch_links=["hand", "finger_left", "finger_right"])
+        hand = self.arm.get_current_pose()
+        crate = CollisionObject(id="crate", primitives=[SolidPrimitive(SolidPrimitive.BOX, [0.1, 0.1, 0.1])])
+        crate.header.frame_id, crate.pose = "world", copy.deepcopy(hand.pose)
+        crate.pose.position.y += 0.3
+        crate.subframe_names, crate.subframe_poses = ["side"], [stamped(y=-0.05).pose]
+        self.scene.attach_object(held)
+        self.scene.add_object(crate)
+        try:
+            self.arm.set_end_effector_link("stick/tip")
+            tip = self.arm.get_current_pose()
+            away = [getattr(tip.pose.position, axis) - getattr(hand.pose.position, axis) for axis in "xyz"]
+            self.assertAlmostEqual(np.linalg.norm(away), 0.2, places=3)
+            self.arm.set_pose_target(stamped(y=-0.05, frame="crate/side"))
+            self.assertTrue(self.arm.go())
+            there = self.arm.get_current_pose("stick/tip").pose
+            self.assertAlmostEqual(there.position.y, crate.pose.position.y - 0.1, delta=2e-3)
+            self.assertAlmostEqual(there.position.z, crate.pose.position.z, delta=2e-3)
+            up = copy.deepcopy(there)
+            up.position.z += 0.05
+            self.assertEqual(self.arm.compute_cartesian_path([up], 0.01)[1], 1.0)
+            with self.assertRaises(MoveItCommanderException) as caught:
+                self.arm.set_end_effector_link("stick/toe")
+            self.assertIn("'stick'", str(caught.exception))
+        finally:
+            self.arm.set_end_effector_link("hand")
+            self.scene.remove_attached_object("hand", "stick")
 
     def test_the_collision_matrix_can_be_changed(self):
         matrix = self.matrix()

@@ -90,9 +90,10 @@ class MoveGroupCommander(TargetCommands):
         return self._eef
 
     def set_end_effector_link(self, link_name: str) -> None:
-        if not self._eef or not self._model.has_link(link_name):
+        """A link, or a thing that the robot holds, or a subframe of one (``thing/subframe``)."""
+        if not self._eef or not link_name:
             raise MoveItCommanderException("Unable to set end effector link")
-        self._eef = link_name
+        self._eef = self._link(link_name)
 
     def get_interface_description(self) -> PlannerInterfaceDescription:
         """Which planner move_group uses."""
@@ -129,7 +130,7 @@ class MoveGroupCommander(TargetCommands):
     def get_random_pose(self, end_effector_link: str = "") -> PoseStamped:
         """A pose that the link can have."""
         link = self._link(end_effector_link, "There is no end effector to get the pose of")
-        state = self._session.state() or self._model.state()
+        state = self._state(link) or self._model.state()
         state.randomize(self._name)
         pose = state.pose(link)
         return conversions.list_to_pose_stamped([*pose.position, *pose.quaternion], self._model.frame)

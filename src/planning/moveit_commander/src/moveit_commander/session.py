@@ -11,6 +11,9 @@ from actionlib_msgs.msg import GoalStatus
 from rosgraph.names import ns_join
 
 import motion
+from moveit_core.scene_messages import attach_to_state
+from moveit_msgs.msg import PlanningSceneComponents
+from moveit_msgs.srv import GetPlanningScene, GetPlanningSceneRequest
 from moveit_ros_planning import robot_model
 from moveit_ros_planning.state_monitor import CurrentStateMonitor
 
@@ -52,6 +55,18 @@ class Session:
             rospy.logerr("Failed to fetch current robot state. %s", monitor.explain(timeout, now))
             return None
         return monitor.state()
+
+    def hold(self, state: motion.RobotState) -> motion.RobotState:
+        """``state``, holding what move_group says that the robot holds: its things are frames then, their subframes, too."""
+        wanted = GetPlanningSceneRequest(PlanningSceneComponents(PlanningSceneComponents.ROBOT_STATE_ATTACHED_OBJECTS))
+        try:
+            answer = rospy.ServiceProxy(self.name("get_planning_scene"), GetPlanningScene)(wanted)
+            attach = attach_to_state(motion.PlanningScene(self.model))
+            for held in answer.scene.robot_state.attached_collision_objects:
+                attach(state, held)
+        except (rospy.ServiceException, rospy.ROSException, ValueError) as error:
+            rospy.logerr("What the robot holds is not known: %s", error)
+        return state
 
 
 def session(description: str, ns: str = "") -> Session:

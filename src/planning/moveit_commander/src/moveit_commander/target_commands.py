@@ -42,12 +42,20 @@ class TargetCommands:
             raise MoveItCommanderException(problem)
         link = name or self._eef
         if not self._model.has_link(link):
-            raise MoveItCommanderException(f"The robot '{self._model.name}' has no link '{link}'")
+            held = self._session.hold(self._model.state())
+            if not held.has_frame(link):
+                holds = ", ".join(f"'{body.id}'" for body in held.attached) or "nothing"
+                raise MoveItCommanderException(f"The robot '{self._model.name}' has no link '{link}', and it holds {holds}")
         return link
 
-    def _current_pose(self, link: str) -> List[float]:
+    def _state(self, frame: str) -> Optional[motion.RobotState]:
+        """The present state, in which ``frame`` may be a thing that is held or a subframe of it; None: none comes."""
         state = self._session.state()
-        if state is None:
+        return state if state is None or self._model.has_link(frame) else self._session.hold(state)
+
+    def _current_pose(self, link: str) -> List[float]:
+        state = self._state(link)
+        if state is None or not state.has_frame(link):
             return [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]
         pose = state.pose(link)
         return [float(value) for value in (*pose.position, *pose.quaternion)]
@@ -125,7 +133,7 @@ class TargetCommands:
                 raise MoveItCommanderException("Unexpected type")
         stamped = pose if isinstance(pose, PoseStamped) else self._stamped(pose)
         link = self._link(link)
-        state = self._session.state() or self._model.state()
+        state = self._state(link) or self._model.state()
         try:
             target = self._in_model_frame(state, stamped)
             found = motion.ik(self._model, self._name, target, link=link, seed=state, timeout=0.1,
