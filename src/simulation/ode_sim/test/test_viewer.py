@@ -1,6 +1,8 @@
 """The page without a browser: who may open it, what is drawn and what clicks do. A world of this process, no ROS."""
+import contextlib
 import gzip
 import http.client
+import socket
 import threading
 import time
 
@@ -47,8 +49,8 @@ def test_guard_with_a_token():
 
 
 def test_the_guard_stands_before_every_request():
-    website = Website(port=0)
-    website.open("The <lab>")
+    website = Website(port=0, title="The <lab>")
+    website.open()
     try:
         def ask(path, **headers):
             connection = http.client.HTTPConnection("127.0.0.1", website.port, timeout=30)
@@ -71,19 +73,44 @@ def test_the_guard_stands_before_every_request():
         website.close()
 
 
-def test_a_knock_waits_until_the_page_is_there():
-    website = Website(port=0)
+def test_the_page_is_given_to_whoever_knocks_first_and_what_comes_next_waits_for_the_server():
+    website = Website(port=0, title="The <lab>")
+
+    def ask(**headers):
+        connection = http.client.HTTPConnection("127.0.0.1", website.port, timeout=30)
+        connection.request("GET", "/", headers=headers)
+        return connection
+
     try:
         assert not website.knocked(0.0) and website.viser is None
-        connection = http.client.HTTPConnection("127.0.0.1", website.port, timeout=30)
-        connection.request("GET", "/")
-        assert website.knocked(5.0)
+        with socket.create_connection(("127.0.0.1", website.port)):  # says nothing: holds nobody up
+            assert ask(Host="evil.example").getresponse().status == 403
+            assert ask(Upgrade="websocket").getresponse().status == 503  # a page that lost its server asks again
+            assert website.knocked(5.0) and website.viser is None
+            page = ask().getresponse()
+            assert page.status == 200 and b"<title>The &lt;lab&gt;</title>" in page.read()
+        waiting = ask()
         website.open()
-        assert connection.getresponse().status == 200
-        connection.close()
+        assert waiting.getresponse().status == 200
         second = Website(port=website.port)  # taken: the next one
         assert second.port > website.port
         second.close()
+    finally:
+        website.close()
+
+
+def test_what_is_no_request_ends_nothing():
+    website = Website(port=0)
+    try:
+        for bad in (b"\r\n\r\n", b"GET\r\n\r\n", b"\xff" * 70000, b"GET / HTTP/1.1\r\nHost"):
+            with socket.create_connection(("127.0.0.1", website.port), timeout=30) as connection:
+                with contextlib.suppress(OSError):
+                    connection.sendall(bad)
+                    connection.shutdown(socket.SHUT_WR)
+                    assert connection.recv(100)[:12] in (b"", b"HTTP/1.1 403")
+        connection = http.client.HTTPConnection("127.0.0.1", website.port, timeout=30)
+        connection.request("GET", "/")
+        assert connection.getresponse().status == 200
     finally:
         website.close()
 

@@ -1,46 +1,46 @@
 """gzclient: from the command line to the page and its window.
 
-What a page needs is imported when a browser has knocked: a gzclient that nobody looks at, as launch files start it,
-holds a port and nothing else.
+The port and the window come first. ROS, and what draws the page, are imported when a browser has knocked and starts the page
+that it has been given: a gzclient that nobody looks at, as launch files start it, holds a port and nothing else.
 """
 from __future__ import annotations
 
+import os
+import socket
 import sys
 import time
 from typing import Any, List, Optional
+from urllib.parse import urlsplit
 
 import node_signals
-import rosgraph
-import rospy
+from ode_sim.viewer.website import Unavailable, Website
 
 from gzclient import command_line, desktop
 
-_LOOK = 0.25  # wall s between two looks at whether the node has ended
+_LOOK = 0.25  # wall s between two looks at whether the window has been closed
+_MASTER = "http://localhost:11311"
 
 
 def main(arguments: List[str]) -> int:
     """Exit code: 0 the window was closed or the node ended, 1 it could not be opened."""
-    options = command_line.parse(rospy.myargv(arguments))
+    options = command_line.parse([word for word in arguments if ":=" not in word])  # ROS remappings
     _wait_for_master()
-    node_signals.init_node("gzclient", anonymous=True, disable_rostime=True,
-                           log_level=rospy.DEBUG if options.verbose else rospy.INFO)
     for line in command_line.remarks(options):
-        rospy.logwarn("%s", line)
-    from ode_sim.viewer.website import Unavailable, Website
+        _say(line)
     try:
         website = Website(options.port, options.listen)
     except Unavailable as error:
-        rospy.logerr("gzclient: %s", error)
+        _say(str(error))
         return 1
     window = _open(website, options)
 
-    def ended() -> bool:
-        return rospy.is_shutdown() or window is not None and window.closed
+    def closed() -> bool:
+        return window is not None and window.closed
 
     try:
-        while not ended():
+        while not closed():
             if window is not None and window.process is not None or website.knocked(_LOOK):
-                return _serve(website, options, ended)
+                return _serve(website, options, closed)
         return 0
     finally:
         if window is not None:
@@ -48,9 +48,10 @@ def main(arguments: List[str]) -> int:
         website.close()
 
 
-def _serve(website: Any, options: Any, ended: Any) -> int:
-    from ode_sim.viewer.website import Unavailable
-
+def _serve(website: Website, options: Any, closed: Any) -> int:
+    import rospy
+    node_signals.init_node("gzclient", anonymous=True, disable_rostime=True,
+                           log_level=rospy.DEBUG if options.verbose else rospy.INFO)
     from gzclient.page import make_page
     try:
         page = make_page(website, options.shadows)
@@ -58,28 +59,42 @@ def _serve(website: Any, options: Any, ended: Any) -> int:
         rospy.logerr("gzclient: %s", error)
         return 1
     try:
-        page.run(ended)
+        page.run(lambda: rospy.is_shutdown() or closed())
     finally:
         page.close()
     return 0
 
 
-def _open(website: Any, options: Any) -> Optional[desktop.Window]:
+def _open(website: Website, options: Any) -> Optional[desktop.Window]:
     """The window of the desktop, where there is one; the address on the terminal in any case."""
     window = None
     if desktop.available() and not options.no_window:
         window = desktop.Window(website.local_address)
         if window.process is None:
-            rospy.logwarn("gzclient: no browser was found to show the window with; install chromium")
+            _say("no browser was found to show the window with; install chromium")
     print(f"gzclient: the simulator's window is at {website.address}", flush=True)
     return window
 
 
+def _say(line: str) -> None:
+    print(f"gzclient: {line}", file=sys.stderr, flush=True)
+
+
 def _wait_for_master() -> None:
+    uri = os.environ.get("ROS_MASTER_URI", _MASTER)
     warned = False
-    while not rosgraph.is_master_online():
+    while not _listens(uri):
         if not warned:
-            print(f"gzclient: no ROS master at {rosgraph.get_master_uri()}; waiting for one (start the simulator)",
-                  file=sys.stderr, flush=True)
+            _say(f"no ROS master at {uri}; waiting for one (start the simulator)")
             warned = True
         time.sleep(0.5)
+
+
+def _listens(uri: str) -> bool:
+    """Whether somebody takes connections there; what it is, rospy finds out."""
+    try:
+        place = urlsplit(uri)
+        socket.create_connection((place.hostname or "localhost", place.port or 80), timeout=2.0).close()
+        return True
+    except (OSError, ValueError):
+        return False

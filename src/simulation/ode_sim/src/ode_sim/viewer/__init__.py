@@ -12,6 +12,7 @@
 ``simulation``          what the page wants of a simulator: :class:`Simulation`, its records
 ``local``               a world in this process as a simulation
 ``website``             the web server: who may open the page (loopback, token, origin)
+``porter``              hands the page out while the web server is being loaded
 ``page``                the page: draws, and joins the parts below
 ``drawing``             models and lights
 ``overlays``            collisions, centres of mass, inertias, joints, frames, labels
@@ -29,8 +30,10 @@
 Needs the PyPI package viser (scripts/requirements.txt).
 """
 from importlib import import_module
+from typing import TYPE_CHECKING
 
-from ode_sim.viewer.simulation import Frame, ModelRecord, Refused, Simulation, WorldRecord
+if TYPE_CHECKING:
+    from ode_sim.viewer.simulation import Frame, ModelRecord, Refused, Simulation, WorldRecord
 
 __all__ = ["Frame", "LocalSimulation", "ModelRecord", "Page", "Refused", "Simulation", "WorldRecord"]
 
@@ -38,6 +41,6 @@ _LATER = {"LocalSimulation": "local", "Page": "page"}  # a server that only desc
 
 
 def __getattr__(name: str):
-    if name not in _LATER:
+    if name not in __all__:
         raise AttributeError(f"module '{__name__}' has no attribute '{name}'")
-    return getattr(import_module(f"{__name__}.{_LATER[name]}"), name)
+    return getattr(import_module(f"{__name__}.{_LATER.get(name, 'simulation')}"), name)

@@ -41,8 +41,8 @@ class Page:
                  panels: Sequence[type] = (), say: Callable[[str], None] = _log.warning,
                  website: Optional[Website] = None):
         self.simulation = simulation
-        self.website = website or Website(port, listen)
-        self.server = self.website.open(title)
+        self.website = website or Website(port, listen, title)
+        self.server = self.website.open()
         self.world = WorldRecord()
         self.frame: Optional[Frame] = None
         self._say = say

@@ -3,25 +3,25 @@
 By default it answers on the loopback interface only, to pages that come from itself. With ``listen`` it answers to
 every machine that shows the token, which is part of the address that is printed once.
 
-The port is taken at once, viser (a second of imports) is started when a browser has knocked: until then the knocks wait
-in the system's queue.
+The port is taken at once, viser (a second of imports) is started when a browser has knocked. The page itself is given to that
+browser at once, by the :mod:`~ode_sim.viewer.porter`; what comes next waits in the system's queue for viser.
 """
 from __future__ import annotations
 
 import contextlib
 import gzip
 import hmac
-import html
 import http
 import importlib.util
 import io
 import secrets
-import select
 import socket
 import threading
 from http.cookies import CookieError, SimpleCookie
 from typing import Any, Optional
 from urllib.parse import parse_qs, urlsplit
+
+from ode_sim.viewer.porter import Porter, entitled
 
 #: Beside the 11345 of Gazebo's own master; the next free one is taken where it is in use.
 DEFAULT_PORT = 11346
@@ -83,10 +83,11 @@ class Website:
 
     :ivar viser: the ViserServer; None before :meth:`open`
     :param listen: to other machines, with a token
+    :param title: of the browser's window
     :raises Unavailable: viser is not installed, or no port is free
     """
 
-    def __init__(self, port: int = DEFAULT_PORT, listen: bool = False):
+    def __init__(self, port: int = DEFAULT_PORT, listen: bool = False, title: str = "Gazebo"):
         if importlib.util.find_spec("viser") is None:
             raise Unavailable("the page needs the Python package viser; scripts/setup installs it")
         self.guard = Guard(secrets.token_urlsafe(16) if listen else "")
@@ -94,6 +95,9 @@ class Website:
         self._door = _take_port(port, listen)
         self.port = self._door.getsockname()[1]
         self._listen = listen
+        self._title = title
+        self._porter = Porter(self._door, self.guard.refuse, title)
+        self._porter.start()
 
     @property
     def address(self) -> str:
@@ -107,13 +111,12 @@ class Website:
         return f"http://localhost:{self.port}/" + (f"?token={self.guard.token}" if self._listen else "")
 
     def knocked(self, seconds: float) -> bool:
-        """Whether a browser is at the door, within that time; nothing is answered yet."""
-        return bool(select.select([self._door], [], [], seconds)[0])
+        """Whether a browser has come to the door, within that time."""
+        return self._porter.knocked.wait(seconds)
 
-    def open(self, title: str = "Gazebo") -> Any:
+    def open(self) -> Any:
         """Start to answer; the ViserServer.
 
-        :param title: of the browser's window
         :raises Unavailable: what viser needs is not installed
         """
         if self.viser is None:
@@ -122,7 +125,8 @@ class Website:
             except ImportError as error:
                 raise Unavailable(
                     f"the page needs the Python package {error.name}; scripts/setup installs it") from error
-            self.viser = _start(viser, self._door, self.guard, title)
+            self._porter.leave()
+            self.viser = _start(viser, self._door, self.guard, self._title)
             self._withdraw_sharing()
         return self.viser
 
@@ -131,6 +135,7 @@ class Website:
             with contextlib.redirect_stdout(io.StringIO()):  # viser says goodbye there
                 self.viser.stop()
             self.viser = None
+        self._porter.leave()
         self._door.close()
 
     def _withdraw_sharing(self) -> None:
@@ -141,11 +146,10 @@ class Website:
 
 
 def _entitled(response: Any, title: str) -> Any:
-    """viser's page under another name than its own."""
     if response is not None and response.headers.get("Content-Type", "").startswith("text/html"):
         packed = response.headers.get("Content-Encoding") == "gzip"
         body = gzip.decompress(response.body) if packed else response.body
-        body = body.replace(b"<title>Viser</title>", f"<title>{html.escape(title)}</title>".encode(), 1)
+        body = entitled(body, title)
         response.body = gzip.compress(body, 1) if packed else body
         del response.headers["Content-Length"]
         response.headers["Content-Length"] = str(len(response.body))

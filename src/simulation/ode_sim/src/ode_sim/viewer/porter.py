@@ -1,0 +1,143 @@
+"""Hands the page out while the web server that it will talk to is still being loaded.
+
+A browser needs a second to unpack and start the page, viser needs a second of imports: they happen side by side. The porter
+answers the first request for the page, then leaves the door: what knocks next waits in the system's queue for the server.
+"""
+from __future__ import annotations
+
+import contextlib
+import gzip
+import html
+import http
+import importlib.util
+import os
+import select
+import socket
+import threading
+import time
+from typing import Any, Callable, Dict, Optional
+
+_LONGEST = 65536  # bytes of a request's head
+_PATIENCE = 5.0  # wall s that a browser may take to send it, or to read the answer
+
+#: What decides about a request: ``refuse(path, headers)``, None or (status, headers, text).
+Refuse = Callable[[str, "Headers"], Optional[tuple]]
+
+
+class Headers(Dict[str, str]):
+    """Of a request; names in any case."""
+
+    def get(self, name: str, default: Any = None) -> Any:
+        return super().get(name.lower(), default)
+
+
+def page_of_viser(title: str) -> Optional[bytes]:
+    """Its HTML under another title; None where it is not found. Does not import viser."""
+    found = importlib.util.find_spec("viser")
+    for folder in found.submodule_search_locations or () if found else ():
+        with contextlib.suppress(OSError), open(os.path.join(folder, "client", "build", "index.html"), "rb") as file:
+            return entitled(file.read(), title)
+    return None
+
+
+def entitled(page: bytes, title: str) -> bytes:
+    """viser's page under another name than its own."""
+    return page.replace(b"<title>Viser</title>", f"<title>{html.escape(title)}</title>".encode(), 1)
+
+
+class Porter(threading.Thread):
+    """At the door from :meth:`start` until the page has been given to somebody, or :meth:`leave`.
+
+    :param door: listened on
+    :ivar knocked: set when a browser was there
+    """
+
+    def __init__(self, door: socket.socket, refuse: Refuse, title: str):
+        super().__init__(name="porter", daemon=True)
+        self.knocked = threading.Event()
+        self._door, self._refuse, self._title = door, refuse, title
+        self._bell, self._ring = socket.socketpair()
+        self._begun: Dict[socket.socket, bytes] = {}  # requests of which a part has come
+        self._since: Dict[socket.socket, float] = {}
+
+    def leave(self) -> None:
+        """Returns when it is gone; what has not been answered is hung up on, browsers then try again."""
+        with contextlib.suppress(OSError):
+            self._ring.send(b".")
+        if self.is_alive():
+            self.join()
+
+    def run(self) -> None:
+        try:
+            while not self._served():
+                pass
+        finally:
+            for connection in list(self._begun):
+                self._drop(connection)
+            self.knocked.set()
+            self._bell.close()
+            self._ring.close()
+
+    def _served(self) -> bool:
+        """Answer what comes next; whether the porter is to go."""
+        ready, _, _ = select.select([self._door, self._bell, *self._begun], [], [], _PATIENCE)
+        if self._bell in ready:
+            return True
+        for late in [c for c, since in self._since.items() if time.monotonic() > since + _PATIENCE]:
+            self._drop(late)
+        for connection in ready:
+            if connection is self._door:
+                with contextlib.suppress(OSError):
+                    new, _ = self._door.accept()
+                    new.settimeout(_PATIENCE)
+                    self._begun[new], self._since[new] = b"", time.monotonic()
+            elif connection in self._begun and self._read(connection):
+                return True
+        return False
+
+    def _read(self, connection: socket.socket) -> bool:
+        """More of a request; whether the page was given away."""
+        try:
+            more = connection.recv(_LONGEST)
+        except OSError:
+            more = b""
+        self._begun[connection] += more
+        if b"\r\n\r\n" not in self._begun[connection] and more and len(self._begun[connection]) < _LONGEST:
+            return False
+        self.knocked.set()
+        given = False
+        with contextlib.suppress(OSError, ValueError):  # it went away, or is no browser
+            given = bool(more) and self._answer(connection, self._begun[connection])
+        self._drop(connection)
+        return given
+
+    def _answer(self, connection: socket.socket, request: bytes) -> bool:
+        first, *rest = request.split(b"\r\n\r\n", 1)[0].decode("latin-1").split("\r\n")
+        method, path, _ = first.split(" ", 2)
+        headers = Headers((name.strip().lower(), value.strip()) for name, _, value in (line.partition(":") for line in rest))
+        refused = self._refuse(path, headers)
+        if refused is not None:
+            status, more, text = refused
+            self._send(connection, status, more, text.encode())
+            return False
+        page = page_of_viser(self._title) if method == "GET" and path.partition("?")[0] == "/" and not headers.get("Upgrade") else None
+        if page is None:  # a page of before that looks whether the server is back: it asks again
+            self._send(connection, http.HTTPStatus.SERVICE_UNAVAILABLE, {"Retry-After": "1"}, b"")
+            return False
+        more = {"Content-Type": "text/html; charset=utf-8"}
+        if "gzip" in headers.get("Accept-Encoding", "") and connection.getpeername()[0] != "127.0.0.1":
+            more["Content-Encoding"], page = "gzip", gzip.compress(page, 1)
+        self._send(connection, http.HTTPStatus.OK, more, page)
+        return True
+
+    @staticmethod
+    def _send(connection: socket.socket, status: http.HTTPStatus, headers: Dict[str, str], body: bytes) -> None:
+        lines = [f"HTTP/1.1 {status.value} {status.phrase}", *(f"{name}: {value}" for name, value in headers.items()),
+                 f"Content-Length: {len(body)}", "Connection: close", "", ""]
+        connection.sendall("\r\n".join(lines).encode("latin-1") + body)
+
+    def _drop(self, connection: socket.socket) -> None:
+        del self._begun[connection], self._since[connection]
+        with contextlib.suppress(OSError):
+            connection.shutdown(socket.SHUT_WR)
+        connection.close()
