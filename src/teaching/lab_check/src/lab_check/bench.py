@@ -159,12 +159,11 @@ def _empty():
     return Empty
 
 
-def wait_for_simulator(alive: Callable[[], None], seconds: float, optional: Callable[[], bool]) -> bool:
+def wait_for_simulator(alive: Callable[[], None], left: Callable[[], float], optional: Callable[[], bool]) -> bool:
     """True when it answers, False when it does not come and need not (``optional()``)."""
     import rosgraph
     master = rosgraph.Master("/lab_check")
-    end = time.monotonic() + seconds
-    while time.monotonic() < end:
+    while left():
         alive()
         try:
             master.lookupService("/gazebo/lab_check_state")

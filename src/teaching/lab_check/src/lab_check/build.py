@@ -9,7 +9,7 @@ from typing import Dict, List
 
 from .explain import error_lines, excerpt, meaning, timeless
 from .job import Job
-from .supervise import Guard
+from .supervise import STRETCH, Guard
 
 
 @dataclass
@@ -45,7 +45,7 @@ def _make(job: Job, built: Built, timeout: float, only: List[str]) -> bool:
     program = job.start(line, built=False)
     guard = Guard(lambda: [program], {**job.limits, "time": timeout})
     guard.start()
-    program.wait(timeout)
+    program.wait(STRETCH * timeout)
     guard.stop()
     text = program.output.text()
     built.log += text

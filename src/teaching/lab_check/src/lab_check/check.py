@@ -18,7 +18,7 @@ from . import report, sandbox
 from .job import Job
 from .outcome import Result
 from .spec import Spec
-from .supervise import die_with_parent
+from .supervise import STRETCH, die_with_parent
 
 
 
@@ -58,7 +58,7 @@ def check(spec: Spec, submission: pathlib.Path, out: pathlib.Path, unsafe: bool 
     job.save(job_file)
     words = [sys.executable, "-m", "lab_check.examiner", str(job_file)]
     sessions = len({task["launch"] for task in spec.data["tasks"]})
-    patience = spec.data["build"]["timeout"] * 2 + sessions * (limits["time"] + 90)
+    patience = STRETCH * (spec.data["build"]["timeout"] * 2 + sessions * (limits["time"] + 90))
     try:
         fault = _run(words if unsafe else sandbox.outer_words() + words, out, patience)
         result = _read(out, fault, spec, submission)

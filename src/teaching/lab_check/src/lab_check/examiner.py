@@ -20,6 +20,7 @@ from .job import Job
 from .outcome import Result, TaskResult, Verdict, failed_task, rounded, share, task_from
 from .spec import kind_of
 from .staging import StagingError, stage
+from .supervise import STRETCH
 
 # Packages that the examination itself stands on: one of that name in a submission would answer in their place.
 TRUSTED = {
@@ -213,7 +214,7 @@ class Examiner:
                 stdin=subprocess.DEVNULL,
             )
             try:
-                process.wait(self.job.limits["time"] + 60)
+                process.wait(STRETCH * self.job.limits["time"] + 60)
             except subprocess.TimeoutExpired:
                 process.kill()
                 process.wait()

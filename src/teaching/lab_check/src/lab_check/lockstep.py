@@ -12,6 +12,8 @@ import time
 from collections import Counter, deque
 from typing import Deque, Dict, Iterable, List, Optional, Set, Tuple
 
+from .supervise import descendants
+
 _REST = 0.0016  # s of rest, longer than roscpp's look at the clock
 _STEP = 0.0004  # s between two looks
 _LONG_STEP = 0.01  # the same where rest is long: starts of programs
@@ -36,6 +38,7 @@ class Nodes:
         self._restless: Set[int] = set()
         self._threads: Dict[Tuple[int, int], int] = {}  # -> descriptor of its state
         self._simulator: Optional[int] = None
+        self._simulators: Set[int] = set()  # and what it started, such as encoders of images
         self.restless_names: List[str] = []
         self.pids: List[int] = []
         self.find()
@@ -51,6 +54,8 @@ class Nodes:
                 found.append(pid)
             elif pid in self._own or self._marked(pid):
                 found.append(pid)
+        if self._simulator is not None and set(found) != set(self.pids):
+            self._simulators = set(descendants(self._simulator))
         self.pids = found
 
     def _marked(self, pid: int) -> bool:
@@ -63,11 +68,12 @@ class Nodes:
         return self._known[pid]
 
     def strangers(self) -> List[int]:
-        """All but the checker's and the simulator."""
-        return [pid for pid in self.pids if pid not in self._own and pid != self._simulator]
+        """All but the checker's and the simulator's."""
+        return [pid for pid in self.pids if pid not in self._own and pid not in self._simulators]
 
     def simulator_is(self, pid: Optional[int]) -> None:
         self._simulator = pid
+        self._simulators = set() if pid is None else set(descendants(pid))
 
     def add_own(self, pid: int) -> None:
         self._own.add(pid)
@@ -151,7 +157,7 @@ class Nodes:
 
     def _give_up(self, busy: Set[int]) -> None:
         for pid in busy:
-            if pid in self._own or pid == self._simulator:
+            if pid in self._own or pid in self._simulators:
                 continue
             self._restless.add(pid)
             try:

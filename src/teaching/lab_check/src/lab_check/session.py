@@ -136,22 +136,24 @@ class Session:
     # ------------------------------------------------------------------------------------------ readiness
 
     def _get_ready(self, ready: Dict[str, Any]) -> None:
-        end = time.monotonic() + ready["timeout"]
-        simulated = wait_for_simulator(self._alive, ready["timeout"], lambda: False)
+        def left() -> float:
+            return max(ready["timeout"] - self.guard.spent, 0.0)
+
+        simulated = wait_for_simulator(self._alive, left, lambda: False)
         if not simulated:
             raise Gone(
                 f"no simulator came up within {ready['timeout']:g} s: does the launch file include gazebo_ros's empty_world.launch?"
             )
         self._make_bench()
         for part in self.tasks[0]["launch"].split(" + ")[1:]:  # as in a second shell, when the first has come up
-            self.bench.settle(_READY_REST, patience=max(end - time.monotonic(), 1.0))
+            self.bench.settle(_READY_REST, patience=max(left(), 1.0))
             self.bench.pass_time(_READY_STEP)
             self._launch(part)
         missing = ["everything"]
         while missing:
-            self.bench.settle(_READY_REST, patience=max(end - time.monotonic(), 1.0))
+            self.bench.settle(_READY_REST, patience=max(left(), 1.0))
             missing = self._missing(ready)
-            if missing and time.monotonic() > end:
+            if missing and not left():
                 raise Gone(f"not ready after {ready['timeout']:g} s: still missing {', '.join(missing)}")
             if missing:
                 self.bench.pass_time(_READY_STEP)
