@@ -311,6 +311,17 @@ def test_nested_models_are_flattened_with_scoped_names(models, finder):
     assert names(m.plugins) == ["own"] and not problems
 
 
+def test_what_is_static_in_a_model_that_moves_stays_where_it_is(finder):
+    """Warehouses name their floor so: a <model> with nothing but the <include> of one that is static."""
+    slab = '<model name="slab"><static>1</static><link name="l"/></model>'
+    m, problems = model(f"<pose>0 0 3 0 0 0</pose>{slab}", finder)
+    assert m.static and not m.joints and not problems
+    m, problems = model(f'<link name="base"/><model name="room"><link name="door"/>{slab}</model>', finder)
+    assert not m.static and not problems
+    assert [(j.name, j.type, j.parent, j.child) for j in m.joints] == [
+        ("room::slab::l::static", "fixed", "world", "room::slab::l")]
+
+
 def test_a_model_that_includes_itself_is_stopped(models, finder):
     models("ring", '<sdf version="1.6"><model name="ring"><link name="l"/>'
                    '<include><uri>model://ring</uri></include></model></sdf>')

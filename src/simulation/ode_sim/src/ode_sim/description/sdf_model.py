@@ -37,6 +37,7 @@ class _Parts:
     joints: List[Joint] = field(default_factory=list)
     plugins: List[Plugin] = field(default_factory=list)
     frames: Dict[str, Pose] = field(default_factory=dict)  # X_M of links, joints, frames, for relative_to
+    still: Set[str] = field(default_factory=set)  # links of nested models that are static
 
 
 class SdfModels(SdfShapes):
@@ -55,11 +56,14 @@ class SdfModels(SdfShapes):
 
     def model(self, element: ET.Element) -> Model:
         parts = self._parts(element)
-        static = self.boolean(element, "static", False)
         if not parts.links:
             raise DescriptionError(f"{source_of(element)}: has no <link>; a model needs at least one")
+        static = self.boolean(element, "static", False) or len(parts.still) == len(parts.links)
         for i, link in enumerate(parts.links):
-            parts.links[i] = self._with_checked_inertial(link, static)
+            parts.links[i] = self._with_checked_inertial(link, static or link.name in parts.still)
+        if not static:  # what of it never moves hangs from the world
+            parts.joints += [Joint(f"{link.name}::static", "fixed", "world", link.name, source=link.source)
+                             for link in parts.links if link.name in parts.still]
         return Model(name=parts.name, pose=parts.pose, links=tuple(parts.links), joints=tuple(parts.joints),
                      plugins=tuple(parts.plugins), static=static,
                      self_collide=self.boolean(element, "self_collide", False),
@@ -97,6 +101,8 @@ class SdfModels(SdfShapes):
         for joint in self._named_once(element, "joint"):
             parts.joints += self._joint(joint, parts, known)
         for sub in nested:
+            if self.boolean(sub.element, "static", False):
+                sub.still = {link.name for link in sub.links}
             self._merge(parts, sub)
         parts.plugins += self.plugins(element)
         for gripper in element.findall("gripper"):
@@ -122,6 +128,7 @@ class SdfModels(SdfShapes):
 
         for link in sub.links:
             parts.links.append(replace(link, name=scoped(link.name), pose=math3.compose(x_ms, link.pose)))
+        parts.still |= {scoped(name) for name in sub.still}
         for joint in sub.joints:
             parts.joints.append(replace(joint, name=scoped(joint.name), parent=scoped(joint.parent),
                                         child=scoped(joint.child)))
