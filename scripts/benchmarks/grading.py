@@ -1,8 +1,10 @@
-"""A class of arm homeworks with seeded faults: how long it takes, what a second worker brings, what the sandbox costs."""
+"""A class of arm homeworks with seeded faults: how long it takes, what a second worker brings, what the sandbox and a long queue cost."""
 import argparse
 import json
 import pathlib
+import resource
 import subprocess
+import sys
 import tempfile
 import time
 
@@ -12,7 +14,7 @@ from lab_check.report import marks
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 ARM = ROOT / "src" / "labs" / "arm"
-SPEC = ROOT / "src" / "tools" / "lab_check" / "specs" / "arm_homework.yaml"
+SPEC = ROOT / "src" / "teaching" / "lab_check" / "specs" / "arm_homework.yaml"
 
 
 def grade(folder, out, workers):
@@ -43,6 +45,52 @@ def sandbox_cost(scratch, runs=10):
     return (cost["outer"] - cost["bare"]) + 3 * (cost["inner"] - cost["bare"])
 
 
+def queue(count, scratch):
+    """Grades ``count`` submissions whose examination takes no time; for a process of its own, which prints its peak memory, MB."""
+    from lab_check import gradebook, grade, spec
+    from lab_check.engines import Engine
+    from lab_check.outcome import TaskResult, Verdict
+    from lab_check.store import Store
+
+    class Nothing(Engine):
+        def __init__(self):
+            self.running, self.workers = {}, 100
+
+        def start(self, name, path):
+            self.running[name] = path
+
+        def ended(self):
+            return list(self.running)
+
+        def take(self, name):
+            del self.running[name]
+            verdicts = [Verdict("joint", True, f"joint j{i} was at 1 rad after 2 s", 2.5, figures={"error": 0.01}) for i in range(8)]
+            return Result("Empty work", name, 20.0, 20.0, tasks=[TaskResult("Nothing", 20.0, 20.0, verdicts)])
+
+        def end(self):
+            pass
+
+    store = Store(scratch / "class.sqlite")
+    for number in range(count):
+        store.enlist(f"student{number:05}", scratch / "none", "")
+    grade.run(store, Nothing(), lambda line: None)
+    gradebook.write(spec.load(SPEC), store, scratch)
+    print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)
+
+
+def queue_memory(count, scratch):
+    """MB that the driver's process takes at most for a queue of ``count``, and for one of 10."""
+    words = "import grading, pathlib, sys; grading.queue(int(sys.argv[1]), pathlib.Path(sys.argv[2]))"
+    found = []
+    for number in (count, 10):
+        place = scratch / f"queue{number}"
+        place.mkdir()
+        done = subprocess.run([sys.executable, "-c", words, str(number), str(place)], cwd=pathlib.Path(__file__).parent, check=True,
+                              capture_output=True, text=True)
+        found.append(float(done.stdout))
+    return found
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--json", required=True)
@@ -51,6 +99,8 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         scratch = pathlib.Path(folder)
         figures = {"sandbox: seconds for a submission": sandbox_cost(scratch)}
+        figures["class: driver's memory for a queue of 10000, MB"], figures["class: driver's memory for a queue of 10, MB"] = \
+            queue_memory(10000, scratch)
         faults.make(ARM, scratch / "class", options.count)
         two, first = grade(scratch / "class", scratch / "two", 2)
         figures[f"{options.count} arm homeworks, 2 workers: seconds"] = two

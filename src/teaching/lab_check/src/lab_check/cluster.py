@@ -83,7 +83,7 @@ class Cluster(Engine):
             except ray.exceptions.GetTimeoutError:
                 name, said = address, [f"it did not answer within {_LOOK:.0f} s"]
             except ray.exceptions.RayError as error:
-                name, said = address, [_reason(error) + "; 'ray start' there in a shell that has sourced noetic_labs' setup.bash"]
+                name, said = address, [_reason(error) + "; 'rosrun lab_check ray start' there in a shell that has sourced noetic_labs' setup.bash"]
             if said:
                 show(f"node {name} ({address}) is left out: {'; '.join(said)}")
             else:
@@ -175,8 +175,8 @@ def connect(address: str):
                 _knock(address)  # Ray itself would go on asking for minutes
             ray.init(address=address, **quiet)
     except (ConnectionError, RuntimeError, ValueError, OSError) as error:
-        raise ClusterError(f"no Ray cluster answers at '{address}' ({_first_line(error)}); start one: ray start --head, and on each other "
-                           "machine ray start --address HOST:6379") from None
+        raise ClusterError(f"no Ray cluster answers at '{address}' ({_first_line(error)}); start one: rosrun lab_check ray start --head, and "
+                           "on each other machine rosrun lab_check ray start --address HOST:6379") from None
     return ray
 
 
