@@ -28,7 +28,8 @@ WANTED = [
     (r"check / FCL's bare loop", "<=", 1.2), (r"^move_group: launch command to", "<", 3.0), (r"^move_group: memory", "<", 300.0),
     (r"^move_group: growth", "<", 2.0),
     (r"^view, 30 bodies: the same scaled", "<", 0.1), (r"^view, nobody looks", "<", 0.01), (r"^view: first page served", "<", 2.0),
-    (r"^view, 200 models: processor seconds", "<", 5.0),
+    (r"^view, 200 models: processor seconds", "<", 5.0), (r"^view, page usable, s", "<", 2.0), (r"^view, arm lab.*factor", ">=", 0.99),
+    (r"^view, 3 pages: least", ">=", 0.99), (r"^view, .*errors", "<=", 0),
     (r"^rqt.* to its window, s", "<", 1.5), (r"^rqt_graph, .* drawn, s", "<", 1.0), (r"longest pause of the window", "<", 50.0),
     (r"^rqt_image_view.*part of a core", "<", 0.25), (r"motors: p99 cycle", "<", 1.5), (r"^mbot.*real-time factor, throttled$", ">=", 0.99),
     (r"^mbot.*real-time factor, uncapped$", ">=", 10.0), (r"mbots: cost per mbot against one", "<=", 1.05),
@@ -214,6 +215,8 @@ SECTIONS = {
     "windows": ("rqt: start, a large graph, fast topics", lambda quick: section_script("windows.py", *(["--quick"] if quick else []))),
     "view": ("gzclient: what its stream costs the server, how soon its page is there",
              lambda quick: section_script("view.py", *(["--quick"] if quick else []))),
+    "page": ("gzclient's page in Chromium: how soon, ten reconnects, a heavy world, three pages, a slow network, broken meshes",
+             lambda quick: section_script("view_browser.py", *(["usable", "arm", "pages"] if quick else []))),
     "class": ("lab_check: a class of arm homeworks with seeded faults; the sandbox", class_of),
     "can": ("cycles of rm_hw against the motor bench", lambda quick: section_script("can_loop.py", "--seconds", 5 if quick else 20)),
 }

@@ -2,7 +2,8 @@
 """What the simulator's window bears, in a real browser: how soon it is usable, ten reconnects, a heavy world, three pages at
 once, a slow network, broken meshes.
 
-    scripts/benchmarks/view_browser.py                          all of it, a table
+    scripts/bench page                                          all of it, beside what was asked for
+    scripts/benchmarks/view_browser.py                          the same, a table
     scripts/benchmarks/view_browser.py usable slow              some
     scripts/benchmarks/view_browser.py --shots DIR --json FILE  with pictures, and for programs
 
@@ -201,6 +202,35 @@ def pages(bench):
                 "3 pages: errors": sum(len(page.complaints()) for page in shown)}
 
 
+def arm(bench):
+    """The first lab as its launch file starts it, its camera watched by a node, the world by a page."""
+    environment = {**bench.environment, "HOME": bench.folder}
+    options = {"env": environment, "stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL, "start_new_session": True}
+    lab = [subprocess.Popen(["roslaunch", "arm_gazebo", "arm_gazebo.launch", "gui:=false", "rviz:=false"], **options)]
+    try:
+        subprocess.run(["rostopic", "echo", "-n1", "/camera/image_raw/header"], env=environment, stdout=subprocess.DEVNULL, timeout=120,
+                       check=True)
+        lab.append(subprocess.Popen(["rostopic", "hz", "/camera/image_raw"], **options))
+        with bench.client() as (_, address), Browser(address, frames=10) as page:
+            page.see("real-time factor", "arm")
+            time.sleep(5.0)  # the browser is busy with its first picture
+            begin, first = time.monotonic(), sim_time(environment)
+            time.sleep(20.0)
+            ran = (sim_time(environment) - first) / (time.monotonic() - begin)
+            bench.shot(page, "arm")
+            return {"arm lab, camera and one page: real-time factor": ran,
+                    "arm lab, camera and one page: errors on the page": len(page.complaints())}
+    finally:
+        for process in reversed(lab):
+            os.killpg(process.pid, signal.SIGINT)
+            process.wait(60)
+
+
+def sim_time(environment):
+    said = subprocess.run(["rostopic", "echo", "-n1", "/clock"], env=environment, capture_output=True, text=True, timeout=30).stdout
+    return int(re.search(r"secs: +(\d+)", said).group(1)) + 1e-9 * int(re.search(r"nsecs: +(\d+)", said).group(1))
+
+
 class SlowNetwork:
     """A relay that lets through so many bytes a second in each direction, each of them late."""
 
@@ -276,7 +306,7 @@ def broken(bench):
                 "6 broken meshes: real-time factor": factor(page) or 0.0, "6 broken meshes: errors on the page": len(page.complaints())}
 
 
-PARTS = {f.__name__: f for f in (usable, reconnects, heavy, pages, slow, broken)}
+PARTS = {f.__name__: f for f in (usable, arm, reconnects, heavy, pages, slow, broken)}
 
 
 def main():

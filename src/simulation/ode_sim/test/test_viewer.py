@@ -5,6 +5,7 @@ import http.client
 import socket
 import threading
 import time
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -124,6 +125,14 @@ def test_models_are_drawn_and_follow(page):
     node = next(iter(drawn.links.values()))
     wait(page, lambda: np.allclose(node.position, (1.0, 2.0, 3.0), atol=1e-5))
     assert np.allclose(node.wxyz, (np.cos(0.5), 0.0, 0.0, np.sin(0.5)), atol=1e-5)
+
+
+def test_the_colour_behind_all_is_the_scenes_or_its_skys(page, monkeypatch):
+    seen = []
+    monkeypatch.setattr(page.drawing, "_background", seen.append)
+    for scene in (d.Scene(background=(1.0, 0.0, 0.0, 1.0)), d.Scene(sky=True)):
+        page.drawing.update(replace(page.world, scene=scene))
+    assert seen == [(255, 0, 0), (140, 178, 230)]
 
 
 def test_what_stands_still_is_not_sent(page):

@@ -216,13 +216,14 @@ class Clicks(unittest.TestCase):
             return page.pixel((x, y, 0.0), (0.0, -0.01, 13.0), (0.0, 0.0, 0.0), FIELD)
         page.see("nothing is drawn yet")
         page.settled(before)
-        page.mouse(at(-2.0, -1.5), at(2.05, -1.4), drag=True)
+        corners = ((-2.75, -2.5), (4.0, -2.5), (4.0, 2.5), (-0.75, 2.5), (-0.75, 1.0), (-2.75, 1.0))  # of six walls, as mbot's room
+        page.mouse(at(-2.75, -2.5), at(4.05, -2.4), drag=True)
         page.see("1 walls")
-        for x, y in ((2.0, -1.5), (2.0, 1.6), (-2.0, 1.5), (-2.0, -1.5)):
-            page.mouse(at(x, y))
-        page.see("4 walls")
+        for x, y in (*corners[1:], corners[0]):
+            page.mouse(at(x + 0.05, y - 0.06))
+        page.see("6 walls")
         page.choose("Tool", "Door")
-        page.mouse(page.pixel((0.0, -1.5, 2.5), (0.0, -0.01, 13.0), (0.0, 0.0, 0.0), FIELD))
+        page.mouse(page.pixel((0.0, -2.5, 2.5), (0.0, -0.01, 13.0), (0.0, 0.0, 0.0), FIELD))
         page.see("Picked: door")
         page.click("Save")
         page.see("saved in")
@@ -231,8 +232,8 @@ class Clicks(unittest.TestCase):
                                                       "room.world"])
         from gazebo_ros.building import read_plan
         level, = read_plan(os.path.join(folder, "plan.yaml")).levels
-        corners = {(-2.0, -1.5), (2.0, -1.5), (2.0, 1.5), (-2.0, 1.5)}
-        self.assertEqual({wall.start for wall in level.walls} | {wall.end for wall in level.walls}, corners)
+        self.assertEqual([wall.start for wall in level.walls], list(corners))
+        self.assertEqual([wall.end for wall in level.walls], [*corners[1:], corners[0]])
         self.assertEqual([opening.kind for wall in level.walls for opening in wall.openings], ["door"])
         page.click("Put into the world")
         wait(lambda: "room" in names(), "the building in the world")
@@ -270,12 +271,12 @@ class Clicks(unittest.TestCase):
         self.assertTrue(answer.success, answer.status_message)
         self.page.see("cart")
         self.drive(-1.0)
-        wait(lambda: position("cart")[1] < -2.0, "the cart behind the door")
+        wait(lambda: position("cart")[1] < -3.0, "the cart behind the door")
         self.drive(1.0)
-        wait(lambda: position("cart")[1] > 1.1, "the cart back in the room")
+        wait(lambda: position("cart")[1] > 2.1, "the cart back in the room")
         until = sim_time() + 1.0
         wait(lambda: sim_time() > until, "a second more")
-        self.assertLess(position("cart")[1], 1.3)  # half of it before the face of the wall at 1.425
+        self.assertLess(position("cart")[1], 2.3)  # half of it before the face of the wall at 2.425
         self.page.click("Pause")
         wait(paused, "pause of the new server")
 

@@ -376,6 +376,11 @@ class Scene:
     grid: bool = True
     sky: bool = False
 
+    @property
+    def behind_all(self) -> Tuple[float, float, float]:
+        """The colour where nothing is; of a sky in place of Gazebo's moving clouds."""
+        return (0.55, 0.70, 0.90) if self.sky else self.background[:3]
+
 
 @dataclass(frozen=True)
 class World:

@@ -24,7 +24,6 @@ MAX_LIGHTS = 16
 ANTIALIASING = ("none", "msaa")
 _MAX_TARGETS = 8  # frame buffers kept for cameras of different sizes
 _WIDEST_TEXTURE = 4096  # pixels along a side
-_SKY = (0.55, 0.70, 0.90)  # in place of Gazebo's moving clouds
 _VISIBLE = 1.0 / 512.0  # a highlight darker than half a grey level is not computed
 
 # one record per drawn part in the instance buffer; the order is that of the attributes in shaders.py
@@ -339,7 +338,7 @@ class Renderer:
         if self._sun >= 0 and uniforms is not None:
             self._draw_shadow(uniforms[self._sun, 1, :3].astype(float), world, X_WC[:3, 3])
         target = self._target(width, height, outputs)
-        target.clear(_SKY if self._scene.scene.sky else self._scene.scene.background)
+        target.clear(self._scene.scene.behind_all)
         flags = (self._color_flags if "color" in outputs else frozenset()) | (frozenset(outputs) - {"color"})
         eye = X_WC[:3, 3]
         self._ctx.enable_only(self._ctx.DEPTH_TEST | self._ctx.CULL_FACE)

@@ -216,7 +216,7 @@ class Drawing:
             frame = next((m.links[row] for m in self._models.values() if row in m.links), None)
             if frame is not None:
                 self._lights.append(self._lamp(f"{frame.name}/light{number}", light, False))
-        self._background(rgb255(world.scene.background))
+        self._background(rgb255(world.scene.behind_all))
 
     def _background(self, colour: Tuple[int, int, int]) -> None:
         """viser's own way would load OpenCV to write this picture, half a second before anything is seen."""
