@@ -76,7 +76,7 @@ class Bench:
 
     @contextlib.contextmanager
     def run(self, *words, **options):
-        process = subprocess.Popen(["rosrun", "gazebo_ros", *words], env=self.environment, text=True, start_new_session=True,
+        process = subprocess.Popen(words, env=self.environment, text=True, start_new_session=True,
                                    stderr=subprocess.DEVNULL, **options)
         try:
             yield process
@@ -93,7 +93,7 @@ class Bench:
         with open(file, "w", encoding="utf-8") as stream:
             stream.write(WORLD.format(models))
         quiet = {"env": self.environment, "stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
-        with self.run("gzserver", *options, file, stdout=subprocess.DEVNULL) as server:
+        with self.run("rosrun", "gazebo_ros", "gzserver", *options, file, stdout=subprocess.DEVNULL) as server:
             while subprocess.run(["rosservice", "call", "/gazebo/get_world_properties"], **quiet).returncode:
                 time.sleep(0.2)
             yield server

@@ -20,6 +20,40 @@ from typing import Any, Callable, Dict, Optional
 _LONGEST = 65536  # bytes of a request's head
 _PATIENCE = 5.0  # wall s that a browser may take to send it, or to read the answer
 
+#: Until the controls are there the page draws when something has come from the server, and seldom else: what is seen then is empty,
+#: and costs a second where the processor draws. There it makes no more than 15 pictures a second later: it has a simulation to compute.
+_SPARING = b"""<script>(() => {
+  const draw = window.requestAnimationFrame.bind(window), forget = window.cancelAnimationFrame.bind(window);
+  let waiting = new Map(), last = 0, number = 0, timer = 0, due = 0, gap = 1000, loading = true;
+  const all = time => {
+    const now = waiting;
+    waiting = new Map(), due = 0, last = performance.now();
+    for (const f of now.values()) try { f(time); } catch (error) { reportError(error); }
+  };
+  const arm = rest => {
+    const when = performance.now() + rest;
+    if (due && due <= when) return;
+    clearTimeout(timer);
+    due = when, timer = rest > 4 ? setTimeout(() => draw(all), rest) : draw(all) && 0;
+  };
+  window.requestAnimationFrame = f => { waiting.set(++number, f); arm(last + gap - performance.now()); return number; };
+  window.cancelAnimationFrame = key => { waiting.delete(key) || forget(key); };
+  const Usual = window.Worker;
+  window.Worker = class extends Usual {
+    constructor(...what) { super(...what); this.addEventListener("message", () => loading && waiting.size && arm(30)); }
+  };
+  const look = setInterval(() => {
+    if (!document.querySelector('[role="tab"]')) return;
+    clearInterval(look);
+    const gl = document.createElement("canvas").getContext("webgl");
+    const told = gl && gl.getExtension("WEBGL_debug_renderer_info");
+    const name = told ? gl.getParameter(told.UNMASKED_RENDERER_WEBGL) : "";
+    gl?.getExtension("WEBGL_lose_context")?.loseContext();
+    loading = false, gap = /swiftshader|llvmpipe|softpipe|software/i.test(name) ? 66 : 0;
+    if (waiting.size) arm(0);
+  }, 100);
+})();</script>"""
+
 #: What decides about a request: ``refuse(path, headers)``, None or (status, headers, text).
 Refuse = Callable[[str, "Headers"], Optional[tuple]]
 
@@ -41,8 +75,8 @@ def page_of_viser(title: str) -> Optional[bytes]:
 
 
 def entitled(page: bytes, title: str) -> bytes:
-    """viser's page under another name than its own."""
-    return page.replace(b"<title>Viser</title>", f"<title>{html.escape(title)}</title>".encode(), 1)
+    """viser's page under another name than its own, sparing where it draws."""
+    return page.replace(b"<title>Viser</title>", f"<title>{html.escape(title)}</title>".encode() + _SPARING, 1)
 
 
 class Porter(threading.Thread):
