@@ -1,6 +1,7 @@
 """The engine for a cluster: one task of Ray for each submission, on the nodes that are fit for it."""
 from __future__ import annotations
 
+import os
 import pathlib
 import shutil
 import socket
@@ -62,8 +63,7 @@ class Cluster(Engine):
         except BaseException:
             self._ray.shutdown()
             raise
-        slots = sum(n.slots for n in self._nodes.values())
-        self.workers = min(workers or slots, slots)
+        self._wanted = workers
         self._shared = self._ray.put(self._spec_parcel)
         self._remote = self._ray.remote(num_cpus=1, max_retries=0)(node.examine_parcel)
 
@@ -83,7 +83,7 @@ class Cluster(Engine):
             except ray.exceptions.GetTimeoutError:
                 name, said = address, [f"it did not answer within {_LOOK:.0f} s"]
             except ray.exceptions.RayError as error:
-                name, said = address, [_reason(error) + "; 'rosrun lab_check ray start' there in a shell that has sourced noetic_labs' setup.bash"]
+                name, said = address, [_reason(error) + "; there, source noetic_labs' setup.bash and type rosrun lab_check ray start"]
             if said:
                 show(f"node {name} ({address}) is left out: {'; '.join(said)}")
             else:
@@ -111,11 +111,27 @@ class Cluster(Engine):
         self.running[name] = Task(reference, identity, slot)
         self._last[name] = identity
 
-    def _place(self, last: str) -> Tuple[str, int]:
-        """A slot on the emptiest node, rather not where the submission's worker died before."""
-        alive = {entry["NodeID"] for entry in self._ray.nodes() if entry["Alive"]}
+    @property
+    def workers(self) -> int:  # type: ignore[override]
+        """As many as the nodes that live have room for; 1 when none does, so that :meth:`start` says so."""
+        slots = max(sum(n.slots for n in self._nodes.values() if n.alive), 1)
+        return min(self._wanted or slots, slots)
+
+    def _look(self) -> None:
+        """Which nodes live.
+
+        :raises ClusterError: the head does not answer
+        """
+        try:
+            alive = {entry["NodeID"] for entry in self._ray.nodes() if entry["Alive"]}
+        except (self._ray.exceptions.RayError, RuntimeError, OSError) as error:
+            raise ClusterError(f"the cluster's head does not answer any more ({_first_line(error)}); "
+                               "the same command goes on from here") from None
         for identity, n in self._nodes.items():
             n.alive = identity in alive
+
+    def _place(self, last: str) -> Tuple[str, int]:
+        """A slot on the emptiest node, rather not where the submission's worker died before."""
         free = [identity for identity, n in self._nodes.items() if n.alive and len(n.busy) < n.slots]
         if not free:
             raise ClusterError("no node of the cluster is left that can examine; the same command goes on from here")
@@ -123,6 +139,7 @@ class Cluster(Engine):
         return identity, self._nodes[identity].take()
 
     def ended(self) -> List[str]:
+        self._look()
         references = {task.reference: name for name, task in self.running.items() if task.reference is not None}
         ready, _ = self._ray.wait(list(references), num_returns=len(references), timeout=0) if references else ([], [])
         return [references[reference] for reference in ready] + self._here.ended()
@@ -154,11 +171,19 @@ class Cluster(Engine):
             self._ray.shutdown()
 
 
+def bring_token() -> None:
+    """Where this user has a token, ``ray start --head`` asks for it, but neither ``ray.init`` nor Ray's other commands bring it
+    by themselves: here they do. Before Ray is imported; who has set RAY_AUTH_MODE is heard."""
+    if (pathlib.Path.home() / ".ray" / "auth_token").exists():
+        os.environ.setdefault("RAY_AUTH_MODE", "token")
+
+
 def connect(address: str):
     """Ray, connected.
 
     :raises ClusterError: it is not installed, or nobody answers
     """
+    bring_token()
     try:
         import ray
     except ImportError:
@@ -175,8 +200,8 @@ def connect(address: str):
                 _knock(address)  # Ray itself would go on asking for minutes
             ray.init(address=address, **quiet)
     except (ConnectionError, RuntimeError, ValueError, OSError) as error:
-        raise ClusterError(f"no Ray cluster answers at '{address}' ({_first_line(error)}); start one: rosrun lab_check ray start --head, and "
-                           "on each other machine rosrun lab_check ray start --address HOST:6379") from None
+        raise ClusterError(f"no Ray cluster answers at '{address}' ({_first_line(error)}); start one: rosrun lab_check ray start --head, "
+                           "and on each other machine rosrun lab_check ray start --address HOST:6379") from None
     return ray
 
 
