@@ -50,9 +50,6 @@ class FaultsTest(unittest.TestCase):
         self.refused("misspelled", "controller_manager_tests/EffortTestControler' does not exist",
                      "did you mean 'controller_manager_tests/EffortTestController'?", "list_controller_types")
 
-    def test_compiled_type(self):
-        self.refused("compiled", "controller_manager_tests/CompiledController", "compiled C++ plugin")
-
     def test_module_that_cannot_be_imported(self):
         self.refused("missing_module", "cannot be imported", "no_such_module")
 

@@ -50,7 +50,7 @@ class PluginClass:
 
     @property
     def compiled(self) -> bool:
-        return "::" in self.type
+        return "::" in self.type or "." not in self.type  # of Python there is at least module.Class
 
     def load(self) -> Any:
         """Import and return the class.

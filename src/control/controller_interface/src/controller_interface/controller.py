@@ -70,6 +70,14 @@ class ControllerBase:
     def is_running(self) -> bool:
         return self.state is ControllerState.RUNNING
 
+    def fail(self) -> None:
+        """An exception came out of it: it is aborted."""
+        self.state = ControllerState.ABORTED
+
+    def stopped_itself(self, error: Exception) -> bool:
+        """Whether what update() raised only says that it does not run any more; ``state`` is then what it has become."""
+        return False
+
     # The following four are refused, with False, before the controller is initialised. Exceptions pass through.
 
     def start_request(self, time: float) -> bool:

@@ -5,17 +5,25 @@ import difflib
 import importlib
 import sys
 import threading
-from typing import Dict, List, Optional, Set
+from typing import TYPE_CHECKING, Callable, Dict, List, Optional, Set
 
 import rospy
 from controller_interface import ControllerBase
 from plugin_loader import PluginClass, PluginError, find_plugins
 
+if TYPE_CHECKING:
+    from .compiled import CompiledTypes
+
 
 class ControllerTypes:
-    """Python classes exported for ``controller_interface``. Thread-safe."""
+    """Classes exported for ``controller_interface``, Python's and compiled ones. Thread-safe.
+
+    ``set_time`` moves the clock of compiled code, s; None where there is none, or where it has the clock of the system.
+    """
 
     def __init__(self) -> None:
+        self.set_time: Optional[Callable[[float], None]] = None
+        self._compiled: Optional[CompiledTypes] = None
         self._lock = threading.Lock()
         self._known: Optional[Dict[str, PluginClass]] = None
         self._imported: Set[str] = set()
@@ -30,7 +38,7 @@ class ControllerTypes:
 
     def all(self) -> List[PluginClass]:
         """Types that can be loaded here, by name."""
-        return [plugin for _, plugin in sorted(self._plugins().items()) if not plugin.compiled]
+        return [plugin for _, plugin in sorted(self._plugins().items())]
 
     def find(self, name: str) -> Optional[PluginClass]:
         return self._plugins().get(name)
@@ -52,10 +60,27 @@ class ControllerTypes:
                               f"derive from controller_interface.Controller or MultiInterfaceController")
         return controller
 
+    def create_compiled(self, plugin: PluginClass, name: str) -> ControllerBase:
+        """An instance of a class in C++, for the controller ``name``.
+
+        :raises PluginError: its library is not there or cannot be loaded, or has no such controller.
+        """
+        from .compiled import CompiledTypes  # brings roscpp along, which most robots do without
+        plugins = self._plugins().values()
+        with self._lock:
+            if self._compiled is None:
+                self._compiled = CompiledTypes([known.file for known in plugins if known.compiled])
+                self.set_time = self._compiled.set_time
+            compiled = self._compiled
+        return compiled.create(plugin, name)
+
     def reload(self) -> None:
         """Forget what was found, and import the controllers' modules anew, so that edited files take effect."""
         with self._lock:
             self._known = None
+            compiled, self._compiled = self._compiled, None
+            if compiled is not None:
+                compiled.unload()
             modules, self._imported = self._imported, set()
         for name in sorted(modules):
             try:

@@ -92,6 +92,9 @@ class ControllerManager:
         """
         with self._loop:
             self._begun = True
+            set_time = self._types.set_time
+            if set_time is not None:
+                set_time(time)
             controllers = self._controllers
             if reset:
                 for loaded in controllers:
@@ -176,6 +179,8 @@ class ControllerManager:
 
     def _failed(self, loaded: LoadedController, phase: str, error: Exception, time: float) -> None:
         controller = loaded.controller
+        if controller.stopped_itself(error):
+            return
         rospy.logerr("Controller '%s' (%s) aborted: its %s() raised %s", loaded.name, loaded.info.type, phase,
                      _reason(error))
         if phase == "update":
@@ -183,7 +188,7 @@ class ControllerManager:
                 controller.stopping(time)  # lets it brake; it must not leave its last command standing
             except Exception as second:  # already reported as failed; the first error is the one to look at
                 rospy.logdebug("and its stopping() raised %s", _reason(second))
-        controller.state = ControllerState.ABORTED
+        controller.fail()
 
     # -- services -----------------------------------------------------------------------------------------------------
 
@@ -224,7 +229,7 @@ class ControllerManager:
                 f"'rosservice call {self._root.resolve('controller_manager/list_controller_types')}' to get the "
                 f"available types.")
         try:
-            controller = self._types.create(plugin)
+            controller = self._types.create_compiled(plugin, name) if plugin.compiled else self._types.create(plugin)
         except PluginError as error:
             raise _TypeProblem(f": {error}") from error
         claimed = controller.init_request(self._robot_hw, root, controller_nh)

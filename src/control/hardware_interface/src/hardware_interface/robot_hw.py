@@ -3,7 +3,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from enum import Enum
-from typing import Dict, List, Optional, Sequence, Tuple, Type, TypeVar, Union, overload
+from typing import Any, Dict, List, Optional, Sequence, Tuple, Type, TypeVar, Union, overload
 
 import rospy
 
@@ -46,6 +46,7 @@ class RobotHW:
         self._interfaces: Dict[str, HardwareInterface] = {}
         self._children: List[RobotHW] = []
         self._merged: Dict[str, HardwareInterface] = {}
+        self._twin: Any = None  # in C++; see the module compiled
 
     # -- interfaces -------------------------------------------------------------------------------------------------
 

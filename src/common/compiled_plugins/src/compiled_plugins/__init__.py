@@ -1,0 +1,44 @@
+"""Compiled plugins in a process whose node is one of rospy: roscpp beside it, and a line that names a plugin which goes wrong.
+
+``start_roscpp()`` makes the node of roscpp that compiled code finds. Two nodes in one process need two names: rospy keeps the one
+that users know, roscpp has it with ``_compiled`` behind. Its clock is moved by ``set_time`` alone, so that compiled code sees
+the time of its step.
+
+``why_not(library)`` tells why a library cannot be loaded, in words, or "" if it can.
+
+C++ users of ``<compiled_plugins/guard.h>`` say whose code they call; a crash, exit() or a call that blocks is then named in one line.
+"""
+from __future__ import annotations
+
+import atexit
+import threading
+from typing import Optional
+
+import rospy
+import rospy.names
+
+from . import _core
+from ._core import set_time, why_not
+
+__all__ = ["set_time", "start_roscpp", "why_not"]
+
+_starting = threading.Lock()
+_clock: Optional[bool] = None
+
+
+def start_roscpp() -> bool:
+    """Make sure that compiled code finds roscpp running, and that what it does wrong is named.
+
+    :return: whether its clock is to be moved by ``set_time``: this is so under simulated time, in a node of rospy.
+    """
+    global _clock
+    with _starting:
+        if _clock is None:
+            simulated = rospy.rostime.is_wallclock() is False
+            name = rospy.get_name().rpartition("/")[2] + "_compiled"
+            words = dict(rospy.names.get_mappings(), __ns=rospy.get_namespace())
+            made = _core.start(name, words, rospy.get_time() if simulated else -1.0)
+            _core.watch()
+            atexit.register(_core.stop)
+            _clock = simulated and made.rpartition("/")[2] == name
+        return _clock
