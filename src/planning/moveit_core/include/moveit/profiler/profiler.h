@@ -1,1 +1,0 @@
-#error "moveit::tools::Profiler does not exist here: use perf or gprof (docs/differences.md, 'MoveIt in C++')"

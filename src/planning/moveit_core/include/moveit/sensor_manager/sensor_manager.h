@@ -1,1 +1,0 @@
-#error "Sensor managers do not exist here (docs/differences.md, 'MoveIt in C++')"
