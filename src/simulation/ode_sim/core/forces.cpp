@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kStopSkin = 1e-12;  // a joint put exactly on its stop is to be found there despite rounding
 constexpr double kNearStop = 1e-9;   // within the reach of the skin
+constexpr double kBackTurn = 10, kBackSlide = 1;  // rad/s, m/s: from beyond a stop
 constexpr double kStiffLaw = 1;      // share of a speed error that a controller makes good in one step; more swings
 constexpr double kJump = 30;  // m/s, rad/s: a servo joint commanded to move faster than this is teleported
 
@@ -194,6 +195,11 @@ static double speed_by_law(const Axis& a, double dt, double inverse_inertia) {
 void World::set_stops(Joint& j, int i) {
   const Axis& a = j.axes[i];
   double lower = a.lower, upper = a.upper;
+  if (!like_gazebo) {  // a joint that begins far beyond a stop, as many do at zero, comes back without throwing the robot
+    const double near = (j.type == JointType::Prismatic ? kBackSlide : kBackTurn) * dt / std::max(j.stop_erp, 1e-3);
+    lower = std::min(lower, a.q + near);
+    upper = std::max(upper, a.q - near);
+  }
   if (j.type == JointType::Revolute && std::abs(a.q) > 3) {
     const double turns = 2 * kPi * std::round((a.q - j.sign * dJointGetHingeAngle(j.joint)) / (2 * kPi));
     lower -= turns;

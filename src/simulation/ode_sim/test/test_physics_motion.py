@@ -197,6 +197,19 @@ def test_a_stop_that_is_hit_throws_nothing_back_faster(limit):
     assert 1 < fastest < 50 and joint.position() == pytest.approx(limit, abs=1e-8)
 
 
+@pytest.mark.parametrize("lower, upper", [(1.0, 2.0), (-2.0, -1.0)])
+def test_a_joint_that_begins_far_beyond_a_stop_comes_back_without_a_throw(lower, upper):
+    """Legs and arms whose zero is not among their angles: at a fifth of the way in one step they would throw the robot."""
+    world = ode_sim.World()
+    joint = world.spawn(pendulum(lower=lower, upper=upper)).joints["hinge"]
+    fastest = 0.0
+    for _ in range(1000):
+        world.step()
+        fastest = max(fastest, abs(joint.velocity()))
+    assert fastest < 11.0
+    assert lower - 1e-6 <= joint.position() <= upper + 1e-6
+
+
 def test_a_strongly_damped_light_joint_rests_at_its_stop():
     world = ode_sim.World()
     joint = world.spawn(pendulum(0.02, 0.05, damping=0.1, inertia=1e-5, lower=-1.0, upper=1.0)).joints["hinge"]
