@@ -14,6 +14,7 @@ from roslaunch.config import load_config_default
 WINDOWLESS = {"gui": "false", "rviz": "false", "use_rviz": "false", "open_rviz": "false"}
 
 _PASSING = {("gazebo_ros", "spawn_model"), ("gazebo_ros", "spawn_model.py")}
+_SILENT = {("gazebo_ros", "gzclient")}  # no node of ROS before somebody looks
 
 
 class LaunchError(RuntimeError):
@@ -84,7 +85,8 @@ def content(launch: Launch, values: Dict[str, str]) -> Content:
     switched_on = {name: "true" if name in WINDOWLESS and name != "gui" else value for name, value in values.items()}
     nodes = _load(launch, values)
     passing = {_name(node) for node in nodes if (node.package, node.type) in _PASSING}
-    return Content(tuple(sorted({_name(node) for node in nodes} - passing)), tuple(sorted(passing)),
+    silent = {_name(node) for node in nodes if (node.package, node.type) in _SILENT}
+    return Content(tuple(sorted({_name(node) for node in nodes} - passing - silent)), tuple(sorted(passing)),
                    next(filter(None, map(_rviz_config, _load(launch, switched_on))), ""))
 
 
