@@ -6,6 +6,7 @@
 #include <mutex>
 #include <sstream>
 
+#include "plugin_solver.hpp"
 #include "solver_plugins.hpp"
 
 namespace kinematics_plugin_loader
@@ -13,6 +14,7 @@ namespace kinematics_plugin_loader
 namespace
 {
 constexpr char LOGNAME[] = "kinematics_plugin_loader";
+constexpr char OWN[] = "moveit_kinematics";  // exports the motion library's under the names of MoveIt's: no detour for those
 constexpr char LIBRARY[] = "kdl_kinematics_plugin/KDLKinematicsPlugin";  // the motion library's own, by its best known name
 
 struct GroupSettings
@@ -160,6 +162,28 @@ moveit::core::SolverAllocatorFn KinematicsPluginLoader::getLoaderFunction(const 
       ROS_WARN_NAMED(LOGNAME, "No kinematics plugins defined. Fill and load kinematics.yaml!");
   }
   return getLoaderFunction();
+}
+
+void KinematicsPluginLoader::solveFor(const moveit::core::RobotModel& model) const
+{
+  if (!loader_)
+    return;
+  for (const auto& [group, settings] : loader_->groups)
+    for (const std::string& plugin : settings.solvers)
+    {
+      const std::string package = packageOf(plugin);
+      if (package.empty())
+        continue;
+      SolverRequest request;
+      request.plugin = plugin;
+      request.robot_description = robot_description_;
+      request.tips = settings.tips;
+      request.resolution = settings.resolution;
+      request.timeout = settings.timeout;
+      if (package != OWN && model.hasJointModelGroup(group))
+        installSolverLate(model, group, request);
+      break;
+    }
 }
 
 void KinematicsPluginLoader::status() const

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <functional>
 #include <mutex>
 
 #include "motion/ik.hpp"
@@ -24,26 +25,22 @@ double seconds(Clock::time_point since)
 class PluginSolver : public motion::GroupSolver
 {
 public:
-  PluginSolver(const std::shared_ptr<motion::RobotModel>& robot, const std::string& urdf, const std::string& srdf,
-               const std::string& group, const SolverRequest& request)
-    : robot_(*robot), group_(robot->group(group))
+  PluginSolver(motion::RobotModel& robot, const urdf::ModelInterfaceSharedPtr& urdf_model,
+               const srdf::ModelConstSharedPtr& srdf_model, const std::string& group, const SolverRequest& request)
+    : robot_(robot), group_(robot.group(group)), timeout_(request.timeout)
   {
-    const auto urdf_model = std::make_shared<urdf::Model>();
-    const auto srdf_model = std::make_shared<srdf::Model>();
-    if (!urdf_model->initString(urdf) || !srdf_model->initString(*urdf_model, srdf))
-      throw std::runtime_error("the robot's description cannot be read");
     // The robot owns this solver: a pointer that counts would keep both for ever.
-    const std::shared_ptr<motion::RobotModel> borrowed(std::shared_ptr<void>(), robot.get());
+    const std::shared_ptr<motion::RobotModel> borrowed(std::shared_ptr<void>(), &robot);
     model_ = std::make_shared<moveit::core::RobotModel>(borrowed, urdf_model, srdf_model);
     solver_ = makeSolver(request, *model_->getJointModelGroup(group));
     if (solver_->getTipFrames().size() != 1)
       throw std::runtime_error("kinematics solver '" + request.plugin + "' wants several tips at once");
-    tip_ = robot->rigidParent(robot->link(solver_->getTipFrame()).index, tip_in_parent_);
+    tip_ = robot.rigidParent(robot.link(solver_->getTipFrame()).index, tip_in_parent_);
     base_ = solver_->getBaseFrame();
     // Which of the group's values is each of the solver's? It may know only some of them.
     for (const std::string& name : solver_->getJointNames())
     {
-      const motion::JointModel* joint = robot->findJoint(name);
+      const motion::JointModel* joint = robot.findJoint(name);
       if (!joint)
         throw std::runtime_error("kinematics solver '" + request.plugin + "' moves a joint '" + name + "', which the robot lacks");
       const auto found = std::find(group_.active_joints.begin(), group_.active_joints.end(), joint->index);
@@ -168,6 +165,9 @@ private:
       motion::Random random(options.random_seed + 1);
       motion::RobotState from(seed);
       std::vector<double> values(own.group_.size()), limits;
+      // Planning counts restarts and leaves it to kinematics.yaml how long one of them may take.
+      const bool counted = options.max_restarts >= 0 && own.timeout_ > 0.0;
+      const double most = counted ? std::max(options.timeout, own.timeout_) : options.timeout;
       if (options.consistency.size() == values.size())
         for (int place : own.place_)
           limits.push_back(options.consistency[place]);
@@ -177,10 +177,10 @@ private:
         std::vector<double> start;
         for (int place : own.place_)
           start.push_back(values[place]);
-        const double left = std::max(options.timeout - seconds(started), 1e-3);
+        const double left = std::max(std::min(most - seconds(started), counted ? own.timeout_ : most), 1e-3);
         barren = ask(start, limits, left) ? 0 : barren + 1;
         if (result.solutions.size() >= options.solutions || (!result.solutions.empty() && barren >= BARREN) ||
-            (options.max_restarts >= 0 && result.restarts >= options.max_restarts) || seconds(started) >= options.timeout ||
+            (options.max_restarts >= 0 && result.restarts >= options.max_restarts) || seconds(started) >= most ||
             (options.cancelled && *options.cancelled) || !limits.empty())
           break;
         ++result.restarts;
@@ -234,13 +234,60 @@ private:
   int tip_;
   std::string base_;
   std::vector<int> place_;
+  double timeout_;  // s
   mutable std::mutex one_at_a_time_;
+};
+
+// Made by the first question.
+class LateSolver : public motion::GroupSolver
+{
+public:
+  LateSolver(std::function<std::unique_ptr<PluginSolver>()> make, const std::string& group) : make_(std::move(make)), group_(group) {}
+
+  bool takes(const std::vector<motion::IkTarget>& targets) const override
+  {
+    std::call_once(once_, [this]() {
+      try
+      {
+        made_ = make_();
+      }
+      catch (const std::exception& error)
+      {
+        ROS_WARN("The motion library's inverse kinematics plans for group '%s': %s", group_.c_str(), error.what());
+      }
+    });
+    return made_ && made_->takes(targets);
+  }
+
+  motion::IkResult solve(const motion::RobotState& seed, const std::vector<motion::IkTarget>& targets,
+                         const motion::IkOptions& options) const override
+  {
+    return made_->solve(seed, targets, options);
+  }
+
+private:
+  std::function<std::unique_ptr<PluginSolver>()> make_;
+  std::string group_;
+  mutable std::once_flag once_;
+  mutable std::unique_ptr<PluginSolver> made_;
 };
 }  // namespace
 
 void installSolver(const std::shared_ptr<motion::RobotModel>& robot, const std::string& urdf, const std::string& srdf,
                    const std::string& group, const SolverRequest& request)
 {
-  robot->setSolver(group, std::make_shared<PluginSolver>(robot, urdf, srdf, group, request));
+  const auto urdf_model = std::make_shared<urdf::Model>();
+  const auto srdf_model = std::make_shared<srdf::Model>();
+  if (!urdf_model->initString(urdf) || !srdf_model->initString(*urdf_model, srdf))
+    throw std::runtime_error("the robot's description cannot be read");
+  robot->setSolver(group, std::make_shared<PluginSolver>(*robot, urdf_model, srdf_model, group, request));
+}
+
+void installSolverLate(const moveit::core::RobotModel& model, const std::string& group, const SolverRequest& request)
+{
+  motion::RobotModel& robot = *model.core();
+  robot.setSolver(group, std::make_shared<LateSolver>([&robot, urdf = model.getURDF(), srdf = model.getSRDF(), group, request]() {
+    return std::make_unique<PluginSolver>(robot, urdf, srdf, group, request);
+  }, group));
 }
 }  // namespace kinematics_plugin_loader

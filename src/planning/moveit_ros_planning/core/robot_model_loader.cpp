@@ -113,6 +113,7 @@ void RobotModelLoader::loadKinematicsSolvers(const kinematics_plugin_loader::Kin
     if (model_->hasJointModelGroup(name))
       by_group[name] = allocator;
   model_->setKinematicsAllocators(by_group);
+  kinematics_loader_->solveFor(*model_);
   for (const auto& timeout : kinematics_loader_->getIKTimeout())
     if (model_->hasJointModelGroup(timeout.first))
       model_->getJointModelGroup(timeout.first)->setDefaultIKTimeout(timeout.second);

@@ -56,6 +56,12 @@ bool isExported(const std::string& plugin)
   return loader().isClassAvailable(plugin);
 }
 
+std::string packageOf(const std::string& plugin)
+{
+  std::lock_guard<std::mutex> lock(one_at_a_time);
+  return loader().isClassAvailable(plugin) ? loader().getClassPackage(plugin) : "";
+}
+
 kinematics::KinematicsBasePtr makeSolver(const SolverRequest& request, const moveit::core::JointModelGroup& group)
 {
   kinematics::KinematicsBasePtr solver;

@@ -53,5 +53,5 @@ def _install(description, group: str, name: str) -> None:
     from . import _solvers  # heavy: for those who need it only
     settings = description.kinematics[group]
     _solvers.install(description.model, description.urdf, description.srdf, group, name, description=description.name,
-                     tips=settings.links, resolution=settings.resolution, node=rospy.get_name(),
-                     master=rosgraph.get_master_uri())
+                     tips=settings.links, resolution=settings.resolution, timeout=settings.timeout,
+                     node=rospy.get_name(), master=rosgraph.get_master_uri())

@@ -25,6 +25,8 @@ public:
 
   const std::vector<std::string>& getKnownGroups() const { return groups_; }
   const std::map<std::string, double>& getIKTimeout() const { return ik_timeout_; }  // s
+  // Let vendors' plugins also answer where `model` itself is asked: planning in this process samples its goals with them.
+  void solveFor(const moveit::core::RobotModel& model) const;
   void status() const;
 
 private:
