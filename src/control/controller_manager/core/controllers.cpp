@@ -184,6 +184,15 @@ private:
   Loader* loader_;
 };
 
+/// A controller from the address of a shared pointer, which is freed.
+std::unique_ptr<Controller> take(std::uintptr_t pointer, const std::string& label)
+{
+  const std::unique_ptr<std::shared_ptr<ControllerBase>> shared(reinterpret_cast<std::shared_ptr<ControllerBase>*>(pointer));
+  if (!*shared)
+    throw Failed("its loader made nothing");
+  return std::make_unique<Controller>(*shared, label);
+}
+
 }  // namespace
 
 PYBIND11_MODULE(_compiled, module)
@@ -191,6 +200,7 @@ PYBIND11_MODULE(_compiled, module)
   module.doc() = "Compiled controllers.";
   py::register_exception<Failed>(module, "Failed");
   py::register_exception<Left>(module, "Left");
+  module.def("take", &take, py::arg("pointer"), py::arg("label"));
   using released = py::call_guard<py::gil_scoped_release>;
   // Calls of the control loop keep Python's lock: giving it up would cost the loop whole milliseconds when other threads want it.
   py::class_<Controller>(module, "Controller")

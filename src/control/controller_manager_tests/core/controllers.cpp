@@ -12,6 +12,8 @@
 #include <pluginlib/class_list_macros.h>
 #include <std_msgs/Float64.h>
 
+#include "lamp.h"
+
 namespace controller_manager_tests
 {
 
@@ -64,6 +66,29 @@ public:
 private:
   hardware_interface::JointStateHandle state_;
   hardware_interface::JointHandle joint_;
+};
+
+/// On an interface of a third party, beside a standard one.
+class CompiledLamp
+  : public controller_interface::MultiInterfaceController<hardware_interface::EffortJointInterface, LampInterface>
+{
+public:
+  bool init(hardware_interface::RobotHW* robot, ros::NodeHandle&) override
+  {
+    joint_ = robot->get<hardware_interface::EffortJointInterface>()->getHandle("right");
+    lamp_ = robot->get<LampInterface>()->getHandle("lamp");
+    return true;
+  }
+
+  void update(const ros::Time&, const ros::Duration&) override
+  {
+    joint_.setCommand(4.0);
+    lamp_.shine(0.5);
+  }
+
+private:
+  hardware_interface::JointHandle joint_;
+  LampHandle lamp_;
 };
 
 class CompiledFault : public controller_interface::Controller<hardware_interface::JointStateInterface>
@@ -140,6 +165,7 @@ class CompiledOther : public NoController
 
 PLUGINLIB_EXPORT_CLASS(controller_manager_tests::CompiledController, controller_interface::ControllerBase)
 PLUGINLIB_EXPORT_CLASS(controller_manager_tests::CompiledMulti, controller_interface::ControllerBase)
+PLUGINLIB_EXPORT_CLASS(controller_manager_tests::CompiledLamp, controller_interface::ControllerBase)
 PLUGINLIB_EXPORT_CLASS(controller_manager_tests::CompiledFault, controller_interface::ControllerBase)
 PLUGINLIB_EXPORT_CLASS(controller_manager_tests::CompiledConstructor, controller_interface::ControllerBase)
 PLUGINLIB_EXPORT_CLASS(controller_manager_tests::CompiledOther, controller_manager_tests::NoController)

@@ -112,6 +112,10 @@ class CompiledTypes:
         except _compiled.Failed as error:
             raise PluginError(f"{what}: {_explained(str(error), plugin, library)}") from error
 
+    def take(self, pointer: int, plugin: PluginClass, name: str) -> CompiledController:
+        """A controller that somebody else has made. :param pointer: address of a shared pointer to it, which is freed."""
+        return CompiledController(_compiled.take(pointer, f"controller '{name}' ({plugin.name})"))
+
     def unload(self) -> None:
         """Unload the libraries; no instance may be left."""
         self._classes.unload()

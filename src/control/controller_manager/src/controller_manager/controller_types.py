@@ -5,7 +5,7 @@ import difflib
 import importlib
 import sys
 import threading
-from typing import TYPE_CHECKING, Callable, Dict, List, Optional, Set
+from typing import TYPE_CHECKING, Callable, Dict, List, Optional, Set, Tuple
 
 import rospy
 from controller_interface import ControllerBase
@@ -24,6 +24,7 @@ class ControllerTypes:
     def __init__(self) -> None:
         self.set_time: Optional[Callable[[float], None]] = None
         self._compiled: Optional[CompiledTypes] = None
+        self._loaders: List[Tuple[str, Callable[[], List[str]], Callable[[str], int]]] = []
         self._lock = threading.Lock()
         self._known: Optional[Dict[str, PluginClass]] = None
         self._imported: Set[str] = set()
@@ -38,10 +39,19 @@ class ControllerTypes:
 
     def all(self) -> List[PluginClass]:
         """Types that can be loaded here, by name."""
-        return [plugin for _, plugin in sorted(self._plugins().items())]
+        known = {name: PluginClass(name, name, base, "", "", "") for base, names, _ in self._loaders for name in names()}
+        known.update(self._plugins())
+        return [plugin for _, plugin in sorted(known.items())]
 
     def find(self, name: str) -> Optional[PluginClass]:
-        return self._plugins().get(name)
+        found = self._plugins().get(name)
+        if found is None and self._loaders:
+            found = next((plugin for plugin in self.all() if plugin.name == name), None)
+        return found
+
+    def add_loader(self, base: str, names: Callable[[], List[str]], create: Callable[[str], int]) -> None:
+        """Types of a loader in C++: their names, and a function that makes one and gives the address of a shared pointer."""
+        self._loaders.append((base, names, create))
 
     def suggestion(self, name: str) -> str:
         """', did you mean X?' or ''."""
@@ -72,6 +82,9 @@ class ControllerTypes:
                 self._compiled = CompiledTypes([known.file for known in plugins if known.compiled])
                 self.set_time = self._compiled.set_time
             compiled = self._compiled
+        for _, names, create in self._loaders:
+            if not plugin.file and plugin.name in names():
+                return compiled.take(create(plugin.name), plugin, name)
         return compiled.create(plugin, name)
 
     def reload(self) -> None:

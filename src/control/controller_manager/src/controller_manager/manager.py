@@ -418,6 +418,10 @@ class ControllerManager:
             for lock in held:
                 lock.release()
 
+    def add_loader(self, base: str, names: Callable[[], List[str]], create: Callable[[str], int]) -> None:
+        """Take types from a loader in C++ too, for those that no package exports; see ControllerTypes.add_loader."""
+        self._types.add_loader(base, names, create)
+
     @property
     def controllers(self) -> List[LoadedController]:
         """What is loaded, in load order."""

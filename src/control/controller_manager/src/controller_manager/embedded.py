@@ -1,0 +1,48 @@
+"""The controller manager of a robot whose main program is C++; called by core/manager.cpp, which has begun the interpreter."""
+from __future__ import annotations
+
+import os
+import sys
+from typing import TYPE_CHECKING, Callable, List
+
+if TYPE_CHECKING:
+    from .manager import ControllerManager
+
+#: s after which a thread of Python that computes lets the control loop in
+_SWITCH_INTERVAL = 0.0002
+
+
+def make(robot: int, namespace: str, node: str, node_namespace: str) -> "ControllerManager":
+    """A controller manager in ``namespace``, which is absolute, for the C++ robot at an address.
+
+    :param node, node_namespace: of the process; rospy's node has ``_controller_manager`` behind that name.
+    """
+    sys.argv = [node]
+    os.environ["ROS_NAMESPACE"] = node_namespace
+    import rospy  # reads both when it is imported
+    from hardware_interface._robots import Robot
+    from hardware_interface.compiled import CompiledRobotHW
+
+    from .manager import ControllerManager
+    if not rospy.core.is_initialized():
+        sys.setswitchinterval(_SWITCH_INTERVAL)
+        rospy.init_node(f"{node}_controller_manager", disable_signals=True)
+    return ControllerManager(CompiledRobotHW(Robot(robot, None)), namespace)
+
+
+def end(manager: "ControllerManager", last: bool) -> None:
+    """Stop and free the controllers; with the last manager of the process rospy's node ends too."""
+    import rospy
+    manager.shutdown()
+    if last:
+        rospy.signal_shutdown("the robot's program ends")
+
+
+def address_of(manager: "ControllerManager", name: str) -> int:
+    """Of a loaded controller in C++, else 0."""
+    return next((getattr(loaded.controller, "address", 0) for loaded in manager.controllers if loaded.name == name), 0)
+
+
+def add_loader(manager: "ControllerManager", base: str, names: Callable[[], List[str]], create: Callable[[str], int]) -> None:
+    """Take the types of a loader in C++ too."""
+    manager.add_loader(base, names, create)
