@@ -235,6 +235,7 @@ void World::spread_twists(Cluster& c, bool servos) {
 }
 
 void World::place_shapes(Link& link) {
+  if (link.model->is_static) broad_phase_.static_moved();
   for (auto& s : link.shapes) {
     if (s->infinite) continue;  // stays where it was made
     const Pose X = link.X_WL * s->X_LC;

@@ -79,18 +79,14 @@ bool World::allowed(const Shape& a, const Shape& b) const {
   return !tied(la, lb);
 }
 
-void World::near_callback(void* data, dGeomID ga, dGeomID gb) {
-  auto* self = static_cast<World*>(data);
-  auto *a = static_cast<Shape*>(dGeomGetData(ga)), *b = static_cast<Shape*>(dGeomGetData(gb));
-  if (a->id > b->id) std::swap(a, b);
-  if (self->allowed(*a, *b)) self->pairs_.push_back({a, b});
-}
-
 void World::collide() {
   contacts_.clear();
   pairs_.clear();
-  dSpaceCollide(space_, this, &near_callback);
-  // The space reports pairs in an order that depends on its history.
+  broad_phase_.find(pairs_);
+  for (auto& [a, b] : pairs_)
+    if (a->id > b->id) std::swap(a, b);
+  pairs_.erase(std::remove_if(pairs_.begin(), pairs_.end(), [&](const auto& p) { return !allowed(*p.first, *p.second); }), pairs_.end());
+  // The sweep tells pairs in an order that depends on its history.
   std::sort(pairs_.begin(), pairs_.end(),
             [](auto& p, auto& q) { return std::make_pair(p.first->id, p.second->id) < std::make_pair(q.first->id, q.second->id); });
   dContactGeom found[250];

@@ -12,7 +12,7 @@ namespace ode_sim {
 
 constexpr double kFarthest = 1e7;     // m from the origin, and the largest size; 2 nanometres is the last digit there
 constexpr double kFarthestPart = 2e7;  // m: parts of what is placed at kFarthest, and what has moved, may be beyond it
-constexpr double kOutOfReach = 1e8;   // m: shapes beyond do not collide; the cells of ODE's space run out of numbers at 1.3e8
+constexpr double kOutOfReach = 1e8;   // m: shapes beyond do not collide; boxes of a micrometre have no size there any more
 constexpr double kFastestSet = 1e10;  // m/s, rad/s that may be asked for
 constexpr double kStrongest = 1e12;   // N, N m: forces beyond are cut to it, so that sums and products stay finite
 constexpr double kStiffest = 1e18;    // N/m, N s/m

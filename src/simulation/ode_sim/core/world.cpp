@@ -20,8 +20,6 @@ World::World()
       joint_velocities(std::make_shared<std::vector<double>>()) {
   initialise_ode();
   world_ = dWorldCreate();
-  space_ = dHashSpaceCreate(nullptr);
-  dHashSpaceSetLevels(space_, -4, 6);
   contact_group_ = dJointGroupCreate(0);
   dWorldSetAutoDisableFlag(world_, 0);
   dWorldSetContactSurfaceLayer(world_, 0);
@@ -32,7 +30,6 @@ World::~World() {
   for (auto& m : models_) m->finished = false;  // nobody asks for the rest each time that one goes
   while (!models_.empty()) remove_model(*models_.back());
   dJointGroupDestroy(contact_group_);
-  dSpaceDestroy(space_);
   dWorldDestroy(world_);
 }
 
@@ -79,6 +76,7 @@ void World::remove_model(Model& model) {
   for (auto& link : model.links) {
     for (auto& s : link->shapes) {
       shapes_.erase(s->id);
+      broad_phase_.remove(s.get());
       s->release();
     }
     if (link->body) dBodyDestroy(link->body), link->body = nullptr;
@@ -133,9 +131,9 @@ std::shared_ptr<Shape> World::add_shape(Link& link, const Pose& X_LC, dGeomID ge
   shape->X_LC = normalized(X_LC);
   shape->geom = geom;
   dGeomSetData(geom, shape.get());
-  dSpaceAdd(space_, geom);
   link.shapes.push_back(shape);
   shapes_[shape->id] = shape.get();
+  broad_phase_.add(shape.get());
   link.model->dirty = true;
   return shape;
 }

@@ -25,6 +25,7 @@
 #include <utility>
 #include <vector>
 
+#include "broad_phase.hpp"
 #include "limits.hpp"
 #include "math.hpp"
 
@@ -366,7 +367,7 @@ class World {
 
  private:
   dWorldID world_;
-  dSpaceID space_;
+  BroadPhase broad_phase_;
   dJointGroupID contact_group_;
   std::vector<std::shared_ptr<Model>> models_;
   std::map<int, Shape*> shapes_;
@@ -383,8 +384,6 @@ class World {
   int visit_ = 0;
   std::vector<Cluster*> carried_;  // from the carrying to the carried
   bool replan_ = false;
-
-  static void near_callback(void* data, dGeomID a, dGeomID b);
 
   void step_once();
   void abandon_step();
