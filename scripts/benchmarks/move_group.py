@@ -10,6 +10,7 @@ import socket
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 import xmlrpc.client
 
@@ -68,6 +69,7 @@ def launch(home):
     for line in process.stdout:
         said.append(line.strip())
         if READY in line:
+            threading.Thread(target=process.stdout.read, daemon=True).start()  # a pipe that nobody empties stops the node
             return process, time.monotonic() - start, of_children(process.pid)
     raise RuntimeError("move_group did not come up: " + " / ".join(said[-5:]))
 
@@ -113,7 +115,7 @@ def main():
                 figures.update({"memory after plans": last, "growth": last - first, "solved": solved, "ms per plan": cost})
         finally:
             process.send_signal(signal.SIGINT)
-            process.communicate(timeout=60)
+            process.wait(timeout=60)
     print(json.dumps(figures), flush=True)
     os._exit(0)
 
