@@ -58,7 +58,11 @@ class SimpleManager(unittest.TestCase):
 
     def test_a_controller_that_comes_late_is_used_when_it_comes(self):
         rospy.wait_for_service("get_planning_scene", timeout=PATIENCE)
-        self.expect(trajectory(0.5), GoalStatus.ABORTED, Codes.CONTROL_FAILED, "Nobody publishes /joint_states")
+        elsewhere = rospy.Publisher("/arm/joint_states", JointState, queue_size=1)
+        self.expect(trajectory(0.5), GoalStatus.ABORTED, Codes.CONTROL_FAILED, "Nobody publishes /joint_states",
+                    "joint_states:=/arm/joint_states")
+        elsewhere.unregister()
+        self.expect(trajectory(0.5), GoalStatus.ABORTED, Codes.CONTROL_FAILED, "Nobody publishes /joint_states: start the robot")
         self.start()
         self.expect(trajectory(0.5), GoalStatus.SUCCEEDED, Codes.SUCCESS)
         sent = rospy.get_param("/pretend_controller/goal")

@@ -172,6 +172,10 @@ class CurrentStateMonitor:
         never, late = self.missing(), self.missing(since)
         publishers = self._publishers()
         if publishers == []:
+            others = self._other_topics()
+            if others:
+                return (text + f"Nobody publishes {self.topic}, but there is {' and '.join(others[:3])}: remap it "
+                        f"(joint_states:={others[0]} on the command line)")
             return (text + f"Nobody publishes {self.topic}: start the robot, its joint_state_controller or "
                     "joint_state_publisher")
         by = f" ({self.topic} comes from {', '.join(publishers)})" if publishers else ""
@@ -195,6 +199,16 @@ class CurrentStateMonitor:
         except (OSError, rosgraph.MasterException):
             return None
         return sorted(next((nodes for topic, nodes in published if topic == self.topic), []))
+
+    def _other_topics(self) -> List[str]:
+        """Where joint states are published instead; not what move_group pretends for a joint_state_publisher."""
+        master = rosgraph.Master(rospy.get_name())
+        try:
+            published = {topic for topic, nodes in master.getSystemState()[0] if nodes}
+            states = {topic for topic, kind in master.getTopicTypes() if kind == JointState._type}
+        except (OSError, rosgraph.MasterException):
+            return []
+        return sorted(topic for topic in states & published if not topic.endswith("/fake_controller_joint_states"))
 
 
 def _names(names: List[str]) -> str:
