@@ -12,7 +12,7 @@ and plugins.xml lists classes in pluginlib's format, with a Python class where p
     </library>
 
 ``path`` is relative to plugins.xml and is put on ``sys.path`` before the import.
-A ``type`` with ``::`` is a compiled C++ class: it is listed (so that a message can name it) but cannot be loaded.
+A ``type`` with ``::``, or without a dot, is a compiled C++ class: it is listed, and loaded by those who can.
 """
 from __future__ import annotations
 
