@@ -47,7 +47,8 @@ public:
       if (found != group_.active_joints.end())
         place_.push_back(static_cast<int>(found - group_.active_joints.begin()));
       else if (joint->type != motion::JointType::Fixed)
-        throw std::runtime_error("kinematics solver '" + request.plugin + "' moves joint '" + name + "', which is not in group '" + group + "'");
+        throw std::runtime_error("kinematics solver '" + request.plugin + "' moves joint '" + name +
+                                 "', which is not in group '" + group + "'");
     }
     check(borrowed, request.plugin);
   }
