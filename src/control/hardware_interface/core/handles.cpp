@@ -4,59 +4,22 @@
 // Written with Python's own interface: an attribute of a handle is read and written in every step, and a bound property of
 // pybind11 takes four times as long.
 
-#define PY_SSIZE_T_CLEAN
-#include <Python.h>
+#include "handles.hpp"
 
 #include <cstring>
 
-namespace
+namespace handles
 {
-
-constexpr int numbers = 6;  // at most, of one handle
-constexpr int values = 37;  // of an inertial measurement unit: 4 + 9 + 3 + 9 + 3 + 9
-
-/// What all handles begin with. data[i] is null where there is no such value, points into the object's own memory, or to that
-/// of ``keeper``.
-struct Handle
-{
-  PyObject_HEAD
-  PyObject* name;     // of command handles: null
-  PyObject* state;    // of command handles: the state handle, else null
-  PyObject* keeper;   // keeps alive what data points to; may be null
-  double* data[numbers];
-};
 
 struct NumbersHandle : Handle
 {
   double own[numbers];
 };
 
-struct ArraysHandle : Handle
-{
-  PyObject* frame_id;
-  double own[values];
-};
-
-struct ModeHandle : Handle
-{
-  int* mode;
-  int own;
-};
-
 Handle* state_of(PyObject* self)
 {
   Handle* handle = reinterpret_cast<Handle*>(self);
   return handle->state ? reinterpret_cast<Handle*>(handle->state) : handle;
-}
-
-void* index_of(int index)
-{
-  return reinterpret_cast<void*>(static_cast<intptr_t>(index));
-}
-
-int index_in(void* closure)
-{
-  return static_cast<int>(reinterpret_cast<intptr_t>(closure));
 }
 
 // -- attributes ------------------------------------------------------------------------------------------------------------------
@@ -126,11 +89,6 @@ PyObject* get_state(PyObject* self, void*)
   return object_or_none(reinterpret_cast<Handle*>(self)->state);
 }
 
-PyObject* get_frame_id(PyObject* self, void*)
-{
-  return object_or_none(reinterpret_cast<ArraysHandle*>(self)->frame_id);
-}
-
 /// Addresses of the numbers, 0 for what is not there. They are good as long as the handle lives.
 PyObject* get_addresses(PyObject* self, void*)
 {
@@ -149,12 +107,6 @@ void release(PyObject* self)
   Py_XDECREF(handle->state);
   Py_XDECREF(handle->keeper);
   Py_TYPE(self)->tp_free(self);
-}
-
-void release_arrays(PyObject* self)
-{
-  Py_XDECREF(reinterpret_cast<ArraysHandle*>(self)->frame_id);
-  release(self);
 }
 
 /// Take over (name, or state), and let go of what was there.
@@ -251,136 +203,6 @@ int init_gains(PyObject* self, PyObject* args, PyObject* kwargs)
   return init_command(self, args, kwargs, words, "O|OOOOO", 5);
 }
 
-// -- sensors ---------------------------------------------------------------------------------------------------------------------
-
-/// A field of several numbers: which entry of data, where in the object's own memory, how many.
-struct Field
-{
-  const char* name;
-  int index, offset, size;
-};
-
-Field imu_fields[] = { { "orientation", 0, 0, 4 },          { "orientation_covariance", 1, 4, 9 },
-                       { "angular_velocity", 2, 13, 3 },    { "angular_velocity_covariance", 3, 16, 9 },
-                       { "linear_acceleration", 4, 25, 3 }, { "linear_acceleration_covariance", 5, 28, 9 } };
-Field wrench_fields[] = { { "force", 0, 0, 3 }, { "torque", 1, 3, 3 } };
-
-PyObject* get_array(PyObject* self, void* closure)
-{
-  const Field* field = static_cast<Field*>(closure);
-  const double* data = reinterpret_cast<Handle*>(self)->data[field->index];
-  if (!data)
-    Py_RETURN_NONE;
-  PyObject* result = PyTuple_New(field->size);
-  for (int i = 0; result && i < field->size; ++i)
-    PyTuple_SET_ITEM(result, i, PyFloat_FromDouble(data[i]));
-  return result;
-}
-
-int set_array(PyObject* self, PyObject* value, void* closure)
-{
-  const Field* field = static_cast<Field*>(closure);
-  ArraysHandle* handle = reinterpret_cast<ArraysHandle*>(self);
-  if (!value || value == Py_None)
-  {
-    handle->data[field->index] = nullptr;
-    return 0;
-  }
-  PyObject* sequence = PySequence_Fast(value, "numbers are needed here");
-  if (!sequence)
-    return -1;
-  double read[9];
-  bool good = PySequence_Fast_GET_SIZE(sequence) == field->size;
-  if (!good)
-    PyErr_Format(PyExc_ValueError, "%s has %d numbers, not %R", field->name, field->size, value);
-  for (int i = 0; good && i < field->size; ++i)
-  {
-    read[i] = PyFloat_AsDouble(PySequence_Fast_GET_ITEM(sequence, i));
-    good = !(read[i] == -1.0 && PyErr_Occurred());
-  }
-  Py_DECREF(sequence);
-  if (!good)
-    return -1;
-  if (!handle->data[field->index])
-    handle->data[field->index] = handle->own + field->offset;
-  std::memcpy(handle->data[field->index], read, sizeof(double) * field->size);
-  return 0;
-}
-
-int init_sensor(PyObject* self, PyObject* args, PyObject* kwargs, const char* const* words, const char* format, Field* fields,
-                int count)
-{
-  ArraysHandle* handle = reinterpret_cast<ArraysHandle*>(self);
-  PyObject *name = nullptr, *frame_id = nullptr, *given[numbers] = {};
-  if (!PyArg_ParseTupleAndKeywords(args, kwargs, format, const_cast<char**>(words), &name, &frame_id, &given[0], &given[1], &given[2],
-                                   &given[3], &given[4], &given[5]) ||
-      !named(name))
-    return -1;
-  if (frame_id && !named(frame_id))
-    return -1;
-  assign(&handle->name, name);
-  PyObject* frame = frame_id ? frame_id : PyUnicode_FromString("");
-  if (!frame)
-    return -1;
-  assign(&handle->frame_id, frame);
-  if (!frame_id)
-    Py_DECREF(frame);
-  for (int i = 0; i < count; ++i)
-  {
-    handle->data[i] = nullptr;
-    if (given[i] && set_array(self, given[i], &fields[i]) < 0)
-      return -1;
-  }
-  return 0;
-}
-
-int init_imu(PyObject* self, PyObject* args, PyObject* kwargs)
-{
-  static const char* words[] = { "name", "frame_id", "orientation", "orientation_covariance", "angular_velocity",
-                                 "angular_velocity_covariance", "linear_acceleration", "linear_acceleration_covariance", nullptr };
-  return init_sensor(self, args, kwargs, words, "O|OOOOOOO", imu_fields, 6);
-}
-
-int init_wrench(PyObject* self, PyObject* args, PyObject* kwargs)
-{
-  static const char* words[] = { "name", "frame_id", "force", "torque", nullptr };
-  return init_sensor(self, args, kwargs, words, "O|OOO", wrench_fields, 2);
-}
-
-// -- modes -----------------------------------------------------------------------------------------------------------------------
-
-int init_mode(PyObject* self, PyObject* args, PyObject* kwargs)
-{
-  static const char* words[] = { "name", "mode", nullptr };
-  PyObject* name = nullptr;
-  ModeHandle* handle = reinterpret_cast<ModeHandle*>(self);
-  handle->own = -1;
-  handle->mode = &handle->own;
-  if (!PyArg_ParseTupleAndKeywords(args, kwargs, "O|i", const_cast<char**>(words), &name, &handle->own) || !named(name))
-    return -1;
-  assign(&handle->name, name);
-  return 0;
-}
-
-PyObject* get_mode(PyObject* self, void*)
-{
-  return PyLong_FromLong(*reinterpret_cast<ModeHandle*>(self)->mode);
-}
-
-int set_mode(PyObject* self, PyObject* value, void*)
-{
-  const long mode = value ? PyLong_AsLong(value) : -1;
-  if (!value || (mode == -1 && PyErr_Occurred()))
-    return -1;
-  *reinterpret_cast<ModeHandle*>(self)->mode = static_cast<int>(mode);
-  return 0;
-}
-
-PyObject* get_mode_address(PyObject* self, void*)
-{
-  return PyLong_FromVoidPtr(reinterpret_cast<ModeHandle*>(self)->mode);
-}
-
 // -- views -----------------------------------------------------------------------------------------------------------------------
 
 /// handle._look_at(addresses, keeper): the numbers are those at the addresses from now on, 0 for what is not there.
@@ -401,19 +223,6 @@ PyObject* look_at(PyObject* self, PyObject* args)
   Py_RETURN_NONE;
 }
 
-PyObject* look_at_mode(PyObject* self, PyObject* args)
-{
-  PyObject *address = nullptr, *keeper = nullptr;
-  if (!PyArg_ParseTuple(args, "OO", &address, &keeper))
-    return nullptr;
-  void* at = PyLong_AsVoidPtr(address);
-  if (!at)
-    return PyErr_Occurred() ? nullptr : PyErr_Format(PyExc_ValueError, "there is no mode at address 0");
-  reinterpret_cast<ModeHandle*>(self)->mode = static_cast<int*>(at);
-  assign(&reinterpret_cast<Handle*>(self)->keeper, keeper);
-  Py_RETURN_NONE;
-}
-
 PyObject* show(PyObject* self)
 {
   PyObject* name = state_of(self)->name;
@@ -424,8 +233,6 @@ PyObject* show(PyObject* self)
 
 PyMethodDef view_methods[] = { { "_look_at", look_at, METH_VARARGS, "Show the doubles at these addresses from now on." },
                                { nullptr, nullptr, 0, nullptr } };
-PyMethodDef mode_methods[] = { { "_look_at", look_at_mode, METH_VARARGS, "Show the mode at this address from now on." },
-                               { nullptr, nullptr, 0, nullptr } };
 
 #define NAME { "name", get_name, nullptr, nullptr, nullptr }
 #define ADDRESSES { "_addresses", get_addresses, nullptr, nullptr, nullptr }
@@ -434,8 +241,6 @@ PyMethodDef mode_methods[] = { { "_look_at", look_at_mode, METH_VARARGS, "Show t
 #define STATE                                                                                                              \
   NAME, ADDRESSES, { "state", get_state, nullptr, nullptr, nullptr }, OF_STATE("position", 0), OF_STATE("velocity", 1),    \
     OF_STATE("effort", 2), OF_STATE("absolute_position", 3), OF_STATE("torque_sensor", 4)
-#define ARRAY(field) { field.name, get_array, set_array, nullptr, &field }
-#define FRAME { "frame_id", get_frame_id, nullptr, nullptr, nullptr }
 #define END { nullptr, nullptr, nullptr, nullptr, nullptr }
 
 PyGetSetDef state_attributes[] = { NAME,
@@ -450,11 +255,6 @@ PyGetSetDef joint_attributes[] = { STATE, NUMBER("command", 0), NUMBER("slope", 
 PyGetSetDef pos_vel_attributes[] = { STATE, NUMBER("command_position", 0), NUMBER("command_velocity", 1), END };
 PyGetSetDef pos_vel_acc_attributes[] = { NUMBER("command_acceleration", 2), END };
 PyGetSetDef gains_attributes[] = { NUMBER("command_effort", 2), NUMBER("kp", 3), NUMBER("kd", 4), END };
-PyGetSetDef imu_attributes[] = { NAME, FRAME, ADDRESSES, ARRAY(imu_fields[0]), ARRAY(imu_fields[1]), ARRAY(imu_fields[2]),
-                                 ARRAY(imu_fields[3]), ARRAY(imu_fields[4]), ARRAY(imu_fields[5]), END };
-PyGetSetDef wrench_attributes[] = { NAME, FRAME, ADDRESSES, ARRAY(wrench_fields[0]), ARRAY(wrench_fields[1]), END };
-PyGetSetDef mode_attributes[] = { NAME, { "_address", get_mode_address, nullptr, nullptr, nullptr },
-                                  { "_mode", get_mode, set_mode, nullptr, nullptr }, END };
 
 // Looking an attribute up in the tables takes longer than reading the number. Those of the control loop are told by their names,
 // which are one object each (interned) wherever they are written out in a program.
@@ -506,20 +306,9 @@ PyTypeObject joint_type = { PyVarObject_HEAD_INIT(nullptr, 0) };
 PyTypeObject pos_vel_type = { PyVarObject_HEAD_INIT(nullptr, 0) };
 PyTypeObject pos_vel_acc_type = { PyVarObject_HEAD_INIT(nullptr, 0) };
 PyTypeObject gains_type = { PyVarObject_HEAD_INIT(nullptr, 0) };
-PyTypeObject imu_type = { PyVarObject_HEAD_INIT(nullptr, 0) };
-PyTypeObject wrench_type = { PyVarObject_HEAD_INIT(nullptr, 0) };
-PyTypeObject mode_type = { PyVarObject_HEAD_INIT(nullptr, 0) };
-
-PyObject* new_mode(PyTypeObject* type, PyObject*, PyObject*)
-{
-  ModeHandle* handle = reinterpret_cast<ModeHandle*>(type->tp_alloc(type, 0));
-  if (handle)
-    handle->mode = &handle->own;
-  return reinterpret_cast<PyObject*>(handle);
-}
 
 bool ready(PyObject* module, PyTypeObject& type, const char* name, Py_ssize_t size, initproc init, PyGetSetDef* attributes,
-           PyMethodDef* methods, PyTypeObject* base = nullptr, destructor dealloc = release)
+           PyMethodDef* methods, PyTypeObject* base, destructor dealloc)
 {
   type.tp_name = name;
   type.tp_basicsize = size;
@@ -538,7 +327,9 @@ bool ready(PyObject* module, PyTypeObject& type, const char* name, Py_ssize_t si
 PyModuleDef definition = { PyModuleDef_HEAD_INIT, "_handles", "Handles whose numbers C++ can point at.", -1,
                            nullptr, nullptr, nullptr, nullptr, nullptr };
 
-}  // namespace
+}  // namespace handles
+
+using namespace handles;
 
 PyMODINIT_FUNC PyInit__handles()
 {
@@ -553,7 +344,6 @@ PyMODINIT_FUNC PyInit__handles()
   state_type.tp_setattro = set_of_state;
   joint_type.tp_getattro = get_of_joint;
   joint_type.tp_setattro = set_of_joint;
-  mode_type.tp_new = new_mode;
   if (module && ready(module, state_type, "hardware_interface.JointStateHandle", size, init_state, state_attributes, view_methods) &&
       ready(module, joint_type, "hardware_interface.JointHandle", size, init_joint, joint_attributes, view_methods) &&
       ready(module, pos_vel_type, "hardware_interface.PosVelJointHandle", size, init_pos_vel, pos_vel_attributes, view_methods) &&
@@ -561,12 +351,7 @@ PyMODINIT_FUNC PyInit__handles()
             nullptr, &pos_vel_type) &&
       ready(module, gains_type, "hardware_interface.PositionVelocityTorqueGainsJointHandle", size, init_gains, gains_attributes,
             nullptr, &pos_vel_type) &&
-      ready(module, imu_type, "hardware_interface.ImuSensorHandle", sizeof(ArraysHandle), init_imu, imu_attributes, view_methods,
-            nullptr, release_arrays) &&
-      ready(module, wrench_type, "hardware_interface.ForceTorqueSensorHandle", sizeof(ArraysHandle), init_wrench, wrench_attributes,
-            view_methods, nullptr, release_arrays) &&
-      ready(module, mode_type, "hardware_interface._handles.JointModeHandle", sizeof(ModeHandle), init_mode, mode_attributes,
-            mode_methods))
+      add_sensors(module))
     return module;
   Py_XDECREF(module);
   return nullptr;
