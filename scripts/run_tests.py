@@ -1,7 +1,8 @@
 """Runs the workspace's tests: pytest for ROS-free code, rostest for whatever talks ROS; two jobs at a time.
 
 Every ``test/test_*.py`` below src/ is pytest's, every ``test/*.test`` is rostest's (on a master of its own). Closes with
-one line ``N passed, M failed``; the output of what failed is printed in full, and kept with the rest in --logs.
+one line ``N passed, M failed``, before it the cases that failed, each with its reason; the output of what failed is printed
+in full, and kept with the rest in --logs.
 """
 from __future__ import annotations
 
@@ -17,7 +18,7 @@ import threading
 import time
 import xml.etree.ElementTree as ET
 from collections import deque
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Iterator, List, Optional
 
@@ -45,6 +46,7 @@ class Result:
     skipped: int
     seconds: float
     output: str
+    reasons: List[str] = field(default_factory=list)
 
 
 def find_jobs(packages: List[str], kind: str) -> List[Job]:
@@ -117,6 +119,20 @@ def count(report: Path) -> tuple:
     return total - failed - skipped, failed, skipped
 
 
+def reasons(home: Path) -> Iterator[str]:
+    """One line for each case that failed: its name and the last line of why, from the reports below ``home``."""
+    for report in sorted(home.rglob("*.xml")):
+        try:
+            cases = list(ET.parse(report).getroot().iter("testcase"))
+        except (OSError, ET.ParseError):
+            continue
+        for case in cases:
+            for fault in [*case.findall("failure"), *case.findall("error")]:
+                why = (fault.get("message") or (fault.text or "").strip().splitlines()[-1:] or [""])
+                text = why if isinstance(why, str) else why[0]
+                yield f"{case.get('classname', '')}.{case.get('name', '')}: {' '.join(text.split())[:500]}"
+
+
 def _listen_to_ctrl_c() -> None:
     """Started in the background of a script, this process ignores SIGINT; what it tests must not inherit that."""
     signal.signal(signal.SIGINT, signal.SIG_DFL)
@@ -166,7 +182,7 @@ def run(job: Job, scratch: Path) -> Result:
         failed += 1
         output += f"\n{job.name}: no test ran\n"
     (scratch / (job.name.replace("/", "__") + ".log")).write_text(output)
-    return Result(job, passed, failed, skipped, seconds, output)
+    return Result(job, passed, failed, skipped, seconds, output, list(reasons(home)) if failed else [])
 
 
 def main() -> int:
@@ -183,16 +199,19 @@ def main() -> int:
         print(f"no tests found for {' '.join(options.packages) or 'any package'}", file=sys.stderr)
         return 1
     passed = failed = skipped = 0
+    faults: List[str] = []
     start = time.monotonic()
     for result in run_all(jobs, options.jobs, scratch):
         passed, failed, skipped = passed + result.passed, failed + result.failed, skipped + result.skipped
         mark = "FAIL" if result.failed else "ok"
         print(f"{mark:4} {result.job.kind:7} {result.job.name:70} {result.passed:4} passed {result.seconds:6.1f} s", flush=True)
         if result.failed:
-            print(result.output, flush=True)
+            faults += [f"{result.job.name}: {reason}" for reason in result.reasons or ["see its output"]]
+            print("\n".join(f"     {reason}" for reason in result.reasons), result.output, sep="\n", flush=True)
     print(f"{time.monotonic() - start:.0f} s in all, logs in {scratch}")
     if not failed and not options.logs:
         shutil.rmtree(scratch, ignore_errors=True)
+    print("".join(f"failed: {fault}\n" for fault in faults), end="")
     print(f"{passed} passed, {failed} failed, {skipped} skipped")
     return 1 if failed else 0
 

@@ -1,6 +1,7 @@
 #include <compiled_plugins/guard.h>
 
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <dlfcn.h>
@@ -144,13 +145,16 @@ void crashed(int signal, siginfo_t*, void*)
   // the others come again from the same instruction, to whoever had the signal before
 }
 
-void at_exit()
+/// Ends the process here: the other threads still run (those of roscpp, say), and static objects would be destroyed below them.
+void at_exit(int status, void*)
 {
   if (!mine || !mine->who)
     return;
   Line line;
   line << "\033[31m[FATAL] " << mine->who << " called exit() in its " << mine->what << ". The process ends\033[0m\n";
   line.show();
+  std::fflush(nullptr);
+  _exit(status);
 }
 
 // ----------------------------------------------------------------------------------------------------------------------------------
@@ -199,7 +203,7 @@ void watch()
     sigemptyset(&action.sa_mask);
     for (const int signal : signals)
       sigaction(signal, &action, &before[signal]);
-    std::atexit(at_exit);
+    on_exit(at_exit, nullptr);
     std::thread(keep_looking).detach();
   });
 }
