@@ -18,8 +18,9 @@ def world_with(*models, **more):
 
 def ur5():
     """Six joints with the masses, lengths and limits of the real arm, bolted to the world. Efforts N m, speeds rad/s."""
-    parts = ((3.7, 0.15, 0.089, (0, 0, 1), 150, 3.15), (8.393, 0.425, 0.136, (0, 1, 0), 150, 3.15), (2.275, 0.392, 0.425, (0, 1, 0), 150, 3.15),
-             (1.219, 0.1, 0.392, (0, 1, 0), 28, 3.2), (1.219, 0.1, 0.095, (0, 0, 1), 28, 3.2), (0.1879, 0.05, 0.095, (0, 1, 0), 28, 3.2))
+    parts = ((3.7, 0.15, 0.089, (0, 0, 1), 150, 3.15), (8.393, 0.425, 0.136, (0, 1, 0), 150, 3.15),
+             (2.275, 0.392, 0.425, (0, 1, 0), 150, 3.15), (1.219, 0.1, 0.392, (0, 1, 0), 28, 3.2),
+             (1.219, 0.1, 0.095, (0, 0, 1), 28, 3.2), (0.1879, 0.05, 0.095, (0, 1, 0), 28, 3.2))
     links = [Link("base", Pose(), box_inertia(4.0, (0.15, 0.15, 0.09)), (Collision("c", Pose(), Cylinder(0.075, 0.09)),))]
     joints, height = [Joint("bolt", "fixed", "world", "base")], 0.0
     for i, (mass, length, rise, axis, effort, speed) in enumerate(parts):
