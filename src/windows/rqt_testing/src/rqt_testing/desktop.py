@@ -115,7 +115,7 @@ class Desktop:
             if index:
                 self.keys("Return")  # xdotool types a line feed as a key that Qt does not take for one
             if line:
-                self.xdotool("type", "--clearmodifiers", "--delay", "8", line)
+                self.xdotool("type", "--clearmodifiers", "--delay", "8", "--", line)
 
     def screenshot(self, path: str) -> None:
         """The whole screen as PNG, by a program of its own, as no widget would draw itself otherwise than it is seen."""
