@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import glob
-from typing import Any
+from typing import Any, Sequence
 
 import rospy
 
@@ -17,7 +17,13 @@ def make_page(website: Any, shadows: bool) -> Any:
     simulation = RosSimulation()
     simulation.look(True)  # the first frame comes while the rest is imported
     from ode_sim.viewer import Page
+    page = Page(simulation, title="Gazebo", website=website, say=lambda line: rospy.logwarn("%s", line), later=_panels)
+    page.drawing.shadows = shadows or bool(glob.glob("/dev/dri/renderD*"))
+    return page
 
+
+def _panels() -> Sequence[type]:
+    """What speaks to more of ROS than the simulator; a third of all that is imported."""
     from gzclient.panels.building import BuildingPanel
     from gzclient.panels.controllers import ControllersPanel
     from gzclient.panels.frames import FramesPanel
@@ -25,7 +31,4 @@ def make_page(website: Any, shadows: bool) -> Any:
     from gzclient.panels.model import ModelPanel
     from gzclient.panels.sensors import SensorsPanel
     from gzclient.panels.topics import TopicsPanel
-    page = Page(simulation, title="Gazebo", website=website, say=lambda line: rospy.logwarn("%s", line),
-                panels=(SensorsPanel, FramesPanel, MarkersPanel, TopicsPanel, ControllersPanel, BuildingPanel, ModelPanel))
-    page.drawing.shadows = shadows or bool(glob.glob("/dev/dri/renderD*"))
-    return page
+    return SensorsPanel, FramesPanel, MarkersPanel, TopicsPanel, ControllersPanel, BuildingPanel, ModelPanel

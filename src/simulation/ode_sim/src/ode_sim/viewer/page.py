@@ -33,13 +33,14 @@ class Page:
 
     :param website: a port that is held already; it is opened, ``port`` and ``listen`` are not used
     :param panels: classes of more :class:`~ode_sim.viewer.panels.base.Panel`, behind the standard ones
+    :param later: gives still more of them when the world has been shown, so that nobody waits for them with it
     :param say: where lines for the user go who started it
     :raises ode_sim.viewer.website.Unavailable: no page can be served
     """
 
     def __init__(self, simulation: Simulation, port: int = DEFAULT_PORT, listen: bool = False, title: str = "Gazebo",
                  panels: Sequence[type] = (), say: Callable[[str], None] = _log.warning,
-                 website: Optional[Website] = None):
+                 website: Optional[Website] = None, later: Callable[[], Sequence[type]] = tuple):
         self.simulation = simulation
         self.website = website or Website(port, listen, title)
         self.server = self.website.open()
@@ -67,6 +68,8 @@ class Page:
         self.selection = Selection(self)
         self.resizing = Resizing(self)
         self.panels: List[Panel] = []
+        self._tabs: Any = None
+        self._later: Optional[Callable[[], Sequence[type]]] = later
         self._build([*STANDARD, *panels])
         self.server.on_client_connect(self._on_connect)
         self.server.on_client_disconnect(self._on_disconnect)
@@ -171,6 +174,7 @@ class Page:
             if not self._absent:
                 self._absent = True
                 self._each(lambda panel: panel.on_absent())
+                self._complete()
             return
         if frame is self.frame and not self._absent:
             return
@@ -189,6 +193,7 @@ class Page:
             self._next_text = now + _TEXT_PERIOD
             self.selection.on_frame(frame)
             self._each(lambda panel: panel.on_frame(frame))
+            self._complete()
 
     def redraw(self) -> None:
         """All anew, after a change of how things are drawn. Drawing thread."""
@@ -234,11 +239,23 @@ class Page:
         for kind in kinds:
             if not kind.title:  # above the tabs
                 self.panels.append(kind(self))
-        tabs = gui.add_tab_group()
+        self._tabs = gui.add_tab_group()
+        self._add_tabs([kind for kind in kinds if kind.title])
+
+    def _add_tabs(self, kinds: Sequence[type]) -> None:
         for kind in kinds:
-            if kind.title:
-                with tabs.add_tab(kind.title):
-                    self.panels.append(kind(self))
+            with self._tabs.add_tab(kind.title):
+                self.panels.append(kind(self))
+
+    def _complete(self) -> None:
+        """The panels that come later. Drawing thread."""
+        if self._later is None:
+            return
+        kinds, self._later = self._later(), None
+        count = len(self.panels)
+        self._add_tabs(kinds)
+        for panel in self.panels[count:]:
+            panel.on_absent() if self._absent else panel.on_world(self.world)
 
     def _picked(self, model: str, link: str, event: Any) -> None:
         if not self.placing.takes(event):

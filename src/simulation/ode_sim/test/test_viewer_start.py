@@ -1,0 +1,63 @@
+"""What makes the page come soon: it prepares no light that is not shown, and the world does not wait for every tab."""
+import html
+import re
+
+import numpy as np
+import pytest
+from ode_sim import World
+from ode_sim.description import model as d
+
+pytest.importorskip("viser")
+zstandard = pytest.importorskip("zstandard")
+
+from ode_sim.viewer import LocalSimulation, Page  # noqa: E402
+from ode_sim.viewer.panels.base import Panel  # noqa: E402
+from ode_sim.viewer.porter import entitled, page_of_viser  # noqa: E402
+
+DIGITS = "!#$%()*+,-./0123456789:;=?@ABCDEFGHIJKLMNOPQRSTUVWXYZ[\\]^_abcdefghijklmnopqrstuvwxyz{|}~"
+
+
+def program(page):
+    """What viser's page unpacks: five digits to the base of 88 are four bytes, all of them are packed by zstd."""
+    packed = html.unescape(re.search('data-p="([^"]*)"', page).group(1))
+    digits = np.frombuffer(packed.encode(), np.uint8)
+    values = np.zeros(128, np.uint64)
+    values[[ord(digit) for digit in DIGITS]] = range(len(DIGITS))
+    digits, rest = digits[:len(digits) // 5 * 5], digits[len(digits) // 5 * 5:]
+    words = values[digits].reshape(-1, 5) @ np.array([88 ** n for n in (4, 3, 2, 1, 0)], np.uint64)
+    last = sum(int(values[digit]) * 88 ** n for n, digit in enumerate(reversed(rest)))
+    return zstandard.decompress(words.astype(">u4").tobytes() + last.to_bytes(max(len(rest) - 1, 0), "big")).decode()
+
+
+def test_the_light_by_a_picture_is_taken_out_of_the_program_of_this_viser():
+    page = page_of_viser("Gazebo").decode()
+    pattern, by = re.search(r'decode\(heap\.subarray\(up\+ss,up\+sz\)\)\.replace\(/(.*)/,"(.*?)"\);', page).groups()
+    before = program(page)
+    assert len(re.findall(pattern, before)) == 1
+    after = re.sub(pattern, by.replace("$1", r"\1"), before)
+    assert re.search(r"=null\?null:\w+\.hdri_data;if\(", after)
+
+
+def test_another_page_is_left_as_it_is_but_for_its_title():
+    assert entitled(b"<html>x</html>", "t") == b"<html>x</html>"
+
+
+def test_panels_that_come_later_know_the_world_that_is_shown():
+    told = []
+
+    class Notes(Panel):
+        title = "Notes"
+
+        def on_world(self, world):
+            told.append([model.name for model in world.models])
+
+    page = Page(LocalSimulation(World(d.World(models=(d.Model(name="box", links=(d.Link("l"),)),))), paused=True), port=0,
+                later=lambda: (Notes,))
+    try:
+        assert not any(isinstance(p, Notes) for p in page.panels)
+        page.turn()
+        assert isinstance(page.panels[-1], Notes) and told == [["box"]]
+        page.turn()
+        assert sum(isinstance(p, Notes) for p in page.panels) == 1
+    finally:
+        page.close()
