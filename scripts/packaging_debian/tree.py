@@ -124,7 +124,7 @@ def build(root: Path, prefix: Path) -> Path:
     run(["catkin", "config", "--init", "--workspace", workspace, "--install", "--install-space", prefix, "--cmake-args",
          # catkin reads the one name on Debian 12, the other on 13; else it takes the first python3 of this build's own PATH
          "-DPYTHON_EXECUTABLE=/usr/bin/python3", "-DPython_EXECUTABLE=/usr/bin/python3",
-         "-DCMAKE_BUILD_TYPE=RelWithDebInfo", "-DCATKIN_ENABLE_TESTING=OFF"],
+         "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_FLAGS_RELEASE=-O2 -DNDEBUG", "-DCATKIN_ENABLE_TESTING=OFF"],
         "catkin config", {**environment, "DESTDIR": str(stage)})
     run([sys.executable, root / "scripts/forget_moved.py", workspace / "build"], "scripts/forget_moved.py", environment)
     run(["catkin", "build", "--workspace", workspace, "--no-notify", "--no-status", "--summarize"], "catkin build",

@@ -75,7 +75,11 @@ class ControllerTypes:
 
         :raises PluginError: its library is not there or cannot be loaded, or has no such controller.
         """
-        from .compiled import CompiledTypes  # brings roscpp along, which most robots do without
+        try:
+            from .compiled import CompiledTypes  # brings roscpp along, which most robots do without
+        except ModuleNotFoundError as error:
+            raise PluginError(f"'{plugin.name}' of package {plugin.package} is compiled, and this installation of noetic_labs was "
+                              f"built without what compiled controllers need (no {error.name}): run scripts/setup there") from None
         plugins = self._plugins().values()
         with self._lock:
             if self._compiled is None:
