@@ -5,7 +5,7 @@ import types
 
 import numpy as np
 import pytest
-from ode_sim import World
+from ode_sim import World, math3
 from ode_sim.description import model as d
 
 pytest.importorskip("viser")
@@ -16,9 +16,10 @@ from PIL import Image  # noqa: E402
 from gzclient.building.plan import Element  # noqa: E402
 from gzclient.panels.building import BuildingPanel  # noqa: E402
 
-# the room of the mobile robot's course: length, middle x and y, yaw of its walls in quarter turns
-ROOM = ((8.5, 1.005, -4.17, 0), (5.0, 5.18, -1.745, 1), (6.5, 2.005, 0.68, 2), (2.5, -1.17, -0.495, 3),
-        (5.0, -3.595, -1.67, 2), (2.0, -6.02, -2.595, 3))
+# the room of the mobile robot's course: where its walls meet; and of each wall length, middle x and y, yaw
+CORNERS = ((-3.17, -4.17), (5.18, -4.17), (5.18, 0.68), (-1.17, 0.68), (-1.17, -1.67), (-6.02, -1.67), (-6.02, -3.52), (-6.02, -4.12))
+ROOM = ((8.5, 1.005, -4.17, 0.0), (5.0, 5.18, -1.745, 90.0), (6.5, 2.005, 0.68, 180.0), (2.5, -1.17, -0.495, -90.0),
+        (5.0, -3.595, -1.67, 180.0), (2.0, -6.02, -2.595, -90.0), (0.75, -6.02, -3.82, -90.0), (3.00044, -4.595, -4.145, -1.00508))
 
 
 class Client:
@@ -67,24 +68,66 @@ def nodes(page):
     return {name for name in page.server.scene._handle_from_node_name if name.startswith(("/plan/", "/plan_"))}
 
 
-def test_the_room_of_a_course_is_drawn_saved_and_simulated(editor, tmp_path):
+def test_the_room_of_a_course_is_drawn_measured_saved_opened_and_simulated(editor, tmp_path):
     page, panel, client = editor
     use(panel._name, client, "room")
-    use(panel._snap, client, 0.005)
+    use(panel._angle, client, 0.0)
     turn(page)
-    for length, x, y, quarters in ROOM:
-        c, s = ((1, 0), (0, 1), (-1, 0), (0, -1))[quarters]
-        half = 0.5 * (length - 0.15)  # the editor's walls reach half their thickness beyond their ends
-        drag(page, panel, client, (x - c * half, y - s * half), (x + c * half, y + s * half))
+    for x, y in (*CORNERS, CORNERS[0]):
+        click(page, panel, client, x + 0.06, y - 0.05)
+    assert [wall.start for wall in panel._plan.building().levels[0].walls] != list(CORNERS)
+    use(panel._tool, client, "Pick")
+    turn(page)
+    for number in range(len(CORNERS)):
+        click(page, panel, client, 0.0, 0.0, Element(0, "walls", number))
+        use(panel._place._to, client, (CORNERS * 2)[number + 1])
+        turn(page)
     assert not client.told
     use(panel._save, client)
+    use(panel._open, client, "Open")
+    turn(page)
+    assert [wall.start for wall in panel._plan.building().levels[0].walls] == list(CORNERS)
     world = World.load(str(tmp_path / "building_editor_models" / "room" / "room.world"))
     room = world.models["room"]
     assert list(room.links) == [f"Wall_{number}" for number in range(len(ROOM))] and room.static
-    for link, (length, x, y, _) in zip(room.links.values(), ROOM):
-        np.testing.assert_allclose(link.pose.p[:2], (x, y), atol=0.01)
-        assert link.description.collisions[0].geometry.size[0] == pytest.approx(length, abs=0.02)
+    for link, (length, x, y, yaw) in zip(room.links.values(), ROOM):
+        np.testing.assert_allclose(link.pose.p[:2], (x, y), atol=1e-6)
+        assert (np.degrees(math3.to_rpy(link.pose)[2]) - yaw + 180.0) % 360.0 == pytest.approx(180.0, abs=1e-3)
+        assert link.description.collisions[0].geometry.size == pytest.approx((length, 0.15, 2.5), abs=1e-5)
         assert link.description.visuals[0].material.name == "Gazebo/CeilingTiled"
+
+
+def test_a_number_moves_what_was_there_when_it_was_picked(editor):
+    page, panel, client = editor
+    for x, y in ((0.0, 0.0), (4.0, 0.0), (4.0, 3.0), (4.0, 3.0)):
+        click(page, panel, client, x, y)
+    click(page, panel, client, 1.0, 5.0)  # another wall, alone
+    click(page, panel, client, 2.0, 5.0)
+    use(panel._tool, client, "Pick")
+    turn(page)
+    click(page, panel, client, 0.0, 0.0, Element(0, "walls", 0))
+    for typed in ((1.0, 5.0), (1.5, 0.5)):  # over the end of another wall, and on
+        use(panel._place._to, client, typed)
+        turn(page)
+    assert [(wall.start, wall.end) for wall in panel._plan.building().levels[0].walls] == [
+        ((0.0, 0.0), (1.5, 0.5)), ((1.5, 0.5), (4.0, 3.0)), ((1.0, 5.0), (2.0, 5.0))]
+    use(panel._place._to, client, (0.0, 0.0))
+    turn(page)
+    assert "two different ends" in panel._note.content
+    use(panel._place._length, client, 3.0)
+    turn(page)
+    assert panel._plan.building().levels[0].walls[0].length == pytest.approx(3.0)
+    use(panel._tool, client, "Door")
+    turn(page)
+    click(page, panel, client, 1.5, 5.0, Element(0, "walls", 2))
+    assert not panel._place._from.visible and panel._place._at.visible
+    use(panel._place._at, client, 0.487)
+    turn(page)
+    assert panel._plan.building().levels[0].walls[2].openings[0].at == 0.487
+    use(panel._history, client, "Undo")
+    use(panel._history, client, "Undo")
+    turn(page)
+    assert panel._picked is None and not panel._place._folder.visible
 
 
 def test_clicks_make_a_path_that_a_click_on_its_end_ends(editor):

@@ -83,6 +83,12 @@ class Plan:
         except (LookupError, TypeError):
             raise Refused("That part of the building is not there any more.") from None
 
+    def has(self, which: Element) -> bool:
+        try:
+            return bool(self.element(which))
+        except Refused:
+            return False
+
     # ------------------------------------------------------------------------------------------ history
 
     def _change(self) -> None:
@@ -268,6 +274,27 @@ class Plan:
             place = self.snap_end(tuple(other), point)
         for wall, end in joined:
             wall[end] = list(place)
+
+    def ends_at(self, which: Element, end: str) -> List[Tuple[int, str]]:
+        """(wall, from or to) of each end of its level that is where this wall's is, its own first."""
+        place = self.element(which)[end]
+        return [(which.index, end)] + [(number, other) for number, wall in enumerate(self.part(which.level)["walls"])
+                                       for other in ("from", "to")
+                                       if (number, other) != (which.index, end) and math.dist(wall[other], place) < _NEAR]
+
+    def put_ends(self, level: int, ends: List[Tuple[int, str]], point: Point) -> None:
+        """To that very place, whatever the grid.
+
+        :param ends: as of :meth:`ends_at`
+        :raises Refused: a wall would have no length
+        """
+        def change() -> None:
+            walls = self.part(level)["walls"]
+            for number, end in ends:
+                walls[number][end] = [float(part) for part in point]
+                if math.dist(walls[number]["from"], walls[number]["to"]) < _SHORTEST:
+                    raise Refused("A wall needs two different ends.")
+        self.attempt(change)
 
     def turn(self, which: Element, angle: float) -> None:
         """Stairs about their lowest step, rad."""

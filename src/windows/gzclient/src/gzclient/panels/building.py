@@ -17,6 +17,7 @@ from PIL import Image
 
 from gzclient.building import files
 from gzclient.building.drawing import PlanDrawing
+from gzclient.building.place import PlaceControls
 from gzclient.building.plan import SNAP, Element, Plan, Point
 
 _TOOLS = ("Wall", "Door", "Window", "Stairs", "Move", "Delete", "Pick")
@@ -81,6 +82,7 @@ class BuildingPanel(Panel):
             self._stairs = gui.add_vector3("Stairs w, length, h (m)", (1.0, 3.5, 2.5), min=(0.2, 0.2, 0.2), step=0.1)
             self._steps = gui.add_number("Steps", 15, min=1, max=200, step=1)
             self._yaw = gui.add_number("Stairs climb to (deg)", 0.0, step=15.0)
+        self._place = PlaceControls(gui, self.on_update, lambda change: self.page.later(lambda: self._move_picked(change)))
         for control in (self._thickness, self._height, self._material, self._coloured, self._colour, self._door,
                         self._window, self._stairs, self._steps, self._yaw):
             self.on_update(control, lambda value: self._busy or self.page.later(self._change_picked))
@@ -147,6 +149,8 @@ class BuildingPanel(Panel):
         """A button: in the drawing thread, for a page that may act."""
         def act() -> None:
             self.page.attempt(event, f)
+            self._picked = self._picked if self._picked is not None and self._plan.has(self._picked) else None
+            self._show_picked()
             self._refresh()
         self.page.later(act)
 
@@ -283,6 +287,7 @@ class BuildingPanel(Panel):
 
     def _show_picked(self) -> None:
         """The measures of what is picked, in the controls."""
+        self._place.show(self._plan, self._picked)
         if self._picked is None:
             self._folder.label = "Next wall"
             return
@@ -331,10 +336,20 @@ class BuildingPanel(Panel):
             return
         self._refresh()
 
+    def _move_picked(self, change: Callable[[], None]) -> None:
+        if self._picked is not None:
+            try:
+                change()
+            except Refused as error:
+                self._note.content = note(str(error))
+                return
+            self._refresh()
+
     def _go_to_level(self, level: int) -> None:
         if not self._busy and 0 <= level < self._plan.levels:
             self._plan.level, self._picked = level, None
             self._end_path()
+            self._show_picked()
             self._refresh()
 
     # ------------------------------------------------------------------------------------------ files
