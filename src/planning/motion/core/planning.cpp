@@ -17,6 +17,7 @@
 #include "goal_sampler.hpp"
 #include "joint_space.hpp"
 #include "planner_table.hpp"
+#include "way_round.hpp"
 
 namespace ob = ompl::base;
 namespace og = ompl::geometric;
@@ -130,7 +131,7 @@ private:
     char text[200];
     std::snprintf(text, sizeof text, "no path found within %.3g s by %s; more planning time or another planner may help",
                   request_.time, result_.planner.c_str());
-    return fail(PlanStatus::Timeout, text);
+    return fail(PlanStatus::Timeout, text + (goals_.empty() ? "" : wayRound(*scene_.model(), group_, start_, goals_.front())));
   }
 
   // -------------------------------------------------------------- start and goals

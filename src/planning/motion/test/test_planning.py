@@ -53,6 +53,13 @@ def test_joint_goal_round_a_post(scene, model):
     assert result.planner == "RRTConnect" and result.planning_time > 0 and result.states > 0
 
 
+def test_a_goal_behind_the_floor_names_its_other_way(scene, model):
+    """A shoulder that is told a whole turn more would have to go through the floor: no planner finds that way."""
+    result = motion.plan(scene, request(model, [AWAY[0], AWAY[1] + 2 * np.pi, *AWAY[2:]], planning_time=0.5))
+    assert result.status == "timeout"
+    assert "'shoulder_lift_joint' would turn by 5.88 rad to 4.683, and is at the same place at -1.6" in result.message, result.message
+
+
 def test_no_corner_is_cut_between_way_points(scene, model):
     """Six joints' worth of 0.7 rad between the states that the planner looks at: more than the post is wide."""
     scene.add_object("thin", [motion.Box(0.03, 0.03, 1.2)], pose=((0.3, -0.45, 0.6), (0, 0, 0, 1)))
