@@ -5,6 +5,7 @@ import os
 import shlex
 from dataclasses import dataclass
 from typing import Dict, List, Tuple
+from xml.etree import ElementTree
 
 import rospkg
 from roslaunch import arg_dump, core
@@ -15,6 +16,10 @@ WINDOWLESS = {"gui": "false", "rviz": "false", "use_rviz": "false", "open_rviz":
 
 _PASSING = {("gazebo_ros", "spawn_model"), ("gazebo_ros", "spawn_model.py")}
 _SILENT = {("gazebo_ros", "gzclient")}  # no node of ROS before somebody looks
+
+
+#: What roslaunch raises about a file; catkin's RuntimeError: two packages of one name
+_UNREADABLE = (core.RLException, rospkg.ResourceNotFound, ElementTree.ParseError, OSError, RuntimeError)
 
 
 class LaunchError(RuntimeError):
@@ -59,10 +64,12 @@ def arguments(launch: Launch, given: Dict[str, str]) -> Dict[str, str]:
     """
     try:
         declared = arg_dump.get_args([launch.path])
-    except (core.RLException, rospkg.ResourceNotFound) as error:
+        settled = {entry.get("name") for entry in ElementTree.parse(launch.path).getroot().iter("arg") if "value" in entry.attrib}
+    except _UNREADABLE as error:
         raise LaunchError(_one_line(error)) from error
     wanted = {**WINDOWLESS, **given}
-    missing = [name for name, (_, default) in declared.items() if default is None and name not in wanted]
+    # roslaunch says of <arg name="x" value=""/> as well that it has no default
+    missing = [name for name, (_, default) in declared.items() if default is None and name not in wanted and name not in settled]
     if missing:
         raise LaunchError(f"needs a value for argument {', '.join(missing)}: add {missing[0]}:=...")
     return {name: value for name, value in wanted.items() if name in declared}
@@ -94,7 +101,7 @@ def _load(launch: Launch, values: Dict[str, str]) -> list:
     typed = [f"{name}:={value}" for name, value in values.items()]
     try:
         return load_config_default([(launch.path, typed)], None, verbose=False, assign_machines=False).nodes
-    except (core.RLException, rospkg.ResourceNotFound) as error:
+    except _UNREADABLE as error:
         raise LaunchError(_one_line(error)) from error
 
 
