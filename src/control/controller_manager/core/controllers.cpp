@@ -64,6 +64,15 @@ ros::Time stamp(double time)
   return ros::Time().fromNSec(static_cast<std::uint64_t>(std::llround(time * 1e9)));
 }
 
+bool pythonEnds()
+{
+#if PY_VERSION_HEX < 0x030d0000  // Debian 13's Python has it without the underscore
+  return _Py_IsFinalizing();
+#else
+  return Py_IsFinalizing();
+#endif
+}
+
 class Controller
 {
 public:
@@ -71,7 +80,7 @@ public:
 
   ~Controller()
   {
-    if (_Py_IsFinalizing())
+    if (pythonEnds())
     {
       new std::shared_ptr<ControllerBase>(base_);  // kept for good: what it would unregister from has ended
       return;
