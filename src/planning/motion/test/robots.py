@@ -1,5 +1,5 @@
 """Robots for the tests, as URDF and SRDF text. Sizes and limits are those of the real arms, shapes are simple."""
-from math import pi
+from math import pi, radians
 
 UR5 = [  # joint, type, xyz, rpy, axis, lower, upper
     ("shoulder_pan_joint", (0, 0, 0.089159), (0, 0, 0), (0, 0, 1), -2 * pi, 2 * pi),
@@ -40,7 +40,17 @@ FETCH = [  # None: no limit, a continuous joint
     ("wrist_roll_joint", (0.1385, 0, 0), (0, 0, 0), (1, 0, 0), None, None)]
 FETCH_TIP = ((0.16645, 0, 0), (0, 0, 0))
 
-ARMS = {"ur5": (UR5, UR5_TIP), "panda": (PANDA, PANDA_TIP), "iiwa": (IIWA, IIWA_TIP), "fetch": (FETCH, FETCH_TIP)}
+JACO = [  # of six joints, with three fingers
+    ("joint_1", (0, 0, 0.15675), (0, pi, 0), (0, 0, 1), None, None),
+    ("joint_2", (0, 0.0016, -0.11875), (-pi / 2, 0, pi), (0, 0, 1), radians(47), radians(313)),
+    ("joint_3", (0, -0.41, 0), (0, pi, 0), (0, 0, 1), radians(19), radians(341)),
+    ("joint_4", (0, 0.2073, -0.0114), (-pi / 2, 0, pi), (0, 0, 1), None, None),
+    ("joint_5", (0, -0.03703, -0.06414), (pi / 3, 0, pi), (0, 0, 1), None, None),
+    ("joint_6", (0, -0.03703, -0.06414), (pi / 3, 0, pi), (0, 0, 1), None, None)]
+JACO_TIP = ((0, 0, -0.16), (pi, 0, pi / 2))
+
+ARMS = {"ur5": (UR5, UR5_TIP), "panda": (PANDA, PANDA_TIP), "iiwa": (IIWA, IIWA_TIP), "fetch": (FETCH, FETCH_TIP),
+        "jaco": (JACO, JACO_TIP)}
 
 
 def _numbers(values):
