@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "world.hpp"
+#include "model.hpp"
 
 namespace ode_sim {
 

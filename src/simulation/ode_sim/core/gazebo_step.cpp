@@ -1,14 +1,16 @@
 // `solver: gazebo`: the bodies, joints and contacts of a step as Gazebo Classic hands them to its solver.
-#include "ode_access.hpp"
-
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
 
 #include "gazebo_solver.hpp"
+#include "phases.hpp"
 
 namespace ode_sim {
 
-using namespace gazebo_like;
+using gazebo_like::Body;
+using gazebo_like::Pair;
+using gazebo_like::Row;
 
 namespace {
 
@@ -26,7 +28,7 @@ std::vector<Body> bodies_of(dWorldID world, const std::vector<dBodyID>& ids) {
       const Sym3 local{m.I[0], m.I[5], m.I[10], m.I[1], m.I[2], m.I[6]};
       const Sym3 I = rotate(quat(dBodyGetQuaternion(b)), local);
       body.inverse_mass = 1 / m.mass;
-      body.inverse_inertia = inverse(I);
+      body.inverse_inertia = gazebo_like::inverse(I);
       body.force = vec(dBodyGetForce(b)) + (dBodyGetGravityMode(b) ? vec(g) * m.mass : Vec3{});
       body.torque = vec(dBodyGetTorque(b)) - cross(body.w, I * body.w);
     }
@@ -60,7 +62,7 @@ void add_limot(std::vector<Row>& rows, std::vector<Body>& bodies, const Pair& pa
   const int limit = a.q <= a.lower ? 1 : a.q >= a.upper ? 2 : 0;
   const bool fixed = a.lower == a.upper, powered = a.most > 0 && !(limit && fixed);
   if (!powered && !limit) return;
-  Row r = along(pair, axis_W, linear);
+  Row r = gazebo_like::along(pair, axis_W, linear);
   if (powered && !limit) {
     r.c = a.speed, r.cfm = a.softness, r.lo = -a.most, r.hi = a.most;
   } else {
@@ -83,28 +85,28 @@ void add_joint_rows(std::vector<Row>& rows, std::vector<Body>& bodies, const Joi
   const Vec3 axis1 = rotate(pair.X_W1.q, a0), axis2 = rotate(pair.X_W2.q, a0);
   switch (j.type) {
     case JointType::Revolute:
-      add_point(rows, pair);
-      add_hinge(rows, pair, axis1, axis2);
+      gazebo_like::add_point(rows, pair);
+      gazebo_like::add_hinge(rows, pair, axis1, axis2);
       add_limot(rows, bodies, pair, limot_of(j, 0), axis1, false, dt);
       break;
     case JointType::Prismatic:
-      add_alignment(rows, pair);
-      add_slide(rows, pair, axis1);
+      gazebo_like::add_alignment(rows, pair);
+      gazebo_like::add_slide(rows, pair, axis1);
       add_limot(rows, bodies, pair, limot_of(j, 0), axis1, true, dt);
       break;
     case JointType::Universal: {
       const Vec3 first = rotate(pair.X_W1.q, j.sign > 0 ? j.axes[1].xyz : a0), second = rotate(pair.X_W2.q, j.sign > 0 ? a0 : j.axes[1].xyz);
-      add_point(rows, pair);
+      gazebo_like::add_point(rows, pair);
       const Vec3 square = cross(first, second);
-      add_turn(rows, pair, square * (1 / std::max(norm(square), 1e-9)), -pair.erp_rate * dot(first, second));
+      gazebo_like::add_turn(rows, pair, square * (1 / std::max(norm(square), 1e-9)), -pair.erp_rate * dot(first, second));
       add_limot(rows, bodies, pair, limot_of(j, 0), first, false, dt);
       add_limot(rows, bodies, pair, limot_of(j, 1), second, false, dt);
       break;
     }
-    case JointType::Ball: add_point(rows, pair); break;
+    case JointType::Ball: gazebo_like::add_point(rows, pair); break;
     case JointType::Fixed:
-      add_point(rows, pair);
-      add_alignment(rows, pair);
+      gazebo_like::add_point(rows, pair);
+      gazebo_like::add_alignment(rows, pair);
       break;
   }
 }
@@ -112,20 +114,20 @@ void add_joint_rows(std::vector<Row>& rows, std::vector<Body>& bodies, const Joi
 // Normal force and two of friction along fixed tangents (a pyramid).
 void add_contact_rows(std::vector<Row>& rows, const std::vector<Body>& bodies, const Pair& pair, const dContact& d, double dt) {
   const Vec3 at = vec(d.geom.pos), n = vec(d.geom.normal);
-  Row r = point_row(pair, at, n);
+  Row r = gazebo_like::point_row(pair, at, n);
   r.cfm = d.surface.soft_cfm;
   r.c = d.surface.soft_erp / dt * d.geom.depth + d.surface.motionN;
   const Body& b1 = bodies[r.first];
   double leaving = dot(r.l1, b1.v) + dot(r.a1, b1.w) - d.surface.motionN;
   if (r.second >= 0) leaving += dot(r.l2, bodies[r.second].v) + dot(r.a2, bodies[r.second].w);
   if (-leaving > d.surface.bounce_vel) r.c = std::max(r.c, -d.surface.bounce * leaving + d.surface.motionN);
-  r.lo = 0, r.kind = kNormal;
+  r.lo = 0, r.kind = gazebo_like::kNormal;
   const int normal = static_cast<int>(rows.size());
   rows.push_back(r);
   const Vec3 t1 = vec(d.fdir1), t2 = cross(n, t1);
   auto friction = [&](const Vec3& t, double mu, double slip, double motion) {
     if (mu <= 0) return;
-    Row f = point_row(pair, at, t);
+    Row f = gazebo_like::point_row(pair, at, t);
     f.c = motion, f.cfm = slip, f.kind = normal, f.hi = mu;
     rows.push_back(f);
   };
@@ -161,71 +163,104 @@ void tell(dJointFeedback& f, const std::vector<Row>& rows, size_t from, size_t t
   for (int k = 0; k < 4; ++k) to_ode[k][0] = sums[k].x, to_ode[k][1] = sums[k].y, to_ode[k][2] = sums[k].z;
 }
 
+using Numbers = std::unordered_map<dBodyID, int>;
+
+struct RowOwner {
+  dJointFeedback* feedback;
+  Joint* joint;
+  size_t from, to;
+};
+
+// The rows of all joints, welds and contacts between some bodies, and who is to be told what they bear.
+class Rows {
+ public:
+  Rows(Scene& scene, StepState& state, const Numbers& number, std::vector<Body>& bodies)
+      : scene_(scene), set_(scene.settings), state_(state), number_(number), bodies_(bodies) {
+    add_joints();
+    add_welds();
+    add_contacts();
+  }
+  std::vector<Row> rows;
+  std::vector<RowOwner> owners;
+
+ private:
+  Scene& scene_;
+  const Settings& set_;
+  StepState& state_;
+  const Numbers& number_;
+  std::vector<Body>& bodies_;
+  Pair pair_{};
+
+  // The bodies of an ODE joint, when they take part. X_1J, X_2J: its frame in each.
+  bool take(dJointID joint, const Pose& X_1J, const Pose& X_2J, double fastest) {
+    const dBodyID first = dJointGetBody(joint, 0), second = dJointGetBody(joint, 1);
+    const auto a = number_.find(first), b = number_.find(second);
+    if (a == number_.end() || (second && b == number_.end())) return false;
+    auto place = [](dBodyID body) { return body ? body_pose(body) : Pose{}; };
+    pair_ = {a->second, second ? b->second : -1, place(first) * X_1J, place(second) * X_2J, vec(dBodyGetPosition(first)),
+             place(second).p, set_.erp / set_.dt, set_.cfm, fastest};
+    return true;
+  }
+
+  void add_joints() {
+    for (auto& m : scene_.models)
+      for (auto& j : m->joints) {
+        if (!j->joint) continue;
+        const Pose X_C = X_BL(*j->child) * j->X_CJ, X_P = j->parent ? X_BL(*j->parent) * j->X_PJ : j->X_PJ;
+        if (!take(j->joint, j->sign > 0 ? X_C : X_P, j->sign > 0 ? X_P : X_C, set_.contact_max_vel)) continue;
+        const size_t from = rows.size();
+        add_joint_rows(rows, bodies_, *j, pair_, set_.dt);
+        for (size_t i = from; i < rows.size(); ++i) rows[i].lambda = j->borne[i - from], rows[i].lambda_fully = j->borne[6 + i - from];
+        owners.push_back({j->watched ? &j->ode_feedback : nullptr, j.get(), from, rows.size()});
+      }
+  }
+
+  void add_welds() {
+    for (auto& t : scene_.welds) {
+      const dJointID joint = state_.weld_joint(scene_, t);
+      if (!joint) continue;
+      const bool child = body_of(t.child.get()) != nullptr;
+      const Pose X_C = X_BL(*t.child), X_P = (t.parent ? X_BL(*t.parent) : Pose{}) * t.X_PC;
+      if (!take(joint, child ? X_C : X_P, child ? X_P : X_C, set_.contact_max_vel)) continue;
+      const size_t from = rows.size();
+      gazebo_like::add_point(rows, pair_);
+      gazebo_like::add_alignment(rows, pair_);
+      owners.push_back({&t.feedback, nullptr, from, rows.size()});
+    }
+  }
+
+  void add_contacts() {
+    for (auto& c : state_.contacts) {
+      if (!c.joint || !take(c.joint, {}, {}, c.fastest)) continue;
+      const size_t from = rows.size();
+      add_contact_rows(rows, bodies_, pair_, state_.gazebo_contacts[c.row], set_.dt);
+      owners.push_back({c.feedback >= 0 ? &state_.feedback[c.feedback] : nullptr, nullptr, from, rows.size()});
+    }
+  }
+};
+
 }  // namespace
 
-// The rows of all joints, ties and contacts between these bodies, and who is to be told what they bear.
-void World::gather_rows(const Numbers& number, std::vector<Body>& bodies, std::vector<Row>& rows, std::vector<RowOwner>& owners) {
-  auto place = [&](dBodyID b) { return b ? body_pose(b) : Pose{}; };
-  Pair pair;
-  // The bodies of an ODE joint, when they take part. X_1J, X_2J: its frame in each.
-  auto take = [&](dJointID joint, const Pose& X_1J, const Pose& X_2J, double fastest) {
-    const dBodyID first = dJointGetBody(joint, 0), second = dJointGetBody(joint, 1);
-    const auto a = number.find(first), b = number.find(second);
-    if (a == number.end() || (second && b == number.end())) return false;
-    pair = {a->second, second ? b->second : -1, place(first) * X_1J, place(second) * X_2J, vec(dBodyGetPosition(first)),
-            place(second).p, erp / dt, cfm, fastest};
-    return true;
-  };
-  for (auto& m : models_)
-    for (auto& j : m->joints) {
-      if (!j->joint) continue;
-      const Pose X_C = X_BL(*j->child) * j->X_CJ, X_P = j->parent ? X_BL(*j->parent) * j->X_PJ : j->X_PJ;
-      if (!take(j->joint, j->sign > 0 ? X_C : X_P, j->sign > 0 ? X_P : X_C, contact_max_vel)) continue;
-      const size_t from = rows.size();
-      add_joint_rows(rows, bodies, *j, pair, dt);
-      for (size_t i = from; i < rows.size(); ++i) rows[i].lambda = j->borne[i - from], rows[i].lambda_fully = j->borne[6 + i - from];
-      owners.push_back({j->watched ? &j->ode_feedback : nullptr, j.get(), from, rows.size()});
-    }
-  for (auto& t : ties_) {
-    if (!t.joint) continue;
-    const bool child = body_of(t.child.get()) != nullptr;
-    const Pose X_C = X_BL(*t.child), X_P = (t.parent ? X_BL(*t.parent) : Pose{}) * t.X_PC;
-    if (!take(t.joint, child ? X_C : X_P, child ? X_P : X_C, contact_max_vel)) continue;
-    const size_t from = rows.size();
-    add_point(rows, pair);
-    add_alignment(rows, pair);
-    owners.push_back({&t.feedback, nullptr, from, rows.size()});
-  }
-  for (auto& c : contacts_) {
-    if (!c.joint || !take(c.joint, {}, {}, c.fastest)) continue;
-    const size_t from = rows.size();
-    add_contact_rows(rows, bodies, pair, gazebo_contacts_[c.row], dt);
-    owners.push_back({c.feedback >= 0 ? &feedback_[c.feedback] : nullptr, nullptr, from, rows.size()});
-  }
-}
-
-void World::run_like_gazebo(const Pass& pass) {
+void run_like_gazebo(Scene& scene, StepState& state, const Pass& pass) {
   if (pass.bodies.empty()) return;
   Numbers number;
   std::vector<dBodyID> ids;
   for (dBodyID b : pass.bodies)
     if (number.emplace(b, static_cast<int>(ids.size())).second) ids.push_back(b);
-  std::vector<Body> bodies = bodies_of(world_, ids);
-  std::vector<Row> rows;
-  std::vector<RowOwner> owners;
-  gather_rows(number, bodies, rows, owners);
-  Settings settings;
-  settings.dt = dt, settings.sor = sor, settings.iterations = iters;
-  gazebo_like::solve(rows, bodies, settings);
-  for (const RowOwner& o : owners) {
-    if (o.feedback) tell(*o.feedback, rows, o.from, o.to);
+  std::vector<Body> bodies = bodies_of(scene.ode, ids);
+  Rows all(scene, state, number, bodies);
+  gazebo_like::Settings settings;
+  settings.dt = scene.settings.dt, settings.sor = scene.settings.sor, settings.iterations = scene.settings.iters;
+  gazebo_like::solve(all.rows, bodies, settings);
+  for (const RowOwner& o : all.owners) {
+    if (o.feedback) tell(*o.feedback, all.rows, o.from, o.to);
     for (size_t i = 0; o.joint && i < 6; ++i) {
-      o.joint->borne[i] = o.from + i < o.to ? rows[o.from + i].lambda : 0;
-      o.joint->borne[6 + i] = o.from + i < o.to ? rows[o.from + i].lambda_fully : 0;
+      o.joint->borne[i] = o.from + i < o.to ? all.rows[o.from + i].lambda : 0;
+      o.joint->borne[6 + i] = o.from + i < o.to ? all.rows[o.from + i].lambda_fully : 0;
     }
   }
-  for (size_t i = 0; i < ids.size(); ++i) move(ids[i], bodies[i], dt);
-  ++counters.quick;
+  for (size_t i = 0; i < ids.size(); ++i) move(ids[i], bodies[i], settings.dt);
+  ++scene.counters.quick;
 }
 
 }  // namespace ode_sim

@@ -7,7 +7,7 @@
 namespace ode_sim {
 
 MeshData::MeshData(std::vector<double> v, std::vector<dTriIndex> i) : vertices(std::move(v)), indices(std::move(i)) {
-  initialise_ode();
+  const OdeScope scope;
   if (vertices.empty() || indices.empty() || vertices.size() % 3 || indices.size() % 3)
     throw std::invalid_argument("a mesh takes vertices and triangles of three numbers each, and at least one");
   if (std::max(vertices.size(), indices.size()) > std::numeric_limits<int>::max())
@@ -16,7 +16,7 @@ MeshData::MeshData(std::vector<double> v, std::vector<dTriIndex> i) : vertices(s
     if (!(std::abs(v) <= kFarthest)) throw std::invalid_argument("a corner of the mesh lies beyond " + shown(kFarthest) + " m");
   for (dTriIndex i : indices)
     if (i >= vertices.size() / 3) throw std::invalid_argument("a triangle of the mesh names a corner that there is not");
-  data = dGeomTriMeshDataCreate();
+  data.reset(dGeomTriMeshDataCreate());
   dGeomTriMeshDataBuildDouble(data, vertices.data(), 3 * sizeof(double), static_cast<int>(vertices.size() / 3),
                               indices.data(), static_cast<int>(indices.size()), 3 * sizeof(dTriIndex));
 }
@@ -45,14 +45,19 @@ void Shape::look_for_tread(const Vec3& axis_L, const Vec3& on_axis) {
   axle = axis, tread = at + axis * ((low + high) / 2);
 }
 
-MeshData::~MeshData() { dGeomTriMeshDataDestroy(data); }
-
-dGeomID make_mesh(Shape& shape, std::shared_ptr<MeshData> data) {
-  shape.mesh = std::move(data);
-  return dCreateTriMesh(nullptr, shape.mesh->data, nullptr, nullptr, nullptr);
+void Shape::release() {
+  geom.reset();
+  faceted.reset();
+  field.reset();
+  mesh = faceted_mesh = nullptr;
 }
 
-dGeomID make_cylinder(Shape& shape, double radius, double length) {
+OwnedGeom make_mesh(Shape& shape, std::shared_ptr<MeshData> data) {
+  shape.mesh = std::move(data);
+  return OwnedGeom(dCreateTriMesh(nullptr, shape.mesh->data, nullptr, nullptr, nullptr));
+}
+
+OwnedGeom make_cylinder(Shape& shape, double radius, double length) {
   constexpr int sides = 24;
   std::vector<double> v;
   std::vector<dTriIndex> t;
@@ -68,11 +73,11 @@ dGeomID make_cylinder(Shape& shape, double radius, double length) {
       t.push_back(k);
   }
   shape.faceted_mesh = std::make_shared<MeshData>(std::move(v), std::move(t));
-  shape.faceted = dCreateTriMesh(nullptr, shape.faceted_mesh->data, nullptr, nullptr, nullptr);
-  return dCreateCylinder(nullptr, radius, length);
+  shape.faceted.reset(dCreateTriMesh(nullptr, shape.faceted_mesh->data, nullptr, nullptr, nullptr));
+  return OwnedGeom(dCreateCylinder(nullptr, radius, length));
 }
 
-dGeomID make_heightmap(Shape& shape, std::vector<double> heights, int columns, int rows, double size_x, double size_y) {
+OwnedGeom make_heightmap(Shape& shape, std::vector<double> heights, int columns, int rows, double size_x, double size_y) {
   if (columns < 2 || rows < 2) throw std::invalid_argument("a height map needs at least two rows and two columns");
   checked_size(size_x, "the width of a height map");
   checked_size(size_y, "the depth of a height map");
@@ -80,12 +85,12 @@ dGeomID make_heightmap(Shape& shape, std::vector<double> heights, int columns, i
     if (!(std::abs(h) <= kFarthest)) throw std::invalid_argument("a height of the map is not a number within " + shown(kFarthest) + " m");
   // `heights`: row-major, first row at +y. ODE wants depth samples along its z, which the y-up turn makes our -y.
   shape.heights = std::move(heights);
-  shape.field = dGeomHeightfieldDataCreate();
+  shape.field.reset(dGeomHeightfieldDataCreate());
   dGeomHeightfieldDataBuildDouble(shape.field, shape.heights.data(), 1, size_x, size_y, columns, rows, 1, 0, 1, 0);
   double low = shape.heights[0], high = low;
   for (double h : shape.heights) low = std::min(low, h), high = std::max(high, h);
   dGeomHeightfieldDataSetBounds(shape.field, low, high);
-  return dCreateHeightfield(nullptr, shape.field, 1);
+  return OwnedGeom(dCreateHeightfield(nullptr, shape.field, 1));
 }
 
 }  // namespace ode_sim

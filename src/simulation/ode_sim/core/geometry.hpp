@@ -1,12 +1,12 @@
 // ODE geoms of the shapes that need more than one ODE call. The shape keeps the data that the geom points into.
 #pragma once
-#include "world.hpp"
+#include "model.hpp"
 
 namespace ode_sim {
 
-dGeomID make_mesh(Shape& shape, std::shared_ptr<MeshData> data);
-dGeomID make_cylinder(Shape& shape, double radius, double length);
+OwnedGeom make_mesh(Shape& shape, std::shared_ptr<MeshData> data);
+OwnedGeom make_cylinder(Shape& shape, double radius, double length);
 // `heights` (m): rows x columns, first row at +y; `size_x`, `size_y` in metres, centred on the origin.
-dGeomID make_heightmap(Shape& shape, std::vector<double> heights, int columns, int rows, double size_x, double size_y);
+OwnedGeom make_heightmap(Shape& shape, std::vector<double> heights, int columns, int rows, double size_x, double size_y);
 
 }  // namespace ode_sim

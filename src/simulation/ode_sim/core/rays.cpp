@@ -2,7 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ode_access.hpp"
+#include "ode.hpp"
+#include "world.hpp"
 
 namespace ode_sim {
 
@@ -23,35 +24,53 @@ double entry(const double* box, const double* origin, const double* inverse, dou
   }
   return from <= to ? from : kInf;
 }
-// One ray of ODE's, for as long as it lives.
-struct Ray {
-  explicit Ray(double length) : geom(dCreateRay(nullptr, length)) {
-    dGeomRaySetFirstContact(geom, 0);
-    dGeomRaySetClosestHit(geom, 1);
-  }
-  ~Ray() { dGeomDestroy(geom); }
-  Ray(const Ray&) = delete;
-  Ray& operator=(const Ray&) = delete;
-  const dGeomID geom;
-};
-}  // namespace
 
-// `origins`, `directions`: n x 3, world frame; directions are normalised here. `ranges`: metres, infinity = no hit within
-// `max_range`; `hits`: shape ids, -1 = none. Returns how many rays hit.
-int World::cast_rays(const double* origins, const double* directions, int n, double max_range,
-                     const std::vector<int>& ignore, double* ranges, int32_t* hits) {
-  initialise_ode();
+std::vector<Candidate> candidates(const Scene& scene, const std::vector<int>& ignore) {
   std::vector<Candidate> all;
-  all.reserve(shapes_.size());
-  for (auto& [id, shape] : shapes_) {
+  all.reserve(scene.shapes.size());
+  for (auto& [id, shape] : scene.shapes) {
     if (shape->out_of_reach || std::find(ignore.begin(), ignore.end(), id) != ignore.end()) continue;
     Candidate c{shape, {-kInf, kInf, -kInf, kInf, -kInf, kInf}};
     if (!shape->infinite) dGeomGetAABB(shape->geom, c.box);
     all.push_back(c);
   }
+  return all;
+}
+
+OwnedGeom make_ray(double length) {
+  OwnedGeom ray(dCreateRay(nullptr, length));
+  dGeomRaySetFirstContact(ray, 0);
+  dGeomRaySetClosestHit(ray, 1);
+  return ray;
+}
+
+struct Hit {
+  double range = kInf;
+  int shape = -1;
+};
+
+// Takes the hit on the shape if it is nearer.
+void look_at(dGeomID ray, const Shape& shape, Hit& hit) {
+  dContactGeom g[8];
+  int k = 0;
+  try {
+    k = dCollide(ray, shape.geom, 8, g, sizeof g[0]);
+  } catch (const OdeFailure&) {
+    return;  // nothing is hit
+  }
+  for (int m = 0; m < k; ++m)
+    if (g[m].depth < hit.range) hit = {g[m].depth, shape.id};
+}
+
+}  // namespace
+
+int cast_rays(const Scene& scene, const double* origins, const double* directions, int n, double max_range,
+              const std::vector<int>& ignore, double* ranges, int32_t* hits) {
+  const OdeScope scope;
+  const auto all = candidates(scene, ignore);
   if (!std::isfinite(max_range)) max_range = 1e6;
   max_range = std::min(std::max(max_range, 0.0), kOutOfReach);
-  const Ray ray(max_range);
+  const OwnedGeom ray = make_ray(max_range);
   std::vector<std::pair<double, Shape*>> near;
   int count = 0;
   for (int i = 0; i < n; ++i) {
@@ -70,24 +89,16 @@ int World::cast_rays(const double* origins, const double* directions, int n, dou
     }
     std::sort(near.begin(), near.end(),
               [](auto& a, auto& b) { return a.first != b.first ? a.first < b.first : a.second->id < b.second->id; });
-    dGeomRaySetLength(ray.geom, max_range);
-    dGeomRaySet(ray.geom, o[0], o[1], o[2], d.x, d.y, d.z);
+    dGeomRaySetLength(ray, max_range);
+    dGeomRaySet(ray, o[0], o[1], o[2], d.x, d.y, d.z);
+    Hit hit;
     for (auto& [at, shape] : near) {
-      if (at >= ranges[i]) break;
-      dContactGeom g[8];
-      int k = 0;
-      try {
-        k = dCollide(ray.geom, shape->geom, 8, g, sizeof g[0]);
-      } catch (const OdeFailure&) {
-        continue;  // nothing is hit
-      }
-      for (int m = 0; m < k; ++m)
-        if (g[m].depth < ranges[i]) {
-          ranges[i] = g[m].depth;
-          hits[i] = shape->id;
-        }
+      if (at >= hit.range) break;
+      look_at(ray, *shape, hit);
     }
-    count += hits[i] >= 0;
+    ranges[i] = hit.range;
+    hits[i] = hit.shape;
+    count += hit.shape >= 0;
   }
   return count;
 }

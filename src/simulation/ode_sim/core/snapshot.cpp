@@ -1,12 +1,12 @@
 // The whole state as bytes, and back.
 //
-// A snapshot is read twice: first into the void, checking, then into the world. What is refused has changed nothing.
+// What is read becomes a Plan, which checks it all, before anything is taken over. What is refused has changed nothing.
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <stdexcept>
 
-#include "ode_access.hpp"
+#include "phases.hpp"
 
 namespace ode_sim {
 
@@ -86,12 +86,12 @@ template <class F> void visit(F& f, Axis& a) {
 template <class F> void visit(F& f, Feedback& b) {
   for (Vec3* v : {&b.child_force, &b.child_torque, &b.parent_force, &b.parent_torque}) visit(f, *v);
 }
-template <class F> void visit(F& f, ServoMode& mode) {
+template <class F> void visit(F& f, DriveMode& mode) {
   int value = static_cast<int>(mode);
   if constexpr (F::reads) {
     value = f.template next<int>();
     if (value < 0 || value > 2) refuse("it is damaged");
-    if (f.commit) mode = static_cast<ServoMode>(value);
+    if (f.commit) mode = static_cast<DriveMode>(value);
   } else {
     f.number(value);
   }
@@ -100,7 +100,7 @@ template <class F> void visit(F& f, Joint& j) {
   f.same(j.id, kOtherModels);
   f.same(j.axis_count, kOtherModels);
   visit(f, j.X_PJ);
-  visit(f, j.servo);
+  visit(f, j.drive);
   for (double* v : {&j.stop_erp, &j.stop_cfm, &j.target, &j.previous_target, &j.rate, &j.multiplier, &j.offset}) f.number(*v);
   f.number(j.released);
   f.flag(j.catching_up);
@@ -135,15 +135,16 @@ template <class F> void visit(F& f, Link& l) {
   all(dBodyGetAngularVel(l.body), 3);
 }
 
-}  // namespace
-
 // All that a snapshot holds, in its order, but for what depends on the plan of clusters: see restore.
-template <class F> void World::walk(F& f) {
-  for (double* v : {&dt, &gravity.x, &gravity.y, &gravity.z, &erp, &cfm, &sor, &contact_max_vel, &surface_layer}) f.number(*v);
-  f.flag(like_gazebo);
-  f.number(iters), f.number(max_contacts), f.number(seed), f.number(iterations), f.number(time_ns);
-  f.same(static_cast<int>(models_.size()), kOtherModels);
-  for (auto& m : models_) {
+template <class F> void walk(F& f, Scene& scene) {
+  Settings& set = scene.settings;
+  for (double* v : {&set.dt, &set.gravity.x, &set.gravity.y, &set.gravity.z, &set.erp, &set.cfm, &set.sor, &set.contact_max_vel,
+                    &set.surface_layer})
+    f.number(*v);
+  f.flag(set.like_gazebo);
+  f.number(set.iters), f.number(set.max_contacts), f.number(set.seed), f.number(scene.iterations), f.number(scene.time_ns);
+  f.same(static_cast<int>(scene.models.size()), kOtherModels);
+  for (auto& m : scene.models) {
     f.same(m->id, kOtherModels);
     f.same(static_cast<int>(m->joints.size()), kOtherModels);
     f.same(static_cast<int>(m->links.size()), kOtherModels);
@@ -154,11 +155,9 @@ template <class F> void World::walk(F& f) {
   }
 }
 
-namespace {
-
 // What refers from one thing to another, or belongs to a cluster; whole lists of it are replaced.
 struct Relations {
-  struct SavedTie {
+  struct SavedWeld {
     int parent, child;
     Pose X_PC;
     dJointFeedback feedback;  // of the last step in which it was solved for; what is at rest still bears it
@@ -169,7 +168,7 @@ struct Relations {
     double time = 0;
     Vec3 carry_v, carry_w;
   };
-  std::vector<SavedTie> ties;
+  std::vector<SavedWeld> welds;
   std::vector<Borne> borne;
   std::vector<std::vector<std::pair<int, int>>> exempt;  // of each model
   std::map<int, int> leaders;                             // joint -> joint
@@ -190,8 +189,8 @@ template <class F, class List> void visit_size(F& f, List& list, size_t least_by
 template <class F> void visit(F& f, Relations& r) {
   visit_size(f, r.borne, sizeof(int));
   for (auto& b : r.borne) f.number(b.a), f.number(b.b), visit(f, b.pos), f.number(b.normal);
-  visit_size(f, r.ties, sizeof(int));
-  for (auto& t : r.ties) {
+  visit_size(f, r.welds, sizeof(int));
+  for (auto& t : r.welds) {
     f.number(t.parent), f.number(t.child);
     visit(f, t.X_PC);
     for (dReal* v : {t.feedback.f1, t.feedback.t1, t.feedback.f2, t.feedback.t2})
@@ -217,32 +216,22 @@ template <class F> void visit(F& f, Relations& r) {
   }
 }
 
-}  // namespace
-
-std::string World::save() {
-  refresh();
+Relations relations_of(const Scene& scene) {
   Relations r;
-  r.borne = borne_;
-  for (auto& t : ties_) r.ties.push_back({t.parent ? t.parent->id : -1, t.child->id, t.X_PC, t.feedback});
-  for (auto& m : models_) {
+  r.borne = scene.borne;
+  for (auto& t : scene.welds) r.welds.push_back({t.parent ? t.parent->id : -1, t.child->id, t.X_PC, t.feedback});
+  for (auto& m : scene.models) {
     r.exempt.emplace_back(m->exempt.begin(), m->exempt.end());
     for (auto& j : m->joints)
       if (const auto leader = j->leader.lock()) r.leaders[j->id] = leader->id;
     for (auto& c : m->clusters)
       if (c.root) r.rest[c.root->id] = {c.asleep, c.idle_steps, c.idle_time, c.carry_v, c.carry_w};
   }
-  Writer f;
-  uint64_t version = kVersion;
-  f.number(version);
-  walk(f);
-  visit(f, r);
-  uint64_t sum = digest(f.out.data(), f.out.size());
-  f.number(sum);
-  return f.out;
+  return r;
 }
 
-// `tie_ids`: the numbers of the ties in the snapshot, as ties() gave them.
-void World::restore(const std::string& data, const std::vector<int>& tie_ids) {
+// Where what is written of the state ends, if the frame around it is whole.
+size_t checked_frame(const std::string& data) {
   uint64_t version = 0, sum = 0;
   if (data.size() < sizeof version + sizeof sum) refuse("it is incomplete");
   std::memcpy(&version, data.data(), sizeof version);
@@ -250,66 +239,102 @@ void World::restore(const std::string& data, const std::vector<int>& tie_ids) {
   const size_t end = data.size() - sizeof sum;
   std::memcpy(&sum, data.data() + end, sizeof sum);
   if (sum != digest(data.data(), end)) refuse("it is damaged");
+  return end;
+}
 
-  Relations r;
-  Reader look{data, false, sizeof version, end};
-  walk(look);
-  Reader look_on{data, true, look.at, end};
-  visit(look_on, r);
-  if (look_on.at != end) refuse("it is too long");
-  if (r.ties.size() != tie_ids.size()) refuse("it does not name its attachments");
-  if (r.exempt.size() != models_.size()) refuse(kOtherModels);
-  std::map<int, std::shared_ptr<Link>> links;
-  std::map<int, std::shared_ptr<Joint>> joints;
-  for (auto& m : models_) {
-    for (auto& l : m->links) links[l->id] = l;
-    for (auto& j : m->joints) joints[j->id] = j;
+// A snapshot that was read, and fits this world: taking it over refuses nothing.
+class Plan {
+ public:
+  Plan(Scene& scene, const std::string& data, const std::vector<int>& weld_ids)
+      : scene_(scene), data_(data), end_(checked_frame(data)) {
+    Reader look{data, false, sizeof kVersion, end_};
+    walk(look, scene);
+    Reader look_on{data, true, look.at, end_};
+    visit(look_on, relations_);
+    if (look_on.at != end_) refuse("it is too long");
+    if (relations_.welds.size() != weld_ids.size()) refuse("it does not name its attachments");
+    if (relations_.exempt.size() != scene.models.size()) refuse(kOtherModels);
+    for (auto& m : scene.models) {
+      for (auto& l : m->links) links_[l->id] = l;
+      for (auto& j : m->joints) joints_[j->id] = j;
+    }
+    for (size_t i = 0; i < relations_.welds.size(); ++i) {
+      const auto& t = relations_.welds[i];
+      if (!links_.count(t.child) || (t.parent != -1 && !links_.count(t.parent))) refuse(kOtherModels);
+      welds_.push_back({weld_ids[i], t.parent == -1 ? nullptr : links_[t.parent], links_[t.child], t.X_PC, t.feedback});
+    }
+    for (auto& [follower, leader] : relations_.leaders)
+      if (!joints_.count(follower) || !joints_.count(leader)) refuse(kOtherModels);
   }
-  std::vector<Tie> ties;
-  for (size_t i = 0; i < r.ties.size(); ++i) {
-    const auto& t = r.ties[i];
-    if (!links.count(t.child) || (t.parent != -1 && !links.count(t.parent))) refuse(kOtherModels);
-    ties.push_back({tie_ids[i], t.parent == -1 ? nullptr : links[t.parent], links[t.child], t.X_PC, nullptr, t.feedback});
-  }
-  for (auto& [follower, leader] : r.leaders)
-    if (!joints.count(follower) || !joints.count(leader)) refuse(kOtherModels);
 
-  // Nothing is refused from here on.
-  Reader take{data, true, sizeof version, end};
-  walk(take);
-  ties_ = std::move(ties);
-  borne_ = std::move(r.borne);
-  for (int id : tie_ids) next_tie_ = std::max(next_tie_, id + 1);
-  for (auto& [id, joint] : joints) {
-    const auto leader = r.leaders.find(id);
-    joint->leader = leader == r.leaders.end() ? std::weak_ptr<Joint>() : joints[leader->second];
+  void carry_out() {
+    read_numbers();
+    scene_.welds = std::move(welds_);
+    scene_.borne = std::move(relations_.borne);
+    for (auto& [id, joint] : joints_) {
+      const auto leader = relations_.leaders.find(id);
+      joint->leader = leader == relations_.leaders.end() ? std::weak_ptr<Joint>() : joints_[leader->second];
+    }
+    // Putting clusters together places their bodies; where these truly were comes from the snapshot once more, afterwards.
+    for (size_t i = 0; i < scene_.models.size(); ++i) {
+      Model& m = *scene_.models[i];
+      m.exempt = {relations_.exempt[i].begin(), relations_.exempt[i].end()};
+      judge_masses(m);
+      assemble(scene_, m);
+    }
+    plan_carried(scene_);
+    put_to_rest();
+    read_numbers();
+    // Links are not read from the bodies, nor joints from the links: either would cost the last bit.
+    for (auto& m : scene_.models)
+      for (auto& l : m->links) place_shapes(scene_, *l);
+    publish(scene_, [](const Joint&) { return true; });
   }
-  // Putting clusters together places their bodies; where these truly were comes from the snapshot once more, afterwards.
-  for (size_t i = 0; i < models_.size(); ++i) {
-    Model& m = *models_[i];
-    m.exempt = {r.exempt[i].begin(), r.exempt[i].end()};
-    judge_masses(m);
-    recluster(m);
+
+ private:
+  Scene& scene_;
+  const std::string& data_;
+  const size_t end_;
+  Relations relations_;
+  std::map<int, std::shared_ptr<Link>> links_;
+  std::map<int, std::shared_ptr<Joint>> joints_;
+  std::vector<Weld> welds_;
+
+  void read_numbers() {
+    Reader take{data_, true, sizeof kVersion, end_};
+    walk(take, scene_);
   }
-  contacts_.clear();
-  plan_carried();
-  for (auto& m : models_)
-    for (auto& c : m->clusters)
-      if (const auto rest = c.root ? r.rest.find(c.root->id) : r.rest.end(); rest != r.rest.end()) {
+
+  void put_to_rest() {
+    for (auto& m : scene_.models)
+      for (auto& c : m->clusters) {
+        const auto rest = c.root ? relations_.rest.find(c.root->id) : relations_.rest.end();
+        if (rest == relations_.rest.end()) continue;
         c.asleep = rest->second.asleep;
         c.idle_steps = rest->second.steps;
         c.idle_time = rest->second.time;
         c.carry_v = rest->second.carry_v;
         c.carry_w = rest->second.carry_w;
       }
-  Reader again{data, true, sizeof version, end};
-  walk(again);
-  // Links are not read from the bodies, nor joints from the links: either would cost the last bit.
-  for (auto& m : models_) {
-    for (auto& j : m->joints) j->projected = true;
-    for (auto& l : m->links) place_shapes(*l);
   }
-  publish();
+};
+
+}  // namespace
+
+std::string save(Scene& scene) {
+  refresh(scene);
+  Relations r = relations_of(scene);
+  Writer f;
+  uint64_t version = kVersion;
+  f.number(version);
+  walk(f, scene);
+  visit(f, r);
+  uint64_t sum = digest(f.out.data(), f.out.size());
+  f.number(sum);
+  return f.out;
 }
+
+// `weld_ids`: the numbers of the welds in the snapshot.
+void restore(Scene& scene, const std::string& data, const std::vector<int>& weld_ids) { Plan(scene, data, weld_ids).carry_out(); }
 
 }  // namespace ode_sim

@@ -1,8 +1,8 @@
 // The solver for each island, and what becomes of numbers that are lost.
-#include "ode_access.hpp"
-
 #include <algorithm>
 #include <cmath>
+
+#include "phases.hpp"
 
 namespace ode_sim {
 
@@ -19,44 +19,10 @@ uint64_t mix(uint64_t x) {
 
 // Whether the numbers of a body are still numbers, and its place one at which things can collide.
 bool on_the_map(dBodyID b) {
-  return finite(body_pose(b)) && finite(vec(dBodyGetLinearVel(b))) && finite(vec(dBodyGetAngularVel(b))) &&
-         within(vec(dBodyGetPosition(b)), kFarthestPart);
+  return finite(body_pose(b)) && finite(body_velocity(b)) && finite(body_spin(b)) && within(vec(dBodyGetPosition(b)), kFarthestPart);
 }
 
-}  // namespace
-
-World::BodyState World::state_of(dBodyID b) {
-  BodyState s;
-  s.body = b;
-  s.p = vec(dBodyGetPosition(b));
-  s.q = quat(dBodyGetQuaternion(b));
-  s.v = vec(dBodyGetLinearVel(b));
-  s.w = vec(dBodyGetAngularVel(b));
-  s.f = vec(dBodyGetForce(b));
-  s.t = vec(dBodyGetTorque(b));
-  std::memcpy(s.R, dBodyGetRotation(b), sizeof s.R);
-  return s;
-}
-
-std::vector<World::BodyState> World::states_of(const std::vector<dBodyID>& bodies) {
-  std::vector<BodyState> out;
-  for (dBodyID b : bodies) out.push_back(state_of(b));
-  return out;
-}
-
-void World::recall_bodies(const std::vector<BodyState>& in) {
-  for (auto& s : in) {
-    set_body_pose(s.body, {s.p, s.q});
-    set_body_twist(s.body, s.v, s.w);
-    dBodySetForce(s.body, s.f.x, s.f.y, s.f.z);
-    dBodySetTorque(s.body, s.t.x, s.t.y, s.t.z);
-    const dReal q[4] = {s.q.w, s.q.x, s.q.y, s.q.z};
-    std::memcpy(const_cast<dReal*>(dBodyGetQuaternion(s.body)), q, sizeof q);
-    std::memcpy(const_cast<dReal*>(dBodyGetRotation(s.body)), s.R, sizeof s.R);
-  }
-}
-
-std::string World::island_names(const std::vector<Cluster*>& clusters) const {
+std::string names_of(const std::vector<Cluster*>& clusters) {
   std::vector<std::string> names;
   for (Cluster* c : clusters) {
     const std::string& n = c->root->model->name;
@@ -68,136 +34,64 @@ std::string World::island_names(const std::vector<Cluster*>& clusters) const {
   return out;
 }
 
-void World::report(const std::string& text, const std::string& who) {
-  const std::string line = (who.empty() ? "" : who + ": ") + text;
-  if (message_counts_[line]++ == 0) messages_.push_back(line);
-}
-
-std::vector<std::string> World::take_messages() {
-  std::vector<std::string> out;
-  out.swap(messages_);
-  return out;
-}
-
-void World::run(bool direct, int iterations_wanted) {
-  try {
-    if (direct) {
-      dWorldStep(world_, dt);
-    } else {
-      dWorldSetQuickStepNumIterations(world_, iterations_wanted);
-      dWorldSetQuickStepW(world_, sor);
-      dWorldQuickStep(world_, dt);
-    }
-  } catch (const OdeFailure&) {
-    // What the pass has not moved stays where it is; guard_nan mends what it has spoilt.
-  }
-}
-
-// Bodies that a pass of a solver moves together.
-void World::Pass::add(const Island& island) {
-  for (Cluster* c : island.clusters) {
-    clusters.push_back(c);
-    bodies.push_back(c->root->body);
-  }
-  for (Link* l : island.kinematic) bodies.push_back(l->body);
-}
-
-void World::Pass::enable(bool on) const {
-  for (dBodyID b : bodies) on ? dBodyEnable(b) : dBodyDisable(b);
-}
-
-// Steps the islands that are awake: small ones exactly, large ones iteratively.
-void World::solve() {
-  find_islands();
-  for (auto& island : islands_) rest(island);
-  std::vector<std::string> said;
-  const Listening listening(said);
-  before_.clear();
-  for (Cluster* c : nodes_) before_.push_back(state_of(c->root->body));
-  drop_absurd_forces();
-  std::vector<BodyState> kinematic;
-  std::vector<const Island*> touching_islands;
-  Pass &exact = passes_[0], &touching = passes_[1], &iterative = passes_[2];
-  for (Pass& pass : passes_) pass.clear();
-  for (auto& island : islands_) {
-    if (!island.awake) continue;
-    for (Link* l : island.kinematic) kinematic.push_back(state_of(l->body));
-    bool iterate = like_gazebo;
-    if (like_gazebo) {
-      iterative.add(island);
-    } else if (island.contact_rows == 0 && island.rows <= kMostExactRows) {
-      exact.add(island);
-    } else if (island.rows + island.contact_rows <= (island.joints ? direct_rows : heap_rows)) {
-      touching.add(island);
-      touching_islands.push_back(&island);
-    } else {
-      iterative.add(island);
-      iterate = true;
-    }
-    for (Cluster* c : island.clusters) c->iterative = iterate;
-  }
-  run_direct(exact, said);
-  for (auto& s : said) report("ODE: " + s, island_names(exact.clusters));
+// What ODE said of a pass goes to the user.
+void tell(Scene& scene, const Pass& pass, std::vector<std::string>& said) {
+  for (auto& s : said) scene.messages.report("ODE: " + s, names_of(pass.clusters));
   said.clear();
-  if (const auto start = states_of(touching.bodies); !start.empty()) {
-    run_direct(touching, said);
-    if (!said.empty()) {
-      recall_bodies(start);
-      run_one_by_one(touching_islands, said);
-    }
-  }
-  like_gazebo ? run_like_gazebo(iterative) : run_iterative(iterative, iters, said);
-  for (auto& start : kinematic)
-    if (!on_the_map(start.body)) {
-      BodyState still = start;
-      still.v = still.w = {};
-      recall_bodies({still});
-      report("a kinematic link left the map; it was stopped where it was. Look at the speeds commanded", "");
-    }
 }
 
-void World::run_direct(const Pass& pass, std::vector<std::string>& said) {
+void run_direct(Scene& scene, const Pass& pass, std::vector<std::string>& said) {
   if (pass.bodies.empty()) return;
   said.clear();
   pass.enable(true);
-  run(true, 0);
+  solver_pass(scene, true, 0);
   pass.enable(false);
-  ++counters.direct;
+  ++scene.counters.direct;
 }
 
-void World::run_iterative(const Pass& pass, int times, std::vector<std::string>& said) {
+void run_iterative(Scene& scene, const Pass& pass, int times, std::vector<std::string>& said) {
   if (pass.bodies.empty()) return;
   said.clear();
   pass.enable(true);
   {
     std::lock_guard<std::mutex> lock(ode_mutex);
-    dRandSetSeed(static_cast<unsigned long>(mix(seed ^ mix(iterations)) & 0xffffffffu));
-    run(false, times);
+    dRandSetSeed(static_cast<unsigned long>(mix(scene.settings.seed ^ mix(scene.iterations)) & 0xffffffffu));
+    solver_pass(scene, false, times);
   }
   pass.enable(false);
-  ++counters.quick;
-  for (auto& s : said) report("ODE: " + s, island_names(pass.clusters));
-  said.clear();
+  ++scene.counters.quick;
+  tell(scene, pass, said);
 }
 
 // The direct solver lost its way in some island: finds it, and gives that one to the iterative solver.
-void World::run_one_by_one(const std::vector<const Island*>& islands, std::vector<std::string>& said) {
-  for (const Island* island : islands) {
+void run_one_by_one(Scene& scene, StepState& state, std::vector<std::string>& said) {
+  const int iters = scene.settings.iters;
+  for (const Island* island : state.touching.islands) {
     Pass alone;
     alone.add(*island);
     const auto start = states_of(alone.bodies);
-    run_direct(alone, said);
+    run_direct(scene, alone, said);
     if (said.empty()) continue;
-    recall_bodies(start);
-    for (Cluster* c : alone.clusters) c->iterative = true;
-    run_iterative(alone, std::max(iters, std::min(10 * iters, 10000)), said);  // small: more iterations than usual are affordable
-    ++counters.fallbacks;
+    recall(start);
+    for (Cluster* c : alone.clusters) state.of(*c).iterative = true;
+    run_iterative(scene, alone, std::max(iters, std::min(10 * iters, 10000)), said);  // small: more iterations than usual are affordable
+    ++scene.counters.fallbacks;
   }
   said.clear();
 }
 
-void World::drop_absurd_forces() {
-  for (Cluster* c : nodes_) {
+void run_touching(Scene& scene, StepState& state, std::vector<std::string>& said) {
+  const auto start = states_of(state.touching.bodies);
+  if (start.empty()) return;
+  run_direct(scene, state.touching, said);
+  if (said.empty()) return;
+  recall(start);
+  run_one_by_one(scene, state, said);
+}
+
+void drop_absurd_forces(Scene& scene, const StepState& state) {
+  const double dt = scene.settings.dt;
+  for (Cluster* c : state.nodes) {
     dBodyID b = c->root->body;
     const Vec3 f = vec(dBodyGetForce(b)), t = vec(dBodyGetTorque(b));
     const double size = norm(t);
@@ -205,24 +99,90 @@ void World::drop_absurd_forces() {
     if (norm(f) / c->mass * dt < kFastest && spin * dt < kFastest) continue;
     dBodySetForce(b, 0, 0, 0);
     dBodySetTorque(b, 0, 0, 0);
-    report("a force beyond all reason was left out. Look at its masses, inertias and commands", c->root->model->name);
+    scene.messages.report("a force beyond all reason was left out. Look at its masses, inertias and commands", c->root->model->name);
   }
 }
 
-// A body whose numbers are lost goes back to where it was, at rest. What its ties are said to bear is then no number either.
-void World::guard_nan() {
-  for (auto& t : ties_)
+// Joints alone exactly, small islands with contacts exactly if the direct solver finds its way, all others by iterations.
+void choose_solvers(const Settings& set, StepState& state) {
+  for (Pass* pass : {&state.exact, &state.touching, &state.iterative}) pass->clear();
+  for (auto& island : state.islands) {
+    if (!island.awake) continue;
+    const bool alone = island.contact_rows == 0 && island.rows <= kMostExactRows;
+    const bool small = island.rows + island.contact_rows <= (island.joints ? set.direct_rows : set.heap_rows);
+    Pass& pass = set.like_gazebo ? state.iterative : alone ? state.exact : small ? state.touching : state.iterative;
+    pass.add(island);
+    for (Cluster* c : island.clusters) state.of(*c).iterative = &pass == &state.iterative;
+  }
+}
+
+std::vector<BodyState> kinematic_states(const StepState& state) {
+  std::vector<BodyState> out;
+  for (auto& island : state.islands)
+    if (island.awake)
+      for (Link* l : island.kinematic) out.push_back(state_of(l->body));
+  return out;
+}
+
+void stop(BodyState at) {
+  at.v = at.w = {};
+  recall(at);
+}
+
+}  // namespace
+
+void solver_pass(Scene& scene, bool direct, int iterations) {
+  const Settings& set = scene.settings;
+  try {
+    if (direct) {
+      dWorldStep(scene.ode, set.dt);
+    } else {
+      dWorldSetQuickStepNumIterations(scene.ode, iterations);
+      dWorldSetQuickStepW(scene.ode, set.sor);
+      dWorldQuickStep(scene.ode, set.dt);
+    }
+  } catch (const OdeFailure&) {
+    // What the pass has not moved stays where it is; guard_numbers mends what it has spoilt.
+  }
+}
+
+// Steps the islands that are awake.
+void solve(Scene& scene, StepState& state) {
+  find_islands(scene, state);
+  for (auto& island : state.islands) rest(scene, island);
+  std::vector<std::string> said;
+  const OdeScope scope(said);
+  state.before.clear();
+  for (Cluster* c : state.nodes) state.before.push_back(state_of(c->root->body));
+  drop_absurd_forces(scene, state);
+  const auto kinematic = kinematic_states(state);
+  choose_solvers(scene.settings, state);
+  run_direct(scene, state.exact, said);
+  tell(scene, state.exact, said);
+  run_touching(scene, state, said);
+  if (scene.settings.like_gazebo) run_like_gazebo(scene, state, state.iterative);
+  else run_iterative(scene, state.iterative, scene.settings.iters, said);
+  for (auto& start : kinematic)
+    if (!on_the_map(start.body)) {
+      stop(start);
+      scene.messages.report("a kinematic link left the map; it was stopped where it was. Look at the speeds commanded", "");
+    }
+}
+
+// A body whose numbers are lost goes back to where it was, at rest. What its welds are said to bear is then no number either.
+void guard_numbers(Scene& scene, StepState& state) {
+  for (auto& t : scene.welds)
     for (dReal* v : {t.feedback.f1, t.feedback.t1, t.feedback.f2, t.feedback.t2})
       if (!finite(vec(v))) t.feedback = {};
-  for (auto& s : before_) {
+  for (auto& s : state.before) {
     if (on_the_map(s.body)) continue;
-    for (auto& n : nodes_)
+    for (auto& n : state.nodes)
       if (n->root->body == s.body)
-        report("its motion became infinite; it was stopped where it was. Look at its masses, inertias and commands",
-               n->root->model->name);
+        scene.messages.report("its motion became infinite; it was stopped where it was. Look at its masses, inertias and commands",
+                              n->root->model->name);
     BodyState still = s;
-    still.v = still.w = still.f = still.t = {};
-    recall_bodies({still});
+    still.f = still.t = {};
+    stop(still);
   }
 }
 

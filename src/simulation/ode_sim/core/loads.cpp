@@ -1,0 +1,90 @@
+// Force and torque of joints that ODE does not have. A position drive held exactly is no joint for ODE. What it bears follows from what
+// is beyond: the change of its momentum less what else acts on it.
+#include <algorithm>
+
+#include "phases.hpp"
+
+namespace ode_sim {
+
+namespace {
+
+void momentum(const Load& load, Vec3& linear, Vec3& spin) {
+  linear = spin = {};
+  for (const Link* l : load.links) {
+    const Vec3 p = l->velocity_at(l->com_W()) * l->mass;
+    linear += p;
+    spin += rotate(l->X_WL.q, l->inertia * rotate(conjugate(l->X_WL.q), l->w)) + cross(l->com_W() - load.anchor, p);
+  }
+}
+
+Load load_beyond(const Scene& scene, StepState& state, Joint& j) {
+  Load load;
+  bool loop = false;
+  load.links = links_beyond(j, &loop);
+  if (loop) load.links.clear();
+  load.anchor = j.frame_W().p;
+  momentum(load, load.momentum, load.spin);
+  for (Link* l : load.links) {
+    state.of(*l).weighed = true;
+    const Vec3 f = (l->gravity ? scene.settings.gravity * l->mass : Vec3{}) + l->force;
+    load.force += f;
+    load.torque += cross(l->com_W() - load.anchor, f) + l->torque;
+  }
+  return load;
+}
+
+// What contacts and welds give the load, about its anchor.
+void add_outer_forces(const Scene& scene, const StepState& state, const Load& load, Vec3& force, Vec3& torque) {
+  auto beyond = [&](const Link* l) { return std::find(load.links.begin(), load.links.end(), l) != load.links.end(); };
+  for (auto& c : state.contacts) {
+    const bool a = beyond(c.a->link), b = beyond(c.b->link);
+    if (c.feedback < 0 || a == b) continue;
+    const Vec3 f = vec(state.feedback[c.feedback].f1) * ((c.swapped ? -1.0 : 1.0) * (a ? 1.0 : -1.0));
+    force += f;
+    torque += cross(c.pos - load.anchor, f);
+  }
+  for (auto& t : scene.welds) {
+    const bool child = beyond(t.child.get()), parent = t.parent && beyond(t.parent.get());
+    const dJointID joint = state.weld_joint(scene, t);
+    if (!joint || child == parent) continue;
+    const bool first = child == (body_of(t.child.get()) != nullptr);  // whether ODE's first body is of the load
+    const Vec3 f = vec(first ? t.feedback.f1 : t.feedback.f2), at = vec(dBodyGetPosition(dJointGetBody(joint, first ? 0 : 1)));
+    force += f;
+    torque += vec(first ? t.feedback.t1 : t.feedback.t2) + cross(at - load.anchor, f);
+  }
+}
+
+void read_load(const Scene& scene, const StepState& state, Joint& j, const Load& load) {
+  j.feedback = {};
+  if (load.links.empty()) return;
+  Vec3 linear, spin, force = load.force, torque = load.torque;
+  momentum(load, linear, spin);
+  add_outer_forces(scene, state, load, force, torque);
+  force = -force;
+  torque = -torque;
+  if (!state.of(*j.model).jump) {
+    force += (linear - load.momentum) * (1 / scene.settings.dt);
+    torque += (spin - load.spin) * (1 / scene.settings.dt);
+  }
+  if (!finite(force) || !finite(torque)) return;
+  j.feedback.child_force = force;
+  j.feedback.child_torque = torque;
+  j.feedback.parent_force = -j.feedback.child_force;
+  j.feedback.parent_torque = -j.feedback.child_torque;
+}
+
+}  // namespace
+
+// Before the step ...
+void weigh(const Scene& scene, StepState& state, Model& model) {
+  for (auto& j : model.joints)
+    if (j->watched && j->drive == DriveMode::Locked) state.loads.push_back({j.get(), load_beyond(scene, state, *j)});
+}
+
+// ... and after it.
+void read_loads(const Scene& scene, const StepState& state) {
+  for (auto& [joint, load] : state.loads)
+    if (joint->drive == DriveMode::Locked) read_load(scene, state, *joint, load);
+}
+
+}  // namespace ode_sim

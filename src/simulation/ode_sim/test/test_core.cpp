@@ -1,0 +1,214 @@
+// The pure functions of the core, one by one.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "../core/contact_rules.hpp"
+#include "../core/forces.hpp"
+#include "../core/groups.hpp"
+
+using namespace ode_sim;
+
+// ------------------------------------------------------------------------------------------------ groups
+
+TEST(Groups, ThingsAreAloneUntilTheyAreConnected) {
+  Groups groups(5);
+  groups.merge(3, 1);
+  groups.merge(4, 3);
+  EXPECT_EQ(groups.find(4), 1);
+  EXPECT_EQ(groups.find(3), 1);
+  EXPECT_EQ(groups.find(0), 0);
+  EXPECT_EQ(groups.find(2), 2);
+}
+
+TEST(Groups, TheLeastMemberStandsForAGroupInWhateverOrderItGrew) {
+  const std::vector<std::pair<int, int>> pairs = {{7, 6}, {5, 6}, {2, 3}, {3, 7}, {0, 1}};
+  Groups forth(8), back(8);
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    forth.merge(pairs[i].first, pairs[i].second);
+    back.merge(pairs[pairs.size() - 1 - i].second, pairs[pairs.size() - 1 - i].first);
+  }
+  const int wanted[] = {0, 0, 2, 2, 4, 2, 2, 2};
+  for (int i = 0; i < 8; ++i) {
+    EXPECT_EQ(forth.find(i), wanted[i]);
+    EXPECT_EQ(back.find(i), wanted[i]);
+  }
+}
+
+TEST(Groups, TheWorldConnectsNothing) {
+  Groups groups(2);
+  groups.merge(-1, 0);
+  groups.merge(1, -1);
+  EXPECT_NE(groups.find(0), groups.find(1));
+}
+
+// ------------------------------------------------------------------------------------------------ contacts
+
+static Touch on_floor(double depth) {
+  Touch touch;
+  touch.depth = depth;
+  touch.inverse_mass = 1;
+  touch.one_is_fixed = true;
+  touch.outwards = -9.8;
+  return touch;
+}
+
+TEST(ContactHardness, SpringAndDamperAreThoseOfBothSurfacesInARow) {
+  Surface a, b;
+  a.kp = 1e4, b.kp = 3e4, a.kd = 5, b.kd = 2;
+  HardnessSettings set;
+  set.softness = 0;
+  const Hardness hard = contact_hardness(a, b, on_floor(0), set);
+  const double kp = 7500, kd = 7;
+  EXPECT_NEAR(hard.soft_erp, 0.001 * kp / (0.001 * kp + kd), 1e-12);
+  EXPECT_NEAR(hard.soft_cfm, 1 / (0.001 * kp + kd), 1e-12);
+}
+
+TEST(ContactHardness, ALittleOverlapIsLeftAlone) {
+  EXPECT_EQ(contact_hardness({}, {}, on_floor(1.9e-5), {}).depth, 0);
+  EXPECT_GT(contact_hardness({}, {}, on_floor(3e-5), {}).depth, 0);
+  Surface soft;
+  soft.min_depth = 0.001;
+  EXPECT_EQ(contact_hardness(soft, soft, on_floor(0.0009), {}).depth, 0);
+}
+
+TEST(ContactHardness, OverlapIsUndoneNoFasterThanTheSlowerSurfaceAllows) {
+  Surface slow, fast;
+  slow.max_vel = 0.05, fast.max_vel = 2;
+  const HardnessSettings set;
+  const Hardness hard = contact_hardness(slow, fast, on_floor(0.009), set);
+  EXPECT_EQ(hard.fastest, 0.05);
+  EXPECT_NEAR(hard.depth * hard.soft_erp / set.dt, 0.05, 1e-6);
+}
+
+TEST(ContactHardness, WhatWasPutDeepIntoTheFloorComesOutAsGravityWouldBringItBack) {
+  const HardnessSettings set;
+  const Hardness floor = contact_hardness({}, {}, on_floor(0.11), set);
+  EXPECT_NEAR(floor.depth * floor.soft_erp / set.dt, 0.9 * std::sqrt(2 * 9.8 * (0.11 - 2e-5 - 0.01)), 1e-3);
+  Touch wall = on_floor(0.11);
+  wall.outwards = 0;
+  EXPECT_NEAR(contact_hardness({}, {}, wall, set).depth, 0.01 * set.dt, 1e-4);
+}
+
+TEST(ContactHardness, AMergedContactIsAsHardAsThoseThatItStandsFor) {
+  Touch merged = on_floor(0);
+  merged.merged = 3;
+  EXPECT_DOUBLE_EQ(3 * contact_hardness({}, {}, merged, {}).soft_cfm, contact_hardness({}, {}, on_floor(0), {}).soft_cfm);
+}
+
+TEST(ContactHardness, AsGazeboHasItDepthIsNotCut) {
+  HardnessSettings set;
+  set.like_gazebo = true;
+  EXPECT_EQ(contact_hardness({}, {}, on_floor(0.3), set).depth, 0.3);
+}
+
+TEST(FrictionDirection, LiesInThePlaneOfTheContactAlongWhatIsWanted) {
+  const Vec3 t = friction_direction({0, 0, 1}, {3, 4, 5});
+  EXPECT_NEAR(t.x, 0.6, 1e-12);
+  EXPECT_NEAR(t.y, 0.8, 1e-12);
+  EXPECT_EQ(t.z, 0);
+}
+
+TEST(FrictionDirection, IsSomeTangentWhereNothingIsWanted) {
+  const Vec3 n{0.6, 0, 0.8};
+  for (const Vec3& wanted : {Vec3{}, n * 5.0}) {
+    const Vec3 t = friction_direction(n, wanted);
+    EXPECT_NEAR(norm(t), 1, 1e-12);
+    EXPECT_NEAR(dot(t, n), 0, 1e-12);
+  }
+}
+
+TEST(Directed, OfTwoThatAskTheOneWithLessFrictionIsHeard) {
+  Surface none, a, b;
+  a.fdir1 = {1, 0, 0}, b.fdir1 = {0, 1, 0};
+  a.mu = 0.5, b.mu = 0.4;
+  EXPECT_EQ(directed(none, none), nullptr);
+  EXPECT_EQ(directed(a, none), &a);
+  EXPECT_EQ(directed(none, b), &b);
+  EXPECT_EQ(directed(a, b), &b);
+  EXPECT_EQ(directed(b, a), &b);
+}
+
+TEST(ContactRoughness, IsThatOfTheSmootherSurfaceAndNeverNegative) {
+  Surface a, b;
+  a.mu = 0.3, a.mu2 = 2, b.mu = 0.7, b.mu2 = 0.1, a.slip1 = 0.1, b.slip1 = 0.2;
+  const Roughness rough = contact_roughness(a, b);
+  EXPECT_EQ(rough.mu, 0.3);
+  EXPECT_EQ(rough.mu2, 0.1);
+  EXPECT_NEAR(rough.slip1, 0.3, 1e-12);
+  EXPECT_FALSE(rough.isotropic());
+  b.mu = b.mu2 = -1;
+  EXPECT_EQ(contact_roughness(a, b).mu, 0);
+}
+
+// ------------------------------------------------------------------------------------------------ axes
+
+static const double kDt = 0.001;
+
+TEST(AxisRow, AMotorGoesBeforeFrictionAndADriveBeforeAMotor) {
+  Axis axis;
+  axis.friction = 3;
+  MotorRow row = axis_row(axis, kDt, 1, false, false, nullptr);
+  EXPECT_EQ(row.speed, 0);
+  EXPECT_EQ(row.most, 3);
+  axis.motor_velocity = 2, axis.motor_force = 5;
+  row = axis_row(axis, kDt, 1, false, false, nullptr);
+  EXPECT_EQ(row.speed, 2);
+  EXPECT_EQ(row.most, 5);
+  const MotorRow drive{-1, 9};
+  row = axis_row(axis, kDt, 1, false, false, &drive);
+  EXPECT_EQ(row.speed, -1);
+  EXPECT_EQ(row.most, 9);
+}
+
+TEST(AxisRow, SpringsAndDampersAreForcesUntilTheyWouldSwing) {
+  Axis axis;
+  axis.damping = 2, axis.qd = 3, axis.spring_stiffness = 10, axis.q = 0.5, axis.spring_reference = 0.1;
+  MotorRow row = axis_row(axis, kDt, 1, false, false, nullptr);
+  EXPECT_EQ(row.most, 0);
+  EXPECT_NEAR(row.force, -10 * 0.4 - 2 * 3, 1e-12);
+  row = axis_row(axis, kDt, 1000, false, false, nullptr);  // a light link
+  const double d = 2 + kDt * 10;
+  EXPECT_EQ(row.most, dInfinity);
+  EXPECT_NEAR(row.softness, 1 / d, 1e-12);
+  EXPECT_NEAR(row.speed, -10 * 0.4 / d, 1e-12);
+  EXPECT_EQ(row.force, 0);
+}
+
+TEST(AxisRow, AStiffLawIsARowThatNeverGivesMoreThanTheEffort) {
+  Axis axis;
+  axis.slope = 50, axis.law = 100, axis.law_bound = 40, axis.effort = 30;
+  axis.force = axis.lawful();
+  EXPECT_EQ(axis.force, 30);
+  const MotorRow row = axis_row(axis, kDt, 1000, false, false, nullptr);
+  EXPECT_EQ(row.force, 0);
+  EXPECT_EQ(row.most, 30);
+  EXPECT_NEAR(row.speed, 2, 1e-12);
+  EXPECT_NEAR(row.softness, 1 / 50.0, 1e-12);
+  EXPECT_EQ(axis_row(axis, kDt, 1, false, false, nullptr).force, 30);  // a heavy link: the force as it is
+}
+
+TEST(AxisRow, AtAStopNothingIsARow) {
+  Axis axis;
+  axis.slope = 50, axis.law = 100, axis.law_bound = 40, axis.upper = 1, axis.q = 1;
+  axis.force = axis.lawful();
+  const MotorRow row = axis_row(axis, kDt, 1000, false, false, nullptr);
+  EXPECT_EQ(row.most, 0);
+  EXPECT_EQ(row.force, 40);
+}
+
+TEST(SpeedByLaw, FrictionIsTakenOffAndNeverTurnsTheSpeedRound) {
+  Axis axis;
+  axis.slope = 10, axis.law = 20, axis.law_bound = kInf, axis.friction = 5;
+  EXPECT_NEAR(speed_by_law(axis, kDt, 1), 2 - 0.5, 1e-12);
+  axis.law = -20;
+  EXPECT_NEAR(speed_by_law(axis, kDt, 1), -2 + 0.5, 1e-12);
+  axis.law = 1;
+  EXPECT_EQ(speed_by_law(axis, kDt, 1), 0);
+}
+
+TEST(SpeedByLaw, ALimitOfSpeedIsPassedByWhatOneStepGives) {
+  Axis axis;
+  axis.slope = 10, axis.law = 100, axis.law_bound = 8, axis.velocity = 3;
+  EXPECT_NEAR(speed_by_law(axis, kDt, 100), 3 + kDt * 100 * 8, 1e-12);
+}
