@@ -10,10 +10,11 @@ import sys
 import threading
 import time
 
-from python_qt_binding.QtCore import QCoreApplication, QEvent, QObject
-from python_qt_binding.QtWidgets import QAbstractItemView, QApplication, QMenu, QTabBar, QWidget
+from python_qt_binding.QtCore import QCoreApplication, QEvent, QObject, Qt
+from python_qt_binding.QtWidgets import QAbstractItemView, QApplication, QMenu, QScrollArea, QTabBar, QWidget
 
 _KIND = QEvent.Type(QEvent.registerEventType())
+_ANYWHERE = Qt.MatchStartsWith | Qt.MatchWrap | Qt.MatchRecursive  # rows of trees below others, too
 
 
 class _Call(QEvent):
@@ -63,6 +64,15 @@ def _rect(widget, inner=None):
     return [corner.x(), corner.y(), inner.width(), inner.height()]
 
 
+def _scroll_to(widget):
+    """As a person does before clicking: what is in a scroll area is brought into sight."""
+    parent = widget.parentWidget()
+    while parent is not None:
+        if isinstance(parent, QScrollArea):
+            parent.ensureWidgetVisible(widget, 5, 5)
+        parent = parent.parentWidget()
+
+
 def _widgets(name):
     return [w for w in QApplication.allWidgets() if w.objectName() == name and w.isVisible()]
 
@@ -87,9 +97,12 @@ def _answer(question):
     if not found:
         return {"error": f"no visible widget is named {name}"}
     if what == "rect":
+        _scroll_to(found[-1])
         return _rect(found[-1])
     if what == "text":
         return _text(found[-1])
+    if what == "enabled":
+        return found[-1].isEnabled()
     return {"error": f"what is {what}"}
 
 
@@ -104,7 +117,7 @@ def _entry(text):
                 if widget.tabText(index) == text:
                     return _rect(widget, widget.tabRect(index))
     for view in (w for w in QApplication.allWidgets() if w.isVisible() and isinstance(w, QAbstractItemView)):
-        found = view.model() and view.model().match(view.model().index(0, 0), 0, text, 1)
+        found = view.model() and view.model().match(view.model().index(0, 0), 0, text, 1, _ANYWHERE)
         if found:
             return _rect(view.viewport(), view.visualRect(found[0]))
     for widget in (w for w in QApplication.allWidgets() if w.isVisible() and not isinstance(w, QMenu)):
