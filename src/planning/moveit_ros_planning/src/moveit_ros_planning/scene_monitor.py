@@ -155,6 +155,8 @@ class SceneMonitor:
             rospy.loginfo("a whole planning scene came: it replaces all objects and allowed collisions")
         names = {item.id for item in message.world.collision_objects} | {
             body.object.id for body in message.robot_state.attached_collision_objects}
+        if message.world.octomap.octomap.data:
+            names.add(scene_messages.OCTOMAP)
         whole = not message.is_diff or "" in names
         world = message.world.collision_objects or message.world.octomap.octomap.data or whole
         kinds = GEOMETRY | SCENE if world else SCENE
@@ -176,7 +178,8 @@ class SceneMonitor:
         def change(editor) -> bool:
             self._scene.set_octomap(tree, pose)
             return True
-        self.edit(change, GEOMETRY, {scene_messages.OCTOMAP})
+        # Without one the whole scene is published: in a diff, no octomap means that nothing is said of it.
+        self.edit(change, GEOMETRY, {scene_messages.OCTOMAP}, whole=tree is None)
 
     @property
     def scene_name(self) -> str:
