@@ -4,6 +4,7 @@
 
 #include <QInputDialog>
 #include <QProgressBar>
+#include <QScrollArea>
 #include <QVBoxLayout>
 
 #include "context_tab.hpp"
@@ -14,6 +15,21 @@
 #include "warehouse.hpp"
 
 namespace moveit_rviz_plugin {
+namespace {
+// As large as its tab if there is room; on a small screen the tab is scrolled, and RViz's window stays as small as it is.
+class Page : public QScrollArea {
+ public:
+  explicit Page(QWidget* tab) {
+    setFrameShape(QFrame::NoFrame);
+    setWidgetResizable(true);
+    setWidget(tab);
+    viewport()->setAutoFillBackground(false);
+    tab->setAutoFillBackground(false);
+  }
+  QSize sizeHint() const override { return widget()->sizeHint(); }
+  QSize minimumSizeHint() const override { return QSize(240, 120).boundedTo(widget()->minimumSizeHint()); }
+};
+}  // namespace
 
 Dock::Dock(MotionPlanningDisplay* display, QWidget* parent) : QWidget(parent), display_(display) {
   setObjectName("MotionPlanningUI");
@@ -21,7 +37,7 @@ Dock::Dock(MotionPlanningDisplay* display, QWidget* parent) : QWidget(parent), d
   tabs_->setObjectName("tabWidget");
   const auto add = [this](auto* tab, const QString& title) {
     all_.push_back(tab);
-    tabs_->addTab(tab, title);
+    tabs_->addTab(new Page(tab), title);
     return tab;
   };
   status_ = new StatusTab(this);

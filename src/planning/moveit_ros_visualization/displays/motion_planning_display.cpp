@@ -1,5 +1,7 @@
 #include "motion_planning_display.hpp"
 
+#include <moveit/robot_state/conversions.h>
+
 #include <OgreSceneNode.h>
 #include <rviz/display_context.h>
 #include <rviz/display_factory.h>
@@ -202,8 +204,20 @@ void MotionPlanningDisplay::moveGroupGone() {
 }
 
 void MotionPlanningDisplay::sceneShown(const planning_scene::PlanningScene& scene) {
-  for (Query& query : queries_) query.dirty = true;  // what touches may be something else now
+  for (Query& query : queries_) {
+    takeAttached(query, scene.getCurrentState());
+    query.dirty = true;  // what touches may be something else now
+  }
   if (dock_) dock_->sceneShown(scene);
+}
+
+// Start and goal carry what the robot carries.
+void MotionPlanningDisplay::takeAttached(Query& query, const moveit::core::RobotState& current) {
+  if (!query.state || moveit::core::haveSameAttachedObjects(*query.state, current)) return;
+  auto state = std::make_shared<moveit::core::RobotState>(current);
+  state->setVariablePositions(query.state->getVariablePositions());
+  state->update();
+  query.state = state;
 }
 
 std::string MotionPlanningDisplay::group() const { return last_group_; }

@@ -90,6 +90,7 @@ class MotionPlanningDisplay : public PlanningSceneDisplay {
   void makeProperties();
   void makeQueryProperties(rviz::Property* category);
   void makeMetricsProperties(rviz::Property* category);
+  void takeAttached(Query& query, const moveit::core::RobotState& current);
   void groupChanged();
   void placeWorkspace();
   void insertMarkers();

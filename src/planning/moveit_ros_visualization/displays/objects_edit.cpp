@@ -158,6 +158,7 @@ void ObjectsTab::dragged(const Eigen::Isometry3d& pose) {
 
 void ObjectsTab::setPose(const Eigen::Isometry3d& pose) {
   const std::string id = chosen();
+  shown_pose_ = pose;
   if (change([&](planning_scene::PlanningScene& scene) { scene.getWorldNonConst()->setObjectPose(id, pose); })) edited();
 }
 

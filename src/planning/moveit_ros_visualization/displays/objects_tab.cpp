@@ -187,7 +187,7 @@ void ObjectsTab::sceneShown(const planning_scene::PlanningScene& scene) {
     known_world_ = world;
     known_attached_ = attached;
   }
-  if (world == world_ && attached == attached_) return;
+  if (world == world_ && attached == attached_) return followChosen(scene);
   world_ = world;
   attached_ = attached;
   fillList(scene);
@@ -206,8 +206,14 @@ void ObjectsTab::fillList(const planning_scene::PlanningScene& scene) {
       if (id == before) list_->setCurrentItem(item);
     }
   filling_ = false;
-  if (chosen().empty() || chosen() != before) dock_->later([this]() { choose(); });
+  dock_->later([this]() { choose(); });  // it may be attached now, or somewhere else
   describe(scene, chosen());
+}
+
+// Others may have moved what is chosen here.
+void ObjectsTab::followChosen(const planning_scene::PlanningScene& scene) {
+  const auto object = scene.getWorld()->getObject(chosen());
+  if (object && !object->pose_.isApprox(shown_pose_, 1e-6)) dock_->later([this]() { choose(); });
 }
 
 std::string ObjectsTab::chosen() const {
@@ -237,6 +243,7 @@ void ObjectsTab::choose() {
   scale_->setValue(100);
   filling_ = false;
   if (there) showPose(pose);
+  shown_pose_ = pose;
   for (const shapes::ShapeConstPtr& shape : there ? unscaled_ : std::vector<shapes::ShapeConstPtr>())
     if (shape->type == shapes::BOX)
       size = std::max(size, 1.5 * Eigen::Map<const Eigen::Vector3d>(static_cast<const shapes::Box&>(*shape).size).maxCoeff());

@@ -41,6 +41,7 @@ class ObjectsTab : public Tab {
   QWidget* makePose();
   QWidget* makeFile();
   void fillList(const planning_scene::PlanningScene& scene);
+  void followChosen(const planning_scene::PlanningScene& scene);
   std::string chosen() const;
   void choose();
   void add();
@@ -77,6 +78,7 @@ class ObjectsTab : public Tab {
   std::set<std::string> removed_;                         // by hand, since the last publication
   std::set<std::string> known_world_, known_attached_;    // to move_group, when nothing was edited
   std::vector<shapes::ShapeConstPtr> unscaled_;
+  Eigen::Isometry3d shown_pose_ = Eigen::Isometry3d::Identity();  // of the one that is chosen
   ros::Publisher publisher_;
   bool edited_ = false, filling_ = false;
 };

@@ -298,7 +298,7 @@ void PlanningTab::failed(const std::string& what, const std::string& why) {
     plan_button_->setEnabled(true);
     plan_and_execute_button_->setEnabled(true);
     stop_button_->setEnabled(false);
-    show(QString::fromStdString(what), QString::fromStdString(why));
+    show(QString::fromStdString(why.empty() ? what : what + ": " + why), QString::fromStdString(why));
   });
 }
 

@@ -16,6 +16,7 @@
 #include <QPushButton>
 #include <QSpinBox>
 #include <QVBoxLayout>
+#include <boost/filesystem.hpp>
 
 #include "context_tab.hpp"
 #include "objects_tab.hpp"
@@ -53,6 +54,7 @@ QWidget* PlanningTab::makeCommands() {
   plan_and_execute_button_ = named(new QPushButton("Plan && E&xecute"), "plan_and_execute_button");
   stop_button_ = named(new QPushButton("&Stop"), "stop_button", "Stop the robot");
   result_ = named(new QLabel, "result_label");
+  result_->setWordWrap(true);
   clear_octomap_ = named(new QPushButton("Clear octomap"), "clear_octomap_button");
   execute_button_->setEnabled(false);
   stop_button_->setEnabled(false);
@@ -227,6 +229,8 @@ void PlanningTab::groupChanged() {
   if (index >= 0) group_->setCurrentIndex(index);
   fillStates();
   cartesian_->setEnabled(dock_->display().tips().size() == 1);
+  constraints_->setCurrentIndex(0);
+  path_constraints_ = moveit_msgs::Constraints();
   readConstraints();
 }
 
@@ -238,13 +242,34 @@ void PlanningTab::readConstraints() {
   const Warehouse::Owners owners{{"robot", model->getName()}, {"planning_group", dock_->display().group()}};
   dock_->inBackground([this, owners]() {
     const std::vector<std::string> names = dock_->warehouse().names("constraints", owners);
-    dock_->later([this, names]() {
-      constraints_->clear();
-      constraints_->addItem(NONE);
-      for (const std::string& name : names) constraints_->addItem(QString::fromStdString(name));
-      path_constraints_ = moveit_msgs::Constraints();
+    dock_->later([this, names, file = dock_->warehouse().file()]() {
+      database_ = file;
+      offerConstraints(names);
     });
   });
+}
+
+// What was chosen stays, as long as it is there.
+void PlanningTab::offerConstraints(const std::vector<std::string>& names) {
+  const QString before = constraints_->currentText();
+  constraints_->clear();
+  constraints_->addItem(NONE);
+  for (const std::string& name : names) constraints_->addItem(QString::fromStdString(name));
+  const int same = constraints_->findText(before);
+  constraints_->setCurrentIndex(std::max(0, same));
+  if (same <= 0) path_constraints_ = moveit_msgs::Constraints();
+}
+
+// Other nodes write into the database, too.
+void PlanningTab::update() {
+  const ros::WallTime now = ros::WallTime::now();
+  if (database_.empty() || (now - looked_).toSec() < 1.0) return;
+  looked_ = now;
+  boost::system::error_code error;
+  const std::time_t written = boost::filesystem::last_write_time(database_, error);
+  if (error || written == written_) return;
+  if (written_) readConstraints();
+  written_ = written;
 }
 
 void PlanningTab::fillStates() {

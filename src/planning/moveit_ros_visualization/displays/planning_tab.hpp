@@ -48,6 +48,7 @@ class PlanningTab : public Tab {
   // As the widgets stand.
   moveit_msgs::MotionPlanRequest request() const;
   bool busy() const { return busy_ > 0; }
+  void update() override;
 
  private:
   using MoveGroupClient = actionlib::SimpleActionClient<moveit_msgs::MoveGroupAction>;
@@ -75,6 +76,7 @@ class PlanningTab : public Tab {
   void executed(bool good, const std::string& why);
   void setExternal(bool on);
   void readConstraints();
+  void offerConstraints(const std::vector<std::string>& names);
   bool wantsLine() const;
   Line line() const;
   // In the background.
@@ -114,6 +116,9 @@ class PlanningTab : public Tab {
   moveit_msgs::Constraints path_constraints_;
   std::vector<ros::Subscriber> external_topics_;
   ros::Publisher stop_publisher_;
+  std::string database_;  // its file
+  std::time_t written_ = 0;
+  ros::WallTime looked_;
   std::atomic<int> busy_{0};
   std::atomic<bool> stopped_{false};
   bool filling_ = false, scaled_ = false, refresh_[2] = {false, false};

@@ -49,11 +49,17 @@ class Warehouse::Statement {
     sqlite3_bind_blob(statement_, ++bound_, data.data(), static_cast<int>(data.size()), SQLITE_TRANSIENT);
     return *this;
   }
-  // " AND column = ?" for each, bound by the next function.
-  static std::string where(const Owners& owners) {
+  // " AND column = ?" for each, bound by the next function; `or_nobody`: also what was kept without an owner.
+  static std::string where(const Owners& owners, bool or_nobody = false) {
     std::string text;
     for (const auto& owner : owners)
-      if (!owner.second.empty()) text += " AND " + owner.first + " = ?";
+      if (!owner.second.empty()) text += " AND " + owner.first + (or_nobody ? " IN (?, '')" : " = ?");
+    return text;
+  }
+  // Those of an owner before those of nobody.
+  static std::string order(const Owners& owners) {
+    std::string text;
+    for (const auto& owner : owners) text += (text.empty() ? " ORDER BY " : ", ") + owner.first + " = ''";
     return text;
   }
   Statement& bind(const Owners& owners) {
@@ -124,7 +130,7 @@ void Warehouse::makeTables() {
 
 std::vector<std::string> Warehouse::names(const std::string& table, const Owners& owners) {
   const std::lock_guard<std::mutex> lock(lock_);
-  Statement statement(*this, "SELECT DISTINCT name FROM " + table + " WHERE 1" + Statement::where(owners) + " ORDER BY name");
+  Statement statement(*this, "SELECT DISTINCT name FROM " + table + " WHERE 1" + Statement::where(owners, true) + " ORDER BY name");
   statement.bind(owners);
   std::vector<std::string> found;
   while (statement.step()) found.push_back(statement.text());
@@ -148,7 +154,8 @@ void Warehouse::write(const std::string& table, const std::string& name, const s
 
 std::vector<uint8_t> Warehouse::read(const std::string& table, const std::string& name, const Owners& owners) {
   const std::lock_guard<std::mutex> lock(lock_);
-  Statement statement(*this, "SELECT data FROM " + table + " WHERE name = ?" + Statement::where(owners) + " LIMIT 1");
+  Statement statement(*this, "SELECT data FROM " + table + " WHERE name = ?" + Statement::where(owners, true) +
+                                 Statement::order(owners) + " LIMIT 1");
   statement.bind(name).bind(owners);
   if (!statement.step()) throw std::runtime_error("there is no '" + name + "' among the " + table + " in '" + file_ + "'");
   return statement.data();

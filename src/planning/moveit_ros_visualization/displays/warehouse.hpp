@@ -27,6 +27,7 @@ class Warehouse {
   Warehouse& operator=(const Warehouse&) = delete;
 
   const std::string& file() const { return file_; }
+  // names() and load() also find what other nodes have kept without an owner.
   std::vector<std::string> names(const std::string& table, const Owners& owners = {});
   void remove(const std::string& table, const std::string& name, const Owners& owners = {});
   void clear(const std::string& table, const Owners& owners = {});

@@ -1,19 +1,24 @@
 #!/usr/bin/env python3
 """MotionPlanning and its panel in RViz on a private display, used by real clicks; the arm's controllers pretend to move."""
+import io
 import json
 import math
 import os
 import shutil
+import sqlite3
 import tempfile
 import time
 import unittest
 
+import motion
+import numpy as np
 import rospkg
 import rospy
 import rostest
 import yaml
 from geometry_msgs.msg import PoseStamped
-from moveit_msgs.msg import PlanningScene
+from moveit_core import scene_messages
+from moveit_msgs.msg import Constraints, JointConstraint, MoveGroupActionGoal, PlanningScene
 from moveit_msgs.srv import GetPlanningScene, GetPlanningSceneRequest, GetPositionFK, GetPositionFKRequest
 from rqt_testing.desktop import Desktop
 from sensor_msgs.msg import JointState, Joy
@@ -44,6 +49,7 @@ class Panel(unittest.TestCase):
         rospy.init_node("panel_test")
         rospy.wait_for_service("get_planning_scene", 60)
         cls.folder = tempfile.mkdtemp()
+        os.environ["ROS_HOME"] = os.path.join(cls.folder, "ros")  # of RViz: stored scenes are its own
         cls.config = os.path.join(cls.folder, "moveit.rviz")
         shutil.copy(os.path.join(HERE, "moveit.rviz"), cls.config)
         cls.desktop = Desktop("1280x940x24")
@@ -182,6 +188,134 @@ class Panel(unittest.TestCase):
         self.rviz.click("publish_current_scene_button")
         self.rviz.wait(lambda: objects() == [], "scene without it")
         self.rviz.click_text("Planning")
+
+    def scene(self):
+        """What move_group has: objects of the world, what is attached as {object: link}, bytes of octomap."""
+        request = GetPlanningSceneRequest()
+        request.components.components = 2 | 4 | 8 | 16 | 32
+        scene = rospy.ServiceProxy("get_planning_scene", GetPlanningScene)(request).scene
+        return ({item.id: item for item in scene.world.collision_objects},
+                {item.object.id: item.link_name for item in scene.robot_state.attached_collision_objects},
+                len(scene.world.octomap.octomap.data))
+
+    def type_number(self, name, value):
+        self.rviz.click(name, at=(0.3, 0.5))
+        self.desktop.keys("ctrl+a")
+        self.desktop.type(f"{value}\n")
+
+    def publish(self, condition, what):
+        self.rviz.click("publish_current_scene_button")
+        self.rviz.wait(condition, what)
+
+    def tick(self, entry):
+        """The box before an object's name."""
+        x, y, _, height = self.rviz.wait(lambda: self.rviz.ask("entry", entry), entry)
+        self.desktop.click_at(x + 10, y + height // 2)
+
+    def test_6_1_an_object_is_attached_moves_along_and_is_let_go(self):
+        self.rviz.click_text("Scene Objects")
+        self.rviz.click("add_object_button")
+        self.rviz.wait(lambda: "Box_0" in (self.rviz.text("object_status") or ""), "object that is chosen")
+        for name, value in (("object_x", 0.5), ("object_y", -0.4), ("object_z", 1.0)):
+            self.type_number(name, value)
+        self.tick("Box_0")
+        self.rviz.window("Select Link Name")
+        self.rviz.click_text("OK")
+        self.rviz.wait(lambda: "attached to hand" in self.rviz.text("object_status"), "object in the hand")
+        self.rviz.wait(lambda: not self.rviz.ask("enabled", "object_x"), "no pose for what is attached")
+        self.publish(lambda: self.scene()[1] == {"Box_0": "hand"}, "object in the hand, for move_group")
+        self.rviz.click_text("Planning")
+        self.type_number("velocity_scaling_factor", 1.0)
+        self.choose("goal_state_combo_box", "left" if off(HOME) < 0.1 else "home")
+        self.rviz.click("plan_and_execute_button")
+        self.result("Executed")
+        self.rviz.click_text("Scene Objects")
+        self.tick("Box_0")
+        self.rviz.wait(lambda: self.rviz.ask("enabled", "object_x"), "pose of the object")
+        self.assertGreater(abs(float(self.rviz.text("object_x")) - 0.5) + abs(float(self.rviz.text("object_y")) + 0.4), 0.1)
+        self.publish(lambda: self.scene()[1] == {} and "Box_0" in self.scene()[0], "object in the world again")
+        self.rviz.click_text("Planning")
+
+    def test_6_2_objects_go_to_a_file_and_come_back_with_a_mesh(self):
+        mesh = os.path.join(self.folder, "wedge.stl")
+        with open(mesh, "w") as file:
+            file.write("solid w\n" + "".join(
+                "facet normal 0 0 0\nouter loop\n" + "".join(f"vertex {x} {y} {z}\n" for x, y, z in corners) +
+                "endloop\nendfacet\n" for corners in (((0, 0, 0), (1, 0, 0), (0, 1, 0)), ((0, 0, 0), (0, 1, 0), (0, 0, 1)),
+                                                     ((0, 0, 0), (0, 0, 1), (1, 0, 0)), ((1, 0, 0), (0, 0, 1), (0, 1, 0)))) +
+                       "endsolid w\n")
+        self.rviz.click_text("Scene Objects")
+        self.choose("shapes_combo_box", "Mesh from file")
+        self.type_number("shape_size_x_spin_box", 0.1)
+        self.rviz.click("add_object_button")
+        self.rviz.window("Mesh")
+        self.desktop.type(mesh + "\n")
+        self.rviz.wait(lambda: "wedge_0" in self.rviz.text("object_status"), "mesh")
+        self.type_number("object_z", 1.5)
+        self.publish(lambda: "wedge_0" in self.scene()[0], "mesh in move_group")
+        before = self.scene()[0]
+        self.assertEqual(max(v.x for v in before["wedge_0"].meshes[0].vertices), 0.1)
+        self.rviz.click("export_scene_geometry_text_button")
+        self.rviz.window("Export")
+        self.desktop.keys("ctrl+a")
+        self.desktop.type(os.path.join(self.folder, "all") + "\n")
+        self.rviz.wait(lambda: os.path.exists(os.path.join(self.folder, "all.scene")), "file")
+        self.rviz.click("clear_scene_button")
+        self.publish(lambda: not self.scene()[0], "empty scene")
+        self.rviz.click("import_scene_geometry_text_button")
+        self.rviz.window("Import")
+        self.desktop.type(os.path.join(self.folder, "all.scene") + "\n")
+        self.rviz.wait(lambda: self.rviz.ask("entry", "wedge_0"), "objects of the file")
+        self.publish(lambda: set(self.scene()[0]) == set(before), "objects in move_group again")
+        for name, item in self.scene()[0].items():
+            self.assertLess(math.dist((item.pose.position.x, item.pose.position.y, item.pose.position.z),
+                                      (before[name].pose.position.x, before[name].pose.position.y, before[name].pose.position.z)),
+                            1e-6)
+        self.rviz.click("clear_scene_button")
+        self.publish(lambda: not self.scene()[0], "empty scene")
+        self.choose("shapes_combo_box", "Box")
+        self.rviz.click_text("Planning")
+
+    def test_6_3_constraints_that_another_node_keeps_are_offered_and_sent(self):
+        base = os.path.join(os.environ["ROS_HOME"], "warehouse.sqlite")
+        constraints = Constraints(name="anywhere", joint_constraints=[
+            JointConstraint(joint_name="joint_1", tolerance_above=3.0, tolerance_below=3.0, weight=1.0)])
+        data = io.BytesIO()
+        constraints.serialize(data)
+        with sqlite3.connect(base) as connection:
+            connection.execute("INSERT OR REPLACE INTO constraints (name, robot, planning_group, data) VALUES (?, '', '', ?)",
+                               ("anywhere", data.getvalue()))
+        goals = []
+        subscriber = rospy.Subscriber("move_group/goal", MoveGroupActionGoal, goals.append)
+        self.rviz.wait(subscriber.get_num_connections, "action client")
+        time.sleep(2.5)  # the panel looks at the file once a second
+        self.choose("path_constraints_combo_box", "anywhere")
+        self.choose("goal_state_combo_box", "left" if off(HOME) < 0.1 else "home")
+        self.rviz.click("plan_button")
+        self.result("Time: ")
+        self.rviz.wait(lambda: goals, "goal")
+        self.assertEqual(goals[-1].goal.request.path_constraints, constraints)
+        self.choose("path_constraints_combo_box", "None")
+        self.rviz.click("plan_button")
+        self.rviz.wait(lambda: len(goals) > 1, "second goal")
+        self.assertEqual(goals[-1].goal.request.path_constraints, Constraints())
+        self.result("Time: ")
+        subscriber.unregister()
+
+    def test_6_4_an_octomap_is_shown_and_cleared(self):
+        scene = motion.PlanningScene(motion.load_model('<robot name="r"><link name="world"/></robot>'))
+        scene.set_octomap(motion.OcTree.from_points(np.array([[1.0, 1.0, 1.0]]), 0.1), motion.Pose.identity())
+        message = PlanningScene(is_diff=True)
+        message.robot_state.is_diff = True
+        message.world.octomap = scene_messages.octomap_message(scene)
+        publisher = rospy.Publisher("planning_scene", PlanningScene, queue_size=1, latch=True)
+        publisher.publish(message)
+        self.rviz.wait(lambda: self.rviz.ask("enabled", "clear_octomap_button"), "octomap in RViz")
+        self.assertGreater(self.scene()[2], 0)
+        publisher.unregister()
+        self.rviz.click("clear_octomap_button")
+        self.rviz.wait(lambda: not self.rviz.ask("enabled", "clear_octomap_button"), "no octomap in RViz")
+        self.assertEqual(self.scene()[2], 0)
 
     def test_7_the_marker_has_a_menu_that_plans_and_moves(self):
         publisher = rospy.Publisher(MARKERS + "feedback", InteractiveMarkerFeedback, queue_size=5)
