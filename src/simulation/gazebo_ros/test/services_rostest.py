@@ -134,6 +134,17 @@ class Resets(Case):
         self.assertEqual(self.sim.step(1).sim_time.to_nsec(), 1_000_000)
         self.done(self.sim.delete("extra"))
 
+    def test_reset_time_leaves_all_else(self):
+        self.sim.set_model("crate", pose(1, 2, 3), twist((1, 0, 0)))
+        iterations = self.sim.step(10).iterations
+        before = self.sim.model("crate").pose.position
+        self.sim.empty("reset_time")
+        self.assertEqual(self.sim.world().sim_time, 0.0)
+        self.near(xyz(self.sim.model("crate").pose.position), xyz(before))
+        after = self.sim.step(10)
+        self.assertEqual((after.sim_time.to_nsec(), after.iterations), (10_000_000, iterations + 10))
+        self.assertAlmostEqual(self.sim.model("crate").pose.position.x, before.x + 0.01, 4)
+
 
 class Models(Case):
     def test_world_properties(self):

@@ -223,3 +223,7 @@ def test_resets_reach_the_plugins(host):
         server.call(server.reset_simulation)
         assert server.world.time_ns == 0 and server.now() == rospy.Time()
         assert LOG.count("reset a") == 2
+        server.call(lambda: server.request_steps(5)).result(10)
+        server.call(server.reset_time)
+        assert server.world.time_ns == 0 and server.now() == rospy.Time() and server.world.iterations == 5
+        assert LOG.count("reset a") == 3

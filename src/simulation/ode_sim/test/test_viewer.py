@@ -185,6 +185,10 @@ def test_play_pause_step_reset(page):
     wait(page, lambda: page.frame.iterations > 20 and not page.frame.paused)
     use(play._run, client, "Pause")
     wait(page, lambda: page.frame.paused)
+    taken = page.frame.iterations
+    use(play._reset, client, "Time")
+    wait(page, lambda: page.frame.sim_time == 0.0)
+    assert page.frame.iterations == taken
     use(play._reset, client, "All")
     wait(page, lambda: page.frame.iterations == 0)
     assert not client.told

@@ -79,6 +79,8 @@ def world(options: argparse.Namespace) -> None:
         call("step", StepWorld, options.multi_step or 1)
     if options.reset_all:
         call("reset_simulation", Empty)
+    if options.reset_time:
+        call("reset_time", Empty)
     if options.reset_models:
         call("reset_world", Empty)
 
@@ -190,6 +192,7 @@ def parser() -> argparse.ArgumentParser:
     add("-s", "--step", action="store_true")
     add("-m", "--multi-step", type=int, metavar="N")
     add("-r", "--reset-all", action="store_true", help="time and models")
+    add("-t", "--reset-time", action="store_true")
     add("-o", "--reset-models", action="store_true")
     add = command(physics).add_argument
     add("-s", "--step-size", type=float, help="s")

@@ -334,6 +334,14 @@ class Server:
     def reset_simulation(self) -> None:
         """Time and all poses back to the start. Physics thread."""
         self.world.reset()
+        self._time_went_back()
+
+    def reset_time(self) -> None:
+        """Time back to 0, all else as it is. Physics thread."""
+        self.world.reset_time()
+        self._time_went_back()
+
+    def _time_went_back(self) -> None:
         self._set_now()
         self.throttle.restart()
         for sensor in self._sensors:

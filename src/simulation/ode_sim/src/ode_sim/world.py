@@ -305,6 +305,10 @@ class World:
         self.core.iterations = 0
         self._generators.clear()
 
+    def reset_time(self) -> None:
+        """Time 0; where everything is, how it moves and how many steps were taken stays."""
+        self.core.time_ns = 0
+
     def reset_poses(self) -> None:
         """Models back to where they were spawned, at rest. Time goes on and joints stay at their angles."""
         self.core.detach_all()

@@ -144,8 +144,8 @@ class RosSimulation(Simulation):
             self.pause(True)
         self._call("step", StepWorld, count)
 
-    def reset(self, time: bool) -> None:
-        self._call("reset_simulation" if time else "reset_world", Empty)
+    def reset(self, what: str) -> None:
+        self._call({"time": "reset_time", "models": "reset_world", "all": "reset_simulation"}[what], Empty)
 
     # ------------------------------------------------------------------------------------------ models and lights
 

@@ -12,7 +12,8 @@ class SteppingServices:
     def __init__(self, server: Server):
         self._server = server
         for name, f in (("pause_physics", server.pause), ("unpause_physics", server.unpause),
-                        ("reset_world", server.reset_world), ("reset_simulation", server.reset_simulation)):
+                        ("reset_world", server.reset_world), ("reset_simulation", server.reset_simulation),
+                        ("reset_time", server.reset_time)):
             advertise(server, name, Empty, lambda request, response, f=f: f())
         advertise(server, "step", StepWorld, self._step, in_physics_thread=False)
 

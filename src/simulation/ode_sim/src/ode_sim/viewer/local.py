@@ -153,13 +153,13 @@ class LocalSimulation(Simulation):
             world.step(count)
         self.call(do)
 
-    def reset(self, time: bool) -> None:
+    def reset(self, what: str) -> None:
         def do(world):
             self._commands.clear()
             self._pushes.clear()
-            if time:
+            if what != "models":
                 self._real_time = 0.0
-            (world.reset if time else world.reset_poses)()
+            {"time": world.reset_time, "models": world.reset_poses, "all": world.reset}[what]()
         self.call(do)
 
     def set_pose(self, model: str, pose: d.Pose) -> None:

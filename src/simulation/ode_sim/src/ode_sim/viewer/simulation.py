@@ -144,8 +144,8 @@ class Simulation(ABC):
         """Take steps; the simulation is paused for it."""
 
     @abstractmethod
-    def reset(self, time: bool) -> None:
-        """Models back to where they were put; with ``time`` also the time to 0 and the joints to how they were."""
+    def reset(self, what: str) -> None:
+        """:param what: ``time`` (to 0), ``models`` (to where they were put), ``all`` (both, and joints to how they were)"""
 
     @abstractmethod
     def set_pose(self, model: str, pose: Pose) -> None:

@@ -14,12 +14,9 @@ class PlayPanel(Panel):
         self._run = self.gui.add_button_group("Run", ("Play", "Pause", "Step"),
                                               hint="Step takes the number of steps below")
         self._count = self.gui.add_number("Steps", 1, min=1, max=1_000_000, step=1)
-        self._reset = self.gui.add_button_group("Reset", ("Models", "All"),
-                                                hint="Models: poses as at the start. All: also time and joints")
-        self._hold = self.gui.add_checkbox(
-    "Hold the controls",
-    False,
-     hint="Other pages only look while this one holds them")
+        self._reset = self.gui.add_button_group("Reset", ("Time", "Models", "All"),
+                                                hint="Models: poses as at the start. All: time and joints, too")
+        self._hold = self.gui.add_checkbox("Hold the controls", False, hint="Other pages only look while this one holds them")
         self._run.on_click(self._on_run)
         self._reset.on_click(self._on_reset)
         self._hold.on_update(self._on_hold)
@@ -39,7 +36,7 @@ class PlayPanel(Panel):
             self.page.attempt(event, lambda: self.simulation.pause(what == "Pause"))
 
     def _on_reset(self, event: Any) -> None:
-        self.page.attempt(event, lambda: self.simulation.reset(event.target.value == "All"))
+        self.page.attempt(event, lambda: self.simulation.reset(event.target.value.lower()))
 
     def _on_hold(self, event: Any) -> None:
         if event.client_id is not None and not self.page.hold(event, event.target.value):
