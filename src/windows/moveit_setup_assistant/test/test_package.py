@@ -196,6 +196,11 @@ def test_descriptions_that_cannot_be_used(described, tmp_path):
     (tmp_path / "broken.xacro").write_text('<robot name="x" xmlns:xacro="http://ros.org/wiki/xacro"><link name="${nobody}"/></robot>')
     with pytest.raises(AssistantError, match="xacro cannot expand .*nobody"):
         Configuration.new(RobotSource.from_file(tmp_path / "broken.xacro"))
+    (tmp_path / "far.xacro").write_text('<robot name="x" xmlns:xacro="http://ros.org/wiki/xacro">'
+                                        '<xacro:include filename="$(find nobody_has)/a.xacro"/></robot>')
+    with pytest.raises(AssistantError, match="package 'nobody_has' not found") as caught:
+        Configuration.new(RobotSource.from_file(tmp_path / "far.xacro"))
+    assert str(caught.value).count("nobody_has") == 1 and "<class" not in str(caught.value)
     with pytest.raises(AssistantError, match="has no ':='"):
         Configuration.new(RobotSource.from_file(tmp_path / "broken.xacro", "hand=true"))
     with pytest.raises(AssistantError, match="package 'moved_away', which is not found"):

@@ -33,6 +33,7 @@ _LAUNCH_FILES = (
     ("ompl-chomp_planning_pipeline.launch.xml", "CHOMP after OMPL"),
     ("planning_pipeline.launch.xml", "one of the above"),
     ("trajectory_execution.launch.xml", "how motions are executed"),
+    ("@{robot}_moveit_controller_manager.launch.xml", "what executes motions, unless another is chosen"),
     ("simple_moveit_controller_manager.launch.xml", "controllers that run already"),
     ("ros_control_moveit_controller_manager.launch.xml", "controllers of ros_control"),
     ("fake_moveit_controller_manager.launch.xml", "pretended controllers"),

@@ -101,7 +101,15 @@ def _expand(path: Path, arguments: str) -> str:
     except SystemExit as error:
         raise AssistantError(f"xacro cannot expand '{path}'; run  xacro {path} {arguments}  to see why") from error
     except Exception as error:  # xacro raises many kinds; all of them say what is wrong in their text
-        raise AssistantError(f"xacro cannot expand '{path}': {' '.join(str(error).split())[:300]}") from error
+        raise AssistantError(f"xacro cannot expand '{path}': {_reason(error)}") from error
+
+
+def _reason(error: Exception) -> str:
+    """What an exception of xacro says, in one line; it may hold another one, whose text it often says twice."""
+    text, inner = str(error), str(getattr(error, "exc", None) or "")
+    if inner and text.count(inner) > 1:
+        text = inner
+    return " ".join(text.split())[:300]
 
 
 @dataclass
