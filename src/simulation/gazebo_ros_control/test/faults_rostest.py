@@ -3,11 +3,11 @@
 import sys
 import threading
 import time
-import unittest
 
 import rosgraph
 import rospy
 import rostest
+import test_support
 from gazebo_ros.plugin import PluginError
 from gazebo_ros_control import plugin as plugin_module
 from gazebo_ros_control.default_robot_hw_sim import DefaultRobotHWSim
@@ -54,7 +54,7 @@ def until(condition):
         time.sleep(0.005)
 
 
-class FaultsTest(unittest.TestCase):
+class FaultsTest(test_support.TestCase):
     def setUp(self):
         find = plugin_module._find_sim
         self.addCleanup(setattr, plugin_module, "_find_sim", find)

@@ -24,6 +24,13 @@ JOINT = """
 INERTIA = 0.5 * 0.25 + 0.01
 LIMIT = '<limit lower="-3" upper="3" effort="10" velocity="0.5"/>'
 NO_LIMIT = '<limit lower="-1e9" upper="1e9" effort="1e9" velocity="1e9"/>'
+POSITION, VELOCITY, EFFORT = (f"hardware_interface/{kind}JointInterface" for kind in ("Position", "Velocity", "Effort"))
+FORWARD = {
+    "pos": {"type": "position_controllers/JointPositionController", "joint": "j"},
+    "vel": {"type": "velocity_controllers/JointVelocityController", "joint": "j"},
+    "eff": {"type": "effort_controllers/JointEffortController", "joint": "j"},
+    "states": {"type": "joint_state_controller/JointStateController", "publish_rate": 100},
+}
 
 
 def joint(name, limit=LIMIT, kind="revolute", y=0.0):
@@ -39,6 +46,14 @@ def transmission(name, joint_name, *interfaces, joints=""):
 
 def urdf(*parts):
     return f'<robot name="robot"><link name="world"/>{"".join(parts)}</robot>'
+
+
+def one_joint(*interfaces, limit=LIMIT, kind="revolute"):
+    return urdf(joint("j", limit, kind), transmission("t", "j", *interfaces))
+
+
+def gains(**values):
+    return {**FORWARD, "gazebo_ros_control": {"pid_gains": {"j": values}}}
 
 
 class Log(logging.Handler):

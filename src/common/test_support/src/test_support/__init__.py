@@ -1,0 +1,13 @@
+"""What tests share. No ROS in here: a test that talks to nodes brings its own clients.
+
+    class Wheels(test_support.TestCase):
+        def test_both_turn(self):
+            for name in ("left", "right"):
+                with self.subTest(name):
+                    wait_until(lambda: self.speed(name) > 0, f"the {name} wheel to turn")
+"""
+from .cases import TestCase
+from .network import free_port
+from .waiting import wait_until
+
+__all__ = ["TestCase", "free_port", "wait_until"]

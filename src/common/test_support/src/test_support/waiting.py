@@ -1,0 +1,21 @@
+"""Waiting in wall time."""
+import time
+from typing import Callable, TypeVar
+
+T = TypeVar("T")
+
+
+def wait_until(condition: Callable[[], T], what: str = "", timeout: float = 60.0, interval: float = 0.01) -> T:
+    """Ask ``condition()`` every ``interval`` s until it gives something true, and return that.
+
+    :raises AssertionError: it does not within ``timeout`` s; the message says ``what`` was waited for, and the last answer.
+    """
+    end = time.monotonic() + timeout
+    while True:
+        answer = condition()
+        if answer:
+            return answer
+        if time.monotonic() >= end:
+            raise AssertionError(f"waited {timeout:g} s in vain for {what or getattr(condition, '__name__', 'a condition')}; "
+                                 f"the last answer was {answer!r}")
+        time.sleep(interval)
