@@ -43,6 +43,11 @@ struct Axis {
   double lawful() const { return admitted(std::min(std::max(law, -law_bound), law_bound)); }
 };
 
+// What is asked of an axis for the next step. Each refuses NaN, and cuts what is beyond the bounds of limits.hpp.
+void add_force(Axis& axis, double force);
+void add_law(Axis& axis, double force, double slope, double bound);
+void set_motor(Axis& axis, double velocity, double most_force);  // until it is changed
+
 struct Feedback {
   Vec3 child_force, child_torque, parent_force, parent_torque;  // world axes, torques about the joint anchor
 };

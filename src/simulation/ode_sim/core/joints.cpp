@@ -23,6 +23,25 @@ Pose Joint::frame_W() const { return parent ? parent->X_WL * X_PJ : X_PJ; }
 
 Pose Joint::child_frame_W() const { return child->X_WL * X_CJ; }
 
+void add_force(Axis& a, double force) {
+  a.force += a.admitted(limited(force, kStrongest, "a force"));
+  a.commanded = true;
+}
+
+void add_law(Axis& a, double force, double slope, double bound) {
+  a.law = limited(force, kStrongest, "a force");
+  a.slope = std::max(limited(slope, kStrongest, "a controller's slope"), 0.0);
+  a.law_bound = std::max(limited(bound, kInf, "the bound of a force"), 0.0);
+  a.force += a.lawful();
+  a.commanded = true;
+}
+
+void set_motor(Axis& a, double velocity, double most_force) {
+  const double v = limited(velocity, kFastestSet, "a motor's velocity"), f = limited(most_force, kInf, "a motor's force");
+  a.motor_velocity = v;
+  a.motor_force = f;
+}
+
 void set_limot(const Joint& j, int axis, int parameter, double value) {
   switch (j.type) {
     case JointType::Revolute: dJointSetHingeParam(j.joint, parameter, value); break;

@@ -30,15 +30,6 @@ T8 get_axis(Joint& j, int i) {
   return {a.lower, a.upper, a.effort, a.velocity, a.damping, a.friction, a.spring_reference, a.spring_stiffness};
 }
 
-void add_law(Joint& j, double force, double slope, double bound, int i) {
-  Axis& a = axis_of(j, i);
-  a.law = limited(force, kStrongest, "a force");
-  a.slope = std::max(limited(slope, kStrongest, "a controller's slope"), 0.0);
-  a.law_bound = std::max(limited(bound, kInf, "the bound of a force"), 0.0);
-  a.force += a.lawful();
-  a.commanded = true;
-}
-
 // Position drives, and where the joint is.
 void bind_drive(py::class_<Joint, std::shared_ptr<Joint>>& joint) {
   joint
@@ -83,18 +74,11 @@ void bind_joints(py::module_& m) {
       .def("position", [](Joint& j, int i) { return axis_of(j, i).q; }, py::arg("axis") = 0)
       .def("velocity", [](Joint& j, int i) { return axis_of(j, i).qd; }, py::arg("axis") = 0)
       .def("effort", [](Joint& j, int i) { return axis_of(j, i).effort_now(); }, py::arg("axis") = 0)
-      .def("add_force", [](Joint& j, double f, int i) {
-        Axis& a = axis_of(j, i);
-        a.force += a.admitted(limited(f, kStrongest, "a force"));
-        a.commanded = true;
-      }, py::arg("force"), py::arg("axis") = 0)
-      .def("add_law", &add_law, py::arg("force"), py::arg("slope"), py::arg("bound"), py::arg("axis") = 0)
-      .def("set_motor", [](Joint& j, double velocity, double force, int i) {
-        Axis& a = axis_of(j, i);
-        const double v = limited(velocity, kFastestSet, "a motor's velocity"), f = limited(force, kInf, "a motor's force");
-        a.motor_velocity = v;
-        a.motor_force = f;
-      }, py::arg("velocity"), py::arg("max_force"), py::arg("axis") = 0)
+      .def("add_force", [](Joint& j, double f, int i) { add_force(axis_of(j, i), f); }, py::arg("force"), py::arg("axis") = 0)
+      .def("add_law", [](Joint& j, double f, double slope, double bound, int i) { add_law(axis_of(j, i), f, slope, bound); },
+           py::arg("force"), py::arg("slope"), py::arg("bound"), py::arg("axis") = 0)
+      .def("set_motor", [](Joint& j, double velocity, double force, int i) { set_motor(axis_of(j, i), velocity, force); },
+           py::arg("velocity"), py::arg("max_force"), py::arg("axis") = 0)
       .def("motor", [](Joint& j, int i) { return std::make_pair(axis_of(j, i).motor_velocity, axis_of(j, i).motor_force); }, py::arg("axis") = 0);
 }
 

@@ -9,7 +9,7 @@ Units: rad or m, rad/s or m/s, Nm or N.
 """
 from .handles import (ActuatorHandle, ActuatorStateHandle, ForceTorqueSensorHandle, ImuSensorHandle, JointHandle,
                       JointMode, JointModeHandle, JointStateHandle, PositionVelocityTorqueGainsJointHandle,
-                      PosVelAccJointHandle, PosVelJointHandle)
+                      PosVelAccJointHandle, PosVelJointHandle, addresses)
 from .interfaces import (ActuatorStateInterface, EffortActuatorInterface, EffortJointInterface,
                          ForceTorqueSensorInterface, HardwareInterface, ImuSensorInterface, JointCommandInterface,
                          JointModeInterface, JointStateInterface, PositionActuatorInterface, PositionJointInterface,
@@ -25,4 +25,5 @@ __all__ = [
     "PosVelAccJointInterface", "PosVelJointHandle", "PosVelJointInterface", "PositionActuatorInterface",
     "PositionJointInterface", "PositionVelocityTorqueGainsJointHandle", "PositionVelocityTorqueGainsJointInterface",
     "ResourceError", "RobotHW", "SwitchState", "VelocityActuatorInterface", "VelocityJointInterface",
+    "addresses",
 ]

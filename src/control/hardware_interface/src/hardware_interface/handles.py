@@ -12,7 +12,13 @@ from ._handles import JointModeHandle as _JointModeHandle
 
 __all__ = ["ActuatorHandle", "ActuatorStateHandle", "ForceTorqueSensorHandle", "ImuSensorHandle", "JointHandle", "JointMode",
            "JointModeHandle", "JointStateHandle", "PosVelAccJointHandle", "PosVelJointHandle",
-           "PositionVelocityTorqueGainsJointHandle"]
+           "PositionVelocityTorqueGainsJointHandle", "addresses"]
+
+
+def addresses(handle) -> "tuple[int, ...]":
+    """Where its numbers are, in the order in which the class declares them; 0 for what is not there. C++ may read and write them as
+    long as the handle lives."""
+    return handle._addresses
 
 
 class ActuatorStateHandle(JointStateHandle):

@@ -6,7 +6,7 @@ second and more.
 from __future__ import annotations
 
 import time
-from math import inf
+from math import inf, nan
 from typing import Any, Dict
 
 import rospy
@@ -30,6 +30,8 @@ class _LimitHandle:
     __slots__ = ("joint", "limits", "_state", "_previous", "_warned")
 
     requires: "tuple[str, ...]" = ()
+    #: Which of the rules of ode_sim's ``Wiring`` this is, that does for all joints of a robot in one call what the handles do one by one.
+    rule: int
 
     def __init__(self, joint: JointHandle, limits: JointLimits):
         self.joint = joint
@@ -53,7 +55,27 @@ class _LimitHandle:
     def enforce_limits(self, dt: float) -> None:
         raise NotImplementedError
 
-    def _bad_command(self, command: float, held: float) -> float:
+    @property
+    def previous(self) -> float:
+        """The command of the cycle before; NaN where the next one starts from the measured position."""
+        return nan if self._previous is None else self._previous
+
+    @previous.setter
+    def previous(self, value: float) -> None:
+        self._previous = value
+        if value != value:
+            self.reset()
+
+    def numbers(self) -> "tuple[float, ...]":
+        """Of the rule: lowest and highest position (hard limits), greatest velocity, acceleration and effort, lowest and highest position
+        (soft limits), k_position, k_velocity; what it does not have is infinite, or 0."""
+        def get(name: str, otherwise: float) -> float:
+            return getattr(self, name, otherwise)
+
+        return (get("_low", -inf), get("_high", inf), get("_velocity", inf), get("_acceleration", inf), get("_effort", inf),
+                get("_soft_low", 0.0), get("_soft_high", 0.0), get("_gain", 0.0), 0.0)
+
+    def instead(self, command: float, held: float) -> float:
         """What to command instead of something that is no number; warns."""
         now = time.monotonic()
         if now - self._warned >= _WARN_PERIOD:
@@ -68,7 +90,7 @@ class _LimitHandle:
         output = low if command < low else command
         output = high if output > high else output
         if output - output != 0.0:  # NaN, or an infinity that no limit caught
-            output = _sat(self._bad_command(command, held), low, high)
+            output = _sat(self.instead(command, held), low, high)
             if output - output != 0.0:  # the limits themselves are no numbers to be at
                 output = held
         self.joint.command = self._previous = output
@@ -94,6 +116,7 @@ class _PositionHandle(_LimitHandle):
 class PositionJointSaturationHandle(_PositionHandle):
     """Keeps positions inside the limits and their steps within the velocity limit."""
 
+    rule = 0
     __slots__ = ("_low", "_high", "_velocity")
 
     def __init__(self, joint: JointHandle, limits: JointLimits):
@@ -113,6 +136,7 @@ class PositionJointSaturationHandle(_PositionHandle):
 class PositionJointSoftLimitsHandle(_PositionHandle):
     """Slows a joint down on its way to the soft limits, and keeps it inside the hard ones."""
 
+    rule = 1
     __slots__ = ("_low", "_high", "_velocity", "_soft_low", "_soft_high", "_gain")
     requires = ("velocity",)
 
@@ -140,6 +164,7 @@ class PositionJointSoftLimitsHandle(_PositionHandle):
 class VelocityJointSaturationHandle(_LimitHandle):
     """Keeps velocities within the limit, and their steps within the acceleration limit if there is one."""
 
+    rule = 2
     __slots__ = ("_velocity", "_acceleration")
     requires = ("velocity",)
 
@@ -159,6 +184,7 @@ class VelocityJointSaturationHandle(_LimitHandle):
 class VelocityJointSoftLimitsHandle(_LimitHandle):
     """Slows a velocity-commanded joint down on its way to the soft position limits."""
 
+    rule = 3
     __slots__ = ("_velocity", "_acceleration", "_soft_low", "_soft_high", "_gain")
 
     def __init__(self, joint: JointHandle, limits: JointLimits, soft: SoftJointLimits):
@@ -183,6 +209,7 @@ class VelocityJointSoftLimitsHandle(_LimitHandle):
 class EffortJointSaturationHandle(_LimitHandle):
     """Keeps efforts within the limit, and lets none push further out of the position or velocity limits."""
 
+    rule = 4
     __slots__ = ("_low", "_high", "_velocity", "_effort")
     requires = ("velocity", "effort")
 
@@ -205,6 +232,7 @@ class EffortJointSaturationHandle(_LimitHandle):
 class EffortJointSoftLimitsHandle(_LimitHandle):
     """Brakes an effort-commanded joint on its way to the soft position limits."""
 
+    rule = 5
     __slots__ = ("_velocity", "_effort", "_soft")
     requires = ("velocity", "effort")
 
@@ -213,6 +241,10 @@ class EffortJointSoftLimitsHandle(_LimitHandle):
         self._velocity = limits.max_velocity
         self._effort = limits.max_effort
         self._soft = soft
+
+    def numbers(self) -> "tuple[float, ...]":
+        soft = self._soft
+        return (-inf, inf, self._velocity, inf, self._effort, soft.min_position, soft.max_position, soft.k_position, soft.k_velocity)
 
     def enforce_limits(self, dt: float) -> None:
         state, soft, limit, effort = self._state, self._soft, self._velocity, self._effort

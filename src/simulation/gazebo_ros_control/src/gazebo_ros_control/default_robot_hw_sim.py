@@ -19,6 +19,7 @@ from transmission_interface import TransmissionInfo
 
 from .joint_sim import EffortMode, JointSim, Mode, PositionMode, PositionPidMode, VelocityMode, VelocityPidMode
 from .robot_hw_sim import RobotHWSim
+from .wiring import Wiring
 
 _PREFIX = "hardware_interface/"
 
@@ -45,7 +46,7 @@ class DefaultRobotHWSim(RobotHWSim):
         super().__init__()
         self._joints: Dict[str, JointSim] = {}
         self._writers: Tuple[JointSim, ...] = ()
-        self._readers: Tuple[tuple, ...] = ()  # (state, position(), velocity()): every step goes through them
+        self._wiring = Wiring(())
         self._without_gains: List[str] = []  # joints that follow their commands exactly
         self._e_stop = False
 
@@ -64,7 +65,7 @@ class DefaultRobotHWSim(RobotHWSim):
             rospy.loginfo("nothing is wrong with joints without a p gain: %s follow their commands exactly; set p, i and d in "
                           "a namespace above if a PID should drive its joint by forces", ", ".join(self._without_gains))
         self._writers = tuple(self._joints.values())
-        self._readers = tuple((sim.state, sim.joint.position, sim.joint.velocity) for sim in self._writers)
+        self._wiring = Wiring(self._writers)
         if not self._writers:
             rospy.logwarn("model '%s': no joint has a transmission that can be used, so controllers find no joints",
                           model.name)
@@ -143,25 +144,24 @@ class DefaultRobotHWSim(RobotHWSim):
     # -- every step ----------------------------------------------------------------------------------------------------
 
     def read_sim(self, time: float, period: float) -> None:
-        for state, position, velocity in self._readers:
-            state.position = position()
-            state.velocity = velocity()
+        self._wiring.read()
 
     def write_sim(self, time: float, period: float) -> None:
-        for sim in self._writers:
-            sim.mode.write(period)
+        self._wiring.write(period)
 
     def e_stop_active(self, active: bool) -> None:
         if active is not self._e_stop:
             self._e_stop = active
             for sim in self._writers:
                 sim.mode.press(active)
+            self._wiring.stop(active)
 
     def reset_sim(self) -> None:
         self.read_sim(0.0, 0.0)
         for sim in self._writers:
             for mode in sim.modes.values():
                 mode.limits.reset()
+        self._wiring.reset()
 
     def do_switch(self, start, stop) -> None:
         for controller in start:
@@ -170,7 +170,9 @@ class DefaultRobotHWSim(RobotHWSim):
                     sim = self._joints.get(name)
                     if sim is not None and claimed.hardware_interface in sim.modes:
                         sim.modes[claimed.hardware_interface].handle.slope = 0.0  # the law of whoever commanded before
-                        sim.switch(claimed.hardware_interface)
+                        if sim.switch(claimed.hardware_interface):
+                            self._wiring.enter(sim.mode)
+        self._wiring.engage()
 
 
 def _limit_handle(interface: Type[HardwareInterface], handle: JointHandle, hard: Optional[JointLimits], soft):

@@ -17,6 +17,10 @@ class Mode:
 
     __slots__ = ("joint", "state", "handle", "limits", "e_stop")
 
+    #: Whether wiring.py may do what ``write`` does.
+    wired = False
+    effort_limit = math.inf
+
     def __init__(self, joint, handle: JointHandle, limits):
         self.joint = joint          # ode_sim.JointHandle
         self.handle = handle
@@ -43,11 +47,13 @@ class Mode:
 class EffortMode(Mode):
     """The command is the joint's force or torque; of a controller that closes a loop the law behind it is known too."""
 
-    __slots__ = ("_effort_limit",)
+    __slots__ = ("effort_limit",)
+
+    wired = True
 
     def __init__(self, joint, handle: JointHandle, limits, effort_limit: float):
         super().__init__(joint, handle, limits)
-        self._effort_limit = effort_limit
+        self.effort_limit = effort_limit
 
     def enter(self) -> None:
         super().enter()
@@ -60,8 +66,8 @@ class EffortMode(Mode):
         allowed = handle.command
         if self.e_stop:
             self.joint.add_force(0.0)
-        elif handle.slope > 0.0 and (wanted == allowed or self._effort_limit <= abs(allowed) < abs(wanted) < math.inf):
-            self.joint.add_law(wanted, handle.slope, self._effort_limit)
+        elif handle.slope > 0.0 and (wanted == allowed or self.effort_limit <= abs(allowed) < abs(wanted) < math.inf):
+            self.joint.add_law(wanted, handle.slope, self.effort_limit)
         else:  # what other limits made of the command is no law
             self.joint.add_force(allowed)
         self.state.effort = self.joint.effort()
@@ -71,6 +77,8 @@ class PositionMode(Mode):
     """The joint follows its position command exactly."""
 
     __slots__ = ("_frozen",)
+
+    wired = True
 
     def __init__(self, joint, handle: JointHandle, limits):
         super().__init__(joint, handle, limits)
@@ -104,7 +112,7 @@ class PositionMode(Mode):
 
 
 class _ByPid:
-    """Mixed into a mode: its ``_pid`` gives the joint's effort, within ``_effort_limit``.
+    """Mixed into a mode: its ``_pid`` gives the joint's effort, within ``effort_limit``.
 
     What the PID would give at other speeds goes with it: the simulation holds gains that are too high for its step.
     """
@@ -120,21 +128,23 @@ class _ByPid:
 
     def push(self, error: float, slope: float, dt: float) -> None:
         """Apply what the PID says to this error."""
-        self.joint.add_law(self._pid.compute_command(error, dt), max(slope, 0.0), self._effort_limit)
+        self.joint.add_law(self._pid.compute_command(error, dt), max(slope, 0.0), self.effort_limit)
         self.state.effort = self.joint.effort()
 
 
 class PositionPidMode(_ByPid, PositionMode):
     """A PID on the position gives the joint's effort."""
 
-    __slots__ = ("_pid", "_description", "_effort_limit")
+    __slots__ = ("_pid", "_description", "effort_limit")
+
+    wired = False
 
     def __init__(self, joint, handle: JointHandle, limits, pid: Pid, description: JointDescription,
                  effort_limit: float):
         super().__init__(joint, handle, limits)
         self._pid = pid
         self._description = description
-        self._effort_limit = effort_limit
+        self.effort_limit = effort_limit
 
     def write(self, dt: float) -> None:
         error = self._description.error(self.joint.position(), self.target(dt))
@@ -144,11 +154,13 @@ class PositionPidMode(_ByPid, PositionMode):
 class VelocityMode(Mode):
     """A motor keeps the commanded velocity, as far as the effort limit lets it."""
 
-    __slots__ = ("_effort_limit",)
+    __slots__ = ("effort_limit",)
+
+    wired = True
 
     def __init__(self, joint, handle: JointHandle, limits, effort_limit: float):
         super().__init__(joint, handle, limits)
-        self._effort_limit = effort_limit
+        self.effort_limit = effort_limit
 
     def leave(self) -> None:
         self.joint.set_motor(0.0, 0.0)
@@ -159,13 +171,15 @@ class VelocityMode(Mode):
         return 0.0 if self.e_stop else self.handle.command
 
     def write(self, dt: float) -> None:
-        self.joint.set_motor(self.target(dt), self._effort_limit)
+        self.joint.set_motor(self.target(dt), self.effort_limit)
 
 
 class VelocityPidMode(_ByPid, VelocityMode):
     """A PID on the velocity gives the joint's effort."""
 
     __slots__ = ("_pid",)
+
+    wired = False
 
     def __init__(self, joint, handle: JointHandle, limits, effort_limit: float, pid: Pid):
         super().__init__(joint, handle, limits, effort_limit)
@@ -193,11 +207,13 @@ class JointSim:
         if self.mode is None:
             self.mode = mode
 
-    def switch(self, interface: str) -> None:
-        """Controllers now command through ``interface``."""
+    def switch(self, interface: str) -> bool:
+        """Controllers now command through ``interface``. :returns: whether they did not before."""
         mode = self.modes[interface]
-        if mode is not self.mode:
-            self.mode.leave()
-            mode.enter()
-            mode.press(self.mode.e_stop)
-            self.mode = mode
+        if mode is self.mode:
+            return False
+        self.mode.leave()
+        mode.enter()
+        mode.press(self.mode.e_stop)
+        self.mode = mode
+        return True

@@ -1,0 +1,101 @@
+"""What the core does for all joints in one call is what their modes do one by one, to the last bit. Without ROS."""
+import math
+import random
+
+import ode_sim
+import pytest
+from gazebo_ros_control.joint_sim import EffortMode, JointSim, PositionMode, VelocityMode
+from gazebo_ros_control.wiring import Wiring
+from hardware_interface import JointHandle, JointStateHandle
+from joint_limits_interface import (EffortJointSaturationHandle, EffortJointSoftLimitsHandle, JointLimits, PositionJointSaturationHandle,
+                                    PositionJointSoftLimitsHandle, SoftJointLimits, VelocityJointSaturationHandle,
+                                    VelocityJointSoftLimitsHandle)
+
+DT = 0.001
+ARM = """<robot name="arm"><link name="world"/><link name="bar"><inertial><mass value="0.1"/>
+<inertia ixx="4e-4" ixy="0" ixz="0" iyy="4e-4" iyz="0" izz="4e-4"/></inertial></link><joint name="hinge" type="revolute">
+<parent link="world"/><child link="bar"/><axis xyz="0 0 1"/><limit lower="-2" upper="2" effort="9" velocity="40"/></joint></robot>"""
+HARD = JointLimits(min_position=-1.5, max_position=1.5, max_velocity=20.0, max_acceleration=900.0, max_effort=8.0,
+                   has_position_limits=True, has_velocity_limits=True, has_acceleration_limits=True, has_effort_limits=True)
+ENDLESS = JointLimits(max_velocity=20.0, max_effort=8.0, has_velocity_limits=True, has_effort_limits=True)
+NONE = JointLimits(max_velocity=math.inf, max_effort=math.inf, has_velocity_limits=True, has_effort_limits=True)
+SOFT = SoftJointLimits(min_position=-0.8, max_position=0.8, k_position=20.0, k_velocity=40.0)
+MODES = {
+    PositionMode: (PositionJointSaturationHandle, PositionJointSoftLimitsHandle),
+    VelocityMode: (VelocityJointSaturationHandle, VelocityJointSoftLimitsHandle),
+    EffortMode: (EffortJointSaturationHandle, EffortJointSoftLimitsHandle),
+}
+
+
+class Robot:
+    """One joint in a world, with a mode for each interface."""
+
+    def __init__(self, hard, soft):
+        self.world = ode_sim.World()
+        self.joint = self.world.spawn_urdf(ARM).joints["hinge"]
+        self.state = JointStateHandle("hinge")
+        self.sim = JointSim(self.joint, self.state)
+        for mode, handles in MODES.items():
+            handle = JointHandle(self.state, 0.0)
+            limits = handles[1](handle, hard, SOFT) if soft else handles[0](handle, hard)
+            more = () if mode is PositionMode else (hard.max_effort,)
+            self.sim.add(mode.__name__, mode(self.joint, handle, limits, *more))
+
+    def seen(self):
+        return [(self.sim.mode.handle.command, self.state.position, self.state.velocity, self.state.effort, self.joint.core.servo_mode,
+                 self.joint.core.servo_target, self.joint.motor(), self.joint.effort())]
+
+
+def commands(chance, kind):
+    """Mostly small steps, now and then a jump, a command far out of all limits, or none that is a number."""
+    sizes = {PositionMode: 1.0, VelocityMode: 20.0, EffortMode: 8.0}
+    command = 0.0
+    while True:
+        what = chance.random()
+        if what < 0.02:
+            yield chance.choice((math.nan, math.inf, -math.inf, 1e300))
+        else:
+            command = chance.uniform(-2, 2) * sizes[kind] if what < 0.1 else command + chance.uniform(-0.05, 0.05) * sizes[kind]
+            yield command
+
+
+@pytest.mark.parametrize("hard", [HARD, ENDLESS, NONE], ids=["limits", "endless", "unlimited"])
+@pytest.mark.parametrize("soft", [False, True], ids=["saturation", "soft"])
+def test_the_core_does_what_the_modes_do(hard, soft):
+    by_hand, wired = Robot(hard, soft), Robot(hard, soft)
+    wiring = Wiring([wired.sim])
+    chance = random.Random(5)
+    mode, stopped = PositionMode, False
+    source = commands(chance, mode)
+    for step in range(1500):
+        what = chance.random()
+        if what < 0.01:  # a controller of another interface takes over
+            mode = chance.choice(list(MODES))
+            source = commands(chance, mode)
+            by_hand.sim.switch(mode.__name__)
+            if wired.sim.switch(mode.__name__):
+                wiring.enter(wired.sim.mode)
+            wiring.engage()
+        elif what < 0.02:
+            stopped = not stopped
+            by_hand.sim.mode.press(stopped)
+            wired.sim.mode.press(stopped)
+            wiring.stop(stopped)
+        elif what < 0.025:
+            for robot in (by_hand, wired):
+                for each in robot.sim.modes.values():
+                    each.limits.reset()
+            wiring.reset()
+        by_hand.state.position, by_hand.state.velocity = by_hand.joint.position(), by_hand.joint.velocity()
+        wiring.read()
+        command, slope = next(source), chance.choice((0.0, 0.0, 3.0))
+        for robot in (by_hand, wired):
+            robot.sim.mode.handle.command = command
+            if mode is EffortMode:
+                robot.sim.mode.handle.slope = slope
+        by_hand.sim.mode.write(DT)
+        wiring.write(DT)
+        assert wired.seen() == by_hand.seen(), (step, mode.__name__, command, stopped)
+        by_hand.world.step()
+        wired.world.step()
+    assert wired.world.link_poses.tobytes() == by_hand.world.link_poses.tobytes()
