@@ -1,11 +1,12 @@
 """What a page shows of a running world and changes in it: moments, contacts, looks, films, a pull, the first view."""
+import math
 import time
 import types
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from ode_sim import World
+from ode_sim import World, math3
 from ode_sim.description import model as d
 from ode_sim.math3 import Pose
 from ode_sim.timeline import MOST, Timeline
@@ -200,7 +201,7 @@ def test_a_pull_takes_the_body_to_the_pointer():
 
         def drag(phase):
             page.pull._news = (types.SimpleNamespace(
-                client=client, client_id=1, phase=phase, end_position=(2.0, 0.0, 1.5),
+                client=client, client_id=1, phase=phase, modifier="cmd/ctrl", end_position=(2.0, 0.0, 1.5),
                 start_position=(0.0, 0.0, 0.5)), "ball", "link")
             page.pull._take()
         drag("start")
@@ -211,6 +212,38 @@ def test_a_pull_takes_the_body_to_the_pointer():
         assert x == pytest.approx(2.0, abs=0.2) and z == pytest.approx(1.5 - 9.8 / 30.0, abs=0.2)
         drag("end")
         assert "/pull/arrows" not in page.server.scene._handle_from_node_name and not client.told
+    finally:
+        page.close()
+
+
+def test_with_shift_a_pull_only_turns():
+    page = Page(LocalSimulation(falling(), paused=True), port=0)
+    try:
+        page.simulation.set_pose("ball", Pose((0.0, 0.0, 5.0)))
+        wait(page, lambda: page.frame is not None)
+        page.pull._news = (types.SimpleNamespace(client=Client(), client_id=1, phase="start", modifier="cmd/ctrl+shift",
+                                                 start_position=(0.1, 0.0, 5.0), end_position=(0.1, 0.3, 5.0)), "ball", "link")
+        page.pull._take()
+        page.simulation.step(50)
+        wait(page, lambda: page.frame.iterations == 50)
+        pose = page.frame.pose(page.world.model("ball").links["link"])
+        assert math3.quat_to_rpy(pose.q)[2] > 0.001 and pose.p[:2] == pytest.approx((0.0, 0.0), abs=1e-9)
+    finally:
+        page.close()
+
+
+def test_a_hand_that_rotates_is_kept_to_steps():
+    page = Page(LocalSimulation(falling(), paused=True), port=0)
+    try:
+        wait(page, lambda: page.frame is not None)
+        page.selection.select("ball")
+        page.selection.gizmo(True, 0.5, math.radians(15.0))
+        event = types.SimpleNamespace(client=Client(), client_id=1)
+        for phase in ("start", "update", "end"):
+            page.selection._drag(event, Pose((0.7, -0.2, 2.1), math3.quat_from_rpy(0.1, 0.3, 1.0)), phase)
+        pose = page.simulation.call(lambda world: world.models["ball"].pose)
+        assert pose.p == pytest.approx((0.5, 0.0, 2.0), abs=1e-9)
+        assert np.degrees(math3.quat_to_rpy(pose.q)) == pytest.approx((0.0, 15.0, 60.0), abs=1e-6)
     finally:
         page.close()
 

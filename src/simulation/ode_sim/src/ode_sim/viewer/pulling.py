@@ -1,4 +1,4 @@
-"""Pulling at a body with the mouse: a spring from the place that was gripped to the pointer."""
+"""Pulling at a body with the mouse: a spring from the place that was gripped to the pointer; with Shift it only turns the body."""
 from __future__ import annotations
 
 import math
@@ -12,6 +12,7 @@ from ode_sim.viewer.arrows import Forces
 from ode_sim.viewer.simulation import Frame, ModelRecord
 
 MODIFIER = "cmd/ctrl"
+TURNING = "cmd/ctrl+shift"
 _STIFF = 30.0  # N for each m and kg of the model
 _DAMPED = 0.35  # of what would not swing at all
 _LASTS = 0.1  # s of sim time that one push acts; the next one comes sooner
@@ -30,13 +31,14 @@ class Pull:
         self._last: Optional[Tuple[float, Tuple]] = None  # sim time and place of the grip
 
     def attach(self, mesh: Any, model: str, link: str) -> None:
-        """Let ``mesh`` be pulled at, with the left button and Ctrl."""
+        """Let ``mesh`` be pulled at, with the left button and Ctrl, or turned with Shift as well."""
         async def on_drag(event: Any) -> None:
             with self._lock:
                 waiting, self._news = self._news is not None, (event, model, link)
             if not waiting:
                 self._page.later(self._take)
-        mesh.on_drag("left", modifier=MODIFIER)(on_drag)
+        for modifier in (MODIFIER, TURNING):
+            mesh.on_drag("left", modifier=modifier)(on_drag)
 
     def _take(self) -> None:
         with self._lock:
@@ -70,8 +72,10 @@ class Pull:
         inertial = next(other.inertial for other in record.description.links if other.name == link)
         arm = sub(place, transform(pose, inertial.pose.p))
         self._arrow.show(np.array([place]), np.array([sub(self._event.end_position, place)]), 1.0)
-        self._page.attempt(self._event, lambda: self._page.simulation.push(
-            model, link, force, cross(arm, force), _LASTS))
+        torque = cross(arm, force)
+        if self._event.modifier == TURNING:
+            force = (0.0, 0.0, 0.0)
+        self._page.attempt(self._event, lambda: self._page.simulation.push(model, link, force, torque, _LASTS))
 
     def _force(self, record: ModelRecord, frame: Frame, place: Tuple) -> Tuple:
         mass = sum(max(0.0, link.inertial.mass) for link in record.description.links)

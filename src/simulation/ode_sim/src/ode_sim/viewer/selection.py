@@ -7,12 +7,17 @@ from typing import Any, Callable, List, Optional, Tuple
 
 from ode_sim.description import model as d
 from ode_sim.description.sdf_writer import light_text, model_text
-from ode_sim.math3 import Pose
+from ode_sim.math3 import Pose, quat_from_rpy, quat_to_rpy
 from ode_sim.viewer.drawing import wxyz
 from ode_sim.viewer.panels.base import free_name
 from ode_sim.viewer.simulation import Frame, ModelRecord, Refused, WorldRecord
 
 _MOST_STEPS = 50  # that can be undone
+
+
+def _on_grid(values: Tuple[float, float, float], step: float) -> Tuple[float, float, float]:
+    x, y, z = (round(value / step) * step for value in values)
+    return x, y, z
 
 
 class History:
@@ -77,7 +82,7 @@ class Selection:
         self._updates: List[Tuple[Any, Pose, str]] = []  # of the drag, to be done
         self._lock = threading.Lock()
         self._gizmo_wanted = False
-        self._snap = 0.0
+        self._snap = self._snap_angle = 0.0
         scene = page.server.scene
         self._frame = scene.add_frame("/selected", axes_length=0.3, axes_radius=0.006, visible=False)
         self._gizmo = scene.add_transform_controls("/gizmo", scale=0.7, visible=False, depth_test=False)
@@ -129,9 +134,10 @@ class Selection:
     def on_frame(self, frame: Frame) -> None:
         self._show()
 
-    def gizmo(self, on: bool, snap: float = 0.0) -> None:
-        """Show the handles to move and rotate with; ``snap`` m, 0 = none. Drawing thread."""
-        self._gizmo_wanted, self._snap = on, snap
+    def gizmo(self, on: bool, snap: float = 0.0, snap_angle: float = 0.0) -> None:
+        """Show the handles to move and rotate with; ``snap`` m, ``snap_angle`` rad of roll, pitch and yaw, 0 = none.
+        Drawing thread."""
+        self._gizmo_wanted, self._snap, self._snap_angle = on, snap, snap_angle
         self._show()
 
     def _show(self) -> None:
@@ -174,7 +180,9 @@ class Selection:
         if phase == "start" or self._dragged is None:
             self._dragged = self._whole()
         if self._snap > 0.0:
-            pose = replace(pose, p=tuple(round(v / self._snap) * self._snap for v in pose.p))
+            pose = replace(pose, p=_on_grid(pose.p, self._snap))
+        if self._snap_angle > 0.0:
+            pose = replace(pose, q=quat_from_rpy(*_on_grid(quat_to_rpy(pose.q), self._snap_angle)))
         begin, name = self._dragged, self.model or self.light
         if begin is not None:
             self._page.attempt(event, lambda: self._put_named(name, pose))

@@ -33,12 +33,15 @@ class WorldPanel(Panel):
             self._gizmo = self.gui.add_checkbox("Move and rotate by hand", False)
             self._resize = self.gui.add_checkbox("Resize by hand", False, hint="the three knobs of a box, sphere or cylinder")
             self._snap = self.gui.add_number("Snap to (m)", 0.0, min=0.0, max=10.0, step=0.05)
+            self._snap_angle = self.gui.add_number("Snap to (deg)", 0.0, min=0.0, max=180.0, step=5.0,
+                                                   hint="of roll, pitch and yaw")
             self._edit = self.gui.add_button_group("Picked", ("Copy", "Delete", "Look at"))
             self._history = self.gui.add_button_group("History", ("Undo", "Redo"))
         self._search.on_update(lambda event: self.page.later(self._list_rows))
         self.on_update(self._gizmo, lambda _: self._set_gizmo())
         self.on_update(self._resize, lambda _: self._set_gizmo())
-        self.on_update(self._snap, lambda _: self._set_gizmo())
+        for control in (self._snap, self._snap_angle):
+            self.on_update(control, lambda _: self._set_gizmo())
         self._edit.on_click(self._on_edit)
         self._history.on_click(lambda event: page.attempt(event, self._undo_redo(event.target.value)))
         page.selection.on_change.append(self._on_select)
@@ -116,7 +119,8 @@ class WorldPanel(Panel):
 
     def _set_gizmo(self) -> None:
         on, resize, snap = self._gizmo.value, self._resize.value, float(self._snap.value)
-        self.page.later(lambda: self.page.selection.gizmo(on, snap))
+        angle = math.radians(float(self._snap_angle.value))
+        self.page.later(lambda: self.page.selection.gizmo(on, snap, angle))
         self.page.later(lambda: self.page.resizing.show(resize, snap))
 
     def _on_edit(self, event: Any) -> None:
