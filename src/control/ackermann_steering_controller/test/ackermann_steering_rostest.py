@@ -1,15 +1,15 @@
 #!/usr/bin/env python3
 """Behaviour of the Ackermann steering controller over its topics and tf."""
 import math
-import unittest
 
 import rospy
+import test_support
 from control_test_robots import client
 from control_test_robots.base_client import Base, displacement, duration, turned
 from nav_msgs.msg import Odometry
 
 
-class Ackermann(unittest.TestCase):
+class Ackermann(test_support.TestCase):
     def setUp(self):
         client.set_faults()
 

@@ -2,11 +2,11 @@
 """Gains as parameters, through dynamic_reconfigure, through the service; the state topic."""
 import math
 import time
-import unittest
 
 import dynamic_parameters
 import rospy
 import rostest
+import test_support
 from control_msgs.msg import PidState
 from control_toolbox import Gains, Pid, PidGainsSetter, PidParameterError, load_pid
 from control_toolbox.srv import SetPidGains
@@ -16,7 +16,7 @@ from dynamic_reconfigure.msg import Config, DoubleParameter
 from dynamic_reconfigure.srv import Reconfigure
 
 
-class ControlToolboxTest(unittest.TestCase):
+class ControlToolboxTest(test_support.TestCase):
     def load(self, **parameters):
         self.nh = NodeHandle("/pid")
         self.addCleanup(self.nh.shutdown)

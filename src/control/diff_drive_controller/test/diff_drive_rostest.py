@@ -3,9 +3,9 @@
 import math
 import socket
 import subprocess
-import unittest
 
 import rospy
+import test_support
 from control_msgs.msg import JointTrajectoryControllerState
 from control_test_robots import client
 from control_test_robots.base_client import Base, displacement, duration, turned
@@ -15,7 +15,7 @@ from geometry_msgs.msg import TwistStamped
 from rosgraph_msgs.msg import Log
 
 
-class DiffDrive(unittest.TestCase):
+class DiffDrive(test_support.TestCase):
     def setUp(self):
         client.set_faults()
 

@@ -1,15 +1,15 @@
 #!/usr/bin/env python3
 """Behaviour of the four wheel steering controller over its topics and tf."""
 import math
-import unittest
 
 import rospy
+import test_support
 from control_test_robots import client
 from control_test_robots.base_client import Base, displacement, duration, turned
 from four_wheel_steering_msgs.msg import FourWheelSteering, FourWheelSteeringStamped
 
 
-class FourWheels(unittest.TestCase):
+class FourWheels(test_support.TestCase):
     def setUp(self):
         client.set_faults()
 

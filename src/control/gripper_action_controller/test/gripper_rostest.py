@@ -1,17 +1,17 @@
 #!/usr/bin/env python3
 """Behaviour of the gripper action controllers."""
 import math
-import unittest
 
 import actionlib
 import rospy
+import test_support
 from actionlib_msgs.msg import GoalStatus
 from control_msgs.msg import GripperCommand, GripperCommandAction, GripperCommandGoal
 from control_test_robots import client
 from sensor_msgs.msg import JointState
 
 
-class Gripper(unittest.TestCase):
+class Gripper(test_support.TestCase):
     def setUp(self):
         client.set_faults()
 

@@ -1,9 +1,9 @@
 """What the trajectory tests share: one controller with everything a client of it needs."""
 import math
-import unittest
 
 import actionlib
 import rospy
+import test_support
 from actionlib_msgs.msg import GoalStatus
 from control_msgs.msg import (FollowJointTrajectoryAction, FollowJointTrajectoryActionFeedback,
                               FollowJointTrajectoryGoal, JointTolerance, JointTrajectoryControllerState)
@@ -50,7 +50,7 @@ class Goal:
         self._handle.cancel()
 
 
-class TrajectoryCase(unittest.TestCase):
+class TrajectoryCase(test_support.TestCase):
     """Tests of ``controller``, which moves ``joints``; each test starts with them at rest at 0."""
 
     controller = ""

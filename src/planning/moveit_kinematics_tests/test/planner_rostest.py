@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 """move_group plans with a compiled planner and a compiled request adapter of another package."""
 import time
-import unittest
 
 import actionlib
 import rospy
 import rostest
+import test_support
 from actionlib_msgs.msg import GoalStatus
 from moveit_msgs.msg import (Constraints, JointConstraint, MotionPlanRequest, MoveGroupAction, MoveGroupGoal,
                              MoveItErrorCodes)
@@ -21,7 +21,7 @@ def request(pipeline="straight", planner="", group="one", joints=JOINTS):
                              allowed_planning_time=5.0)
 
 
-class Planner(unittest.TestCase):
+class Planner(test_support.TestCase):
     @classmethod
     def setUpClass(cls):
         rospy.wait_for_service("plan_kinematic_path", 60)

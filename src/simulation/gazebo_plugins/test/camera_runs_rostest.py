@@ -6,10 +6,10 @@ import os
 import pathlib
 import signal
 import subprocess
-import unittest
 
 import rospy
 import rostest
+import test_support
 from gazebo_msgs.srv import SpawnModel
 from gazebo_ros.srv import StepWorld
 from geometry_msgs.msg import Point, Pose, Quaternion
@@ -72,7 +72,7 @@ class Server:
                             for m in ear.wait(STREAMS[topic][1])] for topic, ear in heard.items()}
 
 
-class Runs(unittest.TestCase):
+class Runs(test_support.TestCase):
     def test_two_processes_take_the_same_pictures(self):
         with Server("one", 5) as one, Server("two", 5) as two:
             first, second = one.pictures(), two.pictures()

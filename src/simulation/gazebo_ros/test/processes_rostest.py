@@ -7,12 +7,12 @@ import socket
 import subprocess
 import sys
 import tempfile
-import unittest
 import xmlrpc.client
 
 import rosgraph
 import rospy
 import rostest
+import test_support
 from gazebo_msgs import srv
 from rosgraph_msgs.msg import Clock
 
@@ -51,7 +51,7 @@ def history(sim):
     return states
 
 
-class Determinism(unittest.TestCase):
+class Determinism(test_support.TestCase):
     def test_two_processes_same_bits_though_one_fights_for_the_processor(self):
         with Server("calm", "-u", "--seed", "5", BENCH) as calm, Server("busy", "-u", "--seed", "5", BENCH) as busy:
             first = history(calm.simulator())
@@ -67,7 +67,7 @@ class Determinism(unittest.TestCase):
         self.assertEqual(len(set(first)), 72, "the world does not even move")
 
 
-class Options(unittest.TestCase):
+class Options(test_support.TestCase):
     def test_iterations_end_the_process(self):
         with Server("short", "--iters", "300", BENCH) as server:
             text, _ = server.process.communicate(timeout=60)
@@ -133,7 +133,7 @@ def start_master(case, uri):
     return process
 
 
-class Masters(unittest.TestCase):
+class Masters(test_support.TestCase):
     def test_simulators_of_the_same_name_under_two_masters_do_not_meet(self):
         uri = master_place(self)
         start_master(self, uri)
@@ -200,7 +200,7 @@ class Masters(unittest.TestCase):
         self.assertNotIn("Traceback", text)
 
 
-class Twice(unittest.TestCase):
+class Twice(test_support.TestCase):
     def test_a_second_one_of_the_same_name_ends_and_the_first_goes_on(self):
         """A launch file that spawns a robot often brings a simulator along, though a world runs already."""
         with Server("twice", "-u", BENCH) as first:
@@ -217,7 +217,7 @@ class Twice(unittest.TestCase):
             self.assertIsNone(first.process.poll())
 
 
-class Ends(unittest.TestCase):
+class Ends(test_support.TestCase):
     def test_signals_end_it_cleanly_also_while_paused_and_stepping(self):
         for number, arguments in ((signal.SIGINT, ["-u"]), (signal.SIGTERM, []), (signal.SIGINT, [])):
             with self.subTest(number=number, arguments=arguments), Server("ends", *arguments, BENCH) as server:
@@ -239,7 +239,7 @@ class Ends(unittest.TestCase):
             self.assertTrue(sim.step(3).success)
 
 
-class Alone(unittest.TestCase):
+class Alone(test_support.TestCase):
     def test_gazebo_typed_without_a_master_brings_its_own_and_takes_it_along(self):
         with socket.socket() as probe:
             probe.bind(("localhost", 0))

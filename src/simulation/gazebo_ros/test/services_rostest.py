@@ -5,10 +5,10 @@ import math
 import subprocess
 import tempfile
 import time
-import unittest
 
 import rospy
 import rostest
+import test_support
 from gazebo_msgs import srv
 from gazebo_msgs.msg import LinkState, LinkStates, ModelState, ModelStates
 from geometry_msgs.msg import Pose, Vector3
@@ -22,7 +22,7 @@ from simulator import Simulator, box, pose, twist, urdf, xyz
 NAN = float("nan")
 
 
-class Case(unittest.TestCase):
+class Case(test_support.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.sim = Simulator()
@@ -540,7 +540,7 @@ class Spawning(Case):
         self.near(xyz(self.sim.link("m::tip").link_state.twist.linear), (0, 0, 0))  # the jobs are gone
 
 
-class Names(unittest.TestCase):
+class Names(test_support.TestCase):
     def test_tf_prefix_is_searched_upwards(self):
         self.assertEqual(names.tf_prefix("/"), "")
         self.assertEqual(names.tf_prefix("/robot/eye"), "")
