@@ -38,7 +38,7 @@ class Wiring:
 
     def engage(self) -> None:
         """Other modes may be in force; those that were not before have just entered."""
-        for mode, number in self._numbers.items():
+        for number in self._numbers.values():
             self._core.set_working(number, False)
         by_hand = []
         for sim in self._sims:
