@@ -2,9 +2,12 @@
 
 #include <ros/console.h>
 
+#include <QGuiApplication>
 #include <QInputDialog>
 #include <QProgressBar>
+#include <QScreen>
 #include <QScrollArea>
+#include <QScrollBar>
 #include <QVBoxLayout>
 
 #include "context_tab.hpp"
@@ -16,7 +19,9 @@
 
 namespace moveit_rviz_plugin {
 namespace {
-// As large as its tab if there is room; on a small screen the tab is scrolled, and RViz's window stays as small as it is.
+// As large as its tab; where that is more than its share of the screen, the tab is scrolled, so that RViz's window, with its
+// other panels, still fits.
+constexpr double WIDTH_SHARE = 0.45, HEIGHT_SHARE = 0.33;
 class Page : public QScrollArea {
  public:
   explicit Page(QWidget* tab) {
@@ -27,7 +32,12 @@ class Page : public QScrollArea {
     tab->setAutoFillBackground(false);
   }
   QSize sizeHint() const override { return widget()->sizeHint(); }
-  QSize minimumSizeHint() const override { return QSize(240, 120).boundedTo(widget()->minimumSizeHint()); }
+  QSize minimumSizeHint() const override {
+    const QSize screen = QGuiApplication::primaryScreen()->availableSize();
+    const QSize bars(verticalScrollBar()->sizeHint().width(), 0);
+    return (widget()->minimumSizeHint() + bars)
+        .boundedTo(QSize(static_cast<int>(WIDTH_SHARE * screen.width()), static_cast<int>(HEIGHT_SHARE * screen.height())));
+  }
 };
 }  // namespace
 

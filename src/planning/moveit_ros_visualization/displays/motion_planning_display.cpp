@@ -238,7 +238,14 @@ void MotionPlanningDisplay::groupChanged() {
   deleteStatus("Planning Group");
   last_group_ = name;
   const moveit::core::RobotModelConstPtr robot = model();
-  tips_ = tipsOf(*robot, *robot->getJointModelGroup(name), solvableGroups(*robot, robotDescription()));
+  const std::set<std::string> solvable = solvableGroups(*robot, robotDescription());
+  tips_ = tipsOf(*robot, *robot->getJointModelGroup(name), solvable);
+  if (solvable.empty())
+    setStatusStd(rviz::StatusProperty::Warn, "Kinematics",
+                 "No group has a kinematics solver ('" + robotDescription() + "_kinematics', from kinematics.yaml): there is no "
+                 "marker to drag; the tab Joints moves the goal");
+  else
+    deleteStatus("Kinematics");
   for (Query& query : queries_) query.dirty = true;
   insertMarkers();
   if (dock_) dock_->groupChanged();

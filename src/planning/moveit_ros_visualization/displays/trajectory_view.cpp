@@ -92,7 +92,9 @@ void TrajectoryView::initialize(Ogre::SceneNode* node, rviz::DisplayContext* con
 }
 
 void TrajectoryView::rename(const QString& display_name) {
-  if (dock_) dock_->setWindowTitle(display_name + SLIDER_TITLE);
+  if (!dock_) return;
+  dock_->setWindowTitle(display_name + SLIDER_TITLE);
+  dock_->setObjectName(display_name + SLIDER_TITLE);  // by which RViz saves where it is
 }
 
 void TrajectoryView::setTopic(const QString& topic) { topic_->setString(topic); }
