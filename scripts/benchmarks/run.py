@@ -33,6 +33,7 @@ WANTED = [
     (r"^rqt.* to its window, s", "<", 1.5), (r"^rqt_graph, .* drawn, s", "<", 1.0), (r"longest pause of the window", "<", 50.0),
     (r"^rqt_image_view.*part of a core", "<", 0.25), (r"motors: p99 cycle", "<", 1.5), (r"^mbot.*real-time factor, throttled$", ">=", 0.99),
     (r"^mbot.*real-time factor, uncapped$", ">=", 10.0), (r"mbots: cost per mbot against one", "<=", 1.05),
+    (r"^RViz with MotionPlanning: seconds", "<", 4.0), (r"^goal dragged.*pictures", ">=", 30.0),
     (r"^40 arm homeworks, 2 workers", "<", 480.0), (r"^class: throughput", ">=", 1.8), (r"^class: share of sub", ">=", 1.0),
     (r"^sandbox: seconds", "<", 0.3), (r"^class: driver's memory for a queue of 10000", "<", 500.0),
 ]
@@ -213,6 +214,8 @@ SECTIONS = {
     "camera": ("pictures per second, and what one costs", camera),
     "rviz": ("time to a picture of RViz", rviz),
     "windows": ("rqt: start, a large graph, fast topics", lambda quick: section_script("windows.py", *(["--quick"] if quick else []))),
+    "desk": ("RViz with MotionPlanning: how soon, and a goal that is dragged",
+             lambda quick: section_script("desk.py", "--seconds", 5 if quick else 10)),
     "view": ("gzclient: what its stream costs the server, how soon its page is there",
              lambda quick: section_script("view.py", *(["--quick"] if quick else []))),
     "page": ("gzclient's page in Chromium: how soon, ten reconnects, a heavy world, three pages, a slow network, broken meshes",
