@@ -2,6 +2,7 @@
 import functools
 
 import rospy
+import test_support
 from gazebo_msgs import srv
 from gazebo_msgs.msg import LinkState, ModelState, ODEJointProperties, ODEPhysics
 from geometry_msgs.msg import Point, Pose, Quaternion, Twist, Vector3, Wrench
@@ -106,3 +107,38 @@ class Simulator:
         values = {name: getattr(config, name) for name in ODEPhysics.__slots__}
         return self.proxy("set_physics_properties", srv.SetPhysicsProperties)(
             time_step, rate, Vector3(*gravity), ODEPhysics(**{**values, **ode}))
+
+
+class Case(test_support.TestCase):
+    """The world bench.world, paused and as it was at first. Time passes only through the step service."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.sim = Simulator()
+
+    def setUp(self):
+        self.sim.empty("pause_physics")
+        self.assertTrue(self.sim.set_physics(gravity=(0.0, 0.0, 0.0)).success)
+        self.sim.empty("reset_simulation")
+        self.sim.proxy("clear_body_wrenches", srv.BodyRequest)("crate::box")  # jobs survive a reset, as in Gazebo
+        self.sim.proxy("clear_joint_forces", srv.JointRequest)("hinge")
+
+    def done(self, response):
+        self.assertTrue(response.success, response.status_message)
+        return response
+
+    def refused(self, response, *words):
+        self.assertFalse(response.success)
+        for word in words:
+            self.assertIn(word, response.status_message)
+        self.assertNotIn("internal error", response.status_message)
+        self.assertNotIn("\n", response.status_message)
+
+    def wait(self, condition):
+        while not condition():
+            self.assertFalse(rospy.is_shutdown())
+            rospy.rostime.wallsleep(0.01)
+
+    def near(self, a, b, places=9):
+        for x, y in zip(a, b):
+            self.assertAlmostEqual(x, y, places)
