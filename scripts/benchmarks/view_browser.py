@@ -36,20 +36,22 @@ WORLD = ("<sdf version='1.6'><world name='default'><include><uri>model://sun</ur
          "<include><uri>model://ground_plane</uri></include>{}</world></sdf>")
 LINK = ("<model name='{name}'><pose>{x} {y} {z} 0 0 0</pose><link name='l'><inertial><mass>1</mass><inertia><ixx>0.01</ixx>"
         "<iyy>0.01</iyy><izz>0.01</izz></inertia></inertial><collision name='c'><geometry><sphere><radius>0.3</radius></sphere>"
-        "</geometry>{surface}</collision><visual name='v'><geometry>{shape}</geometry></visual></link></model>")
+        "</geometry></collision><visual name='v'><geometry>{shape}</geometry></visual></link></model>")
 BALL = "<sphere><radius>0.3</radius></sphere>"
-BOUNCE = ("<surface><bounce><restitution_coefficient>1</restitution_coefficient><threshold>0</threshold></bounce><contact><ode>"
-          "<max_vel>100</max_vel></ode></contact></surface>")
+PENDULUM = ("<model name='{name}'><pose>{x} {y} 2 0 0 0</pose><link name='l'><inertial><pose>0.8 0 0 0 0 0</pose><mass>1</mass><inertia>"
+            "<ixx>0.01</ixx><iyy>0.01</iyy><izz>0.01</izz></inertia></inertial><visual name='v'><pose>0.8 0 0 0 0 0</pose><geometry>"
+            "{shape}</geometry></visual></link><joint name='j' type='revolute'><parent>world</parent><child>l</child><axis>"
+            "<xyz>0 1 0</xyz></axis></joint></model>")
 PLAIN = "table"
 
 
-def body(name, x, y, z, shape, surface=""):
-    return LINK.format(name=name, x=x, y=y, z=z, shape=shape, surface=surface)
+def body(name, x, y, z, shape):
+    return LINK.format(name=name, x=x, y=y, z=z, shape=shape)
 
 
 def balls(count):
-    """They bounce for ever."""
-    return "".join(body(f"b{i}", i % 6, i // 6, 1 + 0.5 * (i % 5), BALL, BOUNCE) for i in range(count))
+    """They swing for ever."""
+    return "".join(PENDULUM.format(name=f"b{i}", x=i % 6, y=i // 6, shape=BALL) for i in range(count))
 
 
 def sphere_file(file, rows, columns):
