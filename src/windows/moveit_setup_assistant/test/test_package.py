@@ -212,6 +212,10 @@ def test_a_missing_mesh_is_a_warning(tmp_path):
                                          'filename="package://nobody_has/base.stl"/></geometry></collision></link></robot>')
     config = Configuration.new(RobotSource.from_file(tmp_path / "robot.urdf"))
     assert any("nobody_has/base.stl" in line for line in config.warnings)
+    (tmp_path / "robot.urdf").write_text('<robot name="r"><link name="base"><visual><geometry><mesh '
+                                         'filename="package://nobody_has/look.dae"/></geometry></visual></link></robot>')
+    config = Configuration.new(RobotSource.from_file(tmp_path / "robot.urdf"))
+    assert config.warnings == ["link 'base': a <visual> is not drawn: mesh 'package://nobody_has/look.dae' is not found"]
 
 
 def test_default_controllers_take_no_joint_twice(described):

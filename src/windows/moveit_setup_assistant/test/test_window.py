@@ -250,6 +250,22 @@ def test_what_is_wrong_is_said_and_changes_nothing(user, package, tmp_path, monk
     assert "moveit_setup_assistant: " in capsys.readouterr().err, "what is wrong is on the terminal too"
 
 
+def test_what_is_missing_stands_below_the_screen_and_the_rest_can_be_used(user, tmp_path):
+    bare = tmp_path / "bare.urdf"
+    bare.write_text(FIVE.replace("<link name=\"base\">", "<link name=\"base\"><visual><geometry><mesh "
+                                 "filename=\"package://nobody_has/base.dae\"/></geometry></visual>"))
+    user.fill(start_path=str(bare))
+    user.click("start_load")
+    assert "package://nobody_has/base.dae" in user.said() and "7 links" in user.said()
+    user.screen("Planning Groups")
+    user.click("groups_add")
+    user.mark("groups_joints_available", "turn")
+    user.click("groups_joints_add")
+    user.screen("Robot Poses")
+    user.fill(poses_value_turn=0.5)
+    assert user.window.session.config.robot.name == "small"
+
+
 def test_ticks_of_the_collision_table_are_kept(user, package):
     open_package(user, package)
     user.screen("Self-Collisions")

@@ -9,6 +9,7 @@ from typing import Callable, Dict, List, Optional
 
 import motion
 import rospkg
+from motion.files import resolve
 
 from moveit_setup_assistant.errors import AssistantError
 
@@ -112,6 +113,17 @@ def _reason(error: Exception) -> str:
     return " ".join(text.split())[:300]
 
 
+def _missing_visuals(urdf: str) -> List[str]:
+    """One line for each mesh that cannot be drawn because there is no such file; the motion library looks at collisions alone."""
+    lines: Dict[str, str] = {}
+    for link in ET.fromstring(urdf).findall("link"):
+        for mesh in link.findall("visual/geometry/mesh"):
+            uri = mesh.get("filename") or ""
+            if not resolve(uri):
+                lines.setdefault(uri, f"link '{link.get('name')}': a <visual> is not drawn: mesh '{uri}' is not found")
+    return list(lines.values())
+
+
 @dataclass
 class Robot:
     """A parsed description. ``warnings``: what was left out, one line each (missing meshes, for one)."""
@@ -128,7 +140,7 @@ class Robot:
             model = motion.load_model(urdf)
         except motion.MotionError as error:
             raise AssistantError(f"'{origin}' is no robot description: {error}") from error
-        return cls(model.name, urdf, model, list(model.warnings))
+        return cls(model.name, urdf, model, [*model.warnings, *_missing_visuals(urdf)])
 
     def with_srdf(self, srdf: str) -> "motion.RobotModel":
         """The model with the groups of an SRDF text.

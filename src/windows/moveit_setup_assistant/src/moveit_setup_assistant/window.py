@@ -18,6 +18,9 @@ from moveit_setup_assistant.robot_view import RobotView
 from moveit_setup_assistant.screens import ALL
 
 
+_MOST_LINES = 4  # of what is missing, below the screen
+
+
 class Session:
     """What the screens share: the configuration, the package's folder, the robot's model with its groups, and the picture."""
 
@@ -34,8 +37,11 @@ class Session:
         self._window.robot_changed()
         for line in config.warnings:
             self.say(line, bad=True)
-        self.say(f"{config.robot.name}: {len(config.robot.model.links)} links, {len(config.robot.movable_joints)} joints that move"
-                 + (f"; {len(config.warnings)} warnings above" if config.warnings else ""))
+        lines = [f"{config.robot.name}: {len(config.robot.model.links)} links, {len(config.robot.movable_joints)} joints that move",
+                 *config.warnings[:_MOST_LINES]]
+        if len(config.warnings) > _MOST_LINES:
+            lines.append(f"and {len(config.warnings) - _MOST_LINES} more; all of them are in the terminal")
+        self.say("\n".join(lines))
 
     def say(self, text: str, bad: bool = False) -> None:
         """One line for the user."""
