@@ -81,7 +81,8 @@ _UNLIT = _UNPACKED[:-1] + rb""".replace(/===null\?[\w$]+:([\w$]+\.hdri_data)/,"=
 
 def entitled(page: bytes, title: str) -> bytes:
     """viser's page under another name than its own, sparing where it draws."""
-    return page.replace(_UNPACKED, _UNLIT, 1).replace(b"<title>Viser</title>", f"<title>{html.escape(title)}</title>".encode() + _SPARING, 1)
+    head = f"<title>{html.escape(title)}</title>".encode() + _SPARING
+    return page.replace(_UNPACKED, _UNLIT, 1).replace(b"<title>Viser</title>", head, 1)
 
 
 class Porter(threading.Thread):
