@@ -349,26 +349,18 @@ class Server:
         self._reset_plugins(self._world_plugins)
 
     def restore(self, snapshot) -> None:
-        """Back to a saved moment, paused. Plugins and sensors are told as by a reset: the time has gone back.
-
-        Physics thread.
+        """Back to a saved moment, paused. Plugins and sensors are told as by a reset. Physics thread.
 
         :raises ValueError: the world has other models by now
         """
         self.world.restore(snapshot)
         self.paused = True
-        self._set_now()
-        for sensor in self._sensors:
-            sensor.reset()
-        self._reset_plugins(self._world_plugins)
+        self._time_went_back()
         self.stepped.call()
 
     def _reset_plugins(self, world_plugins: List[PluginInstance]) -> None:
-        for instance in world_plugins:
+        for instance in (*world_plugins, *(each for runtime in self._models.values() for each in runtime.plugins)):
             instance.attempt(instance.plugin.reset)
-        for runtime in self._models.values():
-            for instance in runtime.plugins:
-                instance.attempt(instance.plugin.reset)
 
     # ------------------------------------------------------------------------------------------ models
 
