@@ -6,7 +6,6 @@ import re
 import signal
 import subprocess
 import tempfile
-import time
 import unittest
 
 import rospy
@@ -18,19 +17,12 @@ from rm_msgs.msg import ActuatorState
 from rm_msgs.srv import EnableImuTrigger
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Bool, Float64
+from test_support import wait_until
 
 PATIENCE = 60.0
 GEAR = 19.2032
 CONTROLLERS = ("joint_states_controller", "arm_position", "arm_velocity", "arm_effort", "wheel_effort", "yaw_effort",
                "arm_broken")
-
-
-def wait_until(condition, what):
-    end = time.monotonic() + PATIENCE
-    while not condition():
-        if time.monotonic() > end:
-            raise AssertionError(f"never happened: {what}")
-        time.sleep(0.01)
 
 
 class Watch:

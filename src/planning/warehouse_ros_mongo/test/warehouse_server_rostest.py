@@ -3,7 +3,6 @@
 import os
 import subprocess
 import tempfile
-import time
 import unittest
 
 import rospy
@@ -12,16 +11,9 @@ from moveit_msgs.msg import CollisionObject, Constraints, MotionPlanRequest, Pla
 from shape_msgs.msg import SolidPrimitive
 
 from moveit_ros_warehouse.location import connect
+from test_support import wait_until
 
 PATIENCE = 150.0  # s, for a busy machine
-
-
-def wait_until(condition, what):
-    end = time.monotonic() + PATIENCE
-    while not condition():
-        if time.monotonic() > end:
-            raise AssertionError(f"waited in vain for {what}")
-        time.sleep(0.05)
 
 
 def run(program, *arguments, folder=None):

@@ -2,7 +2,6 @@
 """Ctrl-C on a launched robot, soon and late: everything ends by the first signal and nobody prints a traceback."""
 import os
 import signal
-import socket
 import subprocess
 import sys
 import tempfile
@@ -13,6 +12,7 @@ from xml.sax.saxutils import quoteattr
 import rostest
 
 from simulated_robot import joint, transmission, urdf
+from test_support import free_port
 
 #: s after roslaunch has started the last node: imports, registrations, spawning, loading controllers, running
 MOMENTS = (0.4, 0.8, 1.2, 1.6, 2.2, 3.0, 6.0)
@@ -29,12 +29,6 @@ LAUNCH = """<launch>
   <node name="spawn" pkg="gazebo_ros" type="spawn_model" args="-urdf -param robot_description -model robot" output="screen"/>
   <node name="spawner" pkg="controller_manager" type="spawner" args="states effort" output="screen"/>
 </launch>"""
-
-
-def free_port():
-    with socket.socket() as place:
-        place.bind(("", 0))
-        return place.getsockname()[1]
 
 
 def launched_and_interrupted(after):

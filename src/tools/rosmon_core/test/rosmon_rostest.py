@@ -6,7 +6,6 @@ import signal
 import socket
 import subprocess
 import sys
-import time
 import unittest
 import xmlrpc.client
 
@@ -21,6 +20,7 @@ from rosmon_msgs.srv import StartStop, StartStopRequest
 
 sys.path.insert(0, os.path.dirname(__file__))
 from screen import F6, F7, F8, F9, F10, Screen  # noqa: E402
+from test_support import wait_until
 
 ROSMON = roslib.packages.find_node("rosmon_core", "rosmon")[:1]  # what rosrun starts
 PATIENCE = 60.0
@@ -28,14 +28,6 @@ PATIENCE = 60.0
 
 def children_said(history):
     return [int(pid) for pid in re.findall(r"child (\d+)", history)]
-
-
-def wait_until(condition, what):
-    end = time.monotonic() + PATIENCE
-    while not condition():
-        if time.monotonic() > end:
-            raise AssertionError(f"never happened: {what}")
-        time.sleep(0.02)
 
 
 class TerminalTest(unittest.TestCase):
