@@ -255,7 +255,10 @@ class Page:
         count = len(self.panels)
         self._add_tabs(kinds)
         for panel in self.panels[count:]:
-            panel.on_absent() if self._absent else panel.on_world(self.world)
+            if self._absent:
+                panel.on_absent()
+            else:
+                panel.on_world(self.world)
 
     def _picked(self, model: str, link: str, event: Any) -> None:
         if not self.placing.takes(event):
