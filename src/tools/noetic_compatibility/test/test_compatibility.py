@@ -64,6 +64,26 @@ def test_old_sources_build(package, standard):
     assert "global namespace is deprecated" not in ended.stdout + ended.stderr
 
 
+@pytest.mark.parametrize("before, after", [
+    ("add_compile_options(-std=c++11)", ""), ('set(CMAKE_CXX_FLAGS "${CMAKE_CXX_FLAGS} -std=c++0x -Wall")', ""),
+    ("set(CMAKE_CXX_STANDARD 11)\nset(CMAKE_CXX_EXTENSIONS OFF)", ""), ("", "set_target_properties(p PROPERTIES CXX_STANDARD 14)"),
+    ("", "set_target_properties(p PROPERTIES COMPILE_FLAGS -std=c++14)"), ("", "target_compile_options(p PRIVATE -std=gnu++14)"),
+    ("set(CMAKE_CXX_FLAGS -std=c++20)", "")])
+@pytest.mark.parametrize("minimum", ["3.0.2", "3.22"])
+def test_an_older_standard_is_raised(tmp_path, before, after, minimum):
+    """Where the system's headers need it; here this header does."""
+    newer = "20" in before
+    (tmp_path / "below").mkdir()
+    (tmp_path / "below/p.cpp").write_text(f"#include <filesystem>\nstatic_assert(__cplusplus {'>' if newer else '=='} 201703L);\n"
+                                          "std::filesystem::path p;\n")
+    (tmp_path / "below/CMakeLists.txt").write_text(f"add_library(p SHARED p.cpp)\n{after}\n")
+    (tmp_path / "CMakeLists.txt").write_text(f"cmake_minimum_required(VERSION {minimum})\nproject(p CXX)\ninclude({HERE}/cmake/old_standards.cmake)\n"
+                                             f"noetic_raise_standard(17)\n{before}\nadd_subdirectory(below)\n")
+    for command in (["cmake", "-S", tmp_path, "-B", tmp_path / "build", "-Wno-dev"], ["cmake", "--build", tmp_path / "build", "--verbose"]):
+        ended = subprocess.run(command, capture_output=True, text=True, timeout=100)
+        assert ended.returncode == 0, ended.stdout + ended.stderr
+
+
 @pytest.mark.parametrize("header", ["class_loader.h", "class_loader.hpp"])
 def test_pluginlib_brings_what_noetics_brings(package, header):
     ended = package("pluginlib roscpp", f"""
