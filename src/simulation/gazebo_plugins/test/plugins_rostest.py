@@ -3,41 +3,28 @@
 
 With ~after_reset all of it is tested on plugins that have run for a while and were then reset with the simulation."""
 import math
-import unittest
 
 import numpy as np
 import rospy
 import rostest
 import tf2_ros
-from dynamic_reconfigure.client import Client
 from gazebo_msgs.msg import ContactsState, ModelState, ODEJointProperties
-from gazebo_msgs.srv import (DeleteModel, GetJointProperties, GetLinkState, GetModelState, SetJointProperties, SetModelState,
-                              SpawnModel)
-from gazebo_ros.srv import StepWorld
+from gazebo_msgs.srv import (SetJointProperties)
 from gazebo_ros_link_attacher.srv import Attach
 from geometry_msgs.msg import (Point, Pose, Quaternion, TransformStamped, Twist, Vector3, Vector3Stamped, Wrench,
                                WrenchStamped)
 from listening import Ear, Mouth, until
-from models import box, elements, joint, link, plugin, ray, sdf, wheel
+from models import box, elements, joint, link, plugin, ray, sdf
 from nav_msgs.msg import Odometry
+from plugin_world import G, PluginWorld, xyz, yaw_of
 from rosgraph_msgs.msg import Log
-from sensor_msgs.msg import Imu, JointState, LaserScan, MagneticField, NavSatFix, PointCloud, Range
-from std_msgs.msg import Bool, Float32, Header, String
+from sensor_msgs.msg import Imu, LaserScan, MagneticField, NavSatFix, PointCloud, Range
+from std_msgs.msg import Bool, Float32
 from std_srvs.srv import Empty
-from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
-G = 9.8
 LASER = (0.5, 0.3)  # where the scanners stand in the room
 ROOM = (3.0, 2.0)  # half sides
 COVERS = "<vertical><samples>3</samples><min_angle>-0.2</min_angle><max_angle>0.2</max_angle></vertical>"
-
-
-def xyz(vector):
-    return np.array((vector.x, vector.y, vector.z))
-
-
-def yaw_of(pose):
-    return 2 * math.atan2(pose.orientation.z, pose.orientation.w)
 
 
 def to_wall(angles):
@@ -48,52 +35,7 @@ def to_wall(angles):
     return np.minimum(x, y)
 
 
-class Plugins(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        rospy.wait_for_message("/gazebo/ready", Bool, 60)
-        for name, kind in {"step": StepWorld, "spawn_sdf_model": SpawnModel, "get_model_state": GetModelState,
-                           "get_link_state": GetLinkState, "get_joint_properties": GetJointProperties,
-                           "set_model_state": SetModelState, "delete_model": DeleteModel}.items():
-            setattr(cls, "_" + name, staticmethod(rospy.ServiceProxy("/gazebo/" + name, kind, persistent=True)))
-        cls._reset = staticmethod(rospy.ServiceProxy("/gazebo/reset_simulation", Empty))
-        cls._after_reset = rospy.get_param("~after_reset", False)
-
-    def spawn(self, name, text, x, y, z=0.0):
-        answer = self._spawn_sdf_model(name, text, "", Pose(Point(x, y, z), Quaternion(0, 0, 0, 1)), "")
-        self.assertTrue(answer.success, answer.status_message)
-        if self._after_reset:
-            self.step(5.0)
-            self._reset()
-
-    def step(self, seconds):
-        self.assertTrue(self._step(round(seconds * 1000)).success)
-
-    def pose(self, name):
-        return self._get_model_state(name, "").pose
-
-    def link(self, name):
-        return self._get_link_state(name, "").link_state
-
-    def joint(self, name):
-        return self._get_joint_properties(name).position[0]
-
-    def measure(self, topic, kind, seconds=0.1, count=1):
-        """The last of the messages that this much time brings, one in each ``count``-th part of it; ``count`` 0: of those of
-        every step, which come faster than a queue of one holds."""
-        ear = Ear(topic, kind)
-        for wanted in range(1, count + 1) or (1,):
-            self.step(seconds / max(count, 1))
-            until(lambda: len(ear.messages) >= wanted, f"message {wanted} on {topic}")
-        ear.close()
-        if count:
-            self.assertEqual(len(ear.messages), count, topic)
-        return ear.messages[-1]
-
-    def until_stepped(self, condition, what):
-        """Something was published: it has arrived when time brings this about."""
-        until(lambda: (self.step(0.01), condition())[1], what)
-
+class Plugins(PluginWorld):
     # ---------------------------------------------------------------------------------------------------- rays
 
     def test_rays(self):
@@ -366,155 +308,6 @@ class Plugins(unittest.TestCase):
         pose = self.pose("guided")
         np.testing.assert_allclose(xyz(pose.position), (50.2, 0.1, 1.5), atol=1e-3)
         self.assertAlmostEqual(abs(pose.orientation.z), 1.0, places=3)
-
-    # ---------------------------------------------------------------------------------------------------- joints
-
-    def test_joints(self):
-        arm = [link("base", (0, 0, 1), mass=5), joint("bolt", "fixed", "world", "base")]
-        for name, z in (("leader", 1.0), ("follower", 1.5)):
-            arm += [link(name + "_link", (0, 0, z)), joint(name, "revolute", "base", name + "_link", (1, 0, 0), -2, 2)]
-        self.spawn("linked", sdf(*arm, plugin("roboticsgroup_gazebo_mimic_joint_plugin", joint="leader", mimicJoint="follower",
-                                              multiplier=-0.5, offset=0.1),
-                                 plugin("gazebo_ros_joint_pose_trajectory", topicName="points"),
-                                 plugin("gazebo_ros_joint_state_publisher", jointName=" follower, leader ", updateRate=50)), 60, 0)
-        def trajectory(*points):
-            return [JointTrajectoryPoint(positions=[q], time_from_start=rospy.Duration(seconds)) for q, seconds in points]
-
-        mouth = Mouth("/points", JointTrajectory)
-        mouth.say(joint_names=["leader"], points=trajectory((0.2, 0.1), (0.4, 0.2), (0.6, 0.3)))
-        self.until_stepped(lambda: self.joint("leader") > 0.1, "effect of the trajectory")
-        seen = []
-        for _ in range(60):
-            seen.append(self.joint("leader"))
-            self.step(0.01)
-        np.testing.assert_allclose(seen[:8], 0.2, atol=1e-3)
-        np.testing.assert_allclose(seen[12:28], 0.4, atol=1e-3)  # a point lasts as long as it says, and does not sag
-        np.testing.assert_allclose(seen[32:55], 0.6, atol=1e-3)
-        state = self.measure("/linked/joint_states", JointState, 0.1, 0)
-        self.assertEqual((state.name, len(state.velocity), list(state.effort)), (["follower", "leader"], 2, []))
-        self.assertAlmostEqual(state.position[0], 0.1 - 0.5 * state.position[1], places=3)
-
-        floating = [link(name, (0, 0, z), gravity=False) for name, z in (("trunk", 0), ("arm", 1))]
-        self.spawn("floating", sdf(*floating, joint("wave", "revolute", "trunk", "arm", (1, 0, 0), -2, 2)), 62, 0, 2)
-        header = Header(frame_id="floating::arm")  # that link stays, the rest of its model moves
-        mouth.say(header=header, joint_names=["wave"], points=trajectory((1.0, 0.5)))
-        self.until_stepped(lambda: self.joint("wave") > 0.5, "motion about the arm")
-        np.testing.assert_allclose(xyz(self.link("floating::arm").pose.position), (62, 0, 3), atol=1e-6)
-        roll = self.link("floating::trunk").pose.orientation
-        self.assertAlmostEqual(2 * math.atan2(roll.x, roll.w), -1.0, places=6)
-        with Ear("/rosout", Log) as log:
-            mouth.say(header=Header(frame_id="nowhere"), joint_names=["wave"], points=trajectory((0.0, 0.5)))
-            until(lambda: any("'nowhere' names no link" in m.msg for m in log.messages), "line about the frame")
-
-    def test_elevator(self):
-        self.spawn("lift", sdf(link("cabin", (0, 0, 0.1), mass=50), joint("shaft", "prismatic", "world", "cabin", lower=0, upper=10),
-                               link("door", (0.5, 0, 0.1), mass=5), joint("slide", "prismatic", "cabin", "door", (0, 1, 0), 0, 1),
-                               plugin("gazebo_ros_elevator", lift_joint="shaft", door_joint="slide", floor_height=1.5,
-                                      door_wait_time=2)), 70, 0)
-        Mouth("/elevator", String).say("2")
-        self.until_stepped(lambda: self.joint("lift::shaft") > 0.01, "start of the cabin")
-        self.step(3.5)
-        self.assertAlmostEqual(self.joint("lift::shaft"), 3.0, places=3)
-        self.assertGreater(self.joint("lift::slide"), 0.3)
-        self.step(4.0)
-        self.assertAlmostEqual(self.joint("lift::slide"), 0.0, places=3)
-
-    # ---------------------------------------------------------------------------------------------------- drives
-
-    def base(self, **wheels):
-        """A flat box on wheels of 0.1 m, each given by its place."""
-        parts = [link("base_link", (0, 0, 0.15), mass=10, inertia=0.3, shape=box(0.5, 0.3, 0.05))]
-        for name, at in wheels.items():
-            parts += [wheel(name, (*at, 0.1)), joint(name + "_joint", "revolute", "base_link", name, (0, 1, 0))]
-        return "".join(parts)
-
-    def drive(self, namespace, forwards, turn, odometry, arrived, sideways=0.0):
-        """Command, wait until ``arrived(odometry)``; odometry and the model's state 1 s apart."""
-        ear = Ear(odometry, Odometry)
-        Mouth(namespace + "/cmd_vel", Twist).say(Vector3(forwards, sideways, 0), Vector3(0, 0, turn))
-        self.until_stepped(lambda: ear.messages and arrived(ear.messages[-1].twist.twist), "motion of " + namespace)
-        first = self._get_model_state(namespace[1:], "")
-        self.step(1.0)
-        last = self._get_model_state(namespace[1:], "")
-        until(lambda: ear.messages[-1].header.stamp >= last.header.stamp - rospy.Duration(0.06), "last odometry")
-        ear.close()
-        return ear.messages[-1], first.pose, last.pose
-
-    def test_skid_steer(self):
-        corners = dict(left_front=(0.15, 0.2), right_front=(0.15, -0.2), left_rear=(-0.15, 0.2), right_rear=(-0.15, -0.2))
-        self.spawn("skid", sdf(self.base(**corners), plugin("gazebo_ros_skid_steer_drive", robotNamespace="/skid",
-                                                             wheelSeparation=0.4, wheelDiameter=0.2, torque=20)), 0, 80)
-        odometry, first, last = self.drive("/skid", 0.5, 0, "/skid/odom", lambda t: abs(t.linear.x - 0.5) < 1e-3)
-        self.assertAlmostEqual(last.position.x - first.position.x, 0.5, delta=0.005)
-        self.assertAlmostEqual(last.position.y, 80, delta=0.005)
-        self.assertAlmostEqual(odometry.pose.pose.position.x, last.position.x, delta=0.01)
-        odometry, first, last = self.drive("/skid", 0, 1.0, "/skid/odom", lambda t: t.angular.z > 0.1)
-        self.assertTrue(0.2 < yaw_of(last) - yaw_of(first) <= 1.0)  # wheels scrub
-        self.assertAlmostEqual(odometry.twist.covariance[0], 1e-4)
-
-    def test_planar_move(self):
-        self.spawn("planar", sdf(self.base(wheel=(0, 0)), plugin("gazebo_ros_planar_move", robotNamespace="/planar")), 0, 90)
-        self.step(0.2)
-        odometry, first, last = self.drive("/planar", 0.3, 0.0, "/planar/odom", lambda t: abs(t.linear.y + 0.4) < 1e-3, -0.4)
-        np.testing.assert_allclose(xyz(last.position) - xyz(first.position), (0.3, -0.4, 0), atol=1e-3)
-        self.assertEqual(odometry.pose.pose.position.z, 0.0)
-        _, first, last = self.drive("/planar", 0.0, 0.5, "/planar/odom", lambda t: abs(t.angular.z - 0.5) < 1e-3)
-        self.assertAlmostEqual(yaw_of(last) - yaw_of(first), 0.5, delta=1e-3)
-        np.testing.assert_allclose(xyz(last.position), xyz(first.position), atol=2e-3)
-
-    def test_force_based_move(self):
-        """Hector's plugin pushes on with the last command, against friction; Nexus's copy is limited and stops after 0.25 s."""
-        body = link("base_footprint", (0, 0, 0.05), mass=10, inertia=0.3, shape=box(0.5, 0.3, 0.1), mu=0.1)
-        self.spawn("hauled", sdf(body, plugin("hector_gazebo_ros_force_based_move", robotNamespace="/hauled")), 0, 140)
-        odometry, first, last = self.drive("/hauled", 0.3, 0.0, "/hauled/odom", lambda t: t.linear.y < -0.39, -0.4)
-        np.testing.assert_allclose(xyz(last.position) - xyz(first.position), (0.3, -0.4, 0), atol=5e-3)
-        np.testing.assert_allclose(xyz(odometry.pose.pose.position) + (0, 140, 0), xyz(last.position), atol=0.03)
-        _, first, last = self.drive("/hauled", 0.0, 0.5, "/hauled/odom", lambda t: t.angular.z > 0.4)
-        self.assertAlmostEqual(yaw_of(last) - yaw_of(first), 0.5, delta=0.03)
-
-        body = link("base_footprint", (0, 0, 0.05), mass=10, inertia=0.3, shape=box(0.5, 0.3, 0.1), mu=0)
-        self.spawn("nexus", sdf(body, plugin("nexus_ros_force_based_move", robotNamespace="/nexus", x_velocity_p_gain=1e9,
-                                             cmdVelTimeOut=0.25)), 0, 115)
-        _, first, last = self.drive("/nexus", 2.0, 0.0, "/nexus/odom", lambda t: t.linear.x > 0.59)
-        self.assertLess(last.position.x - first.position.x, 0.26 * 0.6)
-        self.step(0.5)
-        self.assertAlmostEqual(self.pose("nexus").position.x, last.position.x, delta=1e-6)
-
-    def test_tricycle(self):
-        parts = sdf(self.base(left=(-0.2, 0.25), right=(-0.2, -0.25)), link("fork", (0.3, 0, 0.2)),
-                    joint("front_steering_joint", "revolute", "base_link", "fork"), wheel("front", (0.3, 0, 0.1)),
-                    joint("front_wheel_joint", "revolute", "fork", "front", (0, 1, 0)), plugin(
-                        "gazebo_ros_tricycle_drive", robotNamespace="/tricycle", encoderWheelLeftJoint="left_joint",
-                        encoderWheelRightJoint="right_joint", actuatedWheelDiameter=0.2, encoderWheelDiameter=0.2,
-                        encoderWheelSeparation=0.5, odometrySource="encoder", wheelTorque=20, publishWheelJointState="true"))
-        self.spawn("tricycle", parts, 0, 100)
-        steering = 0.4
-        odometry, first, last = self.drive("/tricycle", 0.5, steering, "/tricycle/odom", lambda t: t.linear.x > 0.44)
-        turned = 0.5 * math.sin(steering) / 0.5  # rim speed across the wheel base
-        self.assertAlmostEqual(yaw_of(last) - yaw_of(first), turned, delta=0.03 * turned)
-        self.assertAlmostEqual(odometry.twist.twist.angular.z, turned, delta=0.03 * turned)
-        state = self.measure("/tricycle/joint_states", JointState, 0.1, 0)
-        self.assertAlmostEqual(state.position[state.name.index("front_steering_joint")], steering, delta=0.01)
-
-    def test_wheel_slip(self):
-        """On a slope a rolling robot that slips sideways drifts; told not to, it keeps its line."""
-        wheels = "".join(f'<wheel link_name="{name}">' + elements(
-            slip_compliance_lateral=0, slip_compliance_longitudinal=0.5, wheel_normal_force=60, wheel_radius=0.1) + "</wheel>"
-            for name in ("left", "right"))
-        slip = plugin("gazebo_ros_wheel_slip", robotNamespace="/slippy").replace("</plugin>", wheels + "</plugin>")
-        drive = plugin("gazebo_ros_diff_drive", robotNamespace="/slippy", leftJoint="left_joint", rightJoint="right_joint",
-                       wheelSeparation=0.5, wheelDiameter=0.2, wheelTorque=20)
-        self.spawn("slippy", sdf(self.base(left=(0, 0.25), right=(0, -0.25)).replace(
-            '</link>', f'<collision name="s"><pose>0 0 -0.1 0 0 0</pose><geometry>{box(0.45, 0.01, 0.1)}</geometry><surface><friction><ode>'
-            '<mu>0.3</mu><mu2>0.3</mu2></ode></friction></surface></collision></link>', 1), drive, slip), 0, 110)
-        _, first, last = self.drive("/slippy", 0.5, 0, "/slippy/odom", lambda t: t.linear.x > 0.3)
-        slow = last.position.x - first.position.x
-        Client("/slippy/wheel_slip", timeout=60).update_configuration({"slip_compliance_unitless_longitudinal": 0.0})
-        first = self.pose("slippy")
-        self.step(1.0)
-        fast = self.pose("slippy").position.x - first.position.x
-        self.assertGreater(fast, slow * 1.02)
-        self.assertAlmostEqual(fast, 0.5, delta=0.01)
 
     def test_unknown_and_unseen_ones(self):
         ear = Ear("/rosout", Log)
