@@ -74,12 +74,14 @@ def test_an_older_standard_is_raised(tmp_path, before, after, minimum):
     """Where the system's headers need it; here this header does."""
     newer = "20" in before
     (tmp_path / "below").mkdir()
-    (tmp_path / "below/p.cpp").write_text(f"#include <filesystem>\nstatic_assert(__cplusplus {'>' if newer else '=='} 201703L);\n"
-                                          "std::filesystem::path p;\n")
+    (tmp_path / "below/p.cpp").write_text(
+        f"#include <filesystem>\nstatic_assert(__cplusplus {'>' if newer else '=='} 201703L);\nstd::filesystem::path p;\n")
     (tmp_path / "below/CMakeLists.txt").write_text(f"add_library(p SHARED p.cpp)\n{after}\n")
-    (tmp_path / "CMakeLists.txt").write_text(f"cmake_minimum_required(VERSION {minimum})\nproject(p CXX)\ninclude({HERE}/cmake/old_standards.cmake)\n"
-                                             f"noetic_raise_standard(17)\n{before}\nadd_subdirectory(below)\n")
-    for command in (["cmake", "-S", tmp_path, "-B", tmp_path / "build", "-Wno-dev"], ["cmake", "--build", tmp_path / "build", "--verbose"]):
+    (tmp_path / "CMakeLists.txt").write_text(
+        f"cmake_minimum_required(VERSION {minimum})\nproject(p CXX)\ninclude({HERE}/cmake/old_standards.cmake)\n"
+        f"noetic_raise_standard(17)\n{before}\nadd_subdirectory(below)\n")
+    build = tmp_path / "build"
+    for command in (["cmake", "-S", tmp_path, "-B", build, "-Wno-dev"], ["cmake", "--build", build, "--verbose"]):
         ended = subprocess.run(command, capture_output=True, text=True, timeout=100)
         assert ended.returncode == 0, ended.stdout + ended.stderr
 
