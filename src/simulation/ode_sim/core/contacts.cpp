@@ -44,7 +44,8 @@ void set_hardness(const Settings& set, Contact& c, dContact& d) {
 }
 
 // Surface speed that the bodies do not have: links moved by position drives, and kinematic ones.
-void set_surface_speed(const StepState& state, const Contact& c, const Vec3& n, const Vec3& t1, dBodyID first, dBodyID second, dContact& d) {
+void set_surface_speed(const StepState& state, const Contact& c, const Vec3& n, const Vec3& t1, dBodyID first, dBodyID second,
+                       dContact& d) {
   const Link *l1 = c.a->link, *l2 = c.b->link;
   if (c.swapped) std::swap(l1, l2);
   auto driven = [&](const Link* l) {

@@ -58,7 +58,8 @@ Limot limot_of(const Joint& j, int axis) {
 }
 
 // A motor is a row, and so is a stop that is reached; a motor at a stop is a force of its greatest size, as in ODE.
-void add_limot(std::vector<Row>& rows, std::vector<Body>& bodies, const Pair& pair, const Limot& a, const Vec3& axis_W, bool linear, double dt) {
+void add_limot(std::vector<Row>& rows, std::vector<Body>& bodies, const Pair& pair, const Limot& a, const Vec3& axis_W, bool linear,
+               double dt) {
   const int limit = a.q <= a.lower ? 1 : a.q >= a.upper ? 2 : 0;
   const bool fixed = a.lower == a.upper, powered = a.most > 0 && !(limit && fixed);
   if (!powered && !limit) return;
@@ -95,7 +96,8 @@ void add_joint_rows(std::vector<Row>& rows, std::vector<Body>& bodies, const Joi
       add_limot(rows, bodies, pair, limot_of(j, 0), axis1, true, dt);
       break;
     case JointType::Universal: {
-      const Vec3 first = rotate(pair.X_W1.q, j.sign > 0 ? j.axes[1].xyz : a0), second = rotate(pair.X_W2.q, j.sign > 0 ? a0 : j.axes[1].xyz);
+      const Vec3 a1 = j.axes[1].xyz;
+      const Vec3 first = rotate(pair.X_W1.q, j.sign > 0 ? a1 : a0), second = rotate(pair.X_W2.q, j.sign > 0 ? a0 : a1);
       gazebo_like::add_point(rows, pair);
       const Vec3 square = cross(first, second);
       gazebo_like::add_turn(rows, pair, square * (1 / std::max(norm(square), 1e-9)), -pair.erp_rate * dot(first, second));

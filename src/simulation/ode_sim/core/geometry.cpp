@@ -69,8 +69,8 @@ OwnedGeom make_cylinder(Shape& shape, double radius, double length) {
   v.insert(v.end(), {0, 0, -0.5 * length, 0, 0, 0.5 * length});
   for (dTriIndex i = 0; i < sides; ++i) {
     const dTriIndex j = (i + 1) % sides;
-    for (dTriIndex k : {i, j, sides + j, i, sides + j, sides + i, j, i, dTriIndex(2 * sides), sides + i, sides + j, dTriIndex(2 * sides + 1)})
-      t.push_back(k);
+    const dTriIndex bottom = 2 * sides, top = bottom + 1;
+    t.insert(t.end(), {i, j, sides + j, i, sides + j, sides + i, j, i, bottom, sides + i, sides + j, top});
   }
   shape.faceted_mesh = std::make_shared<MeshData>(std::move(v), std::move(t));
   shape.faceted.reset(dCreateTriMesh(nullptr, shape.faceted_mesh->data, nullptr, nullptr, nullptr));

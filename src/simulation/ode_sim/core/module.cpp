@@ -96,7 +96,8 @@ void bind_world(py::module_& m) {
   world
       .def_property("iterations", [](World& w) { return w.scene().iterations; }, [](World& w, uint64_t n) { w.scene().iterations = n; })
       .def_property("time_ns", [](World& w) { return w.scene().time_ns; }, [](World& w, int64_t t) { w.scene().time_ns = t; })
-      .def_property_readonly("counters", [](World& w) -> Counters& { return w.scene().counters; }, py::return_value_policy::reference_internal)
+      .def_property_readonly("counters", [](World& w) -> Counters& { return w.scene().counters; },
+                             py::return_value_policy::reference_internal)
       .def("add_model", &World::add_model)
       .def("remove_model", &World::remove_model)
       .def("refresh", &World::refresh)

@@ -53,7 +53,8 @@ void bind_drive(py::class_<Joint, std::shared_ptr<Joint>>& joint) {
         j.model->dirty = true;
       })
       .def("feedback", [](Joint& j) {
-        return std::make_tuple(out(j.feedback.child_force), out(j.feedback.child_torque), out(j.feedback.parent_force), out(j.feedback.parent_torque));
+        const Feedback& f = j.feedback;
+        return std::make_tuple(out(f.child_force), out(f.child_torque), out(f.parent_force), out(f.parent_torque));
       });
 }
 
@@ -65,8 +66,10 @@ void bind_joints(py::module_& m) {
   joint
       .def_readonly("row", &Joint::row)
       .def_readonly("axis_count", &Joint::axis_count)
-      .def_property("stop_erp", [](Joint& j) { return j.stop_erp; }, [](Joint& j, double v) { j.stop_erp = std::max(limited(v, 10, "stop_erp"), 0.0); })
-      .def_property("stop_cfm", [](Joint& j) { return j.stop_cfm; }, [](Joint& j, double v) { j.stop_cfm = std::max(limited(v, kStiffest, "stop_cfm"), 0.0); })
+      .def_property("stop_erp", [](Joint& j) { return j.stop_erp; },
+                    [](Joint& j, double v) { j.stop_erp = std::max(limited(v, 10, "stop_erp"), 0.0); })
+      .def_property("stop_cfm", [](Joint& j) { return j.stop_cfm; },
+                    [](Joint& j, double v) { j.stop_cfm = std::max(limited(v, kStiffest, "stop_cfm"), 0.0); })
       .def_readwrite("implicit_spring_damper", &Joint::implicit_spring_damper)
       .def("changed", [](Joint& j) { j.model->dirty = true; })
       .def("set_axis", &set_axis)
@@ -79,7 +82,8 @@ void bind_joints(py::module_& m) {
            py::arg("force"), py::arg("slope"), py::arg("bound"), py::arg("axis") = 0)
       .def("set_motor", [](Joint& j, double velocity, double force, int i) { set_motor(axis_of(j, i), velocity, force); },
            py::arg("velocity"), py::arg("max_force"), py::arg("axis") = 0)
-      .def("motor", [](Joint& j, int i) { return std::make_pair(axis_of(j, i).motor_velocity, axis_of(j, i).motor_force); }, py::arg("axis") = 0);
+      .def("motor", [](Joint& j, int i) { return std::make_pair(axis_of(j, i).motor_velocity, axis_of(j, i).motor_force); },
+           py::arg("axis") = 0);
 }
 
 }  // namespace ode_sim

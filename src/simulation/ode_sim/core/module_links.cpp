@@ -9,8 +9,10 @@ void bind_links(py::module_& m) {
       .def_readwrite("gravity_flag", &Link::gravity)
       .def_readwrite("kinematic", &Link::kinematic)
       .def_readwrite("self_collide", &Link::self_collide)
-      .def_property("linear_decay", [](Link& l) { return l.linear_decay; }, [](Link& l, double v) { l.linear_decay = std::max(limited(v, 1, "linear_decay"), 0.0); })
-      .def_property("angular_decay", [](Link& l) { return l.angular_decay; }, [](Link& l, double v) { l.angular_decay = std::max(limited(v, 1, "angular_decay"), 0.0); })
+      .def_property("linear_decay", [](Link& l) { return l.linear_decay; },
+                    [](Link& l, double v) { l.linear_decay = std::max(limited(v, 1, "linear_decay"), 0.0); })
+      .def_property("angular_decay", [](Link& l) { return l.angular_decay; },
+                    [](Link& l, double v) { l.angular_decay = std::max(limited(v, 1, "angular_decay"), 0.0); })
       .def_property_readonly("inertia", [](Link& l) {
         const Sym3& i = l.inertia;
         return std::make_tuple(i.xx, i.yy, i.zz, i.xy, i.xz, i.yz);

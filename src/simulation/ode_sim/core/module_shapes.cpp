@@ -26,7 +26,8 @@ void bind_shapes(py::module_& m) {
   bounded<&Surface::bounce_threshold>(surface, "bounce_threshold", 0, kFastestSet);
   surface.def_readwrite("collide_bitmask", &Surface::collide_bitmask)
       .def_readwrite("collide_without_contact", &Surface::collide_without_contact)
-      .def_property("fdir1", [](Surface& s) { return out(s.fdir1); }, [](Surface& s, T3 v) { s.fdir1 = limited(in(v), kFarthest, "fdir1"); });
+      .def_property("fdir1", [](Surface& s) { return out(s.fdir1); },
+                    [](Surface& s, T3 v) { s.fdir1 = limited(in(v), kFarthest, "fdir1"); });
 
   py::class_<MeshData, std::shared_ptr<MeshData>>(m, "MeshData")
       .def(py::init([](Doubles vertices, py::array_t<uint32_t, py::array::c_style | py::array::forcecast> triangles) {
