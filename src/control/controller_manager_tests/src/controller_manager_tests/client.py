@@ -40,6 +40,10 @@ class ManagerClient:
         rospy.wait_for_service(self._prefix + name, timeout=60.0)
         return rospy.ServiceProxy(self._prefix + name, service_type)(*arguments)
 
+    def wait_until_running(self, name):
+        """A loaded controller refuses goals until it is started, some moments later."""
+        wait_until(lambda: self.states().get(name) == "running", f"{name} to run")
+
     def load(self, name):
         return self._call("load_controller", LoadController, name).ok
 

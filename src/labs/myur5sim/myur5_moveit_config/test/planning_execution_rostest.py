@@ -8,6 +8,7 @@ import moveit_commander
 import numpy as np
 import rospy
 import rostest
+from controller_manager_tests.client import ManagerClient
 from control_msgs.msg import FollowJointTrajectoryActionGoal
 from geometry_msgs.msg import Pose
 from moveit_msgs.msg import MoveItErrorCodes
@@ -21,6 +22,7 @@ class PlanningExecution(unittest.TestCase):
     def setUpClass(cls):
         cls.scene = moveit_commander.PlanningSceneInterface()
         cls.arm = moveit_commander.MoveGroupCommander("manipulator", wait_for_servers=60.0)
+        ManagerClient().wait_until_running("arm_controller")
         cls.goals = []
         cls.subscriber = rospy.Subscriber("/arm_controller/follow_joint_trajectory/goal",
                                           FollowJointTrajectoryActionGoal, cls.goals.append)

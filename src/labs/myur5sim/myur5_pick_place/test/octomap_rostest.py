@@ -8,6 +8,7 @@ import moveit_commander
 import numpy as np
 import rospy
 import rostest
+from controller_manager_tests.client import ManagerClient
 from gazebo_msgs.msg import ModelState
 from gazebo_msgs.srv import SetModelState
 from geometry_msgs.msg import Pose
@@ -28,6 +29,7 @@ class SeenByTheCamera(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.arm = moveit_commander.MoveGroupCommander("manipulator", wait_for_servers=60.0)
+        ManagerClient().wait_until_running("arm_controller")
         cls.arm.set_max_velocity_scaling_factor(0.5)
         cls.arm.set_planning_time(10.0)
         end = time.monotonic() + PATIENCE

@@ -7,6 +7,7 @@ import moveit_commander
 import numpy as np
 import rospy
 import rostest
+from controller_manager_tests.client import ManagerClient
 from dynamic_reconfigure.client import Client
 from moveit_msgs.msg import MoveItErrorCodes
 from myur5_pick_place import table
@@ -19,6 +20,7 @@ class PickPlace(unittest.TestCase):
         Client("/gazebo", timeout=30).update_configuration({"max_update_rate": 4000.0})  # four times real time
         scene = moveit_commander.PlanningSceneInterface()
         arm = moveit_commander.MoveGroupCommander("manipulator", wait_for_servers=60.0)
+        ManagerClient().wait_until_running("arm_controller")
         arm.set_max_velocity_scaling_factor(1.0)
         arm.set_planning_time(20.0)
         table.fill_scene(scene)
