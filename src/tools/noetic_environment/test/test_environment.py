@@ -82,7 +82,9 @@ def test_roswtf_takes_the_root_folder():
 def test_add_ons_come_after_the_modules_of_all_workspaces(students_workspace):
     path, = shell(f"source {SETUP_FILE}; source {students_workspace}; echo $PYTHONPATH", PYTHONPATH="/mine")
     folders = path.split(":")
-    assert folders.index("/mine") < len(folders) - 1 and (Path(folders[-1]) / "trimesh").is_dir()
+    add_ons = [folder for folder in folders if Path(folder).name.startswith(".python") or (Path(folder) / "trimesh").is_dir()]
+    assert add_ons and folders[-len(add_ons):] == add_ons and "/mine" in folders  # .python, and .python-teaching if it is there
+    assert (Path(add_ons[0]) / "trimesh").is_dir()
     assert len(folders) == len(set(folders))
 
 
