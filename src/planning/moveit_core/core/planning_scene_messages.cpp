@@ -226,8 +226,10 @@ void PlanningScene::processOctomapMsg(const octomap_msgs::Octomap& map)
   processOctomapMsg(placed);
 }
 
+// Each map replaces the one before; one without data takes it away.
 void PlanningScene::processOctomapMsg(const octomap_msgs::OctomapWithPose& map)
 {
+  world_->removeObject(OCTOMAP_NS);
   if (map.octomap.data.empty())
     return;
   try
@@ -454,8 +456,14 @@ void PlanningScene::getPlanningSceneDiffMsg(moveit_msgs::PlanningScene& scene) c
     return object;
   };
   for (const auto& item : *parent_->world_)
-    if (!world_->hasObject(item.first))
+  {
+    if (world_->hasObject(item.first))
+      continue;
+    if (item.first == OCTOMAP_NS)
+      scene.world.octomap.octomap.id = "OcTree";  // without data: there is none any more
+    else
       scene.world.collision_objects.push_back(removal(item.first));
+  }
   std::vector<const moveit::core::AttachedBody*> before;
   parent_->robot_state_->getAttachedBodies(before);
   for (const moveit::core::AttachedBody* body : before)
@@ -518,6 +526,10 @@ bool PlanningScene::setPlanningSceneDiffMsg(const moveit_msgs::PlanningScene& sc
     env_->setScale(scene.link_scale);
   for (const auto& color : scene.object_colors)
     setObjectColor(color.id, color.color);
-  return processPlanningSceneWorldMsg(scene.world) && good;
+  for (const CollisionObject& object : scene.world.collision_objects)
+    good = processCollisionObjectMsg(object) && good;
+  if (!scene.world.octomap.octomap.id.empty())  // a difference without one says nothing of it
+    processOctomapMsg(scene.world.octomap);
+  return good;
 }
 }  // namespace planning_scene

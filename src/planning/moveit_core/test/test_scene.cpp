@@ -1,5 +1,6 @@
 #include <geometric_shapes/shapes.h>
 #include <gtest/gtest.h>
+#include <octomap/octomap.h>
 #include <ros/time.h>
 
 #include <moveit/kinematic_constraints/utils.h>
@@ -109,6 +110,33 @@ TEST(Scene, diffsLeaveTheirParentAlone)
   ASSERT_TRUE(scene->usePlanningSceneMsg(message));
   EXPECT_TRUE(scene->isStateColliding());
   EXPECT_FALSE(scene->knowsFrameTransform("far"));
+}
+
+TEST(Scene, octomapsGoByMessageAndGoAway)
+{
+  const PlanningScenePtr scene = readyScene();
+  const auto tree = std::make_shared<octomap::OcTree>(0.1);
+  tree->updateNode(octomap::point3d(3, 0, 0), true);
+  scene->processOctomapPtr(tree, Eigen::Isometry3d::Identity());
+  const auto there = [](const PlanningScenePtr& which) { return which->getWorld()->hasObject(PlanningScene::OCTOMAP_NS); };
+  moveit_msgs::PlanningScene message;
+  scene->getPlanningSceneMsg(message);
+  const PlanningScenePtr other = readyScene();
+  ASSERT_TRUE(other->usePlanningSceneMsg(message));
+  EXPECT_TRUE(there(other));
+  moveit_msgs::PlanningScene nothing;
+  nothing.is_diff = true;
+  ASSERT_TRUE(other->usePlanningSceneMsg(nothing));
+  EXPECT_TRUE(there(other));
+  const PlanningScenePtr child = scene->diff();
+  child->getWorldNonConst()->removeObject(PlanningScene::OCTOMAP_NS);
+  child->getPlanningSceneDiffMsg(message);
+  EXPECT_TRUE(message.world.collision_objects.empty());
+  ASSERT_TRUE(other->usePlanningSceneMsg(message));
+  EXPECT_FALSE(there(other));
+  other->processOctomapPtr(tree, Eigen::Isometry3d::Identity());
+  ASSERT_TRUE(other->processPlanningSceneWorldMsg(moveit_msgs::PlanningSceneWorld()));
+  EXPECT_FALSE(there(other));
 }
 
 TEST(Scene, messageAndBack)

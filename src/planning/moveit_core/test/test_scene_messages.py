@@ -209,6 +209,17 @@ def test_an_octomap_survives_being_sent(editor, scene, said):
     assert not editor.octomap(message) and "ColorThing" in said[-1]
 
 
+def test_a_diff_takes_the_octomap_away_when_it_names_one_without_data(editor, scene):
+    tree = motion.OcTree.from_points(np.array([[1.0, 0, 0]]), 0.1)
+    scene.set_octomap(tree, ((0, 0, 1), (0, 0, 0, 1)))
+    diff = PlanningScene(is_diff=True)
+    assert editor.planning_scene(diff) and scene.octomap is not None
+    diff.world.octomap.octomap.id = "OcTree"
+    assert editor.planning_scene(diff) and scene.octomap is None
+    scene.set_octomap(tree, ((0, 0, 1), (0, 0, 0, 1)))
+    assert editor.planning_scene(PlanningScene()) and scene.octomap is None
+
+
 def test_pairs_in_a_message_have_what_their_defaults_say():
     """As disable_default_collisions and enable_collisions of an SRDF make them."""
     matrix = motion.AllowedCollisionMatrix()

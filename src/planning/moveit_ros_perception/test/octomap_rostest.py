@@ -11,7 +11,8 @@ import rospy
 import rostest
 import tf2_ros
 from moveit_msgs.msg import PlanningSceneComponents
-from moveit_msgs.srv import GetPlanningScene, GetStateValidity, GetStateValidityRequest
+from moveit_msgs.srv import ApplyPlanningScene, GetPlanningScene, GetStateValidity, GetStateValidityRequest
+from octomap_msgs.msg import OctomapWithPose
 from sensor_msgs.msg import CameraInfo, Image, PointCloud2, PointField
 from std_srvs.srv import Empty
 
@@ -122,6 +123,16 @@ class Octomap(unittest.TestCase):
         subscriber.unregister()
         self.clear()
         self.assertIsNone(self.tree())
+
+    def test_a_whole_scene_without_an_octomap_forgets_what_was_seen(self):
+        self.see(wall(0.6, 0.5, 0.5), (0.6, 0.5, 0.5))
+        change = rospy.ServiceProxy("apply_planning_scene", ApplyPlanningScene)
+        whole = rospy.ServiceProxy("get_planning_scene", GetPlanningScene)().scene
+        whole.world.octomap = OctomapWithPose()
+        self.assertTrue(change(whole).success)
+        self.assertIsNone(self.tree())
+        self.see(wall(0.6, -0.5, 0.5), (0.6, -0.5, 0.5))
+        self.assertFalse(self.touches((0.6, 0.5, 0.5)), "the wall of before is back")
 
     def test_a_plan_goes_round_what_was_seen(self):
         state = self.arm.get_current_state()

@@ -244,17 +244,17 @@ class SceneEditor:
         return good
 
     def octomap(self, message: OctomapWithPose) -> bool:
-        """Replace the octomap, if the message has one."""
+        """Replace the octomap, if the message has one; with a type and no data it takes the one there is away."""
         if not message.octomap.id and not message.octomap.data:
+            return True
+        if not message.octomap.data:
+            self._scene.set_octomap(None)
             return True
         try:
             if message.octomap.id != "OcTree":
                 raise ValueError(f"type '{message.octomap.id}' is unknown; OcTree is expected")
             frame = message.header.frame_id or message.octomap.header.frame_id
             where = convert.in_model_frame(self._scene, frame, convert.pose(message.origin, "the octomap"))
-            if not message.octomap.data:
-                self._scene.set_octomap(None)
-                return True
             data = bytes(value & 0xFF for value in message.octomap.data)
             tree = motion.OcTree.from_message_data(data, message.octomap.resolution, message.octomap.binary,
                                                    message.octomap.id)

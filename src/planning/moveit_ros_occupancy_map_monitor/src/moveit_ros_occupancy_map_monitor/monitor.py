@@ -40,6 +40,7 @@ class OccupancyMapMonitor:
         self.max_range = _number(namespace + "max_range", np.inf)
         self.updaters: List[OccupancyMapUpdater] = []
         self._load(entries)
+        scene.on_octomap_gone(self._forget)
         for updater in self.updaters:
             updater.start()
 
@@ -81,9 +82,12 @@ class OccupancyMapMonitor:
 
     def clear(self) -> None:
         """Forget what was seen."""
+        self._forget()
+        self._scene.set_octomap(None, motion.Pose.identity())
+
+    def _forget(self) -> None:
         with self._lock:
             self._map.clear()
-        self._scene.set_octomap(None, motion.Pose.identity())
 
     def assign(self, tree: motion.OcTree) -> None:
         """Take over an octree, in the map's frame."""

@@ -50,6 +50,7 @@ class SceneMonitor:
         self._acm_of_model = self._scene.acm
         self._pending = _Pending()
         self._callbacks: List[Callable[[int], None]] = []
+        self._octomap_gone: Callable[[], None] = lambda: None
         options = f"{namespace}planning_scene_monitor_options/"
         self.name = rospy.get_param(options + "name", "planning_scene_monitor")
         self.states = CurrentStateMonitor(self.model, tf_buffer, rospy.get_param(options + "joint_state_topic",
@@ -135,6 +136,10 @@ class SceneMonitor:
         if callback in self._callbacks:
             self._callbacks.remove(callback)
 
+    def on_octomap_gone(self, callback: Callable[[], None]) -> None:
+        """Call ``callback()`` when a whole scene without an octomap came: what sensors saw is to be forgotten."""
+        self._octomap_gone = callback
+
     # --- writing ---
 
     def edit(self, change: Callable[[SceneEditor], bool], kinds: int, objects: Set[str] = frozenset(),
@@ -155,10 +160,13 @@ class SceneMonitor:
             rospy.loginfo("a whole planning scene came: it replaces all objects and allowed collisions")
         names = {item.id for item in message.world.collision_objects} | {
             body.object.id for body in message.robot_state.attached_collision_objects}
-        if message.world.octomap.octomap.data:
+        octomap = message.world.octomap.octomap
+        if octomap.data:
             names.add(scene_messages.OCTOMAP)
-        whole = not message.is_diff or "" in names
-        world = message.world.collision_objects or message.world.octomap.octomap.data or whole
+        whole = not message.is_diff or "" in names or bool(octomap.id and not octomap.data)  # without data: it is taken away
+        world = message.world.collision_objects or octomap.data or whole
+        if not message.is_diff and not octomap.data:
+            self._octomap_gone()
         kinds = GEOMETRY | SCENE if world else SCENE
         if not states.is_empty(message.robot_state):
             kinds |= GEOMETRY | STATE
@@ -220,13 +228,16 @@ class SceneMonitor:
         self.apply(message)
 
     def _on_world(self, message: PlanningSceneWorld) -> None:
-        """A world message replaces all objects."""
+        """A world message replaces all objects and the octomap."""
         def change(editor) -> bool:
             self._scene.clear_objects()
+            self._scene.set_octomap(None)
             good = True
             for item in message.collision_objects:
                 good = editor.collision_object(item) and good
             return editor.octomap(message.octomap) and good
+        if not message.octomap.octomap.data:
+            self._octomap_gone()
         self.edit(change, GEOMETRY, whole=True)
 
     def _on_object(self, message: CollisionObject) -> None:
