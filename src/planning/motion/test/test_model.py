@@ -1,9 +1,12 @@
 """Robots of URDF and SRDF: joints, groups, limits, states, kinematics."""
+import os
+
 import numpy as np
 import pytest
 
 import motion
 import robots
+from motion.files import find_package, resolve
 
 GRIPPER = """
 <robot name="hand">
@@ -261,3 +264,22 @@ def test_meshes_are_found_by_package_and_scaled(tmp_path):
     shape, = model.link("a").shapes
     np.testing.assert_allclose(shape.bounds(), [[0, 0, 0], [2, 3, 0]])
     assert len(shape.vertices) == 3 and "none.stl" in model.warnings[0]
+
+
+def test_packages_are_found_by_the_name_in_their_manifest(tmp_path, monkeypatch):
+    inside = tmp_path / "outside" / "arm_description"
+    inside.mkdir(parents=True)
+    (inside / "package.xml").write_text("<package><!-- <name>old_name</name> -->\n<name>vendor_arm_description</name></package>")
+    (inside / "part.stl").write_text("solid")
+    (tmp_path / "src").mkdir()
+    (tmp_path / "src" / "linked").symlink_to(inside)
+    (tmp_path / "src" / "up").symlink_to(tmp_path)
+    ignored = tmp_path / "src" / "ignored"
+    ignored.mkdir()
+    (ignored / "CATKIN_IGNORE").touch()
+    (ignored / "package.xml").write_text("<package><name>ignored</name></package>")
+    monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path / "src"))
+    found = resolve("package://vendor_arm_description/part.stl")
+    assert found and os.path.samefile(found, inside / "part.stl")
+    assert resolve("package://arm_description/part.stl") == resolve("package://old_name/part.stl") == ""
+    assert find_package("ignored") is None

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import os
+import re
 from functools import lru_cache
 from typing import Callable, Dict, Optional, Tuple
 from urllib.parse import unquote
@@ -9,23 +10,40 @@ from urllib.parse import unquote
 from motion import _core
 
 FindPackage = Callable[[str], Optional[str]]
+_COMMENT, _NAME = re.compile(rb"<!--.*?-->", re.S), re.compile(rb"<name>\s*([^<\s]+)\s*</name>")
 
 
 @lru_cache(maxsize=4)
 def _packages_below(path: str) -> Dict[str, str]:
-    """Folder name -> folder of every package below the roots; the first root wins."""
+    """Name -> folder of every package below the roots, links included; the first root wins."""
     found: Dict[str, str] = {}
     for root in filter(None, path.split(":")):
-        for folder, folders, files in os.walk(root):
+        seen = set()  # real paths: a link may lead back up
+        for folder, folders, files in os.walk(root, followlinks=True):
+            real = os.path.realpath(folder)
+            if real in seen or "CATKIN_IGNORE" in files:
+                folders.clear()
+                continue
+            seen.add(real)
             if "package.xml" in files:
-                found.setdefault(os.path.basename(folder), folder)
+                found.setdefault(_name_in(os.path.join(folder, "package.xml")) or os.path.basename(folder), folder)
                 folders.clear()
             folders[:] = sorted(f for f in folders if not f.startswith("."))
     return found
 
 
+def _name_in(manifest: str) -> str:
+    """The package's name, which need not be that of its folder; "" where it cannot be read."""
+    try:
+        with open(manifest, "rb") as file:
+            name = _NAME.search(_COMMENT.sub(b"", file.read()))
+    except OSError:
+        return ""
+    return name.group(1).decode(errors="replace") if name else ""
+
+
 def find_package(name: str) -> Optional[str]:
-    """Directory of a package below ROS_PACKAGE_PATH, by its folder's name; None if there is none."""
+    """Directory of a package below ROS_PACKAGE_PATH, by the name in its package.xml; None if there is none."""
     path = os.environ.get("ROS_PACKAGE_PATH", "")
     found = _packages_below(path).get(name)
     if found is None or not os.path.isdir(found):
