@@ -11,6 +11,7 @@ from node_signals.display import missing_display
 from python_qt_binding.QtCore import QTimer
 from python_qt_binding.QtWidgets import (QApplication, QHBoxLayout, QLabel, QListWidget, QMainWindow, QSplitter, QStackedWidget,
                                          QVBoxLayout, QWidget)
+from qt_gui.interrupts import Interrupts
 
 from moveit_setup_assistant.configuration import Configuration
 from moveit_setup_assistant.errors import AssistantError
@@ -229,4 +230,7 @@ def main(words: List[str]) -> int:
     elif options.urdf_path:
         window.screens[0].show_urdf(options.urdf_path)
     window.show()
-    return app.exec_()
+    interrupts = Interrupts(lambda: (window.close(), app.quit()))
+    code = app.exec_()
+    interrupts.stop()
+    return code
