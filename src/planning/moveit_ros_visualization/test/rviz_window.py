@@ -10,7 +10,7 @@ import sys
 
 from python_qt_binding.QtCore import QTimer
 from python_qt_binding.QtWidgets import QApplication, QLabel, QPushButton
-from rviz import bindings as rviz
+from rviz_offscreen.bindings import rviz
 
 config = sys.argv[1]
 width, height = map(int, sys.argv[2].split("x"))
