@@ -98,6 +98,7 @@ void bind_world(py::module_& m) {
       .def_property("time_ns", [](World& w) { return w.scene().time_ns; }, [](World& w, int64_t t) { w.scene().time_ns = t; })
       .def_property_readonly("counters", [](World& w) -> Counters& { return w.scene().counters; },
                              py::return_value_policy::reference_internal)
+      .def_property_readonly("address", [](World& w) { return reinterpret_cast<uintptr_t>(&w); })  // for compiled plugins
       .def("add_model", &World::add_model)
       .def("remove_model", &World::remove_model)
       .def("refresh", &World::refresh)

@@ -64,6 +64,7 @@ void bind_joints(py::module_& m) {
   py::class_<Joint, std::shared_ptr<Joint>> joint(m, "Joint");
   bind_drive(joint);
   joint
+      .def_readonly("id", &Joint::id)
       .def_readonly("row", &Joint::row)
       .def_readonly("axis_count", &Joint::axis_count)
       .def_property("stop_erp", [](Joint& j) { return j.stop_erp; },

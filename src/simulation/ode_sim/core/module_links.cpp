@@ -4,6 +4,7 @@ namespace ode_sim {
 
 void bind_links(py::module_& m) {
   py::class_<Link, std::shared_ptr<Link>>(m, "Link")
+      .def_readonly("id", &Link::id)
       .def_readonly("row", &Link::row)
       .def_readonly("mass", &Link::mass)
       .def_readwrite("gravity_flag", &Link::gravity)

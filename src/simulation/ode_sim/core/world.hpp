@@ -13,8 +13,17 @@
 
 namespace ode_sim {
 
+// Told of each step, in the thread that steps, without Python's lock.
+struct StepObserver {
+  virtual ~StepObserver() = default;
+  virtual void before(int64_t time_ns) = 0;  // time_ns: of the state that the step produces
+  virtual void after(int64_t time_ns) = 0;   // also of a step that was given up
+};
+
 class World {
  public:
+  StepObserver* observer = nullptr;
+
   World();
   ~World();
   World(const World&) = delete;

@@ -47,6 +47,8 @@ class Link:
     linear_decay: float
     angular_decay: float
     @property
+    def id(self) -> int: ...
+    @property
     def row(self) -> int: ...
     @property
     def mass(self) -> float: ...
@@ -76,6 +78,8 @@ class Joint:
     stop_erp: float
     stop_cfm: float
     implicit_spring_damper: bool
+    @property
+    def id(self) -> int: ...
     @property
     def row(self) -> int: ...
     @property
@@ -170,6 +174,8 @@ class World:
     seed: int
     iterations: int
     time_ns: int
+    @property
+    def address(self) -> int: ...
     @property
     def counters(self) -> Counters: ...
     @property

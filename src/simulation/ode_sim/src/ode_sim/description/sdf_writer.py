@@ -54,6 +54,11 @@ def world_text(world: d.World) -> str:
     return _text(root)
 
 
+def element_text(element: ET.Element) -> str:
+    """A read element as it was written."""
+    return ET.tostring(_plain(element), "unicode")
+
+
 # ---------------------------------------------------------------------------------------------- elements
 
 def _root() -> ET.Element:
