@@ -3,6 +3,9 @@
 Every ``test/test_*.py`` below src/ is pytest's, every ``test/*.test`` is rostest's (on a master of its own). Closes with
 one line ``N passed, M failed``, before it the cases that failed, each with its reason; the output of what failed is printed
 in full, and kept with the rest in --logs.
+
+With --again up to three files that failed run once more, one after the other, when all others have ended. What passes then
+counts as passed, but a line ``unsteady: ...`` says what had failed: a fault of the test or of what it tests, to be found.
 """
 from __future__ import annotations
 
@@ -25,6 +28,7 @@ from typing import Iterator, List, Optional
 ROOT = Path(__file__).resolve().parent.parent
 TIME_LIMIT = 300  # s for one file; a test that takes longer hangs
 ENDING = 30  # s in which it ends what it started, before it is killed
+SECOND_TRIES = 3  # files; if more have failed, it is no accident
 
 
 @dataclass
@@ -185,11 +189,25 @@ def run(job: Job, scratch: Path) -> Result:
     return Result(job, passed, failed, skipped, seconds, output, list(reasons(home)) if failed else [])
 
 
+def faults(result: Result) -> List[str]:
+    """One line for each case of this file that failed."""
+    return [f"{result.job.name}: {reason}" for reason in result.reasons or ["see its output"]]
+
+
+def tell(result: Result) -> None:
+    """One line for a file; if it failed, the reasons and its whole output as well."""
+    mark = "FAIL" if result.failed else "ok"
+    print(f"{mark:4} {result.job.kind:7} {result.job.name:70} {result.passed:4} passed {result.seconds:6.1f} s", flush=True)
+    if result.failed:
+        print("\n".join(f"     {reason}" for reason in result.reasons), result.output, sep="\n", flush=True)
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("packages", nargs="*", help="only these packages")
     parser.add_argument("-k", "--kind", choices=["all", "pytest", "rostest"], default="all")
     parser.add_argument("-j", "--jobs", type=int, default=min(2, os.cpu_count() or 1))
+    parser.add_argument("--again", action="store_true", help=f"run up to {SECOND_TRIES} files that failed once more, alone")
     parser.add_argument("--logs", default=None, help="keep all output in this folder")
     options = parser.parse_args()
     scratch = Path(options.logs or tempfile.mkdtemp(prefix="noetic_labs_test_")).resolve()
@@ -198,20 +216,27 @@ def main() -> int:
     if not jobs:
         print(f"no tests found for {' '.join(options.packages) or 'any package'}", file=sys.stderr)
         return 1
-    passed = failed = skipped = 0
-    faults: List[str] = []
     start = time.monotonic()
+    results = {}
     for result in run_all(jobs, options.jobs, scratch):
-        passed, failed, skipped = passed + result.passed, failed + result.failed, skipped + result.skipped
-        mark = "FAIL" if result.failed else "ok"
-        print(f"{mark:4} {result.job.kind:7} {result.job.name:70} {result.passed:4} passed {result.seconds:6.1f} s", flush=True)
-        if result.failed:
-            faults += [f"{result.job.name}: {reason}" for reason in result.reasons or ["see its output"]]
-            print("\n".join(f"     {reason}" for reason in result.reasons), result.output, sep="\n", flush=True)
+        results[result.job.path] = result
+        tell(result)
+    unsteady: List[str] = []
+    broken = [result for result in results.values() if result.failed]
+    if options.again and len(broken) <= SECOND_TRIES:
+        for first in broken:
+            print(f"once more: {first.job.name}", flush=True)
+            second = run(first.job, scratch)
+            tell(second)
+            results[first.job.path] = second
+            if not second.failed:
+                unsteady += faults(first)
     print(f"{time.monotonic() - start:.0f} s in all, logs in {scratch}")
-    if not failed and not options.logs:
+    passed, failed, skipped = (sum(getattr(result, kind) for result in results.values()) for kind in ("passed", "failed", "skipped"))
+    if not failed and not unsteady and not options.logs:
         shutil.rmtree(scratch, ignore_errors=True)
-    print("".join(f"failed: {fault}\n" for fault in faults), end="")
+    print("".join(f"unsteady: {fault}\n" for fault in unsteady), end="")
+    print("".join(f"failed: {fault}\n" for result in results.values() if result.failed for fault in faults(result)), end="")
     print(f"{passed} passed, {failed} failed, {skipped} skipped")
     return 1 if failed else 0
 
