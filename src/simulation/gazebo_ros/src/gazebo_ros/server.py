@@ -5,6 +5,7 @@ import queue
 import threading
 import time
 from concurrent.futures import Future
+from dataclasses import dataclass, field
 from typing import Any, Callable, Dict, Iterable, List, Optional, Tuple
 
 import rospy
@@ -26,7 +27,6 @@ class Stopped(RuntimeError):
 
 class Connection:
     """A callback of the step loop; :meth:`disconnect` ends it."""
-
     __slots__ = ("f", "owner", "_callbacks")
 
     def __init__(self, f: Callable[[], None], owner: Optional[PluginInstance], callbacks: CallbackList):
@@ -101,12 +101,10 @@ class ResolvedModel:
                                for link in model.links for sensor in link.sensors}
 
 
-class _ModelRuntime:
-    """Sensors and plugins of one model, in load order."""
-
-    def __init__(self):
-        self.sensors: List[Sensor] = []
-        self.plugins: List[PluginInstance] = []
+@dataclass
+class _ModelRuntime:  # in load order
+    sensors: List[Sensor] = field(default_factory=list)
+    plugins: List[PluginInstance] = field(default_factory=list)
 
 
 class Server:
@@ -135,6 +133,7 @@ class Server:
         self.paused = paused
         self.started = CallbackList()  # called once, when all plugins are loaded, before the first step
         self.stepped = CallbackList()  # called when a run of steps begins or ends: pause, unpause, end of a request
+        self.went_back = CallbackList()  # called when time has gone back: resets, a saved moment
         self._host = host
         self._ros_time = ros_time
         self._iterations_left = iterations or None
@@ -347,6 +346,7 @@ class Server:
         for sensor in self._sensors:
             sensor.reset()
         self._reset_plugins(self._world_plugins)
+        self.went_back.call()
 
     def restore(self, snapshot) -> None:
         """Back to a saved moment, paused. Plugins and sensors are told as by a reset. Physics thread.
