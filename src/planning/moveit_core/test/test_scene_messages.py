@@ -6,10 +6,12 @@ import numpy as np
 import pytest
 from geometry_msgs.msg import Point, Pose, Quaternion
 from moveit_msgs.msg import (AllowedCollisionEntry, AllowedCollisionMatrix, AttachedCollisionObject, CollisionObject,
+                              Constraints, OrientationConstraint,
                              LinkPadding,
                              PlanningScene, PlanningSceneComponents)
 from shape_msgs.msg import Mesh, MeshTriangle, Plane, SolidPrimitive
 
+from moveit_core import convert
 from moveit_core.scene_messages import SceneEditor, acm_from_message, acm_message, octomap_message, scene_message
 
 
@@ -230,3 +232,12 @@ def test_pairs_in_a_message_have_what_their_defaults_say():
     back = acm_from_message(acm_message(matrix))
     for one, other in (("a", "b"), ("a", "c"), ("b", "c"), ("c", "d")):
         assert back.allowed(one, other) == matrix.allowed(one, other), (one, other)
+
+
+def test_path_constraints_without_a_link_are_left_out_and_said(scene, said):
+    message = Constraints(orientation_constraints=[OrientationConstraint(orientation=Quaternion(0, 0, 0, 1))])
+    assert convert.path_constraints(message, scene, said.append).empty()
+    assert "orientation_constraints names no link" in said[-1]
+    message.orientation_constraints[0].link_name = "no_such_link"
+    with pytest.raises(ValueError, match="no link of that name"):
+        convert.path_constraints(message, scene, said.append)

@@ -1,8 +1,10 @@
 #include "scene_display.hpp"
 
 #include <moveit/robot_state/conversions.h>
+#include <ros/master.h>
 #include <ros/param.h>
 #include <ros/service.h>
+#include <ros/this_node.h>
 
 #include <OgreSceneManager.h>
 #include <OgreSceneNode.h>
@@ -29,6 +31,22 @@ void setQuietly(rviz::StringProperty* property, const std::string& text) {
   const bool blocked = property->blockSignals(true);
   property->setStdString(text);
   property->blockSignals(blocked);
+}
+
+// A master that was started anew does not know this process, and roscpp does not tell it: nothing that RViz publishes or
+// subscribes to will ever reach anybody again.
+bool masterKnowsUs() {
+  XmlRpc::XmlRpcValue request, response, payload;
+  request[0] = request[1] = ros::this_node::getName();
+  return ros::master::execute("lookupNode", request, response, payload, false);
+}
+
+// What keeps this display from move_group; "" if nothing does.
+std::string missing(const std::string& service) {
+  const bool there = ros::service::exists(service, false);
+  if (!there && !ros::master::check()) return "Waiting for the ROS master at " + ros::master::getURI();
+  if (!masterKnowsUs()) return "The ROS master was started anew and does not know this RViz: close RViz and start it again";
+  return there ? "" : "Waiting for move_group: nobody offers " + ros::names::resolve(service) + " yet";
 }
 }  // namespace
 
@@ -253,7 +271,8 @@ void PlanningSceneDisplay::watchMoveGroup(int generation) {
   const planning_scene_monitor::PlanningSceneMonitorPtr monitor = monitor_;
   bool there = false, first = true;
   while (!jobs_.ending() && generation == generation_ && ros::ok()) {
-    const bool now = ros::service::exists(service, false);
+    const std::string line = missing(service);
+    const bool now = line.empty();
     if (now && !there) {
       if (!monitor->requestPlanningSceneState(service)) {
         std::this_thread::sleep_for(PATIENCE);
@@ -261,10 +280,10 @@ void PlanningSceneDisplay::watchMoveGroup(int generation) {
       }
       tell(rviz::StatusProperty::Ok, "Planning Scene", "From " + service);
       told_waiting_.news("");
-    } else if (!now && (there || first)) {
-      const std::string line = "Waiting for move_group: nobody offers " + ros::names::resolve(service) + " yet";
-      if (told_waiting_.news(line)) ROS_WARN_NAMED(LOGNAME, "%s", line.c_str());
-      tell(rviz::StatusProperty::Warn, "Planning Scene", line);
+    } else if (!now) {
+      const bool news = told_waiting_.news(line);
+      if (news) ROS_WARN_NAMED(LOGNAME, "%s", line.c_str());
+      if (news || there || first) tell(rviz::StatusProperty::Warn, "Planning Scene", line);
     }
     if (now != there || first)
       jobs_.later([this, generation, now]() {

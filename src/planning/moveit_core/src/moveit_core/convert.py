@@ -6,7 +6,7 @@ line.
 from __future__ import annotations
 
 import math
-from typing import Iterable, List, Sequence, Tuple
+from typing import Callable, Iterable, List, Sequence, Tuple
 
 import motion
 import numpy as np
@@ -189,6 +189,22 @@ def constraints(message: Constraints, scene) -> motion.Constraints:
     result.orientation = [_orientation(entry, scene) for entry in message.orientation_constraints]
     result.visibility = [_visibility(entry) for entry in message.visibility_constraints]
     return result
+
+
+def path_constraints(message: Constraints, scene, warn: Callable[[str], None]) -> motion.Constraints:
+    """Constraints that are to be kept all the way, as a planner takes them.
+
+    Position and orientation constraints without a link's name are left out, as MoveIt does; ``warn`` is told so.
+
+    :raises ValueError: another one cannot be used.
+    """
+    usable = Constraints(message.name, message.joint_constraints, [], [], message.visibility_constraints)
+    for field in ("position_constraints", "orientation_constraints"):
+        given = getattr(message, field)
+        setattr(usable, field, [entry for entry in given if entry.link_name])
+        if len(getattr(usable, field)) < len(given):
+            warn(f"path constraints: one of the {field} names no link and is left out; set its link_name")
+    return constraints(usable, scene)
 
 
 def _joint(message, scene) -> motion.JointConstraint:

@@ -146,7 +146,7 @@ class Pipeline:
         self._check_group(group)
         start = self._start(scene, message)
         goals = self._goals(scene, message)
-        path = self._constraints(scene, message.path_constraints, MoveItErrorCodes.INVALID_GOAL_CONSTRAINTS)
+        path = self._path_constraints(scene, message.path_constraints)
         name, settings = (message.planner_id, {}) if self.is_pilz else self.configs.find(group, message.planner_id)
         fields: Dict[str, Any] = {}
         if not self.is_pilz:
@@ -269,6 +269,13 @@ class Pipeline:
             return convert.constraints(message, scene)
         except (ValueError, motion.MotionError) as error:
             raise PlanningError(code, str(error)) from error
+
+    @staticmethod
+    def _path_constraints(scene, message: Constraints) -> motion.Constraints:
+        try:
+            return convert.path_constraints(message, scene, rospy.logwarn)
+        except (ValueError, motion.MotionError) as error:
+            raise PlanningError(MoveItErrorCodes.INVALID_GOAL_CONSTRAINTS, str(error)) from error
 
 
 def _no_kinematics(group: str, description: RobotDescription) -> str:

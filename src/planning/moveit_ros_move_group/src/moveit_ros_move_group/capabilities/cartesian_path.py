@@ -46,7 +46,7 @@ class CartesianPath(Capability):
         frame = convert.strip(request.header.frame_id)
         relative = frame == link and frame != scene.frame
         poses = [self._pose(scene, "" if relative else frame, message) for message in request.waypoints]
-        limits = convert.constraints(request.path_constraints, scene)
+        limits = convert.path_constraints(request.path_constraints, scene, rospy.logwarn)
         rospy.loginfo("Attempting to follow %d waypoints for link '%s' using a step of %f m and jump threshold %f (in "
                       "%s reference frame)",
                       len(poses), link, request.max_step, request.jump_threshold, "link" if relative else "global")

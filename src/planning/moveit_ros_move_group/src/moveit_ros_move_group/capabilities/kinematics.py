@@ -39,7 +39,7 @@ class Kinematics(Capability):
         merge_state(scene, state, wanted.robot_state)
         scene.set_state(state)
         poses = self._targets(scene, wanted, group)
-        limits = convert.constraints(wanted.constraints, scene)
+        limits = convert.path_constraints(wanted.constraints, scene, rospy.logwarn)
         link, pose = next(iter(poses.items()))
         found = motion.ik(scene, wanted.group_name, pose if len(poses) == 1 else poses,
                           link=link if len(poses) == 1 else "", seed=state,
