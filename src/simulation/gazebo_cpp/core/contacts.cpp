@@ -147,6 +147,57 @@ std::string Contact::DebugString() const
   return text.str();
 }
 
+namespace
+{
+
+void fill(msgs::JointWrench& message, const JointWrench& wrench, const Collision& one, const Collision& two)
+{
+  message.set_body_1_name(one.GetScopedName()), message.set_body_1_id(one.GetId());
+  message.set_body_2_name(two.GetScopedName()), message.set_body_2_id(two.GetId());
+  msgs::Set(message.mutable_body_1_wrench()->mutable_force(), wrench.body1Force);
+  msgs::Set(message.mutable_body_1_wrench()->mutable_torque(), wrench.body1Torque);
+  msgs::Set(message.mutable_body_2_wrench()->mutable_force(), wrench.body2Force);
+  msgs::Set(message.mutable_body_2_wrench()->mutable_torque(), wrench.body2Torque);
+}
+
+}  // namespace
+
+void Contact::FillMsg(msgs::Contact& message) const
+{
+  message.set_collision1(collision1->GetScopedName());
+  message.set_collision2(collision2->GetScopedName());
+  message.set_world(world->Name());
+  msgs::Set(message.mutable_time(), time);
+  for (int i = 0; i < count; ++i)
+  {
+    msgs::Set(message.add_position(), positions[i]);
+    msgs::Set(message.add_normal(), normals[i]);
+    message.add_depth(depths[i]);
+    fill(*message.add_wrench(), wrench[i], *collision1, *collision2);
+  }
+}
+
+Contact& Contact::operator=(const msgs::Contact& message)
+{
+  world = Mirror::Get().GetWorld();
+  const auto named = [&](const std::string& name) { return dynamic_cast<Collision*>(world->BaseByName(name).get()); };
+  collision1 = named(message.collision1()), collision2 = named(message.collision2());
+  time = msgs::Convert(message.time());
+  count = std::min(message.position_size(), MAX_CONTACT_JOINTS);
+  for (int i = 0; i < count; ++i)
+  {
+    positions[i] = msgs::ConvertIgn(message.position(i));
+    normals[i] = i < message.normal_size() ? msgs::ConvertIgn(message.normal(i)) : Vector3d();
+    depths[i] = i < message.depth_size() ? message.depth(i) : 0;
+    if (i >= message.wrench_size())
+      continue;
+    const msgs::Wrench &one = message.wrench(i).body_1_wrench(), &two = message.wrench(i).body_2_wrench();
+    wrench[i].body1Force = msgs::ConvertIgn(one.force()), wrench[i].body1Torque = msgs::ConvertIgn(one.torque());
+    wrench[i].body2Force = msgs::ConvertIgn(two.force()), wrench[i].body2Torque = msgs::ConvertIgn(two.torque());
+  }
+  return *this;
+}
+
 struct ContactManager::Private
 {
   std::vector<std::unique_ptr<Contact>> pool;

@@ -63,6 +63,7 @@ void Mirror::Start(ode_sim::World* core, const std::string& name, const std::str
   transport::set_world(name);
   topics_ = new Topics(name);
   core->observer = this;
+  event::Events::worldCreated(name);
 }
 
 void Mirror::Describe(const std::vector<double>& magnetic_field, const std::vector<double>& place)

@@ -60,11 +60,12 @@ void add_model(const std::string& name, const std::string& text, int id, const N
 }
 
 void set_host(std::function<void(std::string, Numbers)> insert, std::function<void(std::string)> remove, std::function<void(std::string)> order,
-              std::function<void(unsigned int)> step, std::function<void(std::string, double)> parameter, bool clock)
+              std::function<void(unsigned int)> step, std::function<void(std::string, double)> parameter,
+              std::function<void(std::string, std::string, std::string)> plugin, bool clock)
 {
   auto& host = Mirror::Get().host;
   host.insert = std::move(insert), host.remove = std::move(remove), host.order = std::move(order);
-  host.step = std::move(step), host.parameter = std::move(parameter);
+  host.step = std::move(step), host.parameter = std::move(parameter), host.plugin = std::move(plugin);
   if (clock)
     host.clock = compiled_plugins::set_time;
 }

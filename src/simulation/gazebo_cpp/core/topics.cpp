@@ -14,31 +14,6 @@ namespace
 
 constexpr double pose_period = 1.0 / 60, stats_period = 0.2;  // s of the wall's clock
 
-void fill(msgs::JointWrench& message, const JointWrench& wrench, const Collision& one, const Collision& two)
-{
-  message.set_body_1_name(one.GetScopedName()), message.set_body_1_id(one.GetId());
-  message.set_body_2_name(two.GetScopedName()), message.set_body_2_id(two.GetId());
-  msgs::Set(message.mutable_body_1_wrench()->mutable_force(), wrench.body1Force);
-  msgs::Set(message.mutable_body_1_wrench()->mutable_torque(), wrench.body1Torque);
-  msgs::Set(message.mutable_body_2_wrench()->mutable_force(), wrench.body2Force);
-  msgs::Set(message.mutable_body_2_wrench()->mutable_torque(), wrench.body2Torque);
-}
-
-void fill(msgs::Contact& message, const Contact& contact)
-{
-  message.set_collision1(contact.collision1->GetScopedName());
-  message.set_collision2(contact.collision2->GetScopedName());
-  message.set_world(contact.world->Name());
-  msgs::Set(message.mutable_time(), contact.time);
-  for (int i = 0; i < contact.count; ++i)
-  {
-    msgs::Set(message.add_position(), contact.positions[i]);
-    msgs::Set(message.add_normal(), contact.normals[i]);
-    message.add_depth(contact.depths[i]);
-    fill(*message.add_wrench(), contact.wrench[i], *contact.collision1, *contact.collision2);
-  }
-}
-
 bool among(const std::vector<std::string>& names, const Collision& collision)
 {
   return std::find(names.begin(), names.end(), collision.GetScopedName()) != names.end();
@@ -77,7 +52,7 @@ void Topics::publishContacts(World& world)
     msgs::Set(message.mutable_time(), world.SimTime());
     for (const Contact* contact : contacts)
       if (!names || among(*names, *contact->collision1) || among(*names, *contact->collision2))
-        fill(*message.add_contact(), *contact);
+        contact->FillMsg(*message.add_contact());
     publisher->Publish(message);
   };
   if (all)

@@ -175,6 +175,12 @@ void World::InsertModelFile(const std::string& file)
   InsertModelString(text.str());
 }
 
+void World::LoadPlugin(const std::string& filename, const std::string& name, sdf::ElementPtr sdf)
+{
+  if (Mirror::Get().host.plugin)
+    Mirror::Get().host.plugin(filename, name, sdf ? sdf->ToString("") : "");
+}
+
 void World::RemoveModel(const std::string& name)
 {
   if (Mirror::Get().host.remove)

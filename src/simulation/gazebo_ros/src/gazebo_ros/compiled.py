@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import os
 import threading
+import xml.etree.ElementTree as ET
 from concurrent.futures import Future
 from dataclasses import replace
 from typing import Any, Callable, List, Optional, Tuple
@@ -100,6 +101,16 @@ class CompiledPlugin(ModelPlugin, SensorPlugin, WorldPlugin):
             self.shutdown()
             raise PluginError(str(error)) from error
 
+    def load_system(self, server, arguments: List[str]) -> None:
+        try:
+            self._core = _core.Plugin(self._library, self._plugin.filename, self._plugin.name, self._label)
+            self._core.load_system(arguments)
+        except RuntimeError as error:
+            self.shutdown()
+            raise PluginError(str(error)) from error
+        server.starting.connect(lambda: bridge(server, self._clock))
+        server.went_back.connect(lambda: _told(self._core.reset))
+
     def reset(self) -> None:
         _told(self._core.reset)
 
@@ -107,6 +118,23 @@ class CompiledPlugin(ModelPlugin, SensorPlugin, WorldPlugin):
         core, self._core = self._core, None
         if core is not None:
             _told(core.destroy)
+
+
+def load_system(server, library: str, arguments: List[str]) -> None:
+    """A system plugin of the command line (``-s``), before the world's own plugins. One line where it cannot be loaded.
+
+    :param arguments: the words of the command line
+    """
+    label = f"system plugin {os.path.basename(library)}"
+    path = find_library(library)
+    if path is None:
+        rospy.logwarn("%s is not found and is left out; looked for in %s", label, ", ".join(folders()) or "no folder")
+        return
+    try:
+        plugin = resolve(path, d.Plugin(label, library, ET.Element("plugin")), label)()
+        plugin.load_system(server, arguments)
+    except PluginError as error:
+        rospy.logerr("%s: %s", label, error)
 
 
 def _told(f: Callable[[], None]) -> None:
@@ -141,7 +169,7 @@ class Bridge:
         world, description = server.world, server.description
         _core.set_reporter(lambda error, line: (rospy.logerr if error else rospy.logwarn)("%s", line))
         _core.set_verbose(rospy.get_param("/gazebo/verbose", False) is True)
-        _core.set_host(self._insert, self._remove, self._order, self._step, self._parameter, clock)
+        _core.set_host(self._insert, self._remove, self._order, self._step, self._parameter, self._plugin, clock)
         _core.start(world.core.address, description.name, sdf_writer.world_text(description),
                     world.physics.real_time_update_rate, description.magnetic_field, description.spherical_coordinates)
         for model in world.models.values():
@@ -196,6 +224,16 @@ class Bridge:
             model = replace(model, pose=d.Pose(tuple(pose[:3]), tuple(pose[3:])))
         resolved = server.resolve(model)
         self._later(lambda: server.spawn(model, resolved), f"inserting model '{model.name}'")
+
+    def _plugin(self, filename: str, name: str, text: str) -> None:
+        element = ET.fromstring(text) if text else ET.Element("plugin", name=name, filename=filename)
+        plugin = d.Plugin(name, filename, element)
+        threading.Thread(target=self._resolve_and_start, args=(plugin,), name="load plugin", daemon=True).start()
+
+    def _resolve_and_start(self, plugin: d.Plugin) -> None:
+        resolved = self._server.resolve_world_plugin(plugin)
+        if resolved is not None:
+            self._later(lambda: self._server.start_world_plugin(resolved), f"loading plugin {plugin.name}")
 
     def _remove(self, name: str) -> None:
         self._later(lambda: self._server.remove(name), f"removing model '{name}'")

@@ -133,6 +133,7 @@ class Server:
         self.paused = paused
         self.started = CallbackList()  # called once, when all plugins are loaded, before the first step
         self.stepped = CallbackList()  # called when a run of steps begins or ends: pause, unpause, end of a request
+        self.starting = CallbackList()  # called once, before plugins are loaded
         self.went_back = CallbackList()  # called when time has gone back: resets, a saved moment
         self._host = host
         self._ros_time = ros_time
@@ -199,6 +200,7 @@ class Server:
         """Load the plugins of the world file, then step until :meth:`stop` or until ``iterations`` are done."""
         self._thread = threading.get_ident()
         try:
+            self.starting.call()
             self._load_world_plugins()
             self.started.call()
             self.throttle.restart()
@@ -207,8 +209,8 @@ class Server:
         finally:
             self._shutdown()
 
-    def stop(self) -> None:
-        """End :meth:`run` after the current step. Any thread."""
+    def stop(self) -> None:  # any thread
+        """End :meth:`run` after the current step."""
         self._stopping = True
         self._calls.put((_nothing, Future()))  # wakes the loop
 
@@ -368,6 +370,12 @@ class Server:
         """Import the plugin classes of a model. Any thread but the physics one: imports may take long."""
         return ResolvedModel(model, self._host)
 
+    def resolve_world_plugin(self, plugin: d.Plugin) -> Optional[ResolvedPlugin]:
+        return self._host.resolve(plugin, f"world {self.description.name}")
+
+    def start_world_plugin(self, plugin: ResolvedPlugin) -> None:  # physics thread
+        self._start(plugin, WorldPlugin, self._world_plugins)
+
     def spawn(self, model: d.Model, resolved: ResolvedModel):
         """Put a model into the world and start its plugins. Physics thread.
 
@@ -394,10 +402,10 @@ class Server:
         self.world.remove(name)
 
     def _load_world_plugins(self) -> None:
-        resolved = [self._host.resolve(plugin, f"world {self.description.name}") for plugin in self.description.plugins]
+        resolved = [self.resolve_world_plugin(plugin) for plugin in self.description.plugins]
         models = [(handle, self.resolve(handle.description)) for handle in self.world.models.values()]
         for plugin in filter(None, resolved):
-            self._start(plugin, WorldPlugin, self._world_plugins)
+            self.start_world_plugin(plugin)
         for handle, plugins in models:
             self._load_model_plugins(handle, plugins)
 

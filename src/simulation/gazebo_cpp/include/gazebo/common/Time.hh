@@ -39,6 +39,9 @@ public:
   static Time Sleep(const Time& time);  // wall time; returns what was slept
   static Time MSleep(unsigned int milliseconds);
   static Time NSleep(unsigned int nanoseconds);
+  static double SecToNano(double seconds) { return seconds * 1e9; }
+  static double MilToNano(double milliseconds) { return milliseconds * 1e6; }
+  static double MicToNano(double microseconds) { return microseconds * 1e3; }
 
   Time& operator=(const Time&) = default;
   Time& operator=(const timeval& time) { return *this = Time(time); }

@@ -12,6 +12,11 @@
 
 namespace gazebo
 {
+namespace msgs
+{
+class Contact;
+}
+
 namespace physics
 {
 
@@ -19,6 +24,11 @@ namespace physics
 class GAZEBO_VISIBLE Contact
 {
 public:
+  Contact() = default;
+  Contact(const Contact&) = default;
+  Contact& operator=(const Contact&) = default;
+  Contact& operator=(const msgs::Contact& message);  // collisions that are not in the world any more are null
+  void FillMsg(msgs::Contact& message) const;
   std::string DebugString() const;
   void Reset() { count = 0; }
 

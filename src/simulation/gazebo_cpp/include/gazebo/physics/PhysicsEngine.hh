@@ -3,6 +3,7 @@
 #include <string>
 
 #include <boost/any.hpp>
+#include <boost/thread/mutex.hpp>
 #include <boost/thread/recursive_mutex.hpp>
 #include <ignition/math/Vector3.hh>
 #include <sdf/sdf.hh>

@@ -64,6 +64,7 @@ public:
   void RemoveModel(ModelPtr model);
   void RemoveModel(const std::string& name);
   void ClearModels();
+  void LoadPlugin(const std::string& filename, const std::string& name, sdf::ElementPtr sdf);
   std::string StripWorldName(const std::string& name) const;
   std::string UniqueModelName(const std::string& name);
   void EnableAllModels();

@@ -8,6 +8,7 @@
 #include <boost/enable_shared_from_this.hpp>
 #include <boost/function.hpp>
 #include <boost/make_shared.hpp>
+#include <boost/thread/mutex.hpp>
 
 #include <gazebo/common/Time.hh>
 #include <gazebo/transport/Publisher.hh>
