@@ -5,7 +5,6 @@ import queue
 import threading
 import time
 from concurrent.futures import Future
-from dataclasses import dataclass, field
 from typing import Any, Callable, Dict, Iterable, List, Optional, Tuple
 
 import rospy
@@ -27,6 +26,7 @@ class Stopped(RuntimeError):
 
 class Connection:
     """A callback of the step loop; :meth:`disconnect` ends it."""
+
     __slots__ = ("f", "owner", "_callbacks")
 
     def __init__(self, f: Callable[[], None], owner: Optional[PluginInstance], callbacks: CallbackList):
@@ -101,10 +101,12 @@ class ResolvedModel:
                                for link in model.links for sensor in link.sensors}
 
 
-@dataclass
-class _ModelRuntime:  # in load order
-    sensors: List[Sensor] = field(default_factory=list)
-    plugins: List[PluginInstance] = field(default_factory=list)
+class _ModelRuntime:
+    """Sensors and plugins of one model, in load order."""
+
+    def __init__(self):
+        self.sensors: List[Sensor] = []
+        self.plugins: List[PluginInstance] = []
 
 
 class Server:
@@ -133,8 +135,6 @@ class Server:
         self.paused = paused
         self.started = CallbackList()  # called once, when all plugins are loaded, before the first step
         self.stepped = CallbackList()  # called when a run of steps begins or ends: pause, unpause, end of a request
-        self.starting = CallbackList()  # called once, before plugins are loaded
-        self.went_back = CallbackList()  # called when time has gone back: resets, a saved moment
         self._host = host
         self._ros_time = ros_time
         self._iterations_left = iterations or None
@@ -200,7 +200,6 @@ class Server:
         """Load the plugins of the world file, then step until :meth:`stop` or until ``iterations`` are done."""
         self._thread = threading.get_ident()
         try:
-            self.starting.call()
             self._load_world_plugins()
             self.started.call()
             self.throttle.restart()
@@ -209,8 +208,8 @@ class Server:
         finally:
             self._shutdown()
 
-    def stop(self) -> None:  # any thread
-        """End :meth:`run` after the current step."""
+    def stop(self) -> None:
+        """End :meth:`run` after the current step. Any thread."""
         self._stopping = True
         self._calls.put((_nothing, Future()))  # wakes the loop
 
@@ -348,7 +347,6 @@ class Server:
         for sensor in self._sensors:
             sensor.reset()
         self._reset_plugins(self._world_plugins)
-        self.went_back.call()
 
     def restore(self, snapshot) -> None:
         """Back to a saved moment, paused. Plugins and sensors are told as by a reset. Physics thread.
@@ -369,12 +367,6 @@ class Server:
     def resolve(self, model: d.Model) -> ResolvedModel:
         """Import the plugin classes of a model. Any thread but the physics one: imports may take long."""
         return ResolvedModel(model, self._host)
-
-    def resolve_world_plugin(self, plugin: d.Plugin) -> Optional[ResolvedPlugin]:
-        return self._host.resolve(plugin, f"world {self.description.name}")
-
-    def start_world_plugin(self, plugin: ResolvedPlugin) -> None:  # physics thread
-        self._start(plugin, WorldPlugin, self._world_plugins)
 
     def spawn(self, model: d.Model, resolved: ResolvedModel):
         """Put a model into the world and start its plugins. Physics thread.
@@ -402,10 +394,10 @@ class Server:
         self.world.remove(name)
 
     def _load_world_plugins(self) -> None:
-        resolved = [self.resolve_world_plugin(plugin) for plugin in self.description.plugins]
+        resolved = [self._host.resolve(plugin, f"world {self.description.name}") for plugin in self.description.plugins]
         models = [(handle, self.resolve(handle.description)) for handle in self.world.models.values()]
         for plugin in filter(None, resolved):
-            self.start_world_plugin(plugin)
+            self._start(plugin, WorldPlugin, self._world_plugins)
         for handle, plugins in models:
             self._load_model_plugins(handle, plugins)
 

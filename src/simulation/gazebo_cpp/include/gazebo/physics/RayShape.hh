@@ -1,2 +1,0 @@
-#pragma once
-#include <gazebo/physics/Shape.hh>
