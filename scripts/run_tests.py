@@ -21,13 +21,16 @@ import threading
 import time
 import xml.etree.ElementTree as ET
 from collections import deque
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Iterator, List, Optional
 
 ROOT = Path(__file__).resolve().parent.parent
 TIME_LIMIT = 300  # s for one file; a test that takes longer hangs
 ENDING = 30  # s in which it ends what it started, before it is killed
+LONGEST = 900  # s, for a folder of several files
+QUIET_LINES = 80  # of the output of what failed, with --quiet
+PROGRESS = 25  # files, between two lines that say how far it is, with --quiet
 SECOND_TRIES = 3  # files; if more have failed, it is no accident
 
 
@@ -40,6 +43,11 @@ class Job:
     @property
     def name(self) -> str:
         return f"{self.package.name}/{self.path.relative_to(self.package)}"
+
+    @property
+    def time_limit(self) -> int:
+        """s"""
+        return min(LONGEST, TIME_LIMIT * max(1, len(list(self.path.rglob("test_*.py")))))
 
 
 @dataclass
@@ -160,7 +168,7 @@ def run(job: Job, scratch: Path) -> Result:
                                stderr=subprocess.STDOUT, text=True, errors="replace", start_new_session=True,
                                preexec_fn=_listen_to_ctrl_c)
     try:
-        output, _ = process.communicate(timeout=TIME_LIMIT)
+        output, _ = process.communicate(timeout=job.time_limit)
     except subprocess.TimeoutExpired:
         os.killpg(process.pid, signal.SIGINT)  # rostest's nodes have sessions of their own; it ends them on this
         try:
@@ -168,7 +176,7 @@ def run(job: Job, scratch: Path) -> Result:
         except subprocess.TimeoutExpired:
             os.killpg(process.pid, signal.SIGKILL)
             output, _ = process.communicate()
-        output += f"\n{job.name}: stopped after {TIME_LIMIT} s\n"
+        output += f"\n{job.name}: stopped after {job.time_limit} s\n"
     seconds = time.monotonic() - start
     if job.kind == "pytest":
         passed, failed, skipped = count(home / "report.xml")
@@ -194,8 +202,12 @@ def faults(result: Result) -> List[str]:
     return [f"{result.job.name}: {reason}" for reason in result.reasons or ["see its output"]]
 
 
-def tell(result: Result) -> None:
-    """One line for a file; if it failed, the reasons and its whole output as well."""
+def tell(result: Result, quiet: bool) -> None:
+    """One line for a file; if it failed, the reasons and its output as well. Quiet: the end of the output of failures only."""
+    if quiet and not result.failed:
+        return
+    if quiet:
+        result = replace(result, output="\n".join(result.output.splitlines()[-QUIET_LINES:]))
     mark = "FAIL" if result.failed else "ok"
     print(f"{mark:4} {result.job.kind:7} {result.job.name:70} {result.passed:4} passed {result.seconds:6.1f} s", flush=True)
     if result.failed:
@@ -208,6 +220,7 @@ def main() -> int:
     parser.add_argument("-k", "--kind", choices=["all", "pytest", "rostest"], default="all")
     parser.add_argument("-j", "--jobs", type=int, default=min(2, os.cpu_count() or 1))
     parser.add_argument("--again", action="store_true", help=f"run up to {SECOND_TRIES} files that failed once more, alone")
+    parser.add_argument("--quiet", action="store_true", help="tell only what fails")
     parser.add_argument("--logs", default=None, help="keep all output in this folder")
     options = parser.parse_args()
     scratch = Path(options.logs or tempfile.mkdtemp(prefix="noetic_labs_test_")).resolve()
@@ -220,14 +233,16 @@ def main() -> int:
     results = {}
     for result in run_all(jobs, options.jobs, scratch):
         results[result.job.path] = result
-        tell(result)
+        tell(result, options.quiet)
+        if options.quiet and (len(results) % PROGRESS == 0):
+            print(f"{len(results)} of {len(jobs)} files after {time.monotonic() - start:.0f} s", flush=True)
     unsteady: List[str] = []
     broken = [result for result in results.values() if result.failed]
     if options.again and len(broken) <= SECOND_TRIES:
         for first in broken:
             print(f"once more: {first.job.name}", flush=True)
             second = run(first.job, scratch)
-            tell(second)
+            tell(second, options.quiet)
             results[first.job.path] = second
             if not second.failed:
                 unsteady += faults(first)

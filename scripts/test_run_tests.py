@@ -52,3 +52,11 @@ def test_many_failures_are_no_accident(whole_run):
     code, lines = whole_run({name: [1, 0] for name in "abcd"}, "--again")
     assert code == 1
     assert lines[-1] == "4 passed, 4 failed, 0 skipped"
+
+
+def test_quiet_tells_what_fails_alone(whole_run):
+    code, lines = whole_run({"a": [0], "b": [1]}, "--quiet")
+    assert code == 1
+    assert not any(line.startswith("ok") for line in lines)
+    assert "output" in lines
+    assert lines[-1] == "3 passed, 1 failed, 0 skipped"
