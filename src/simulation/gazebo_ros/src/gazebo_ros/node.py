@@ -23,7 +23,7 @@ from ode_sim.description import DescriptionError, Problem, ResourceFinder, load_
 from rospy.names import load_mappings
 from std_msgs.msg import Bool
 
-from gazebo_ros import command_line
+from gazebo_ros import command_line, compiled
 from gazebo_ros.api.clock import ClockPublisher
 from gazebo_ros.api.forces import ForceJobs
 from gazebo_ros.api.joint_commands import JointCommands
@@ -182,12 +182,12 @@ def make_server(options, sim_time: bool = True) -> Server:
     description, problems = _load_world(options.world, finder)
     world = ode_sim.World(description, seed=options.seed or 0, finder=finder, problems=problems)
     host = PluginHost(rospack, BUILTIN)
-    for library in options.server_plugin:
-        if library_key(library) not in map(library_key, BUILTIN):
-            rospy.logwarn("system plugin %s is not known here and is left out; known: %s", library, ", ".join(BUILTIN))
     server = Server(world, description, finder, host, paused=options.pause, lockstep=options.lockstep,
                     iterations=options.iters, ros_time=sim_time)
     server.report_problems(f"world {description.name}")
+    for library in options.server_plugin:
+        if library_key(library) not in map(library_key, BUILTIN):
+            compiled.load_system(server, library, ["gzserver", *rospy.myargv()[1:]])
     ClockPublisher(server, int(rospy.get_param("~pub_clock_frequency", 0)))
     if rospy.get_param("~enable_ros_network", True):
         _offer_api(server)

@@ -12,6 +12,7 @@ import rospy
 from ode_sim.description import model as d
 from plugin_loader import PluginClass, PluginError, find_plugins
 
+from gazebo_ros import compiled
 from gazebo_ros.sdf_element import SdfElement
 
 
@@ -31,7 +32,7 @@ class ResolvedPlugin:
     """A ``<plugin>`` element with the class that its library name stands for."""
 
     description: d.Plugin
-    cls: type
+    cls: Callable[[], Any]
     label: str  # for messages: <plugin name> (<library>) of model <m>
 
 
@@ -96,7 +97,15 @@ class PluginHost:
         label = f"plugin {plugin.name} ({plugin.filename or 'no filename'}) of {where}"
         if key in self._builtin:
             return None
+        library = compiled.find_library(plugin.filename)
+        if library:  # of a workspace on top of this one; a Python class of that name would be ours
+            try:
+                return ResolvedPlugin(plugin, compiled.resolve(library, plugin, label), label)
+            except PluginError as error:
+                rospy.logerr("%s: %s", label, error)
         if key not in self._classes:
+            if library:
+                return None
             rospy.logwarn("%s is %s", label, self._unknown(plugin.filename))
             return None
         try:

@@ -5,11 +5,13 @@ import queue
 import threading
 import time
 from concurrent.futures import Future
+from dataclasses import dataclass, field
 from typing import Any, Callable, Dict, Iterable, List, Optional, Tuple
 
 import rospy
 from ode_sim.description import model as d
 
+from gazebo_ros.callbacks import CallbackList, Connection
 from gazebo_ros.plugin import ModelPlugin, PluginError, SensorPlugin, WorldPlugin
 from gazebo_ros.plugin_host import PluginHost, PluginInstance, ResolvedPlugin, plugin_sdf
 from gazebo_ros.sensors import Sensor
@@ -22,53 +24,6 @@ _WALL_PERIOD_NS = 1_000_000  # uncapped, subscribers get at most one message per
 
 class Stopped(RuntimeError):
     """The simulator is shutting down; the call was not made."""
-
-
-class Connection:
-    """A callback of the step loop; :meth:`disconnect` ends it."""
-
-    __slots__ = ("f", "owner", "_callbacks")
-
-    def __init__(self, f: Callable[[], None], owner: Optional[PluginInstance], callbacks: CallbackList):
-        self.f = f
-        self.owner = owner
-        self._callbacks = callbacks
-
-    def disconnect(self) -> None:
-        self._callbacks.disconnect(self)
-
-
-class CallbackList:
-    """Callbacks in connection order, of any thread. A change counts from the next step on."""
-
-    def __init__(self):
-        self.connections: Tuple[Connection, ...] = ()
-        self._lock = threading.Lock()
-
-    def connect(self, f: Callable[[], None], owner: Optional[PluginInstance] = None) -> Connection:
-        connection = Connection(f, owner, self)
-        with self._lock:
-            self.connections += (connection,)
-        return connection
-
-    def disconnect(self, connection: Connection) -> None:
-        with self._lock:
-            self.connections = tuple(c for c in self.connections if c is not connection)
-
-    def disconnect_owner(self, owner: PluginInstance) -> None:
-        with self._lock:
-            self.connections = tuple(c for c in self.connections if c.owner is not owner)
-
-    def call(self) -> None:
-        for connection in self.connections:
-            try:
-                connection.f()
-            except Exception as error:  # a plugin may raise anything; it must not take the world down
-                self.disconnect(connection)
-                if connection.owner is None:
-                    rospy.logerr("the simulator's own callback %r failed and is switched off: %r", connection.f, error)
-                else:
-                    connection.owner.report(error)
 
 
 class WallLimit:
@@ -101,12 +56,10 @@ class ResolvedModel:
                                for link in model.links for sensor in link.sensors}
 
 
-class _ModelRuntime:
-    """Sensors and plugins of one model, in load order."""
-
-    def __init__(self):
-        self.sensors: List[Sensor] = []
-        self.plugins: List[PluginInstance] = []
+@dataclass
+class _ModelRuntime:  # in load order
+    sensors: List[Sensor] = field(default_factory=list)
+    plugins: List[PluginInstance] = field(default_factory=list)
 
 
 class Server:
@@ -135,6 +88,8 @@ class Server:
         self.paused = paused
         self.started = CallbackList()  # called once, when all plugins are loaded, before the first step
         self.stepped = CallbackList()  # called when a run of steps begins or ends: pause, unpause, end of a request
+        self.starting = CallbackList()  # called once, before plugins are loaded
+        self.went_back = CallbackList()  # called when time has gone back: resets, a saved moment
         self._host = host
         self._ros_time = ros_time
         self._iterations_left = iterations or None
@@ -200,6 +155,7 @@ class Server:
         """Load the plugins of the world file, then step until :meth:`stop` or until ``iterations`` are done."""
         self._thread = threading.get_ident()
         try:
+            self.starting.call()
             self._load_world_plugins()
             self.started.call()
             self.throttle.restart()
@@ -208,8 +164,8 @@ class Server:
         finally:
             self._shutdown()
 
-    def stop(self) -> None:
-        """End :meth:`run` after the current step. Any thread."""
+    def stop(self) -> None:  # any thread
+        """End :meth:`run` after the current step."""
         self._stopping = True
         self._calls.put((_nothing, Future()))  # wakes the loop
 
@@ -347,6 +303,7 @@ class Server:
         for sensor in self._sensors:
             sensor.reset()
         self._reset_plugins(self._world_plugins)
+        self.went_back.call()
 
     def restore(self, snapshot) -> None:
         """Back to a saved moment, paused. Plugins and sensors are told as by a reset. Physics thread.
@@ -367,6 +324,12 @@ class Server:
     def resolve(self, model: d.Model) -> ResolvedModel:
         """Import the plugin classes of a model. Any thread but the physics one: imports may take long."""
         return ResolvedModel(model, self._host)
+
+    def resolve_world_plugin(self, plugin: d.Plugin) -> Optional[ResolvedPlugin]:
+        return self._host.resolve(plugin, f"world {self.description.name}")
+
+    def start_world_plugin(self, plugin: ResolvedPlugin) -> None:  # physics thread
+        self._start(plugin, WorldPlugin, self._world_plugins)
 
     def spawn(self, model: d.Model, resolved: ResolvedModel):
         """Put a model into the world and start its plugins. Physics thread.
@@ -394,10 +357,10 @@ class Server:
         self.world.remove(name)
 
     def _load_world_plugins(self) -> None:
-        resolved = [self._host.resolve(plugin, f"world {self.description.name}") for plugin in self.description.plugins]
+        resolved = [self.resolve_world_plugin(plugin) for plugin in self.description.plugins]
         models = [(handle, self.resolve(handle.description)) for handle in self.world.models.values()]
         for plugin in filter(None, resolved):
-            self._start(plugin, WorldPlugin, self._world_plugins)
+            self.start_world_plugin(plugin)
         for handle, plugins in models:
             self._load_model_plugins(handle, plugins)
 

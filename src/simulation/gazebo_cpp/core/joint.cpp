@@ -1,0 +1,486 @@
+// Joint, JointController.
+#include <gazebo/physics/physics.hh>
+
+#include <cmath>
+#include <limits>
+
+#include <limits.hpp>
+
+#include "mirror.hpp"
+
+namespace gazebo
+{
+namespace physics
+{
+
+using ignition::math::Pose3d;
+using ignition::math::Vector3d;
+
+namespace
+{
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+ode_sim::Axis* axis_of(const std::shared_ptr<ode_sim::Joint>& core, unsigned int index)
+{
+  return core && index < static_cast<unsigned int>(core->axis_count) ? &core->axes[index] : nullptr;
+}
+
+/// As descriptions write "none".
+double written(double limit) { return std::isinf(limit) ? std::copysign(1e16, limit) : limit; }
+double read(double limit) { return std::abs(limit) >= ode_sim::kUnlimited ? std::copysign(ode_sim::kInf, limit) : limit; }
+
+}  // namespace
+
+Joint::~Joint() = default;
+
+// -- joints that plugins make -------------------------------------------------------------------------------------------------------
+
+bool Joint::firm() const { return HasType(FIXED_JOINT) || (made_upper_ - made_lower_ < 1e-6); }
+
+void Joint::Load(LinkPtr parent, LinkPtr child, const Pose3d&)
+{
+  if (core_)
+    return;
+  parent_ = parent, child_ = child;
+  if (child && !GetWorld())
+    SetWorld(child->GetWorld());
+}
+
+void Joint::SetModel(ModelPtr model)
+{
+  if (model)
+    SetWorld(model->GetWorld());
+}
+
+void Joint::Init()
+{
+  if (core_ || weld_ || (!parent_ && !child_))
+    return;
+  if (!firm())
+    return refused("joint '" + GetName() + "' of " + (parent_ ? parent_->GetScopedName() : "the world") + " and " +
+                   (child_ ? child_->GetScopedName() : "the world") +
+                   " cannot be made while the simulation runs: only firm ones can (type fixed, or both limits 0)");
+  const LinkPtr child = child_ ? child_ : parent_, parent = child_ ? parent_ : LinkPtr();
+  change(GetName(), [&] {
+    if (ode_sim::World* core = world_of(child->Core()->model))
+      weld_ = core->weld(parent ? parent->Core() : nullptr, child->Core());
+  });
+}
+
+/// A joint that was let go holds again.
+void Joint::Attach(LinkPtr parent, LinkPtr child)
+{
+  if (core_)
+    return;
+  const bool again = parent_ == parent && child_ == child && (parent_ || child_);
+  parent_ = parent, child_ = child;
+  if (again && firm())
+    Init();
+}
+
+void Joint::Detach()
+{
+  if (core_)
+    return refused("joint " + GetScopedName() + " is of the model's description: it cannot be taken off while the simulation runs");
+  const LinkPtr link = child_ ? child_ : parent_;
+  if (!weld_ || !link)
+    return;
+  change(GetName(), [&] {
+    if (ode_sim::World* core = world_of(link->Core()->model))
+      core->unweld(weld_);
+  });
+  weld_ = 0;
+}
+
+bool Joint::AreConnected(LinkPtr one, LinkPtr two) const
+{
+  return (core_ || weld_) && ((one == parent_ && two == child_) || (one == child_ && two == parent_));
+}
+
+void Joint::Reset() { SetVelocity(0, 0); }
+
+// -- state --------------------------------------------------------------------------------------------------------------------------
+
+unsigned int Joint::DOF() const { return core_ ? static_cast<unsigned int>(core_->axis_count) : 0; }
+
+double Joint::Position(unsigned int index) const
+{
+  const auto* axis = axis_of(core_, index);
+  return axis ? axis->q : nan;
+}
+
+double Joint::GetVelocity(unsigned int index) const
+{
+  const auto* axis = axis_of(core_, index);
+  return axis ? axis->qd : 0.0;
+}
+
+double Joint::GetForce(unsigned int index)
+{
+  const auto* axis = axis_of(core_, index);
+  return axis ? axis->effort_now() : 0.0;
+}
+
+void Joint::SetForce(unsigned int index, double effort)
+{
+  auto* axis = axis_of(core_, index);
+  if (!axis)
+    return refused("joint " + GetScopedName() + " has no axis " + std::to_string(index) + " for SetForce()");
+  if (std::isnan(effort))
+    return refused("a force on joint " + GetScopedName() + " is not a number; it is left out");
+  ode_sim::add_force(*axis, effort);
+}
+
+double Joint::CheckAndTruncateForce(unsigned int index, double effort)
+{
+  const auto* axis = axis_of(core_, index);
+  return axis ? axis->admitted(effort) : effort;
+}
+
+bool Joint::SetPosition(unsigned int index, double position, bool)
+{
+  if (!axis_of(core_, index))
+    return false;
+  bool done = false;
+  change(GetScopedName(), [&] {
+    if (ode_sim::World* core = world_of(core_->model))
+      done = core->set_joint_position(*core_, static_cast<int>(index), ode_sim::limited(position, ode_sim::kFarthest, "a position"));
+  });
+  return done;
+}
+
+// As the original: the child alone gets the velocity that the joint then has.
+void Joint::SetVelocity(unsigned int index, double velocity)
+{
+  if (!axis_of(core_, index) || core_->type == ode_sim::JointType::Ball)
+    return;
+  Vector3d v, w;
+  const Vector3d at = Anchor(0);
+  if (parent_)
+  {
+    w = parent_->WorldAngularVel();
+    v = parent_->WorldLinearVel(at - parent_->WorldPose().Pos(), ignition::math::Quaterniond::Identity);
+  }
+  if (core_->type == ode_sim::JointType::Prismatic)
+  {
+    v += velocity * GlobalAxis(index);
+  }
+  else
+  {
+    w += velocity * GlobalAxis(index);
+    if (core_->axis_count == 2)
+      w += GetVelocity(1 - index) * GlobalAxis(1 - index);
+  }
+  child_->SetWorldTwist(v + w.Cross(child_->WorldPose().Pos() - at), w);
+}
+
+JointWrench Joint::GetForceTorque(unsigned int)
+{
+  JointWrench wrench;
+  if (!core_)
+    return wrench;
+  SetProvideFeedback(true);
+  // What the links exert on the joint, each in its own axes, torques about the anchor.
+  const auto& f = core_->feedback;
+  const auto child = child_->WorldPose().Rot();
+  const auto parent = parent_ ? parent_->WorldPose().Rot() : ignition::math::Quaterniond::Identity;
+  wrench.body2Force = child.RotateVectorReverse(-ign(f.child_force));
+  wrench.body2Torque = child.RotateVectorReverse(-ign(f.child_torque));
+  wrench.body1Force = parent.RotateVectorReverse(-ign(f.parent_force));
+  wrench.body1Torque = parent.RotateVectorReverse(-ign(f.parent_torque));
+  return wrench;
+}
+
+void Joint::SetProvideFeedback(bool enable)
+{
+  if (!core_ || core_->watched || !enable)
+    return;
+  core_->watched = true;
+  core_->model->dirty = true;
+}
+
+Vector3d Joint::LinkForce(unsigned int index) const
+{
+  if (!core_)
+    return {};
+  return ign(index == 0 ? core_->feedback.child_force : core_->feedback.parent_force);
+}
+
+Vector3d Joint::LinkTorque(unsigned int index) const
+{
+  if (!core_)
+    return {};
+  return ign(index == 0 ? core_->feedback.child_torque : core_->feedback.parent_torque);
+}
+
+// -- parameters ---------------------------------------------------------------------------------------------------------------------
+
+bool Joint::SetParam(const std::string& key, unsigned int index, const boost::any& value)
+{
+  const double* number = boost::any_cast<double>(&value);
+  if (!number || std::isnan(*number))
+  {
+    refused("joint " + GetScopedName() + ": SetParam(\"" + key + "\") takes a number that is a double");
+    return false;
+  }
+  if (key == "hi_stop")
+    SetUpperLimit(index, *number);
+  else if (key == "lo_stop")
+    SetLowerLimit(index, *number);
+  else if (!core_)
+    params_[key] = *number;
+  else if (key == "stop_erp")
+    core_->stop_erp = std::min(std::max(*number, 0.0), 10.0), core_->model->dirty = true;
+  else if (key == "stop_cfm")
+    core_->stop_cfm = std::min(std::max(*number, 0.0), ode_sim::kStiffest), core_->model->dirty = true;
+  else if (auto* axis = axis_of(core_, index))
+  {
+    if (key == "fmax")
+      ode_sim::set_motor(*axis, axis->motor_velocity, std::max(*number, 0.0));
+    else if (key == "vel")
+      ode_sim::set_motor(*axis, *number, axis->motor_force);
+    else if (key == "friction")
+      axis->friction = std::max(*number, 0.0), core_->model->dirty = true;
+    else if (key == "erp" || key == "cfm" || key == "fudge_factor" || key == "suspension_erp" || key == "suspension_cfm")
+      params_[key] = *number;
+    else
+    {
+      refused("joint " + GetScopedName() + " has no parameter '" + key + "'");
+      return false;
+    }
+  }
+  else
+    return false;
+  return true;
+}
+
+double Joint::GetParam(const std::string& key, unsigned int index)
+{
+  if (key == "hi_stop")
+    return UpperLimit(index);
+  if (key == "lo_stop")
+    return LowerLimit(index);
+  if (core_ && key == "stop_erp")
+    return core_->stop_erp;
+  if (core_ && key == "stop_cfm")
+    return core_->stop_cfm;
+  if (const auto* axis = axis_of(core_, index))
+  {
+    if (key == "fmax")
+      return axis->motor_force;
+    if (key == "vel")
+      return axis->motor_velocity;
+    if (key == "friction")
+      return axis->friction;
+  }
+  const auto kept = params_.find(key);
+  return kept == params_.end() ? 0.0 : kept->second;
+}
+
+#define GZ_AXIS_NUMBER(Get, Set, field, none, low) \
+  double Joint::Get(unsigned int index) \
+  { \
+    const auto* axis = axis_of(core_, index); \
+    return axis ? axis->field : none; \
+  } \
+  void Joint::Set(unsigned int index, double value) \
+  { \
+    auto* axis = axis_of(core_, index); \
+    if (!axis || std::isnan(value)) \
+      return; \
+    axis->field = std::min(std::max(value, low), ode_sim::kStiffest); \
+    core_->model->dirty = true; \
+  }
+GZ_AXIS_NUMBER(GetDamping, SetDamping, damping, 0.0, 0.0)
+GZ_AXIS_NUMBER(GetStiffness, SetStiffness, spring_stiffness, 0.0, 0.0)
+GZ_AXIS_NUMBER(GetEffortLimit, SetEffortLimit, effort, -1.0, -1.0)
+GZ_AXIS_NUMBER(GetVelocityLimit, SetVelocityLimit, velocity, -1.0, -1.0)
+#undef GZ_AXIS_NUMBER
+
+void Joint::SetStiffnessDamping(unsigned int index, double stiffness, double damping, double reference)
+{
+  SetStiffness(index, stiffness);
+  SetDamping(index, damping);
+  if (auto* axis = axis_of(core_, index); axis && std::isfinite(reference))
+    axis->spring_reference = reference;
+}
+
+double Joint::GetSpringReferencePosition(unsigned int index) const
+{
+  const auto* axis = axis_of(core_, index);
+  return axis ? axis->spring_reference : 0.0;
+}
+
+double Joint::LowerLimit(unsigned int index) const
+{
+  const auto* axis = axis_of(core_, index);
+  return axis ? written(axis->lower) : core_ ? nan : made_lower_;
+}
+
+double Joint::UpperLimit(unsigned int index) const
+{
+  const auto* axis = axis_of(core_, index);
+  return axis ? written(axis->upper) : core_ ? nan : made_upper_;
+}
+
+void Joint::SetLowerLimit(unsigned int index, double limit)
+{
+  if (std::isnan(limit))
+    return refused("a limit of joint " + GetScopedName() + " is not a number; it is left out");
+  if (!core_)
+    made_lower_ = limit;
+  else if (auto* axis = axis_of(core_, index))
+    axis->lower = std::min(read(limit), axis->upper), core_->model->dirty = true;
+}
+
+void Joint::SetUpperLimit(unsigned int index, double limit)
+{
+  if (std::isnan(limit))
+    return refused("a limit of joint " + GetScopedName() + " is not a number; it is left out");
+  if (!core_)
+    made_upper_ = limit;
+  else if (auto* axis = axis_of(core_, index))
+    axis->upper = std::max(read(limit), axis->lower), core_->model->dirty = true;
+}
+
+// -- geometry -----------------------------------------------------------------------------------------------------------------------
+
+void Joint::SetAxis(unsigned int index, const Vector3d& direction)
+{
+  auto* axis = axis_of(core_, index);
+  if (!axis || !(direction.Length() > 1e-9) || !direction.IsFinite())
+    return;
+  const auto model = boost::dynamic_pointer_cast<Model>(GetParent() ? GetParent() : BasePtr());
+  const Vector3d world = model ? model->WorldPose().Rot().RotateVector(direction) : direction;
+  axis->xyz = ode(ParentWorldPose().Rot().RotateVectorReverse(world.Normalized()));
+  core_->model->dirty = true;
+}
+
+Vector3d Joint::LocalAxis(unsigned int index) const
+{
+  const auto* axis = axis_of(core_, index);
+  return axis ? ign(axis->xyz) : Vector3d();
+}
+
+// The first axis goes with the parent, the second with the child.
+Vector3d Joint::GlobalAxis(unsigned int index) const
+{
+  const auto* axis = axis_of(core_, index);
+  return axis ? ign(rotate(index == 0 ? core_->frame_W().q : core_->child_frame_W().q, axis->xyz)) : Vector3d();
+}
+
+Vector3d Joint::Anchor(unsigned int) const { return WorldPose().Pos(); }
+
+Pose3d Joint::InitialAnchorPose() const { return core_ ? ign(core_->X_CJ) : Pose3d(); }
+Pose3d Joint::WorldPose() const
+{
+  return core_ ? ign(core_->child->X_WL * core_->X_CJ) : child_ ? child_->WorldPose() : Pose3d();
+}
+Pose3d Joint::ParentWorldPose() const { return core_ ? ign(core_->frame_W()) : WorldPose(); }
+
+double Joint::GetInertiaRatio(unsigned int index) const
+{
+  const Vector3d axis = GlobalAxis(index);
+  if (!parent_ || !child_)
+    return 0.0;
+  const double child = axis.Dot(child_->WorldInertiaMatrix() * axis);
+  return child > 0 ? axis.Dot(parent_->WorldInertiaMatrix() * axis) / child : 0.0;
+}
+
+// -- JointController ----------------------------------------------------------------------------------------------------------------
+
+JointController::JointController(ModelPtr model) : model_(model.get()), last_(model->GetWorld()->SimTime())
+{
+  for (const JointPtr& joint : model->GetJoints())
+    AddJoint(joint);
+}
+
+void JointController::AddJoint(JointPtr joint)
+{
+  joints_[joint->GetScopedName()] = joint;
+  position_pids_[joint->GetScopedName()].Init(1, 0.1, 0.01, 1, -1, 1000, -1000);
+  velocity_pids_[joint->GetScopedName()].Init(1, 0.1, 0.01, 1, -1, 1000, -1000);
+}
+
+void JointController::RemoveJoint(Joint* joint)
+{
+  const std::string name = joint ? joint->GetScopedName() : "";
+  joints_.erase(name), position_pids_.erase(name), velocity_pids_.erase(name);
+  forces_.erase(name), positions_.erase(name), velocities_.erase(name);
+}
+
+void JointController::Reset()
+{
+  forces_.clear(), positions_.clear(), velocities_.clear();
+  for (auto& pid : position_pids_)
+    pid.second.Reset();
+  for (auto& pid : velocity_pids_)
+    pid.second.Reset();
+}
+
+void JointController::Update()
+{
+  const common::Time now = model_->GetWorld()->SimTime(), passed = now - last_;
+  last_ = now;
+  if (passed <= common::Time::Zero)
+    return;
+  for (const auto& force : forces_)
+    joints_[force.first]->SetForce(0, force.second);
+  for (const auto& target : positions_)
+  {
+    const JointPtr& joint = joints_[target.first];
+    joint->SetForce(0, position_pids_[target.first].Update(joint->Position(0) - target.second, passed));
+  }
+  for (const auto& target : velocities_)
+  {
+    const JointPtr& joint = joints_[target.first];
+    joint->SetForce(0, velocity_pids_[target.first].Update(joint->GetVelocity(0) - target.second, passed));
+  }
+}
+
+void JointController::SetJointPosition(const std::string& name, double position, int index)
+{
+  const auto found = joints_.find(name);
+  const JointPtr joint = found == joints_.end() ? model_->GetJoint(name) : found->second;
+  if (!joint)
+    return refused("the joint controller of " + model_->GetName() + " has no joint '" + name + "'");
+  SetJointPosition(joint, position, index);
+}
+
+void JointController::SetJointPosition(JointPtr joint, double position, int index) { joint->SetPosition(index, position); }
+
+void JointController::SetJointPositions(const std::map<std::string, double>& positions)
+{
+  for (const auto& position : positions)
+    SetJointPosition(position.first, position.second);
+}
+
+void JointController::SetPositionPID(const std::string& name, const common::PID& pid)
+{
+  if (joints_.count(name))
+    position_pids_[name] = pid;
+  else
+    refused("the joint controller of " + model_->GetName() + " has no joint '" + name + "'; it takes scoped names (model::joint)");
+}
+
+void JointController::SetVelocityPID(const std::string& name, const common::PID& pid)
+{
+  if (joints_.count(name))
+    velocity_pids_[name] = pid;
+  else
+    refused("the joint controller of " + model_->GetName() + " has no joint '" + name + "'; it takes scoped names (model::joint)");
+}
+
+bool JointController::SetPositionTarget(const std::string& name, double target)
+{
+  return joints_.count(name) && (positions_[name] = target, true);
+}
+bool JointController::SetVelocityTarget(const std::string& name, double target)
+{
+  return joints_.count(name) && (velocities_[name] = target, true);
+}
+bool JointController::SetForce(const std::string& name, double force) { return joints_.count(name) && (forces_[name] = force, true); }
+
+}  // namespace physics
+}  // namespace gazebo

@@ -1,0 +1,156 @@
+#include "loader.hpp"
+
+#include <cstring>
+#include <dlfcn.h>
+#include <stdexcept>
+
+#include <compiled_plugins/guard.h>
+#include <gazebo/physics/physics.hh>
+
+#include "sdf_text.hpp"
+
+namespace gazebo
+{
+namespace
+{
+
+const char* kind_name(PluginType kind)
+{
+  static const char* const names[] = { "world", "model", "sensor", "system", "visual", "GUI" };
+  return names[kind];
+}
+
+std::string trimmed(std::string text)
+{
+  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back())))
+    text.pop_back();
+  return text;
+}
+
+}  // namespace
+
+template <class F> void LoadedPlugin::call(const char* what, F f)
+{
+  const internal::Running running(label_, what);
+  try
+  {
+    f();
+  }
+  catch (const std::exception& error)
+  {
+    throw std::runtime_error(std::string("its ") + what + " threw " + trimmed(error.what()));
+  }
+  catch (...)
+  {
+    throw std::runtime_error(std::string("its ") + what + " threw something that is no std::exception");
+  }
+}
+
+LoadedPlugin::LoadedPlugin(const std::string& library, const std::string& file, const std::string& name, const std::string& label)
+  : label_(strdup(label.c_str()))  // never freed: handlers of signals and threads of plugins read it
+{
+  void* handle = nullptr;
+  call("library's start", [&] { handle = dlopen(library.c_str(), RTLD_LAZY | RTLD_GLOBAL); });
+  if (!handle)
+    throw std::runtime_error(std::string("the library cannot be loaded: ") + dlerror());
+  compiled_plugins::remember(library);
+  void* const entry = dlsym(handle, "RegisterPlugin");
+  if (!entry)
+    throw std::runtime_error("the library " + library +
+                             " is no plugin: its source has to end with GZ_REGISTER_MODEL_PLUGIN(Class), or ..._WORLD_, ..._SENSOR_");
+  // Of whichever kind, the first base is a PluginT; those differ in their template argument alone.
+  ModelPlugin* made = nullptr;
+  call("constructor", [&] { made = reinterpret_cast<ModelPlugin* (*)()>(entry)(); });
+  if (!made)
+    throw std::runtime_error("RegisterPlugin() of " + library + " gave no plugin");
+  kind_ = made->GetType();
+  made->SetNames(file, name);
+  void* const object = made;
+  switch (kind_)
+  {
+    case MODEL_PLUGIN: model_.reset(made); break;
+    case WORLD_PLUGIN: world_.reset(static_cast<WorldPlugin*>(object)); break;
+    case SENSOR_PLUGIN: sensor_.reset(static_cast<SensorPlugin*>(object)); break;
+    case SYSTEM_PLUGIN: system_.reset(static_cast<SystemPlugin*>(object)); break;
+    default: throw std::runtime_error(std::string("is a ") + kind_name(kind_) + " plugin: there is nothing here that it could draw on");
+  }
+}
+
+LoadedPlugin::~LoadedPlugin() = default;
+
+namespace
+{
+
+void wrong_kind(PluginType kind, const char* wanted)
+{
+  throw std::runtime_error(std::string("is a ") + kind_name(kind) + " plugin, and stands where a " + wanted +
+                           " plugin does: move its <plugin> to the element of a " + kind_name(kind));
+}
+
+}  // namespace
+
+void LoadedPlugin::LoadModel(const std::string& model, int index, const std::string& text)
+{
+  if (!model_)
+    wrong_kind(kind_, "model");
+  const physics::ModelPtr found = physics::get_world()->ModelByName(model);
+  if (!found)
+    throw std::runtime_error("the model has gone");
+  const sdf::ElementPtr element = plugin_element(found->GetSDF(), index, text);
+  call("Load()", [&] { model_->Load(found, element); });
+  call("Init()", [&] { model_->Init(); });
+}
+
+void LoadedPlugin::LoadWorld(int index, const std::string& text)
+{
+  if (!world_)
+    wrong_kind(kind_, "world");
+  const physics::WorldPtr world = physics::get_world();
+  const sdf::ElementPtr element = plugin_element(world->SDF(), index, text);
+  call("Load()", [&] { world_->Load(world, element); });
+  call("Init()", [&] { world_->Init(); });
+}
+
+void LoadedPlugin::LoadSensor(const sensors::SensorPtr& sensor, const std::string& text)
+{
+  if (!sensor_)
+    wrong_kind(kind_, "sensor");
+  const sdf::ElementPtr element = plugin_element(sdf::ElementPtr(), 0, text);
+  call("Load()", [&] { sensor_->Load(sensor, element); });
+  call("Init()", [&] { sensor_->Init(); });
+}
+
+void LoadedPlugin::LoadSystem(int argc, char** argv)
+{
+  if (!system_)
+    wrong_kind(kind_, "system");
+  call("Load()", [&] { system_->Load(argc, argv); });
+  call("Init()", [&] { system_->Init(); });
+}
+
+void LoadedPlugin::Reset()
+{
+  call("Reset()", [&] {
+    if (model_)
+      model_->Reset();
+    if (world_)
+      world_->Reset();
+    if (sensor_)
+      sensor_->Reset();
+    if (system_)
+      system_->Reset();
+  });
+}
+
+/// The library stays: threads and static objects of it may go on.
+void LoadedPlugin::Destroy()
+{
+  call("destructor", [&] {
+    model_.reset();
+    world_.reset();
+    sensor_.reset();
+    system_.reset();
+  });
+}
+
+}  // namespace gazebo

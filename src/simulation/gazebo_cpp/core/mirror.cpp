@@ -1,0 +1,309 @@
+#include "mirror.hpp"
+
+#include <mutex>
+#include <set>
+
+#include "contacts.hpp"
+#include "topics.hpp"
+#include "transport.hpp"
+
+namespace gazebo
+{
+namespace physics
+{
+
+boost::recursive_mutex& step_mutex()
+{
+  const WorldPtr world = Mirror::Get().GetWorld();
+  static boost::recursive_mutex* none = new boost::recursive_mutex;
+  return world ? *world->Physics()->GetPhysicsUpdateMutex() : *none;
+}
+
+void refused(const std::string& text)
+{
+  static std::mutex* mutex = new std::mutex;
+  static auto* said = new std::set<std::string>;
+  const std::lock_guard<std::mutex> lock(*mutex);
+  const char* who = internal::CurrentPlugin();
+  const std::string line = (who ? std::string(who) + ": " : "") + text;
+  if (said->size() < 1000 && said->insert(line).second)
+    internal::Report(false, line);
+}
+
+void change(const std::string& who, const std::function<void()>& f)
+{
+  const boost::recursive_mutex::scoped_lock lock(step_mutex());
+  try
+  {
+    f();
+  }
+  catch (const std::exception& error)
+  {
+    refused(who + ": " + error.what() + "; nothing is changed");
+  }
+}
+
+// -- the world ----------------------------------------------------------------------------------------------------------------------
+
+Mirror& Mirror::Get()
+{
+  static Mirror* one = new Mirror;
+  return *one;
+}
+
+void Mirror::Start(ode_sim::World* core, const std::string& name, const std::string& text, double update_rate)
+{
+  const WorldPtr world(new World(name));
+  world->core_ = core;
+  world->text_ = text;
+  world->physics_.reset(new PhysicsEngine(world));
+  world->physics_->update_rate_ = update_rate;
+  world_ = world;
+  now_ns_ = core->scene().time_ns;
+  transport::set_world(name);
+  topics_ = new Topics(name);
+  core->observer = this;
+  event::Events::worldCreated(name);
+}
+
+void Mirror::Describe(const std::vector<double>& magnetic_field, const std::vector<double>& place)
+{
+  world_->magnetic_.Set(magnetic_field.at(0), magnetic_field.at(1), magnetic_field.at(2));
+  common::SphericalCoordinates& there = *world_->place_;
+  constexpr double degree = 3.14159265358979323846 / 180;
+  there.SetLatitudeReference(place.at(0) * degree), there.SetLongitudeReference(place.at(1) * degree);
+  there.SetElevationReference(place.at(2)), there.SetHeadingOffset(place.at(3) * degree);
+}
+
+void Mirror::Stop()
+{
+  if (world_)
+    world_->core_->observer = nullptr;
+}
+
+void Mirror::SetPaused(bool paused)
+{
+  if (!world_ || world_->paused_ == paused)
+    return;
+  world_->paused_ = paused;
+  event::Events::pause(paused);
+}
+
+void Mirror::WasReset(bool time)
+{
+  last_ns_ = world_->core_->scene().time_ns;
+  now_ns_ = last_ns_;
+  if (time)
+    event::Events::timeReset();
+  else
+    event::Events::worldReset();
+}
+
+// -- models -------------------------------------------------------------------------------------------------------------------------
+
+namespace
+{
+
+ShapePtr make_shape(const CollisionPtr& collision, const CollisionRecord& r)
+{
+  const auto n = [&](std::size_t i) { return i < r.numbers.size() ? r.numbers[i] : 0.0; };
+  if (r.kind == "box")
+    return ShapePtr(new BoxShape(collision, { n(0), n(1), n(2) }));
+  if (r.kind == "sphere")
+    return ShapePtr(new SphereShape(collision, n(0)));
+  if (r.kind == "cylinder" || r.kind == "capsule")
+    return ShapePtr(new CylinderShape(collision, n(0), n(1)));
+  if (r.kind == "plane")
+    return ShapePtr(new PlaneShape(collision, { n(0), n(1), n(2) }));
+  if (r.kind == "mesh")
+    return ShapePtr(new MeshShape(collision, r.uri, { n(0), n(1), n(2) }));
+  if (r.kind == "heightmap")
+    return ShapePtr(new HeightmapShape(collision));
+  return ShapePtr(new Shape(collision, Base::POLYLINE_SHAPE));
+}
+
+Base::EntityType type_of(const std::string& type)
+{
+  static const std::map<std::string, Base::EntityType> types = {
+    { "prismatic", Base::SLIDER_JOINT }, { "fixed", Base::FIXED_JOINT }, { "ball", Base::BALL_JOINT },
+    { "universal", Base::UNIVERSAL_JOINT }, { "revolute2", Base::HINGE2_JOINT }
+  };
+  const auto found = types.find(type);
+  return found == types.end() ? Base::HINGE_JOINT : found->second;
+}
+
+template <class T, class Items> T* with_id(const Items& items, int id)
+{
+  for (const auto& item : items)
+    if (item->id == id)
+      return item.get();
+  throw std::runtime_error("the simulator's core has no part with this number");
+}
+
+}  // namespace
+
+void Mirror::addLink(Model& model, const LinkRecord& record)
+{
+  const LinkPtr link(new Link(model.shared_from_this()));
+  link->SetName(record.name);
+  // Whoever has the link keeps the whole model of the core: it points into it.
+  link->core_ = std::shared_ptr<ode_sim::Link>(model.core_, with_id<ode_sim::Link>(model.core_->links, record.id));
+  link->sensors_ = record.sensors;
+  link->SetCanonicalLink(model.links_.empty());
+  link->SetInitialRelativePose(link->WorldPose() - ign(model.core_->links.front()->X_WL));
+  const ode_sim::Sym3& I = link->core_->inertia;
+  link->inertial->SetMass(link->core_->mass);
+  link->inertial->SetCoG(ign(link->core_->com));
+  link->inertial->SetInertiaMatrix(I.xx, I.yy, I.zz, I.xy, I.xz, I.yz);
+  for (const CollisionRecord& each : record.collisions)
+  {
+    const CollisionPtr collision(new Collision(link));
+    collision->SetName(each.name);
+    collision->core_ = std::shared_ptr<ode_sim::Shape>(model.core_, with_id<ode_sim::Shape>(link->core_->shapes, each.shape));
+    collision->SetInitialRelativePose(ign(collision->core_->X_LC));
+    collision->shape_ = make_shape(collision, each);
+    collision->shape_->SetName(each.kind);
+    collision->surface_.reset(new SurfaceParams(collision->core_));
+    number_collision(each.shape, collision.get());
+    link->collisions_.push_back(collision);
+    link->AddChild(collision);
+  }
+  model.links_.push_back(link);
+  model.AddChild(link);
+}
+
+void Mirror::addJoint(Model& model, const JointRecord& record)
+{
+  const JointPtr joint(new Joint(model.shared_from_this()));
+  joint->SetName(record.name);
+  joint->AddType(type_of(record.type));
+  joint->core_ = std::shared_ptr<ode_sim::Joint>(model.core_, with_id<ode_sim::Joint>(model.core_->joints, record.id));
+  for (const LinkPtr& link : model.links_)
+  {
+    if (link->core_.get() == joint->core_->parent)
+      joint->parent_ = link;
+    if (link->core_.get() == joint->core_->child)
+      joint->child_ = link;
+  }
+  model.joints_.push_back(joint);
+  model.AddChild(joint);
+}
+
+void Mirror::Add(const ModelRecord& record)
+{
+  const ModelPtr model(new Model(BasePtr()));
+  model->SetWorld(world_);
+  model->SetName(record.name);
+  model->text_ = record.text;
+  for (const auto& core : world_->core_->scene().models)
+    if (core->id == record.id)
+      model->core_ = core;
+  if (!model->core_)
+    throw std::runtime_error("the simulator's core has no model '" + record.name + "'");
+  for (const LinkRecord& link : record.links)
+    addLink(*model, link);
+  for (const JointRecord& joint : record.joints)
+    addJoint(*model, joint);
+  if (!model->links_.empty())
+    model->X_LM_ = ign(record.X_WM) - model->links_.front()->WorldPose();
+  model->SetInitialRelativePose(ign(record.X_WM));
+  {
+    const std::lock_guard<std::mutex> lock(world_->models_mutex_);
+    world_->models_.push_back(model);
+  }
+  event::Events::addEntity(record.name);
+}
+
+void Mirror::Remove(const std::string& name)
+{
+  const ModelPtr model = world_->ModelByName(name);
+  if (!model)
+    return;
+  {
+    const std::lock_guard<std::mutex> lock(world_->models_mutex_);
+    auto& models = world_->models_;
+    models.erase(std::find(models.begin(), models.end(), model));
+  }
+  for (const LinkPtr& link : model->links_)
+    for (const CollisionPtr& collision : link->collisions_)
+      number_collision(collision->core_->id, nullptr);
+  event::Events::deleteEntity(name);
+}
+
+// -- every step ---------------------------------------------------------------------------------------------------------------------
+
+void Mirror::Watch(const LinkPtr& link)
+{
+  const boost::recursive_mutex::scoped_lock lock(step_mutex());
+  link->watched_ = true;
+  link->v_ = link->WorldCoGLinearVel(), link->w_ = link->WorldAngularVel();
+  watched_.push_back(link);
+}
+
+void Mirror::accelerations()
+{
+  const double dt = (now_ns_ - last_ns_) * 1e-9;
+  for (auto& weak : watched_)
+  {
+    const LinkPtr link = weak.lock();
+    if (!link || !(dt > 0))
+      continue;
+    const auto v = link->WorldCoGLinearVel(), w = link->WorldAngularVel();
+    link->a_ = (v - link->v_) / dt, link->alpha_ = (w - link->w_) / dt;
+    link->v_ = v, link->w_ = w;
+  }
+}
+
+void Mirror::before(int64_t time_ns)
+{
+  frozen_.reset();  // of a step that never ended
+  last_ns_ = world_->core_->scene().time_ns;
+  now_ns_ = time_ns;
+  if (host.clock)
+    host.clock(time_ns * 1e-9);
+  common::UpdateInfo info;
+  info.worldName = world_->Name();
+  info.simTime = world_->SimTime();
+  info.realTime = world_->RealTime();
+  event::Events::worldUpdateBegin(info);
+  for (const ModelPtr& model : world_->models_)
+    if (model->controller_)
+      model->controller_->Update();
+  event::Events::beforePhysicsUpdate(info);
+  frozen_.reset(new boost::recursive_mutex::scoped_lock(step_mutex()));
+}
+
+void Mirror::after(int64_t)
+{
+  accelerations();
+  topics_->Publish(*world_);
+  frozen_.reset();
+  event::Events::worldUpdateEnd();
+}
+
+// -- free functions -----------------------------------------------------------------------------------------------------------------
+
+WorldPtr get_world(const std::string& name)
+{
+  const WorldPtr world = Mirror::Get().GetWorld();
+  if (!world || (!name.empty() && name != world->Name()))
+    gzthrow("there is no world" << (name.empty() ? "" : " named '" + name + "'") << (world ? "; it is '" + world->Name() + "'" : ""));
+  return world;
+}
+
+bool has_world(const std::string& name)
+{
+  const WorldPtr world = Mirror::Get().GetWorld();
+  return world && (name.empty() || name == world->Name());
+}
+
+void pause_world(WorldPtr world, bool pause)
+{
+  if (world)
+    world->SetPaused(pause);
+}
+
+void pause_worlds(bool pause) { pause_world(Mirror::Get().GetWorld(), pause); }
+
+}  // namespace physics
+}  // namespace gazebo

@@ -1,0 +1,97 @@
+// The tree of physics objects over the models of an ode_sim::World, and what calls plugins in each step.
+#pragma once
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <gazebo/common/common.hh>
+#include <gazebo/physics/physics.hh>
+
+#include "convert.hpp"
+
+namespace gazebo
+{
+namespace physics
+{
+
+struct CollisionRecord
+{
+  std::string name;
+  int shape = 0;
+  std::string kind, uri;
+  std::vector<double> numbers;
+};
+
+struct LinkRecord
+{
+  std::string name;
+  int id = 0;
+  std::vector<CollisionRecord> collisions;
+  std::vector<std::string> sensors;
+};
+
+struct JointRecord
+{
+  std::string name, type;
+  int id = 0;
+};
+
+struct ModelRecord
+{
+  std::string name, text;  // text: SDF
+  int id = 0;
+  ode_sim::Pose X_WM;
+  std::vector<LinkRecord> links;
+  std::vector<JointRecord> joints;
+};
+
+/// What the simulator alone can do. May be called in any thread; it is done between two steps.
+struct Host
+{
+  std::function<void(const std::string&, const std::vector<double>&)> insert;  // SDF of a model; x y z qx qy qz qw, or nothing
+  std::function<void(const std::string&, const std::string&, const std::string&)> plugin;  // of the world: file, name, <plugin>
+  std::function<void(const std::string&)> remove;             // name of a model
+  std::function<void(const std::string&)> order;              // pause, unpause, reset, reset_poses, reset_time
+  std::function<void(unsigned int)> step;                     // so many steps, while paused
+  std::function<void(const std::string&, double)> parameter;  // of Physics
+  std::function<void(double)> clock;                          // of roscpp, s; in the thread that steps
+};
+
+class Topics;
+
+class GAZEBO_VISIBLE Mirror : public ode_sim::StepObserver
+{
+public:
+  static Mirror& Get();
+  Host host;
+
+  void Start(ode_sim::World* core, const std::string& name, const std::string& text, double update_rate);
+  void Describe(const std::vector<double>& magnetic_field, const std::vector<double>& place);
+  void Stop();
+  WorldPtr GetWorld() const { return world_; }
+  Topics* GetTopics() const { return topics_; }
+  void Add(const ModelRecord& record);
+  void Remove(const std::string& name);
+  void SetPaused(bool paused);
+  void WasReset(bool time);
+  void before(int64_t time_ns) override;
+  void after(int64_t time_ns) override;
+  int64_t Now() const { return now_ns_; }
+  void Watch(const LinkPtr& link);
+
+private:
+  void addLink(Model& model, const LinkRecord& record);
+  void addJoint(Model& model, const JointRecord& record);
+  void accelerations();
+  WorldPtr world_;
+  std::atomic<int64_t> now_ns_{ 0 };
+  int64_t last_ns_ = 0;
+  std::vector<boost::weak_ptr<Link>> watched_;
+  Topics* topics_ = nullptr;  // as long as the process
+  std::unique_ptr<boost::recursive_mutex::scoped_lock> frozen_;
+};
+
+}  // namespace physics
+}  // namespace gazebo

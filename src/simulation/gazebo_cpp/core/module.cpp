@@ -1,0 +1,106 @@
+// The bridge to Python: the server starts the mirror of its world, tells it of models, and loads plugins.
+#include <dlfcn.h>
+
+#include <gazebo/gazebo.hh>
+#include <pybind11/functional.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <compiled_plugins/guard.h>
+#include <compiled_plugins/ros.h>
+
+#include "loader.hpp"
+#include "mirror.hpp"
+
+namespace py = pybind11;
+using gazebo::LoadedPlugin;
+using gazebo::physics::Mirror;
+
+namespace
+{
+
+using Free = py::call_guard<py::gil_scoped_release>;
+using Numbers = std::vector<double>;
+using CollisionTuple = std::tuple<std::string, int, std::string, Numbers, std::string>;
+using LinkTuple = std::tuple<std::string, int, std::vector<CollisionTuple>, std::vector<std::string>>;
+using JointTuple = std::tuple<std::string, std::string, int>;
+
+/// Python loads its modules so that no other library sees what they bring; plugins that were linked carelessly find Gazebo here.
+void show_to_all()
+{
+  for (void* symbol : { reinterpret_cast<void*>(&gazebo::physics::get_world), reinterpret_cast<void*>(&gazebo::printVersion) })
+  {
+    Dl_info info;
+    if (dladdr(symbol, &info) && info.dli_fname)
+      dlopen(info.dli_fname, RTLD_NOLOAD | RTLD_LAZY | RTLD_GLOBAL);
+  }
+}
+
+void start(std::uintptr_t core, const std::string& name, const std::string& text, double update_rate, const Numbers& magnetic_field,
+           const Numbers& place)
+{
+  Mirror::Get().Start(reinterpret_cast<ode_sim::World*>(core), name, text, update_rate);
+  Mirror::Get().Describe(magnetic_field, place);
+}
+
+void add_model(const std::string& name, const std::string& text, int id, const Numbers& X, const std::vector<LinkTuple>& links,
+               const std::vector<JointTuple>& joints)
+{
+  const ode_sim::Pose X_WM{ { X.at(0), X.at(1), X.at(2) }, { X.at(3), X.at(4), X.at(5), X.at(6) } };
+  gazebo::physics::ModelRecord model{ name, text, id, X_WM, {}, {} };
+  for (const auto& [link_name, link_id, collisions, sensors] : links)
+  {
+    model.links.push_back({ link_name, link_id, {}, sensors });
+    for (const auto& [collision, shape, kind, numbers, uri] : collisions)
+      model.links.back().collisions.push_back({ collision, shape, kind, uri, numbers });
+  }
+  for (const auto& [joint, type, joint_id] : joints)
+    model.joints.push_back({ joint, type, joint_id });
+  Mirror::Get().Add(model);
+}
+
+void set_host(std::function<void(std::string, Numbers)> insert, std::function<void(std::string)> remove, std::function<void(std::string)> order,
+              std::function<void(unsigned int)> step, std::function<void(std::string, double)> parameter,
+              std::function<void(std::string, std::string, std::string)> plugin, bool clock)
+{
+  auto& host = Mirror::Get().host;
+  host.insert = std::move(insert), host.remove = std::move(remove), host.order = std::move(order);
+  host.step = std::move(step), host.parameter = std::move(parameter), host.plugin = std::move(plugin);
+  if (clock)
+    host.clock = compiled_plugins::set_time;
+}
+
+void load_system(LoadedPlugin& plugin, std::vector<std::string> words)
+{
+  std::vector<char*> pointers;
+  static std::vector<std::string> kept;  // plugins may keep argv
+  kept = std::move(words);
+  for (std::string& word : kept)
+    pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  plugin.LoadSystem(static_cast<int>(kept.size()), pointers.data());
+}
+
+}  // namespace
+
+PYBIND11_MODULE(_core, m)
+{
+  m.doc() = "Gazebo Classic's C++ API over a simulated world: the mirror of its models, and compiled plugins.";
+  show_to_all();
+  m.def("start", &start, Free());
+  m.def("stop", [] { Mirror::Get().Stop(); }, Free());
+  m.def("set_host", &set_host);
+  m.def("set_reporter", &gazebo::internal::SetReporter);
+  m.def("set_verbose", [](bool on) { gazebo::common::Console::SetQuiet(!on); });
+  m.def("add_model", &add_model, Free());
+  m.def("remove_model", [](const std::string& name) { Mirror::Get().Remove(name); }, Free());
+  m.def("set_paused", [](bool paused) { Mirror::Get().SetPaused(paused); }, Free());
+  m.def("was_reset", [](bool time) { Mirror::Get().WasReset(time); }, Free());
+  py::class_<LoadedPlugin, std::shared_ptr<LoadedPlugin>>(m, "Plugin")
+      .def(py::init<const std::string&, const std::string&, const std::string&, const std::string&>(), Free())
+      .def("load_model", &LoadedPlugin::LoadModel, Free())
+      .def("load_world", &LoadedPlugin::LoadWorld, Free())
+      .def("load_system", &load_system, Free())
+      .def("reset", &LoadedPlugin::Reset, Free())
+      .def("destroy", &LoadedPlugin::Destroy, Free());
+}

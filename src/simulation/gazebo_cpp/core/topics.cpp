@@ -1,0 +1,151 @@
+#include "topics.hpp"
+
+#include <algorithm>
+
+#include "mirror.hpp"
+
+namespace gazebo
+{
+namespace physics
+{
+
+namespace
+{
+
+constexpr double pose_period = 1.0 / 60, stats_period = 0.2;  // s of the wall's clock
+
+bool among(const std::vector<std::string>& names, const Collision& collision)
+{
+  return std::find(names.begin(), names.end(), collision.GetScopedName()) != names.end();
+}
+
+}  // namespace
+
+Topics::Topics(const std::string& world) : node_(new transport::Node)
+{
+  node_->Init(world);
+  contacts_ = node_->Advertise<msgs::Contacts>("~/physics/contacts");
+  poses_ = node_->Advertise<msgs::PosesStamped>("~/pose/info");
+  local_poses_ = node_->Advertise<msgs::PosesStamped>("~/pose/local/info");
+  stats_ = node_->Advertise<msgs::WorldStatistics>("~/world_stats");
+  factory_ = node_->Subscribe("~/factory", &Topics::onFactory, this);
+  control_ = node_->Subscribe("~/world_control", &Topics::onControl, this);
+  request_ = node_->Subscribe("~/request", &Topics::onRequest, this);
+}
+
+void Topics::AddFilter(const std::string& topic, const std::vector<std::string>& collisions)
+{
+  filters_[topic] = { collisions, node_->Advertise<msgs::Contacts>(topic), topic };
+}
+
+void Topics::RemoveFilter(const std::string& topic) { filters_.erase(topic); }
+
+void Topics::publishContacts(World& world)
+{
+  const bool all = contacts_->HasConnections();
+  const bool some = std::any_of(filters_.begin(), filters_.end(), [](const auto& f) { return f.second.publisher->HasConnections(); });
+  if (!all && !some)
+    return;
+  const std::vector<Contact*>& contacts = world.Physics()->GetContactManager()->GetContacts();
+  const auto send = [&](const transport::PublisherPtr& publisher, const std::vector<std::string>* names) {
+    msgs::Contacts message;
+    msgs::Set(message.mutable_time(), world.SimTime());
+    for (const Contact* contact : contacts)
+      if (!names || among(*names, *contact->collision1) || among(*names, *contact->collision2))
+        contact->FillMsg(*message.add_contact());
+    publisher->Publish(message);
+  };
+  if (all)
+    send(contacts_, nullptr);
+  for (const auto& filter : filters_)
+    if (filter.second.publisher->HasConnections())
+      send(filter.second.publisher, &filter.second.collisions);
+}
+
+void Topics::publishPoses(World& world, const common::Time& now)
+{
+  if ((now - last_poses_).Double() < pose_period || !(poses_->HasConnections() || local_poses_->HasConnections()))
+    return;
+  last_poses_ = now;
+  msgs::PosesStamped message;
+  msgs::Set(message.mutable_time(), world.SimTime());
+  const auto add = [&](const Entity& entity) {
+    msgs::Pose& pose = *message.add_pose();
+    pose.set_name(entity.GetScopedName());
+    pose.set_id(entity.GetId());
+    msgs::Set(&pose, entity.RelativePose());
+  };
+  for (const ModelPtr& model : world.Models())
+  {
+    add(*model);
+    for (const LinkPtr& link : model->GetLinks())
+      add(*link);
+  }
+  poses_->Publish(message);
+  local_poses_->Publish(message);
+}
+
+void Topics::Publish(World& world)
+{
+  publishContacts(world);
+  const common::Time now = common::Time::GetWallTime();
+  publishPoses(world, now);
+  if ((now - last_stats_).Double() < stats_period || !stats_->HasConnections())
+    return;
+  last_stats_ = now;
+  msgs::WorldStatistics message;
+  msgs::Set(message.mutable_sim_time(), world.SimTime());
+  msgs::Set(message.mutable_real_time(), world.RealTime());
+  msgs::Set(message.mutable_pause_time(), world.PauseTime());
+  message.set_iterations(world.Iterations());
+  message.set_paused(world.IsPaused());
+  stats_->Publish(message);
+}
+
+void Topics::onFactory(ConstFactoryPtr& message)
+{
+  const WorldPtr world = Mirror::Get().GetWorld();
+  std::vector<double> pose;
+  if (message->has_pose())
+  {
+    const auto& p = message->pose().position();
+    const auto& q = message->pose().orientation();
+    pose = { p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w() };
+  }
+  if (message->has_sdf() && Mirror::Get().host.insert)
+    Mirror::Get().host.insert(message->sdf(), pose);
+  else if (message->has_sdf_filename())
+    world->InsertModelFile(message->sdf_filename());
+  else
+    refused("~/factory: only models as sdf or sdf_filename can be inserted");
+}
+
+void Topics::onControl(ConstWorldControlPtr& message)
+{
+  const WorldPtr world = Mirror::Get().GetWorld();
+  if (message->has_pause())
+    world->SetPaused(message->pause());
+  if (message->has_step())
+    world->Step(1);
+  if (message->has_multi_step())
+    world->Step(message->multi_step());
+  if (message->has_seed())
+    world->Physics()->SetSeed(message->seed());
+  if (!message->has_reset())
+    return;
+  if (message->reset().time_only())
+    world->ResetTime();
+  else if (message->reset().model_only())
+    world->ResetEntities(Base::MODEL);
+  else
+    world->Reset();
+}
+
+void Topics::onRequest(ConstRequestPtr& message)
+{
+  if (message->request() == "entity_delete")
+    Mirror::Get().GetWorld()->RemoveModel(message->data());
+}
+
+}  // namespace physics
+}  // namespace gazebo

@@ -1,0 +1,17 @@
+#pragma once
+#include <gazebo/common/Assert.hh>
+#include <gazebo/common/CommonTypes.hh>
+#include <gazebo/common/Console.hh>
+#include <gazebo/common/Event.hh>
+#include <gazebo/common/Events.hh>
+#include <gazebo/common/Exception.hh>
+#include <gazebo/common/PID.hh>
+#include <gazebo/common/Plugin.hh>
+#include <gazebo/common/SingletonT.hh>
+#include <gazebo/common/SphericalCoordinates.hh>
+#include <gazebo/common/SystemPaths.hh>
+#include <gazebo/common/Time.hh>
+#include <gazebo/common/Timer.hh>
+#include <gazebo/common/UpdateInfo.hh>
+#include <gazebo/gazebo_config.h>
+#include <ignition/math.hh>

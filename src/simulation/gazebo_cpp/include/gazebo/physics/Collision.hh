@@ -1,0 +1,42 @@
+#pragma once
+#include <memory>
+
+#include <gazebo/physics/Entity.hh>
+#include <gazebo/physics/SurfaceParams.hh>
+
+namespace gazebo
+{
+namespace physics
+{
+
+class GAZEBO_VISIBLE Collision : public Entity
+{
+public:
+  explicit Collision(LinkPtr link);
+  const ignition::math::Pose3d& WorldPose() const override;
+  ignition::math::AxisAlignedBox BoundingBox() const override;
+  ignition::math::Vector3d WorldLinearVel() const override;
+  ignition::math::Vector3d WorldAngularVel() const override;
+  LinkPtr GetLink() const;
+  ModelPtr GetModel() const;
+  ShapePtr GetShape() const { return shape_; }
+  unsigned int GetShapeType() const;
+  SurfaceParamsPtr GetSurface() const { return surface_; }
+  virtual void SetCategoryBits(unsigned int) {}
+  virtual void SetCollideBits(unsigned int bits);
+  void SetLaserRetro(float) {}
+  float GetLaserRetro() const { return 0; }
+  unsigned int GetMaxContacts();
+  virtual void SetMaxContacts(unsigned int most);
+  bool IsPlaceable() const { return !IsStatic(); }
+  std::shared_ptr<ode_sim::Shape> Core() const { return core_; }
+
+private:
+  friend class Mirror;
+  std::shared_ptr<ode_sim::Shape> core_;
+  ShapePtr shape_;
+  SurfaceParamsPtr surface_;
+};
+
+}  // namespace physics
+}  // namespace gazebo

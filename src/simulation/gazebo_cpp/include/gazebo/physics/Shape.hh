@@ -1,0 +1,116 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include <ignition/math/Vector2.hh>
+#include <ignition/math/Vector3.hh>
+
+#include <gazebo/common/Event.hh>
+#include <gazebo/physics/Base.hh>
+
+namespace gazebo
+{
+namespace physics
+{
+
+/// The geometry of a collision, as it was described. Only rays can be changed.
+class GAZEBO_VISIBLE Shape : public Base
+{
+public:
+  Shape(CollisionPtr parent, EntityType type);
+  virtual double ComputeVolume() const { return 0; }
+  ignition::math::Vector3d Scale() const { return ignition::math::Vector3d::One; }
+  virtual void SetScale(const ignition::math::Vector3d&) {}
+};
+
+class GAZEBO_VISIBLE BoxShape : public Shape
+{
+public:
+  BoxShape(CollisionPtr parent, const ignition::math::Vector3d& size) : Shape(parent, BOX_SHAPE), size_(size) {}
+  ignition::math::Vector3d Size() const { return size_; }
+  double ComputeVolume() const override { return size_.X() * size_.Y() * size_.Z(); }
+
+private:
+  ignition::math::Vector3d size_;
+};
+
+class GAZEBO_VISIBLE SphereShape : public Shape
+{
+public:
+  SphereShape(CollisionPtr parent, double radius) : Shape(parent, SPHERE_SHAPE), radius_(radius) {}
+  double GetRadius() const { return radius_; }
+  double ComputeVolume() const override { return 4.0 / 3.0 * 3.14159265358979323846 * radius_ * radius_ * radius_; }
+
+private:
+  double radius_;
+};
+
+class GAZEBO_VISIBLE CylinderShape : public Shape
+{
+public:
+  CylinderShape(CollisionPtr parent, double radius, double length) : Shape(parent, CYLINDER_SHAPE), radius_(radius), length_(length) {}
+  double GetRadius() const { return radius_; }
+  double GetLength() const { return length_; }
+  double ComputeVolume() const override { return 3.14159265358979323846 * radius_ * radius_ * length_; }
+
+private:
+  double radius_, length_;
+};
+
+class GAZEBO_VISIBLE PlaneShape : public Shape
+{
+public:
+  PlaneShape(CollisionPtr parent, const ignition::math::Vector3d& normal) : Shape(parent, PLANE_SHAPE), normal_(normal) {}
+  ignition::math::Vector3d Normal() const { return normal_; }
+  ignition::math::Vector2d Size() const { return { 1, 1 }; }
+
+private:
+  ignition::math::Vector3d normal_;
+};
+
+class GAZEBO_VISIBLE MeshShape : public Shape
+{
+public:
+  MeshShape(CollisionPtr parent, const std::string& uri, const ignition::math::Vector3d& scale)
+    : Shape(parent, MESH_SHAPE), uri_(uri), scale_(scale)
+  {
+  }
+  std::string GetMeshURI() const { return uri_; }
+  ignition::math::Vector3d Size() const { return scale_; }
+
+private:
+  std::string uri_;
+  ignition::math::Vector3d scale_;
+};
+
+class GAZEBO_VISIBLE HeightmapShape : public Shape
+{
+public:
+  explicit HeightmapShape(CollisionPtr parent) : Shape(parent, HEIGHTMAP_SHAPE) {}
+};
+
+/// A ray. Points in the world, or in the frame of the collision that it was made for.
+class GAZEBO_VISIBLE RayShape : public Shape
+{
+public:
+  explicit RayShape(CollisionPtr parent) : Shape(parent, RAY_SHAPE), collision_(parent) {}
+  void SetPoints(const ignition::math::Vector3d& start, const ignition::math::Vector3d& end) { start_ = start, end_ = end; }
+  void RelativePoints(ignition::math::Vector3d& start, ignition::math::Vector3d& end) { start = start_, end = end_; }
+  void GlobalPoints(ignition::math::Vector3d& start, ignition::math::Vector3d& end);
+  void Update() override;
+  void GetIntersection(double& distance, std::string& entity);  // m to the next collision, 1000 and "" where there is none
+  double GetLength() const { return length_; }
+  void SetLength(double length) { length_ = length; }
+  float GetRetro() const { return 0; }
+  int GetFiducial() const { return -1; }
+  std::string CollisionName() const { return hit_; }
+
+private:
+  CollisionPtr collision_;
+  ignition::math::Vector3d start_, end_;
+  double length_ = 1000;
+  std::string hit_;
+};
+
+}  // namespace physics
+}  // namespace gazebo

@@ -1,0 +1,3 @@
+#pragma once
+#include <gazebo/gazebo_config.h>
+#include <gazebo/sensors/SensorTypes.hh>

@@ -1,0 +1,2 @@
+#pragma once
+#include <gazebo/util/system.hh>

@@ -1,0 +1,55 @@
+"""Callbacks of the step loop, and whose they are."""
+from __future__ import annotations
+
+import threading
+from typing import Callable, Optional, Tuple
+
+import rospy
+
+from gazebo_ros.plugin_host import PluginInstance
+
+
+class Connection:
+    """A callback of the step loop; :meth:`disconnect` ends it."""
+    __slots__ = ("f", "owner", "_callbacks")
+
+    def __init__(self, f: Callable[[], None], owner: Optional[PluginInstance], callbacks: CallbackList):
+        self.f = f
+        self.owner = owner
+        self._callbacks = callbacks
+
+    def disconnect(self) -> None:
+        self._callbacks.disconnect(self)
+
+
+class CallbackList:
+    """Callbacks in connection order, of any thread. A change counts from the next step on."""
+
+    def __init__(self):
+        self.connections: Tuple[Connection, ...] = ()
+        self._lock = threading.Lock()
+
+    def connect(self, f: Callable[[], None], owner: Optional[PluginInstance] = None) -> Connection:
+        connection = Connection(f, owner, self)
+        with self._lock:
+            self.connections += (connection,)
+        return connection
+
+    def disconnect(self, connection: Connection) -> None:
+        with self._lock:
+            self.connections = tuple(c for c in self.connections if c is not connection)
+
+    def disconnect_owner(self, owner: PluginInstance) -> None:
+        with self._lock:
+            self.connections = tuple(c for c in self.connections if c.owner is not owner)
+
+    def call(self) -> None:
+        for connection in self.connections:
+            try:
+                connection.f()
+            except Exception as error:  # a plugin may raise anything; it must not take the world down
+                self.disconnect(connection)
+                if connection.owner is None:
+                    rospy.logerr("the simulator's own callback %r failed and is switched off: %r", connection.f, error)
+                else:
+                    connection.owner.report(error)

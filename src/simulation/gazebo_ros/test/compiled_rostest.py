@@ -1,0 +1,123 @@
+#!/usr/bin/env python3
+"""Plugins in C++, as their authors build them, on models and on the world."""
+import os
+import sys
+import unittest
+
+import rospy
+import rostest
+from geometry_msgs.msg import PointStamped
+from rosgraph_msgs.msg import Log
+from std_msgs.msg import Float64, String
+from std_srvs.srv import Empty
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from simulator import Case  # noqa: E402
+
+URDF = """<robot name="arm"><link name="world"/><link name="base"><inertial><mass value="1"/>
+<inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>
+<link name="tip"><inertial><mass value="2"/><inertia ixx="1" iyy="1" izz="0.5" ixy="0" ixz="0" iyz="0"/></inertial></link>
+<joint name="bolt" type="fixed"><parent link="world"/><child link="base"/><origin xyz="0 0 1"/></joint>
+<joint name="elbow" type="revolute"><parent link="base"/><child link="tip"/><axis xyz="0 0 1"/>
+<limit lower="-3" upper="3" effort="5" velocity="50"/></joint>
+<gazebo><plugin name="worker" filename="libgazebo_ros_test_{library}.so">{more}</plugin></gazebo></robot>"""
+BOX = """<sdf version="1.6"><model name="box"><pose>5 0 50 0 0 0</pose><link name="tip"><inertial><mass>2</mass></inertial></link>
+<plugin name="worker" filename="gazebo_ros_test_worker"><force>0 6 0</force></plugin></model></sdf>"""
+
+
+class CompiledTest(Case):
+    def setUp(self):
+        self.told, self.log, self.seen = [], [], []
+        self.subscribers = [rospy.Subscriber("/keeper/told", String, lambda m: self.told.append(m.data)),
+                            rospy.Subscriber("/rosout", Log, lambda m: self.log.append(m.msg)),
+                            rospy.Subscriber("/arm/seen", PointStamped, self.seen.append),
+                            rospy.Subscriber("/box/seen", PointStamped, self.seen.append)]
+        self.orders = rospy.Publisher("/keeper/orders", String, queue_size=10)
+        self.wait(lambda: self.subscribers[0].get_num_connections() and self.subscribers[1].get_num_connections() > 1
+                  and self.orders.get_num_connections())
+        self.sim.empty("reset_simulation")
+
+    def tearDown(self):
+        for name in self.sim.world().model_names:
+            if name != "ground_plane":
+                self.sim.delete(name)
+        for subscriber in self.subscribers:
+            subscriber.unregister()
+        self.orders.unregister()
+
+    def step_until(self, condition):
+        def one_more():
+            self.sim.step(1)
+            return condition()
+        self.wait(one_more)
+
+    def spawn_arm(self, library="worker", more=""):
+        self.done(self.sim.spawn("arm", URDF.format(library=library, more=more), kind="urdf"))
+
+    def test_model_plugin_drives_a_joint(self):
+        self.spawn_arm(more="<effort>0.25</effort>")
+        self.sim.step(1)
+        self.wait(lambda: self.subscribers[2].get_num_connections())
+        self.sim.step(399)
+        self.wait(lambda: self.seen)  # 0.25 N m on 0.5 kg m2 for 0.4 s
+        joint = self.sim.joint("elbow")
+        self.assertAlmostEqual(joint.rate[0], 0.2, delta=1e-3)
+        self.assertAlmostEqual(joint.position[0], 0.04, delta=1e-3)
+        self.assertEqual({m.header.frame_id for m in self.seen}, {"same"})  # ros::Time::now() is that of the step
+        effort = rospy.Publisher("/arm/effort", Float64, queue_size=1, latch=True)
+        effort.publish(-3.0)
+        self.step_until(lambda: self.sim.joint("elbow").rate[0] < -0.1)
+        self.orders.publish("go 4")  # over Gazebo's transport, from the world's plugin
+        self.step_until(lambda: self.sim.joint("elbow").rate[0] > 0.1)
+        effort.unregister()
+
+    def test_model_plugin_pushes_and_moves_its_model(self):
+        self.done(self.sim.spawn("box", BOX))
+        self.sim.step(100)
+        state = self.sim.model("box")
+        self.assertAlmostEqual(state.twist.linear.y, 6.0 / 2.0 * 0.1, delta=1e-6)
+        self.assertAlmostEqual(state.twist.linear.z, -0.98, delta=1e-3)
+        rospy.wait_for_service("/box/lift", 10)
+        rospy.ServiceProxy("/box/lift", Empty)()
+        state = self.sim.model("box")
+        self.assertEqual((state.pose.position.x, state.pose.position.z), (0.0, 5.0))
+        self.done(self.sim.delete("box"))
+        self.wait(lambda: "/box/lift" not in self.services())  # the plugin ended with its model
+
+    @staticmethod
+    def services():
+        return {name for name, _ in rospy.get_master().getSystemState()[2][2]}
+
+    def test_world_plugin_inserts_hears_and_removes(self):
+        self.wait(lambda: "loaded hello in compiled" in self.told or "reset" in self.told)
+        self.orders.publish("insert")
+        self.wait(lambda: "inserted" in self.sim.world().model_names)
+        self.step_until(lambda: "weight 10" in self.told)  # forces of its contacts with the ground
+        self.orders.publish("below")
+        self.wait(lambda: "inserted" in self.told)
+        self.orders.publish("remove")
+        self.wait(lambda: "inserted" not in self.sim.world().model_names)
+        self.orders.publish("below")
+        self.wait(lambda: "ground_plane" in self.told)
+
+    def logged(self, *words):
+        self.wait(lambda: any(all(word in line for word in words) for line in self.log))
+
+    def test_what_plugins_do_wrong_is_one_line(self):
+        self.spawn_arm(library="incomplete")
+        self.logged("plugin worker", "model arm", "libgazebo_ros_test_incomplete.so lacks the symbol gazebo::defined_nowhere()")
+        self.assertIn("arm", self.sim.world().model_names)
+        self.sim.delete("arm")
+        self.spawn_arm(library="keeper")
+        self.logged("model arm", "is a world plugin, and stands where a model plugin does")
+        self.orders.publish("fail")
+        self.step_until(lambda: any("told to fail" in line for line in self.log))
+        self.logged("plugin keeper", "of world compiled", "its update threw: told to fail")
+        before = self.sim.world().sim_time
+        self.sim.step(10)
+        self.assertAlmostEqual(self.sim.world().sim_time, before + 0.01, delta=1e-9)
+
+
+if __name__ == "__main__":
+    rospy.init_node("compiled_rostest")
+    rostest.rosrun("gazebo_ros", "compiled", CompiledTest)
