@@ -227,7 +227,7 @@ def main():
         figures.update(
             plans(
                 model,
-                21 if arguments.quick else 99,
+                21 if arguments.quick else 100,
                 "pedestal UR5, tables, shelves, cages",
                 lambda number: furnished(model, number),
             )
