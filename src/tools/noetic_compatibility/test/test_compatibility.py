@@ -64,15 +64,18 @@ def test_old_sources_build(package, standard):
     assert "global namespace is deprecated" not in ended.stdout + ended.stderr
 
 
-@pytest.mark.parametrize("before, after", [
-    ("add_compile_options(-std=c++11)", ""), ('set(CMAKE_CXX_FLAGS "${CMAKE_CXX_FLAGS} -std=c++0x -Wall")', ""),
-    ("set(CMAKE_CXX_STANDARD 11)\nset(CMAKE_CXX_EXTENSIONS OFF)", ""), ("", "set_target_properties(p PROPERTIES CXX_STANDARD 14)"),
-    ("", "set_target_properties(p PROPERTIES COMPILE_FLAGS -std=c++14)"), ("", "target_compile_options(p PRIVATE -std=gnu++14)"),
-    ("set(CMAKE_CXX_FLAGS -std=c++20)", "")])
-@pytest.mark.parametrize("minimum", ["3.0.2", "3.22"])
-def test_an_older_standard_is_raised(tmp_path, before, after, minimum):
+@pytest.mark.parametrize("minimum, before, after", [
+    ("3.0.2", "add_compile_options(-std=c++11)", ""), ("3.22", "add_compile_options(-std=c++11)", ""),
+    ("3.0.2", "add_definitions(-DX -std=c++11)", ""), ("3.22", "add_definitions(-std=c++11)", ""),
+    ("3.0.2", 'set(CMAKE_CXX_FLAGS "${CMAKE_CXX_FLAGS} -std=c++0x -Wall")', ""),
+    ("3.22", "set(CMAKE_CXX_STANDARD 11)\nset(CMAKE_CXX_EXTENSIONS OFF)", ""),
+    ("3.0.2", "", "set_target_properties(p PROPERTIES CXX_STANDARD 14)"),
+    ("3.22", "", "set_target_properties(p PROPERTIES COMPILE_FLAGS -std=c++14)"),
+    ("3.0.2", "", "target_compile_options(p PRIVATE -std=gnu++14)"), ("3.22", "set(CMAKE_CXX_FLAGS -std=c++20)", ""),
+    ("3.0.2", "add_definitions(-std=c++11)", "target_compile_options(p PRIVATE -std=c++20)")])
+def test_an_older_standard_is_raised(tmp_path, minimum, before, after):
     """Where the system's headers need it; here this header does."""
-    newer = "20" in before
+    newer = "20" in before + after
     (tmp_path / "below").mkdir()
     (tmp_path / "below/p.cpp").write_text(
         f"#include <filesystem>\nstatic_assert(__cplusplus {'>' if newer else '=='} 201703L);\nstd::filesystem::path p;\n")
@@ -84,6 +87,40 @@ def test_an_older_standard_is_raised(tmp_path, before, after, minimum):
     for command in (["cmake", "-S", tmp_path, "-B", build, "-Wno-dev"], ["cmake", "--build", build, "--verbose"]):
         ended = subprocess.run(command, capture_output=True, text=True, timeout=100)
         assert ended.returncode == 0, ended.stdout + ended.stderr
+
+
+def test_a_standard_is_raised_no_further_than_needed(tmp_path):
+    """One that suffices, or says more, is what it was."""
+    (tmp_path / "p.cpp").write_text("static_assert(__cplusplus == WANTED);\n")
+    (tmp_path / "CMakeLists.txt").write_text(f"""
+        cmake_minimum_required(VERSION 3.5)
+        project(p CXX)
+        include({HERE}/cmake/old_standards.cmake)
+        noetic_raise_standard(14)
+        function(told standard wanted)
+          add_library(told_${{standard}} OBJECT p.cpp)
+          target_compile_options(told_${{standard}} PRIVATE -std=c++${{standard}} -DWANTED=${{wanted}}L)
+        endfunction()
+        told(11 201402)
+        told(1y 201402)
+        told(17 201703)
+        add_definitions(-std=c++11)
+        told(20 202002)
+        add_library(newer OBJECT p.cpp)
+        set_target_properties(newer PROPERTIES CXX_STANDARD 17 COMPILE_DEFINITIONS WANTED=201703L)
+        """)
+    build = tmp_path / "build"
+    for command in (["cmake", "-S", tmp_path, "-B", build, "-Wno-dev"], ["cmake", "--build", build, "--verbose"]):
+        ended = subprocess.run(command, capture_output=True, text=True, timeout=100)
+        assert ended.returncode == 0, ended.stdout + ended.stderr
+
+
+@pytest.mark.skipif(not Path("/usr/share/pcl_ros").is_dir(), reason="without pcl_ros")
+def test_point_clouds_in_old_packages(package):
+    """PCL of Debian 12 asks for C++14; Noetic's packages say C++11."""
+    ended = package("pcl_ros", "#include <pcl/pcl_config.h>\n#if __cplusplus != 201402L\n#error\n#endif\n",
+                    "add_definitions(-std=c++11)")
+    assert ended.returncode == 0, ended.stdout + ended.stderr
 
 
 @pytest.mark.parametrize("header", ["class_loader.h", "class_loader.hpp"])
