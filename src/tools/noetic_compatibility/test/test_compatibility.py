@@ -117,9 +117,21 @@ def test_a_standard_is_raised_no_further_than_needed(tmp_path):
 
 @pytest.mark.skipif(not Path("/usr/share/pcl_ros").is_dir(), reason="without pcl_ros")
 def test_point_clouds_in_old_packages(package):
-    """PCL of Debian 12 asks for C++14; Noetic's packages say C++11."""
-    ended = package("pcl_ros", "#include <pcl/pcl_config.h>\n#if __cplusplus != 201402L\n#error\n#endif\n",
-                    "add_definitions(-std=c++11)")
+    """PCL of Debian 12 asks for C++14, Noetic's packages say C++11; its pointers are std's, Noetic's were boost's as those of roscpp."""
+    ended = package("pcl_ros roscpp", """
+        #include <pcl_ros/point_cloud.h>
+        #include <pcl/point_types.h>
+        #include <ros/ros.h>
+        typedef pcl::PointCloud<pcl::PointXYZRGB> Cloud;
+        ros::Publisher publisher;
+        Cloud::Ptr last;
+        void heard(const Cloud::ConstPtr& cloud) { publisher.publish(cloud); publisher.publish(*cloud); }
+        void changes(Cloud::Ptr cloud) { last = cloud; publisher.publish(last); }
+        void subscribe(ros::NodeHandle& nh) {
+          publisher = nh.advertise<Cloud>("y", 1);
+          static ros::Subscriber one = nh.subscribe("x", 1, heard), two = nh.subscribe("x", 1, changes);
+        }
+        """, "add_definitions(-std=c++11)")
     assert ended.returncode == 0, ended.stdout + ended.stderr
 
 
