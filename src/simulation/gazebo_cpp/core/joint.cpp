@@ -483,4 +483,15 @@ bool JointController::SetVelocityTarget(const std::string& name, double target)
 bool JointController::SetForce(const std::string& name, double force) { return joints_.count(name) && (forces_[name] = force, true); }
 
 }  // namespace physics
+
+void internal::Drive(const physics::JointPtr& joint, double position)
+{
+  const std::shared_ptr<ode_sim::Joint> core = joint ? joint->Core() : nullptr;
+  if (!core)
+    return;
+  physics::change(joint->GetScopedName(), [&] {
+    if (ode_sim::World* world = physics::world_of(core->model))
+      world->set_drive(*core, position);
+  });
+}
 }  // namespace gazebo

@@ -50,7 +50,7 @@ LoadedPlugin::LoadedPlugin(const std::string& library, const std::string& file, 
   : label_(strdup(label.c_str()))  // never freed: handlers of signals and threads of plugins read it
 {
   void* handle = nullptr;
-  call("library's start", [&] { handle = dlopen(library.c_str(), RTLD_LAZY | RTLD_GLOBAL); });
+  call("library's start", [&] { handle = dlopen(library.c_str(), RTLD_LAZY | RTLD_LOCAL); });
   if (!handle)
     throw std::runtime_error(std::string("the library cannot be loaded: ") + dlerror());
   compiled_plugins::remember(library);

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import threading
 import traceback
-from typing import Optional
+from typing import Optional, Union
 
 import rosgraph
 import rospy
@@ -15,6 +15,7 @@ from plugin_loader import find_plugins
 from std_msgs.msg import Bool
 from transmission_interface import TransmissionError, parse_transmissions
 
+from .compiled import CompiledSimClass
 from .default_robot_hw_sim import DefaultRobotHWSim
 from .robot_hw_sim import RobotHWSim
 
@@ -117,9 +118,9 @@ class GazeboRosControl(ModelPlugin):
             if manager is not None:
                 manager.shutdown()
             nh.shutdown()
-            if isinstance(error, PluginError):
+            if isinstance(error, PluginError) and not isinstance(self._sim_class, CompiledSimClass):
                 raise
-            raise PluginError(f"the robot hardware {_named(self._sim_class)} cannot start: {_reason(error)}") from error
+            raise PluginError(f"the robot hardware {self._label()} cannot start: {_reason(error)}") from error
         if self._gone.is_set():
             manager.shutdown()
             nh.shutdown()
@@ -137,7 +138,7 @@ class GazeboRosControl(ModelPlugin):
             raise PluginError(f"parameter {self._robot_param}: {error}") from error
         for problem in problems:
             rospy.logerr("model '%s': %s", self._model.name, problem)
-        hw = self._sim_class()
+        hw = self._sim_class(self._server) if isinstance(self._sim_class, CompiledSimClass) else self._sim_class()
         if hw.init_sim(self._namespace, nh, self._model, urdf, transmissions) is False:
             raise PluginError("Could not initialize robot simulation interface")
         return hw
@@ -171,7 +172,7 @@ class GazeboRosControl(ModelPlugin):
 
     def _failed(self, error: Exception) -> PluginError:
         """End the control of this robot, so that nobody waits for a loop that does not run any more."""
-        hw, manager = self._hw, self._manager
+        manager = self._manager
         self._hw = self._manager = None
 
         def end() -> None:  # waits for requests under way, which the world need not
@@ -179,8 +180,12 @@ class GazeboRosControl(ModelPlugin):
             self._nh.shutdown()
 
         threading.Thread(target=end, name="gazebo_ros_control end", daemon=True).start()
-        return PluginError(f"the robot hardware {_named(type(hw))} failed: {_reason(error)}. Its controllers are "
+        return PluginError(f"the robot hardware {self._label()} failed: {_reason(error)}. Its controllers are "
                            "stopped and their controller manager is closed; delete and spawn the robot to begin again")
+
+    def _label(self) -> str:
+        sim = self._sim_class
+        return sim.label if isinstance(sim, CompiledSimClass) else f"{sim.__module__}.{sim.__qualname__}"
 
     def _receive_e_stop(self, message: Bool) -> None:
         self._e_stop = message.data
@@ -197,7 +202,7 @@ class GazeboRosControl(ModelPlugin):
         self._nh.shutdown()
 
 
-def _find_sim(name: str) -> type:
+def _find_sim(name: str) -> Union[type, CompiledSimClass]:
     """The class of a simulated robot hardware. :raises PluginError: there is none of that name."""
     if name == _DEFAULT_SIM:
         return DefaultRobotHWSim
@@ -206,14 +211,12 @@ def _find_sim(name: str) -> type:
         rospy.logwarn("robot hardware types: %s", problem)
     if name not in types:
         raise PluginError(f"<robotSimType>{name}</robotSimType> does not exist; there are: {', '.join(sorted(types))}")
-    return types[name].load()
-
-
-def _named(sim: type) -> str:
-    return f"{sim.__module__}.{sim.__qualname__}"
+    return CompiledSimClass(types[name]) if types[name].compiled else types[name].load()
 
 
 def _reason(error: Exception) -> str:
     """One line: what was raised, and where."""
+    if isinstance(error, PluginError):
+        return str(error)
     place = traceback.extract_tb(error.__traceback__)[-1]
     return f"{type(error).__name__}: {' '.join(str(error).split())} ({place.filename}:{place.lineno})"

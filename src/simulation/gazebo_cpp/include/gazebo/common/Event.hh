@@ -98,25 +98,43 @@ template <typename T> class EventT : public Event
   };
   using Functions = std::vector<std::shared_ptr<Function>>;
 
+  struct State
+  {
+    std::mutex mutex;
+    std::shared_ptr<const Functions> functions = std::make_shared<Functions>();
+    int next = 0;
+  };
+
 public:
+  EventT() = default;
+  EventT(const EventT&) = delete;
+  EventT& operator=(const EventT&) = delete;
+
+  /// Plugins end their connections by calling the destructor of an event that is a member: it runs twice. Nobody is called then.
+  ~EventT() override { delete state_.exchange(nullptr); }
+
   ConnectionPtr Connect(const std::function<T>& subscriber)
   {
+    State* const state = state_;
+    if (!state)
+      return ConnectionPtr(new Connection);
     const auto added = std::make_shared<Function>();
     added->call = subscriber;
-    const std::lock_guard<std::mutex> lock(mutex_);
-    added->id = next_++;
+    const std::lock_guard<std::mutex> lock(state->mutex);
+    added->id = state->next++;
     auto functions = std::make_shared<Functions>();
-    for (const auto& function : *functions_)
+    for (const auto& function : *state->functions)
       if (function->on)
         functions->push_back(function);
     functions->push_back(added);
-    functions_ = functions;
+    state->functions = functions;
     return ConnectionPtr(new Connection(added));
   }
 
   void Disconnect(int id) override
   {
-    for (const auto& function : *all())
+    const auto functions = all();
+    for (const auto& function : *functions)
       if (function->id == id)
         function->on = false;
   }
@@ -129,7 +147,8 @@ public:
   unsigned int ConnectionCount() const
   {
     unsigned int count = 0;
-    for (const auto& function : *all())
+    const auto functions = all();
+    for (const auto& function : *functions)
       count += function->on;
     return count;
   }
@@ -140,7 +159,8 @@ public:
   template <typename... Arguments> void Signal(const Arguments&... arguments)
   {
     SetSignaled(true);
-    for (const auto& function : *all())
+    const auto functions = all();  // kept while they are called: a callback may connect another
+    for (const auto& function : *functions)
     {
       if (!function->on)
         continue;
@@ -165,13 +185,14 @@ public:
 private:
   std::shared_ptr<const Functions> all() const
   {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    return functions_;
+    State* const state = state_;
+    if (!state)
+      return std::make_shared<Functions>();
+    const std::lock_guard<std::mutex> lock(state->mutex);
+    return state->functions;
   }
 
-  mutable std::mutex mutex_;
-  std::shared_ptr<const Functions> functions_ = std::make_shared<Functions>();
-  int next_ = 0;
+  std::atomic<State*> state_{ new State };
 };
 
 }  // namespace event
