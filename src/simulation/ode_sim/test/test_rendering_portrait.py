@@ -4,7 +4,7 @@ import numpy as np
 import ode_sim
 import pytest
 from ode_sim.rendering import describe
-from ode_sim.rendering.portrait import VIEWS, Portrait, PortraitError, camera_for, extent, take
+from ode_sim.rendering.portrait import VIEWS, Painter, Portrait, PortraitError, Studio, camera_for, extent
 
 WORLD = """<sdf version="1.6"><world name="w"><scene><background>0 0 0 1</background><ambient>1 1 1 1</ambient></scene>
 <model name="ground"><static>true</static><link name="l"><visual name="v"><geometry><plane><normal>0 0 1</normal>
@@ -21,6 +21,13 @@ WORLD = """<sdf version="1.6"><world name="w"><scene><background>0 0 0 1</backgr
 @pytest.fixture(scope="module")
 def world():
     return ode_sim.World.load(WORLD)
+
+
+@pytest.fixture(scope="module")
+def painter():
+    painter = Painter()
+    yield painter
+    painter.close()
 
 
 def portrait(world, model, view="iso", size=(320, 200)):
@@ -53,14 +60,42 @@ def test_the_ground_does_not_count_and_the_model_alone_does(world):
     assert np.ptp(alone[:, 0]) == pytest.approx(0.6 * np.cos(0.5) + 0.1 * np.sin(0.5))
 
 
-def test_what_is_drawn_is_the_model(world):
-    png, problems = take(portrait(world, "red", "left"))
+def test_what_is_drawn_is_the_model(world, painter):
+    png, problems = painter.take(portrait(world, "red", "left"))
     picture = cv2.imdecode(np.frombuffer(png, np.uint8), cv2.IMREAD_COLOR)
     assert picture.shape == (200, 320, 3) and not problems
     columns = np.flatnonzero((picture[:, :, 2] > 200).any(axis=0) & (picture[:, :, 0] < 50).any(axis=0))
     assert np.ptp(columns) > 0.7 * 320
 
 
-def test_nothing_to_see_is_said_in_one_line(world):
+def test_nothing_to_see_is_said_in_one_line(world, painter):
     with pytest.raises(PortraitError, match="^model 'bare' has nothing to see$"):
-        take(portrait(world, "bare"))
+        painter.take(portrait(world, "bare"))
+
+
+def test_a_picture_does_not_depend_on_those_before_it(world, painter):
+    alone = Studio()
+    png, _ = alone.draw(portrait(world, "red", "top"))
+    alone.close()
+    painter.take(portrait(world, "far", "left", (200, 320)))
+    assert painter.take(portrait(world, "red", "top"))[0] == png
+    other = ode_sim.World.load(WORLD.replace("<ambient>1 0 0 1</ambient>", "<ambient>0 1 0 1</ambient>"))
+    assert painter.take(portrait(other, "red", "top"))[0] != png
+    assert painter.take(portrait(world, "red", "top"))[0] == png
+
+
+def test_a_process_that_ended_is_replaced(world, painter):
+    png, _ = painter.take(portrait(world, "red"))
+    painter._process.kill()
+    assert painter.take(portrait(world, "red"))[0] == png
+    painter._process.kill()
+    painter._process.wait()
+    assert painter.take(portrait(world, "red"))[0] == png
+
+
+def test_what_takes_too_long_is_given_up(world):
+    painter = Painter()
+    with pytest.raises(PortraitError, match="not drawn within 0.001 s"):
+        painter.take(portrait(world, "red"), 0.001)
+    assert painter.take(portrait(world, "red"))[0]
+    painter.close()

@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-import fcntl
 import json
 import os
 import pathlib
-import socket
-import struct
 import subprocess
 import sys
 import time
@@ -18,6 +15,7 @@ from .checks.base import Context
 from .explain import first_cause
 from .job import Job
 from .outcome import Result, TaskResult, Verdict, failed_task, rounded, share, task_from
+from .sandbox import own_network
 from .spec import kind_of
 from .staging import StagingError, stage
 from .supervise import STRETCH
@@ -90,11 +88,7 @@ class Examiner:
 
     def _own_world(self) -> None:
         """The loopback of this network, and a disk of bounded size that nobody else sees."""
-        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as s:
-            request = bytearray(struct.pack("16sh22x", b"lo", 0))
-            fcntl.ioctl(s, 0x8913, request)  # SIOCGIFFLAGS
-            (flags,) = struct.unpack_from("h", request, 16)
-            fcntl.ioctl(s, 0x8914, struct.pack("16sh22x", b"lo", flags | 1))  # SIOCSIFFLAGS, IFF_UP
+        own_network()
         subprocess.run(
             [
                 "mount",

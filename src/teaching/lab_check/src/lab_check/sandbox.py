@@ -7,15 +7,23 @@ solutions, specs, other submissions and the teacher's files are not there at all
 """
 from __future__ import annotations
 
+import ctypes
+import fcntl
 import os
 import pathlib
 import shutil
+import socket
+import struct
 import subprocess
 from dataclasses import dataclass
 from typing import Dict, List
 
 HOME = "/home/student"
 UNSAFE, BUBBLEWRAP = "none (--unsafe)", "bubblewrap"
+
+
+_CLONE_NEWNET = 0x40000000
+_CONNECTIONS = 512  # entries in the kernel's table of connections
 
 
 class SandboxError(RuntimeError):
@@ -55,6 +63,24 @@ class Platform:
 def outer_words() -> List[str]:
     """Before the examiner: everything in it ends with it."""
     return ["unshare", "--user", "--map-root-user", "--net", "--mount", "--pid", "--fork", "--mount-proc", "--kill-child"]
+
+
+def own_network() -> None:
+    """Brings up a loopback for this process and its children, who are inside the outer wall.
+
+    The kernel walks its whole table of connections whenever somebody reads /proc/net/tcp, which the lock-step does thousands of times;
+    the usual table has 262144 entries and takes 3 ms. A network with a small table of its own (Linux 6.1) takes 0.1 ms.
+    """
+    try:
+        pathlib.Path("/proc/sys/net/ipv4/tcp_child_ehash_entries").write_text(str(_CONNECTIONS))
+        ctypes.CDLL(None).unshare(_CLONE_NEWNET)
+    except OSError:  # an older kernel: slower, else the same
+        pass
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as s:
+        request = bytearray(struct.pack("16sh22x", b"lo", 0))
+        fcntl.ioctl(s, 0x8913, request)  # SIOCGIFFLAGS
+        (flags,) = struct.unpack_from("h", request, 16)
+        fcntl.ioctl(s, 0x8914, struct.pack("16sh22x", b"lo", flags | 1))  # SIOCSIFFLAGS, IFF_UP
 
 
 def inner_words(platform: Platform, home: str, environment: Dict[str, str]) -> List[str]:

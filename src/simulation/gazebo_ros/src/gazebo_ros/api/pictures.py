@@ -1,6 +1,8 @@
 """Pictures of the world for whoever asks, without a camera in it."""
 from __future__ import annotations
 
+from typing import TYPE_CHECKING, Optional
+
 import numpy as np
 import rospy
 from ode_sim.rendering import describe
@@ -9,6 +11,9 @@ from gazebo_ros.api.handlers import Refused, advertise, listing
 from gazebo_ros.server import Server
 from gazebo_ros.srv import TakePicture
 
+if TYPE_CHECKING:
+    from ode_sim.rendering.portrait import Painter
+
 _SIZE = (1280, 800)
 _LARGEST = 4096  # pixels along a side
 
@@ -16,10 +21,11 @@ _LARGEST = 4096  # pixels along a side
 class PictureServices:
     def __init__(self, server: Server):
         self._server = server
+        self._painter: "Optional[Painter]" = None
         advertise(server, "take_picture", TakePicture, self._take, in_physics_thread=False)
 
     def _take(self, request, response) -> str:
-        from ode_sim.rendering.portrait import VIEWS, Portrait, PortraitError, take
+        from ode_sim.rendering.portrait import VIEWS, Painter, Portrait, PortraitError
         width, height = request.width or _SIZE[0], request.height or _SIZE[1]
         view = request.view or "iso"
         if view not in VIEWS:
@@ -29,8 +35,9 @@ class PictureServices:
         scene, poses, names = self._server.call(self._now)
         if request.model and request.model not in names:
             raise Refused(f"no model '{request.model}'; there are {listing(names)}")
+        self._painter = self._painter or Painter()
         try:
-            response.png, problems = take(Portrait(scene, poses, request.model, view, width, height))
+            response.png, problems = self._painter.take(Portrait(scene, poses, request.model, view, width, height))
         except PortraitError as error:
             raise Refused(str(error)) from error
         for line in problems:

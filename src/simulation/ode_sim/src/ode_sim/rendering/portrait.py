@@ -1,16 +1,20 @@
 """A picture of a world or of one model that fills the frame, from a side that has a name.
 
-Drawn by :func:`main` in a process of its own, so that nothing of OpenGL stays in a simulator that is asked for one.
+:class:`Painter` draws them in a process of its own, so that nothing of OpenGL comes into a simulator that is asked for one.
 """
 from __future__ import annotations
 
 import itertools
 import math
+import os
 import pickle
+import select
 import subprocess
 import sys
-from dataclasses import dataclass
-from typing import Dict, List, Tuple
+import tempfile
+import threading
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Dict, List, Optional, Tuple
 
 import numpy as np
 
@@ -19,6 +23,9 @@ from ode_sim.rendering.assets import Assets
 from ode_sim.rendering.camera import Camera, look_at
 from ode_sim.rendering.scene import SceneDescription
 
+if TYPE_CHECKING:
+    from ode_sim.rendering.renderer import Renderer
+
 #: Azimuth and elevation in rad of the eye, seen from what it looks at.
 VIEWS: Dict[str, Tuple[float, float]] = {
     "iso": (math.pi / 5, 0.45), "front": (0.0, 0.08), "back": (math.pi, 0.08), "left": (math.pi / 2, 0.08),
@@ -26,6 +33,7 @@ VIEWS: Dict[str, Tuple[float, float]] = {
 _HFOV = 0.9
 _FILLED = 0.88  # of the frame, along the side that is filled first
 _LEAST = 0.05  # m, of what is looked at
+_KEPT = 20.0  # s for which a process without work is kept
 
 
 class PortraitError(ValueError):
@@ -45,12 +53,12 @@ class Portrait:
     height: int
 
 
-def extent(portrait: Portrait) -> np.ndarray:
+def extent(portrait: Portrait, assets: Optional[Assets] = None) -> np.ndarray:
     """(N,3) corners, world frame, m, of the boxes around each visual that is to fill the frame; (0,3) if there is none.
 
     A plane has no end and a height map is the ground: both count only when they belong to ``model``.
     """
-    assets, corners = Assets(), []
+    assets, corners = assets or Assets(), []
     ground = () if portrait.model else (d.Plane, d.Heightmap)
     for seen in portrait.scene.visuals:
         if isinstance(seen.visual.geometry, ground) or portrait.model not in ("", seen.name.split("::")[0]):
@@ -103,51 +111,141 @@ def _balanced(across: np.ndarray, depth: np.ndarray) -> float:
     return (low + high) / 2
 
 
-def draw(portrait: Portrait) -> Tuple[bytes, List[str]]:
-    """The picture as a PNG file, and lines about what could not be drawn. Here, in this process.
+class Studio:
+    """Draws portraits in this process; those of the same scene, one after the other, share what was loaded for it."""
 
-    :raises PortraitError: nothing to draw
+    def __init__(self) -> None:
+        self._renderer: Optional["Renderer"] = None
+        self._assets = Assets()
+        self._scene: Optional[SceneDescription] = None
+
+    def draw(self, portrait: Portrait) -> Tuple[bytes, List[str]]:
+        """The picture as a PNG file, and lines about what could not be drawn, each said once for a scene.
+
+        :raises PortraitError: nothing to draw
+        """
+        import cv2
+
+        from ode_sim.rendering.renderer import Renderer
+        if portrait.scene is not self._scene:
+            self.close()
+            self._scene, self._assets = portrait.scene, Assets()
+        corners = extent(portrait, self._assets)
+        if not len(corners):
+            if portrait.model:
+                raise PortraitError(f"model '{portrait.model}' has nothing to see")
+            corners = np.array([[-1.0, -1.0, 0.0], [1.0, 1.0, 0.5]])  # an empty world: the ground around the origin
+        if self._renderer is None:
+            self._renderer = Renderer(antialiasing="msaa", shadows="on", assets=self._assets)
+            self._renderer.set_scene(portrait.scene)
+        pixels = self._renderer.color(camera_for(corners, portrait.view, portrait.width, portrait.height), portrait.poses)
+        png = cv2.imencode(".png", cv2.cvtColor(pixels, cv2.COLOR_RGB2BGR))[1].tobytes()
+        return png, self._renderer.take_problems()
+
+    def close(self) -> None:
+        """Gives up what was loaded."""
+        if self._renderer is not None:
+            self._renderer.close()
+        self._renderer = self._scene = None
+
+
+class Painter:
+    """Draws portraits in a process of its own, in which OpenGL stays; :meth:`take` may be called from several threads.
+
+    The process ends after some seconds without work. Until then the next picture of the same scene takes a tenth of the time.
     """
-    import cv2
 
-    from ode_sim.rendering.renderer import Renderer
-    corners = extent(portrait)
-    if not len(corners):
-        if portrait.model:
-            raise PortraitError(f"model '{portrait.model}' has nothing to see")
-        corners = np.array([[-1.0, -1.0, 0.0], [1.0, 1.0, 0.5]])  # an empty world: the ground around the origin
-    renderer = Renderer(antialiasing="msaa", shadows="on")
-    try:
-        renderer.set_scene(portrait.scene)
-        pixels = renderer.color(camera_for(corners, portrait.view, portrait.width, portrait.height), portrait.poses)
-        problems = renderer.take_problems()
-    finally:
-        renderer.close()
-    return cv2.imencode(".png", cv2.cvtColor(pixels, cv2.COLOR_RGB2BGR))[1].tobytes(), problems
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._process: Optional[subprocess.Popen] = None
+        self._words = tempfile.TemporaryFile()  # what the process says of its own end
+        self._scene = b""
 
+    def take(self, portrait: Portrait, seconds: float = 60.0) -> Tuple[bytes, List[str]]:
+        """As :meth:`Studio.draw`.
 
-def take(portrait: Portrait, seconds: float = 60.0) -> Tuple[bytes, List[str]]:
-    """As :func:`draw`, in another process.
+        :raises PortraitError: nothing to draw, no OpenGL, or not done within ``seconds``
+        """
+        scene = pickle.dumps(portrait.scene)
+        with self._lock:
+            kept = self._process is not None and self._process.poll() is None
+            if kept:
+                answer = self._ask(scene if scene != self._scene else b"", portrait, seconds)
+            if not kept or answer is None:  # none yet, or it has just ended for lack of work
+                self._start()
+                answer = self._ask(scene, portrait, seconds)
+            if answer is None:
+                raise PortraitError(self._last_words())
+            self._scene = scene
+        if isinstance(answer, str):
+            raise PortraitError(answer)
+        return answer
 
-    :raises PortraitError: nothing to draw, no OpenGL, or not done within ``seconds``
-    """
-    command = [sys.executable, "-c",
-               f"import sys; sys.path[:] = {sys.path!r}; from ode_sim.rendering.portrait import main; main()"]
-    try:
-        ended = subprocess.run(command, input=pickle.dumps(portrait), capture_output=True, timeout=seconds)
-    except subprocess.TimeoutExpired:
-        raise PortraitError(f"the picture was not drawn within {seconds:g} s") from None
-    if ended.returncode:
-        last = ended.stderr.decode(errors="replace").strip().splitlines()[-1:] or [f"exit code {ended.returncode}"]
-        raise PortraitError(last[0])
-    return pickle.loads(ended.stdout)
+    def close(self) -> None:
+        with self._lock:
+            if self._process is not None:
+                self._process.kill()
+                self._process.communicate()
+                self._process = None
+
+    def _start(self) -> None:
+        if self._process is not None:
+            self._process.kill()
+            self._process.communicate()
+        command = [sys.executable, "-c",
+                   f"import sys; sys.path[:] = {sys.path!r}; from ode_sim.rendering.portrait import main; main()"]
+        self._words.truncate(0)
+        self._process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=self._words)
+
+    def _ask(self, scene: bytes, portrait: Portrait, seconds: float):
+        """The answer, None when the process ended without one."""
+        process = self._process
+        assert process is not None and process.stdin is not None and process.stdout is not None
+        late = threading.Event()
+
+        def give_up() -> None:
+            late.set()
+            process.kill()
+
+        timer = threading.Timer(seconds, give_up)
+        timer.start()
+        try:
+            pickle.dump((scene, replace(portrait, scene=SceneDescription())), process.stdin)
+            process.stdin.flush()
+            return pickle.load(process.stdout)
+        except (EOFError, OSError, pickle.UnpicklingError):
+            process.kill()
+            process.wait()
+            if late.is_set():
+                raise PortraitError(f"the picture was not drawn within {seconds:g} s") from None
+            return None
+        finally:
+            timer.cancel()
+
+    def _last_words(self) -> str:
+        self._words.seek(0)
+        lines = self._words.read().decode(errors="replace").strip().splitlines()
+        assert self._process is not None
+        return lines[-1] if lines else f"the process that draws ended with exit code {self._process.returncode}"
 
 
 def main() -> None:
-    """Reads a pickled :class:`Portrait` on standard input, answers with the pickled result of :func:`draw`."""
-    portrait = pickle.load(sys.stdin.buffer)
-    try:
-        answer = draw(portrait)
-    except Exception as error:  # one line, which the asking process passes on
-        sys.exit(f"{error}" if isinstance(error, PortraitError) else f"{type(error).__name__}: {error}")
-    sys.stdout.buffer.write(pickle.dumps(answer))
+    """Reads pickled ``(scene, portrait)`` on standard input, an empty scene being the one before; answers each with what
+    :meth:`Studio.draw` returns, or a line about why not. Ends with its input, or after some seconds without."""
+    answers = os.fdopen(os.dup(1), "wb")
+    os.dup2(2, 1)  # what a library prints is no answer
+    studio, scene = Studio(), SceneDescription()
+    while select.select([sys.stdin], [], [], _KEPT)[0]:
+        try:
+            pickled, portrait = pickle.load(sys.stdin.buffer)
+        except EOFError:
+            return
+        scene = pickle.loads(pickled) if pickled else scene
+        try:
+            answer: object = studio.draw(replace(portrait, scene=scene))
+        except PortraitError as error:
+            answer = str(error)
+        except Exception as error:  # one line, which the asking process passes on
+            answer = f"{type(error).__name__}: {error}"
+        pickle.dump(answer, answers)
+        answers.flush()
