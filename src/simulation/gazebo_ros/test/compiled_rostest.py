@@ -117,6 +117,19 @@ class CompiledTest(Case):
         self.sim.step(10)
         self.assertAlmostEqual(self.sim.world().sim_time, before + 0.01, delta=1e-9)
 
+    def test_two_classes_of_one_name_and_what_fails_before_the_first_step(self):
+        self.spawn_arm(library="twin_one")
+        self.logged("twin one loaded")
+        self.sim.delete("arm")
+        self.spawn_arm(library="twin_other")
+        self.logged("twin other loaded")
+        for place, words in (("Load", ("its Load() threw told to fail",)), ("Init", ("its Init() threw something that is no",)),
+                             ("time", ("libgazebo_ros_test_twin_one.so", "has not come back from its Load() for 5 s"))):
+            self.sim.delete("arm")
+            self.spawn_arm(library="twin_one", more=f"<fail_in>{place}</fail_in>")
+            self.logged("plugin worker", "of model arm", *words)
+            self.assertIn("arm", self.sim.world().model_names)
+
 
 if __name__ == "__main__":
     rospy.init_node("compiled_rostest")
