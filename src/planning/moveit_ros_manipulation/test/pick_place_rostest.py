@@ -7,7 +7,7 @@ import rospy
 import rostest
 from dynamic_reconfigure.client import Client
 from geometry_msgs.msg import PoseStamped
-from moveit_msgs.msg import Grasp, GripperTranslation, MoveItErrorCodes, PlaceLocation
+from moveit_msgs.msg import Grasp, GripperTranslation, MoveItErrorCodes, PlaceActionGoal, PlaceLocation
 from sensor_msgs.msg import JointState
 from tf.transformations import quaternion_from_euler
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
@@ -76,6 +76,20 @@ class PickPlace(unittest.TestCase):
         self.assertAlmostEqual(put.y, 0.2, delta=2e-3)
         self.assertAlmostEqual(put.z, 0.251, delta=2e-3)
         self.assertAlmostEqual(self.finger(), 0.04, delta=1e-3)
+
+    def test_a_pose_alone_is_reached_from_above_and_left_backwards(self):
+        """As far back as there is room, be it none."""
+        goals = []
+        subscriber = rospy.Subscriber("/place/goal", PlaceActionGoal, goals.append)
+        self.assertEqual(self.arm.pick("block", grasp(0.45, 0.0, 0.25)), Codes.SUCCESS)
+        self.assertTrue(self.arm.place("block", stamped(0.45, 0.2, 0.251)))
+        subscriber.unregister()
+        location = goals[-1].goal.place_locations[0]
+        down, back = location.pre_place_approach, location.post_place_retreat
+        self.assertEqual((down.direction.header.frame_id, down.direction.vector.z), (self.arm.get_planning_frame(), -1.0))
+        self.assertEqual((back.direction.header.frame_id, back.direction.vector.x), (self.arm.get_end_effector_link(), -1.0))
+        self.assertEqual((back.direction.vector.z, back.min_distance), (0.0, 0.0))
+        self.assertAlmostEqual(back.desired_distance, 0.2, places=6)
 
     def test_plan_only_moves_nothing(self):
         self.assertEqual(self.arm.pick("block", grasp(0.45, 0.0, 0.25), plan_only=True), Codes.SUCCESS)

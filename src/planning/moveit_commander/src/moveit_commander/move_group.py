@@ -434,11 +434,11 @@ class MoveGroupCommander(TargetCommands):
         if isinstance(entry, PlaceLocation):
             return entry
         location = PlaceLocation(place_pose=entry if isinstance(entry, PoseStamped) else self._stamped(entry))
-        for move, sign in ((location.pre_place_approach, -1.0), (location.post_place_retreat, -1.0)):
-            move.direction.vector.z = sign
-            move.direction.header.frame_id = self._model.frame
-            move.min_distance, move.desired_distance = 0.1, 0.2
-        location.post_place_retreat.direction.header.frame_id = self._eef
+        approach, retreat = location.pre_place_approach, location.post_place_retreat
+        approach.direction.header.frame_id, approach.direction.vector.z = self._model.frame, -1.0  # down
+        approach.min_distance, approach.desired_distance = 0.1, 0.2
+        retreat.direction.header.frame_id, retreat.direction.vector.x = self._eef, -1.0  # out of the gripper, as far as it goes
+        retreat.min_distance, retreat.desired_distance = 0.0, 0.2
         return location
 
     def set_support_surface_name(self, value: str) -> None:

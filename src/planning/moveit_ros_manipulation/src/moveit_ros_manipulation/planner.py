@@ -56,11 +56,12 @@ class Settings:
 
 @dataclass
 class Outcome:
-    """Segments, or why there are none."""
+    """Segments, or why there are none; ``reached``: how many of a way's parts could be planned."""
 
     segments: List[Segment] = field(default_factory=list)
     code: int = MoveItErrorCodes.PLANNING_FAILED
     message: str = ""
+    reached: int = -1
 
 
 class Manipulation:
@@ -91,7 +92,8 @@ class Manipulation:
             found = self._with_configuration(scene, task, values)
             if found.segments:
                 return found
-            outcome = found
+            if found.reached > outcome.reached:  # what stopped the most promising one is what is told
+                outcome = found
         return outcome
 
     def _configurations(self, scene, task: Task) -> Sequence[np.ndarray]:
@@ -123,7 +125,7 @@ class Manipulation:
         state.set_group(task.group, values)
         approach = self._straight(near, task, state, task.approach, -1.0)
         if approach is None:
-            return Outcome(message=f"the straight approach cannot be made for {task.approach.min_distance:.3f} m")
+            return Outcome(message=f"the straight approach cannot be made for {task.approach.min_distance:.3f} m", reached=0)
         approach = approach.reversed()
         after = self._loosened(scene, task.allow_retreat)
         after.set_state(state)
@@ -133,10 +135,10 @@ class Manipulation:
         held.set_group(task.group, values)
         retreat = self._straight(after, task, held, task.retreat, 1.0)
         if retreat is None:
-            return Outcome(message=f"the straight retreat cannot be made for {task.retreat.min_distance:.3f} m")
+            return Outcome(message=f"the straight retreat cannot be made for {task.retreat.min_distance:.3f} m", reached=1)
         free = self._free_motion(scene, task.group, approach.positions[0], max(0.1, self.left))
         if not free:
-            return Outcome(code=free.code, message=free.message)
+            return Outcome(code=free.code, message=free.message, reached=2)
         return Outcome(self._segments(scene, task, free.trajectory, approach, retreat), MoveItErrorCodes.SUCCESS)
 
     def _straight(self, scene, task: Task, state, move: GripperTranslation, sign: float) -> Optional[motion.Trajectory]:
