@@ -1,0 +1,1 @@
+#error "there is no rendering of Gazebo here: a plugin that draws or reads cameras cannot be built"

@@ -1,0 +1,25 @@
+"""What of Gazebo is not here says so to whoever includes it."""
+import pathlib
+import subprocess
+
+import pytest
+
+INCLUDE = pathlib.Path(__file__).resolve().parents[1] / "include"
+ABSENT = sorted(path for path in INCLUDE.rglob("*.hh") if path.read_text().startswith("#error"))
+
+
+@pytest.mark.parametrize("name, words", [("rendering/rendering.hh", "no rendering"), ("sensors/RaySensor.hh", "plugin of a sensor"),
+                                         ("gui/GuiPlugin.hh", "GUI plugin"), ("plugins/RayPlugin.hh", "plugin of a sensor"),
+                                         ("gazebo_client.hh", "between processes")])
+def test_the_first_line_of_the_compiler_says_what_is_not_here(name, words):
+    done = subprocess.run(["g++", "-fsyntax-only", "-x", "c++", f"-I{INCLUDE}", "-"], input=f"#include <gazebo/{name}>\n",
+                          capture_output=True, text=True)
+    lines = [line for line in done.stderr.splitlines() if "error" in line]
+    assert done.returncode and words in lines[0], done.stderr
+
+
+def test_nothing_that_is_here_includes_what_is_not():
+    names = {f"<gazebo/{path.relative_to(INCLUDE / 'gazebo')}>" for path in ABSENT}
+    assert len(names) > 20
+    for path in sorted(INCLUDE.rglob("*.hh")):
+        assert not [line for line in path.read_text().splitlines() if line.startswith("#include") and line.split()[1] in names], path
