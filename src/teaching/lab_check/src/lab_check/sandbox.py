@@ -69,7 +69,8 @@ def own_network() -> None:
     """Brings up a loopback for this process and its children, who are inside the outer wall.
 
     The kernel walks its whole table of connections whenever somebody reads /proc/net/tcp, which the lock-step does thousands of times;
-    the usual table has 262144 entries and takes 3 ms. A network with a small table of its own (Linux 6.1) takes 0.1 ms.
+    the usual table has 262144 entries and takes 3 ms. A network with a small table of its own (Linux 6.1) takes 0.1 ms. And who only
+    listens confirms what came 40 ms later; the lock-step would wait for that in each quantum, so it is confirmed at once.
     """
     try:
         pathlib.Path("/proc/sys/net/ipv4/tcp_child_ehash_entries").write_text(str(_CONNECTIONS))
@@ -81,6 +82,9 @@ def own_network() -> None:
         fcntl.ioctl(s, 0x8913, request)  # SIOCGIFFLAGS
         (flags,) = struct.unpack_from("h", request, 16)
         fcntl.ioctl(s, 0x8914, struct.pack("16sh22x", b"lo", flags | 1))  # SIOCSIFFLAGS, IFF_UP
+    if shutil.which("ip"):
+        loopback = "127.0.0.1 dev lo table local proto kernel scope host src 127.0.0.1"
+        subprocess.run(["ip", "route", "change", "local", *loopback.split(), "quickack", "1"], check=False)
 
 
 def inner_words(platform: Platform, home: str, environment: Dict[str, str]) -> List[str]:
