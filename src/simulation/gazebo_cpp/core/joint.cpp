@@ -1,8 +1,10 @@
-// Joint, JointController.
+// Joint.
 #include <gazebo/physics/physics.hh>
 
 #include <cmath>
 #include <limits>
+#include <map>
+#include <mutex>
 
 #include <limits.hpp>
 
@@ -30,9 +32,48 @@ ode_sim::Axis* axis_of(const std::shared_ptr<ode_sim::Joint>& core, unsigned int
 double written(double limit) { return std::isinf(limit) ? std::copysign(1e16, limit) : limit; }
 double read(double limit) { return std::abs(limit) >= ode_sim::kUnlimited ? std::copysign(ode_sim::kInf, limit) : limit; }
 
+/// Joints that Init() could not make: plugins may make them firm afterwards, by their limits.
+struct Asked
+{
+  std::mutex mutex;
+  std::map<const Joint*, std::pair<int64_t, std::string>> joints;  // since when, and what is said if it stays so
+};
+
+Asked& asked()
+{
+  static Asked* one = new Asked;  // threads of plugins end after static objects
+  return *one;
+}
+
+bool forget(const Joint* joint)
+{
+  const std::lock_guard<std::mutex> lock(asked().mutex);
+  return asked().joints.erase(joint) > 0;
+}
+
+constexpr int64_t patience_ns = 200000000;
+
 }  // namespace
 
-Joint::~Joint() = default;
+void tell_of_refused_joints(int64_t now_ns)
+{
+  std::vector<std::string> lines;
+  {
+    const std::lock_guard<std::mutex> lock(asked().mutex);
+    auto& joints = asked().joints;
+    for (auto each = joints.begin(); each != joints.end();)
+    {
+      const bool late = std::abs(now_ns - each->second.first) > patience_ns;
+      if (late)
+        lines.push_back(each->second.second);
+      each = late ? joints.erase(each) : std::next(each);
+    }
+  }
+  for (const std::string& line : lines)
+    refused(line);
+}
+
+Joint::~Joint() { forget(this); }
 
 // -- joints that plugins make -------------------------------------------------------------------------------------------------------
 
@@ -58,9 +99,17 @@ void Joint::Init()
   if (core_ || weld_ || (!parent_ && !child_))
     return;
   if (!firm())
-    return refused("joint '" + GetName() + "' of " + (parent_ ? parent_->GetScopedName() : "the world") + " and " +
-                   (child_ ? child_->GetScopedName() : "the world") +
-                   " cannot be made while the simulation runs: only firm ones can (type fixed, or both limits 0)");
+  {
+    const char* who = internal::CurrentPlugin();
+    const std::lock_guard<std::mutex> lock(asked().mutex);
+    asked().joints[this] = { Mirror::Get().Now(),
+                             (who ? std::string(who) + ": " : "") + "joint '" + GetName() + "' of " +
+                               (parent_ ? parent_->GetScopedName() : "the world") + " and " +
+                               (child_ ? child_->GetScopedName() : "the world") +
+                               " cannot be made while the simulation runs: only firm ones can (type fixed, or both limits 0)" };
+    return;
+  }
+  forget(this);
   const LinkPtr child = child_ ? child_ : parent_, parent = child_ ? parent_ : LinkPtr();
   change(GetName(), [&] {
     if (ode_sim::World* core = world_of(child->Core()->model))
@@ -329,7 +378,11 @@ void Joint::SetLowerLimit(unsigned int index, double limit)
   if (std::isnan(limit))
     return refused("a limit of joint " + GetScopedName() + " is not a number; it is left out");
   if (!core_)
+  {
     made_lower_ = limit;
+    if (firm() && forget(this))
+      Init();
+  }
   else if (auto* axis = axis_of(core_, index))
     axis->lower = std::min(read(limit), axis->upper), core_->model->dirty = true;
 }
@@ -339,7 +392,11 @@ void Joint::SetUpperLimit(unsigned int index, double limit)
   if (std::isnan(limit))
     return refused("a limit of joint " + GetScopedName() + " is not a number; it is left out");
   if (!core_)
+  {
     made_upper_ = limit;
+    if (firm() && forget(this))
+      Init();
+  }
   else if (auto* axis = axis_of(core_, index))
     axis->upper = std::max(read(limit), axis->lower), core_->model->dirty = true;
 }
@@ -387,100 +444,6 @@ double Joint::GetInertiaRatio(unsigned int index) const
   const double child = axis.Dot(child_->WorldInertiaMatrix() * axis);
   return child > 0 ? axis.Dot(parent_->WorldInertiaMatrix() * axis) / child : 0.0;
 }
-
-// -- JointController ----------------------------------------------------------------------------------------------------------------
-
-JointController::JointController(ModelPtr model) : model_(model.get()), last_(model->GetWorld()->SimTime())
-{
-  for (const JointPtr& joint : model->GetJoints())
-    AddJoint(joint);
-}
-
-void JointController::AddJoint(JointPtr joint)
-{
-  joints_[joint->GetScopedName()] = joint;
-  position_pids_[joint->GetScopedName()].Init(1, 0.1, 0.01, 1, -1, 1000, -1000);
-  velocity_pids_[joint->GetScopedName()].Init(1, 0.1, 0.01, 1, -1, 1000, -1000);
-}
-
-void JointController::RemoveJoint(Joint* joint)
-{
-  const std::string name = joint ? joint->GetScopedName() : "";
-  joints_.erase(name), position_pids_.erase(name), velocity_pids_.erase(name);
-  forces_.erase(name), positions_.erase(name), velocities_.erase(name);
-}
-
-void JointController::Reset()
-{
-  forces_.clear(), positions_.clear(), velocities_.clear();
-  for (auto& pid : position_pids_)
-    pid.second.Reset();
-  for (auto& pid : velocity_pids_)
-    pid.second.Reset();
-}
-
-void JointController::Update()
-{
-  const common::Time now = model_->GetWorld()->SimTime(), passed = now - last_;
-  last_ = now;
-  if (passed <= common::Time::Zero)
-    return;
-  for (const auto& force : forces_)
-    joints_[force.first]->SetForce(0, force.second);
-  for (const auto& target : positions_)
-  {
-    const JointPtr& joint = joints_[target.first];
-    joint->SetForce(0, position_pids_[target.first].Update(joint->Position(0) - target.second, passed));
-  }
-  for (const auto& target : velocities_)
-  {
-    const JointPtr& joint = joints_[target.first];
-    joint->SetForce(0, velocity_pids_[target.first].Update(joint->GetVelocity(0) - target.second, passed));
-  }
-}
-
-void JointController::SetJointPosition(const std::string& name, double position, int index)
-{
-  const auto found = joints_.find(name);
-  const JointPtr joint = found == joints_.end() ? model_->GetJoint(name) : found->second;
-  if (!joint)
-    return refused("the joint controller of " + model_->GetName() + " has no joint '" + name + "'");
-  SetJointPosition(joint, position, index);
-}
-
-void JointController::SetJointPosition(JointPtr joint, double position, int index) { joint->SetPosition(index, position); }
-
-void JointController::SetJointPositions(const std::map<std::string, double>& positions)
-{
-  for (const auto& position : positions)
-    SetJointPosition(position.first, position.second);
-}
-
-void JointController::SetPositionPID(const std::string& name, const common::PID& pid)
-{
-  if (joints_.count(name))
-    position_pids_[name] = pid;
-  else
-    refused("the joint controller of " + model_->GetName() + " has no joint '" + name + "'; it takes scoped names (model::joint)");
-}
-
-void JointController::SetVelocityPID(const std::string& name, const common::PID& pid)
-{
-  if (joints_.count(name))
-    velocity_pids_[name] = pid;
-  else
-    refused("the joint controller of " + model_->GetName() + " has no joint '" + name + "'; it takes scoped names (model::joint)");
-}
-
-bool JointController::SetPositionTarget(const std::string& name, double target)
-{
-  return joints_.count(name) && (positions_[name] = target, true);
-}
-bool JointController::SetVelocityTarget(const std::string& name, double target)
-{
-  return joints_.count(name) && (velocities_[name] = target, true);
-}
-bool JointController::SetForce(const std::string& name, double force) { return joints_.count(name) && (forces_[name] = force, true); }
 
 }  // namespace physics
 

@@ -95,6 +95,12 @@ class CompiledTest(Case):
         self.orders.publish("insert")
         self.wait(lambda: "inserted" in self.sim.world().model_names)
         self.step_until(lambda: "weight 10" in self.told)  # forces of its contacts with the ground
+        for order, told, low, high in (("hold", "held", 0.499, 0.501), ("free", "freed", 0.55, 0.7)):
+            self.orders.publish(order)  # a joint that is made, and made firm, while the simulation runs
+            self.wait(lambda: told in self.told)
+            self.sim.push("inserted::l", (0.0, 0.0, 30.0), 0.1)
+            self.sim.step(110)
+            self.assertTrue(low < self.sim.model("inserted").pose.position.z < high, (order, self.sim.model("inserted").pose.position))
         self.orders.publish("below")
         self.wait(lambda: "inserted" in self.told)
         self.orders.publish("remove")

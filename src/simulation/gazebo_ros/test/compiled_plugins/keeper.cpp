@@ -44,6 +44,20 @@ private:
       message.set_data(std::stoi(order->data.substr(3)));
       go_->Publish(message);
     }
+    else if (order->data == "hold")
+    {
+      joint_ = world_->Physics()->CreateJoint("revolute");
+      joint_->Load(gazebo::physics::LinkPtr(), world_->ModelByName("inserted")->GetLink("l"), {});
+      joint_->Init();
+      joint_->SetUpperLimit(0, 0);  // as plugins do that fix what a gripper holds
+      joint_->SetLowerLimit(0, 0);
+      Tell("held");
+    }
+    else if (order->data == "free")
+    {
+      joint_->Detach();
+      Tell("freed");
+    }
     else if (order->data == "below")
     {
       const auto model = world_->ModelBelowPoint({ 9, 0, 5 });
@@ -72,6 +86,7 @@ private:
   }
 
   gazebo::physics::WorldPtr world_;
+  gazebo::physics::JointPtr joint_;
   ros::NodeHandle nh_;
   ros::Publisher told_;
   ros::Subscriber orders_;

@@ -1,0 +1,104 @@
+// JointController.
+#include <gazebo/physics/physics.hh>
+
+#include "convert.hpp"
+
+namespace gazebo
+{
+namespace physics
+{
+
+JointController::JointController(ModelPtr model) : model_(model.get()), last_(model->GetWorld()->SimTime())
+{
+  for (const JointPtr& joint : model->GetJoints())
+    AddJoint(joint);
+}
+
+void JointController::AddJoint(JointPtr joint)
+{
+  joints_[joint->GetScopedName()] = joint;
+  position_pids_[joint->GetScopedName()].Init(1, 0.1, 0.01, 1, -1, 1000, -1000);
+  velocity_pids_[joint->GetScopedName()].Init(1, 0.1, 0.01, 1, -1, 1000, -1000);
+}
+
+void JointController::RemoveJoint(Joint* joint)
+{
+  const std::string name = joint ? joint->GetScopedName() : "";
+  joints_.erase(name), position_pids_.erase(name), velocity_pids_.erase(name);
+  forces_.erase(name), positions_.erase(name), velocities_.erase(name);
+}
+
+void JointController::Reset()
+{
+  forces_.clear(), positions_.clear(), velocities_.clear();
+  for (auto& pid : position_pids_)
+    pid.second.Reset();
+  for (auto& pid : velocity_pids_)
+    pid.second.Reset();
+}
+
+void JointController::Update()
+{
+  const common::Time now = model_->GetWorld()->SimTime(), passed = now - last_;
+  last_ = now;
+  if (passed <= common::Time::Zero)
+    return;
+  for (const auto& force : forces_)
+    joints_[force.first]->SetForce(0, force.second);
+  for (const auto& target : positions_)
+  {
+    const JointPtr& joint = joints_[target.first];
+    joint->SetForce(0, position_pids_[target.first].Update(joint->Position(0) - target.second, passed));
+  }
+  for (const auto& target : velocities_)
+  {
+    const JointPtr& joint = joints_[target.first];
+    joint->SetForce(0, velocity_pids_[target.first].Update(joint->GetVelocity(0) - target.second, passed));
+  }
+}
+
+void JointController::SetJointPosition(const std::string& name, double position, int index)
+{
+  const auto found = joints_.find(name);
+  const JointPtr joint = found == joints_.end() ? model_->GetJoint(name) : found->second;
+  if (!joint)
+    return refused("the joint controller of " + model_->GetName() + " has no joint '" + name + "'");
+  SetJointPosition(joint, position, index);
+}
+
+void JointController::SetJointPosition(JointPtr joint, double position, int index) { joint->SetPosition(index, position); }
+
+void JointController::SetJointPositions(const std::map<std::string, double>& positions)
+{
+  for (const auto& position : positions)
+    SetJointPosition(position.first, position.second);
+}
+
+void JointController::SetPositionPID(const std::string& name, const common::PID& pid)
+{
+  if (joints_.count(name))
+    position_pids_[name] = pid;
+  else
+    refused("the joint controller of " + model_->GetName() + " has no joint '" + name + "'; it takes scoped names (model::joint)");
+}
+
+void JointController::SetVelocityPID(const std::string& name, const common::PID& pid)
+{
+  if (joints_.count(name))
+    velocity_pids_[name] = pid;
+  else
+    refused("the joint controller of " + model_->GetName() + " has no joint '" + name + "'; it takes scoped names (model::joint)");
+}
+
+bool JointController::SetPositionTarget(const std::string& name, double target)
+{
+  return joints_.count(name) && (positions_[name] = target, true);
+}
+bool JointController::SetVelocityTarget(const std::string& name, double target)
+{
+  return joints_.count(name) && (velocities_[name] = target, true);
+}
+bool JointController::SetForce(const std::string& name, double force) { return joints_.count(name) && (forces_[name] = force, true); }
+
+}  // namespace physics
+}  // namespace gazebo
