@@ -37,14 +37,14 @@ def motor_arm(steps=4000):
     return per_step(world, steps)
 
 
-def servo_arm(steps=4000):
+def position_driven_arm(steps=4000):
     world = ode_sim.World()
     world.spawn(ground())
     joints = list(world.spawn(arm(6)).joints.values())[1:]
 
     def command(w):
         for joint in joints:
-            joint.servo(0.02 * w.time)
+            joint.drive_to(0.02 * w.time)
 
     world.before_step.append(command)
     world.step(100)
@@ -109,7 +109,7 @@ def main():
         "arm, 6 hinge motors: bare ODE (us/step)": bare_arm,
         "arm, 6 hinge motors: ode_sim (us/step)": ours_arm,
         "arm, 6 hinge motors: ratio": ours_arm / bare_arm,
-        "arm, 6 position-commanded joints from a Python callback (us/step)": servo_arm(),
+        "arm, 6 position-commanded joints from a Python callback (us/step)": position_driven_arm(),
         "two-wheeled robot driving (us/step)": robot(),
         "100 falling boxes: bare ODE quickStep (us/step)": bare_boxes,
         "100 falling boxes: ode_sim (us/step)": our_boxes,

@@ -42,8 +42,8 @@ class Robot:
             self.sim.add(mode.__name__, mode(self.joint, handle, limits, *more))
 
     def seen(self):
-        return [(self.sim.mode.handle.command, self.state.position, self.state.velocity, self.state.effort, self.joint.core.servo_mode,
-                 self.joint.core.servo_target, self.joint.motor(), self.joint.effort())]
+        return [(self.sim.mode.handle.command, self.state.position, self.state.velocity, self.state.effort, self.joint.core.drive_mode,
+                 self.joint.core.drive_target, self.joint.motor(), self.joint.effort())]
 
 
 def commands(chance, kind):

@@ -52,7 +52,7 @@ void bind_welds(WorldClass& world) {
   world.def("attach", &World::weld, py::arg("parent").none(true), py::arg("child").none(false))
       .def("detach", &World::unweld)
       .def("detach_all", &World::unweld_all)
-      .def("ties", &World::welds)
+      .def("welds", &World::welds)
       .def("attached", [](World& w, int id) { return w.find_weld(id) != nullptr; })
       .def("tie_pose", [](World& w, int id) { return out(weld_of(w, id).X_PC); })
       .def("set_tie_pose", [](World& w, int id, T7 X) { weld_of(w, id).X_PC = in(X); });
@@ -105,7 +105,7 @@ void bind_world(py::module_& m) {
       .def("step", &World::step, py::call_guard<py::gil_scoped_release>())
       .def("take_messages", [](World& w) { return w.scene().messages.take(); })
       .def("save", [](World& w) { return py::bytes(w.save()); })
-      .def("restore", [](World& w, py::bytes data, const std::vector<int>& ties) { w.restore(data, ties); })
+      .def("restore", [](World& w, py::bytes data, const std::vector<int>& welds) { w.restore(data, welds); })
       .def_property_readonly("link_poses", [](World& w) {
         const auto& poses = w.scene().link_poses;
         return view(poses, {static_cast<py::ssize_t>(poses->size() / 7), 7});

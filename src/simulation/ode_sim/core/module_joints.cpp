@@ -33,10 +33,10 @@ T8 get_axis(Joint& j, int i) {
 // Position drives, and where the joint is.
 void bind_drive(py::class_<Joint, std::shared_ptr<Joint>>& joint) {
   joint
-      .def("servo", [](Joint& j, double q) { world_of(j.model).set_drive(j, q); })
-      .def("servo_off", [](Joint& j) { world_of(j.model).drive_off(j); })
-      .def_property_readonly("servo_mode", [](Joint& j) { return static_cast<int>(j.drive); })
-      .def_readonly("servo_target", &Joint::target)
+      .def("drive_to", [](Joint& j, double q) { world_of(j.model).set_drive(j, q); })
+      .def("drive_off", [](Joint& j) { world_of(j.model).drive_off(j); })
+      .def_property_readonly("drive_mode", [](Joint& j) { return static_cast<int>(j.drive); })
+      .def_readonly("drive_target", &Joint::target)
       .def("follow", [](Joint& j, std::shared_ptr<Joint> leader, double multiplier, double offset) {
         world_of(j.model).follow(j, leader, multiplier, offset);
       }, py::arg("leader").none(true), py::arg("multiplier"), py::arg("offset"))

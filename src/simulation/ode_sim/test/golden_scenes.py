@@ -38,7 +38,7 @@ def position_drives():
 
     def command(w):
         for i, joint in enumerate(list(robot.joints.values())):
-            joint.servo(math.sin(2 * w.time) * (0.8 - 0.1 * i))
+            joint.drive_to(math.sin(2 * w.time) * (0.8 - 0.1 * i))
 
     world.before_step.append(command)
     return world
@@ -133,8 +133,8 @@ def grip():
 
     def command(w):
         for name in ("left", "right"):
-            hand.joints[name].servo(min(0.1, 0.2 * w.time))
-        hand.joints["lift"].servo(max(0.0, min(0.2, 0.3 * (w.time - 0.45))))
+            hand.joints[name].drive_to(min(0.1, 0.2 * w.time))
+        hand.joints["lift"].drive_to(max(0.0, min(0.2, 0.3 * (w.time - 0.45))))
 
     world.before_step.append(command)
     return world
@@ -157,7 +157,7 @@ def loop():
 
     def command(w):
         linkage.joints["drive"].add_force(2.0 * math.sin(2 * w.time))
-        finger.joints["j0"].servo(0.8 * math.sin(3 * w.time))
+        finger.joints["j0"].drive_to(0.8 * math.sin(3 * w.time))
 
     world.before_step.append(command)
     return world
@@ -174,7 +174,7 @@ def islands():
 
 
 def carried():
-    """A car whose steering is position-commanded and whose wheels turn by motors; a load tied to it; a trailer on a rope of ties."""
+    """A car whose steering is position-commanded and whose wheels turn by motors; a load tied to it; a trailer on a rope of welds."""
     world, = world_with()
     robot = world.spawn_urdf(car_urdf(), pose=Pose((0, 0, 0.06)))
     load = world.spawn(box("load", at=(0, 0, 0.22)))
@@ -184,7 +184,7 @@ def carried():
 
     def command(w):
         for side in ("left", "right"):
-            robot.joints[f"front_{side}_steer"].servo(0.3 * math.sin(2 * w.time))
+            robot.joints[f"front_{side}_steer"].drive_to(0.3 * math.sin(2 * w.time))
             robot.joints[f"rear_{side}_wheel"].set_motor(8.0, 5.0)
 
     world.before_step.append(command)

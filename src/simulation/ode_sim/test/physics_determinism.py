@@ -26,8 +26,8 @@ def busy_world(seed=7):
         for wheel in ("left", "right"):
             robot.joints[wheel].set_motor(10.0, 5.0)
         for name in ("left", "right"):
-            hand.joints[name].servo(min(0.1, 0.1 * w.time))
-        hand.joints["lift"].servo(max(0.0, min(0.2, 0.2 * (w.time - 1.0))))
+            hand.joints[name].drive_to(min(0.1, 0.1 * w.time))
+        hand.joints["lift"].drive_to(max(0.0, min(0.2, 0.2 * (w.time - 1.0))))
         for joint in list(mover.joints.values())[1:]:
             joint.add_force(2.0)
 

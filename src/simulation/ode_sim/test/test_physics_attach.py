@@ -18,10 +18,10 @@ def test_carried_along_exactly_by_position_commanded_joints():
     robot, thing, attachment = held_box(world)
     before = relative(robot.links["link5"].pose, thing.pose)
     for i in range(1000):
-        robot.joints["j0"].servo(i / 1000)
-        robot.joints["j1"].servo(0.3 * i / 1000)
+        robot.joints["j0"].drive_to(i / 1000)
+        robot.joints["j1"].drive_to(0.3 * i / 1000)
         for name in ("j2", "j3", "j4", "j5"):
-            robot.joints[name].servo(0.0)
+            robot.joints[name].drive_to(0.0)
         world.step()
     after = relative(robot.links["link5"].pose, thing.pose)
     assert robot.joints["j0"].position() == pytest.approx(0.999)
@@ -95,7 +95,7 @@ def test_what_it_bears_is_part_of_snapshots_too():
     world.attach(robot.links["base"], robot.links["link0"])
     robot.joints["j0"].feedback()
     world.step(3)
-    robot.joints["j0"].servo(0.0)  # from here on nothing solves for the attachment
+    robot.joints["j0"].drive_to(0.0)  # from here on nothing solves for the attachment
     world.step(3)
     saved = world.save()
     world.step(5)

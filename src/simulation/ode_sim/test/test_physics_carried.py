@@ -30,7 +30,7 @@ def steer(robot, curvature, ends):
     for end, sign in ends.items():
         reach = WHEELBASE if len(ends) == 1 else WHEELBASE / 2  # from the line that the centre of the turn lies on
         for side, y in (("left", TRACK / 2), ("right", -TRACK / 2)):
-            robot.joints[f"{end}_{side}_steer"].servo(sign * math.atan2(reach * curvature, 1 - y * curvature))
+            robot.joints[f"{end}_{side}_steer"].drive_to(sign * math.atan2(reach * curvature, 1 - y * curvature))
 
 
 def drive(robot, speed, kind, wheels):
@@ -122,7 +122,7 @@ def test_four_steered_wheels_drive_sideways():
     world, robot = car(rear_steering=True)
     for _i in range(4000):
         for corner in REAR + FRONT:
-            robot.joints[f"{corner}_steer"].servo(0.7)
+            robot.joints[f"{corner}_steer"].drive_to(0.7)
         drive(robot, 0.5, "velocity", REAR + FRONT)
         world.step()
     assert math.atan2(robot.pose.p[1], robot.pose.p[0]) == pytest.approx(0.7, abs=0.01)
@@ -192,7 +192,7 @@ def test_parked_car_stays_where_it_is_while_its_wheels_are_steered():
 # ------------------------------------------------------------------------------------------ weight, reaction, swing
 
 def loaded_arm(inertia=None, lower=-1e16, upper=1e16, effort=-1.0):
-    """A free-standing base, two servo joints, and a heavy bar on a free hinge beyond."""
+    """A free-standing base, two position-driven joints, and a heavy bar on a free hinge beyond."""
     model = arm(2, bolted=False, inertia=inertia, mass=1.0, base_size=(0.8, 0.8, 0.1))
     bar = Link("bar", Pose((0, 0, 0.5)), Inertial(3.0, Pose((0, 0, -0.15)), 0.02, 0, 0, 0.02, 0, 0.02))
     hinge = Joint("swing", "revolute", "link1", "bar", axes=(Axis((0, 1, 0), lower, upper, effort),))
@@ -204,8 +204,8 @@ def test_scale_shows_the_weight_of_what_hangs_beyond(kind):
     world, model = world_with(loaded_arm())
     swing = model.joints["swing"]
     for i in range(1500):
-        model.joints["j0"].servo(0.3)
-        model.joints["j1"].servo(min(i * 1e-3, 0.6))
+        model.joints["j0"].drive_to(0.3)
+        model.joints["j1"].drive_to(min(i * 1e-3, 0.6))
         if kind == "driven":
             swing.add_force(60 * (-0.6 - swing.position()) - 5 * swing.velocity())
         elif kind == "motor":
@@ -225,19 +225,19 @@ def test_weight_beyond_can_tip_the_base_over():
     boom = Link("boom", Pose((0, 0, 0.2)), Inertial(2.0, Pose((0.4, 0, 0)), 1e-3, 0, 0, 0.03, 0, 0.03))
     hinge = Joint("boom", "revolute", "link0", "boom", axes=(Axis((0, 1, 0)),))
     world, model = world_with(Model("crane", Pose(), model.links + (boom,), model.joints + (hinge,)))
-    model.joints["j0"].servo(0.0)
+    model.joints["j0"].drive_to(0.0)
     model.joints["boom"].set_motor(0.0, 100.0)
     world.step(1500)
     assert to_rpy(model.links["base"].pose)[1] > 0.2
 
 
 def test_a_swinging_pendulum_moves_the_trolley_that_stands_free():
-    """Momentum of a floating base, a servo joint and a free pendulum beyond it is kept."""
+    """Momentum of a floating base, a position-driven joint and a free pendulum beyond it is kept."""
     world = ode_sim.World()
     world.gravity = (0.0, 0.0, 0.0)
     model = world.spawn(loaded_arm())
     for name in ("j0", "j1"):
-        model.joints[name].servo(0.0)
+        model.joints[name].drive_to(0.0)
     world.step()
     links = model.links.values()
     model.links["bar"].set_twist((0.6, 0, 0), (0, -4.0, 0))  # about its hinge
@@ -260,7 +260,7 @@ def test_gantry_crane_load_swings_as_its_trolley_speeds_up():
               Joint("rope", "revolute", "trolley", "load", axes=(Axis((0, 1, 0), damping=1.0),)))
     world, crane = world_with(Model("crane", Pose(), (frame, trolley, rope), joints))
     for i in range(3000):
-        crane.joints["rail"].servo(0.5 * 1.0 * (i * 1e-3) ** 2)
+        crane.joints["rail"].drive_to(0.5 * 1.0 * (i * 1e-3) ** 2)
         world.step()
     assert crane.joints["rope"].position() == pytest.approx(math.atan2(1.0, G), rel=0.02)
     assert crane.joints["rail"].position() == pytest.approx(0.5 * 2.999 ** 2)
@@ -268,7 +268,7 @@ def test_gantry_crane_load_swings_as_its_trolley_speeds_up():
 
 
 @pytest.mark.parametrize("bolted", [True, False])
-def test_pendulum_on_a_turning_servo_flies_out(bolted):
+def test_pendulum_on_a_turning_driven_joint_flies_out(bolted):
     """Governor: at w^2 l > g the angle is acos(g / (w^2 l))."""
     post = Link("post", Pose((0, 0, 0.5)), box_inertia(500.0, (1, 1, 1)), (Collision("c", Pose(), Box((1, 1, 1))),))
     head = Link("head", Pose((0, 0, 1.8)), box_inertia(1.0, (0.1, 0.1, 0.1)))
@@ -280,7 +280,7 @@ def test_pendulum_on_a_turning_servo_flies_out(bolted):
     world, model = world_with(Model("governor", Pose(), (post, head, bob), joints))
     model.joints["out"].set_position(0.5)
     for i in range(6000):
-        model.joints["turn"].servo(6.0 * i * 1e-3)
+        model.joints["turn"].drive_to(6.0 * i * 1e-3)
         world.step()
     assert abs(model.joints["out"].position()) == pytest.approx(math.acos(G / (36 * 0.5)), rel=0.01)
 
@@ -295,12 +295,12 @@ def test_absurd_inertias_beyond_do_not_move_the_base():
     world, model = world_with(Model("arm", Pose(), model.links + tuple(fingers), model.joints + tuple(joints)))
     moving = [model.joints[f"j{i}"] for i in range(4)]
     for joint in moving:
-        joint.servo(0.0)
+        joint.drive_to(0.0)
     world.step(500)
     start = model.links["base"].pose
     for i in range(1000):
         for joint in moving:
-            joint.servo(i * 3e-4)
+            joint.drive_to(i * 3e-4)
         world.step()
         assert all(joint.position() == i * 3e-4 for joint in moving)
     assert norm(sub(model.links["base"].pose.p, start.p)) < 1e-6
@@ -326,8 +326,8 @@ def test_position_commanded_head_leaves_driving_alone():
     for moving in (False, True):
         world, model = world_with(robot())
         for i in range(3000):
-            model.joints["pan"].servo(0.5 * math.sin(i * 2e-3) if moving else 0.0)
-            model.joints["tilt"].servo(0.3 * math.sin(i * 3e-3) if moving else 0.0)
+            model.joints["pan"].drive_to(0.5 * math.sin(i * 2e-3) if moving else 0.0)
+            model.joints["tilt"].drive_to(0.3 * math.sin(i * 3e-3) if moving else 0.0)
             model.joints["left"].set_motor(9.0, 5.0)
             model.joints["right"].set_motor(11.0, 5.0)
             world.step()
@@ -357,8 +357,8 @@ def test_same_bits_again_and_from_a_snapshot():
     assert bytes(again.save()) == end
 
 
-def test_a_closed_loop_over_two_servo_joints_holds_together():
-    """A bar between two servo-moved cranks of a free-standing frame."""
+def test_a_closed_loop_over_two_driven_joints_holds_together():
+    """A bar between two position-driven cranks of a free-standing frame."""
     frame = Link("frame", Pose((0, 0, 0.05)), box_inertia(20.0, (1, 1, 0.1)), (Collision("c", Pose(), Box((1, 1, 0.1))),))
     light = Inertial(0.1, Pose(), 1e-3, 0, 0, 1e-3, 0, 1e-3)
     links = (frame, Link("a", Pose((-0.2, 0, 0.2)), light), Link("b", Pose((0.2, 0, 0.2)), light), Link("bar", Pose((-0.2, 0, 0.4)), light))
@@ -369,7 +369,7 @@ def test_a_closed_loop_over_two_servo_joints_holds_together():
     world, model = world_with(Model("m", Pose(), links, joints))
     for i in range(1000):
         for name in ("ja", "jb"):
-            model.joints[name].servo(i * 5e-4)
+            model.joints[name].drive_to(i * 5e-4)
         world.step()
     bar, b = model.links["bar"].pose, model.links["b"].pose
     assert model.joints["ja"].position() == 999 * 5e-4
@@ -393,9 +393,9 @@ def wrist(bolted=True, tool=2.0, payload=None):
 
 def hold(world, model, q, steps, wrist_q=0.0):
     for _ in range(steps):
-        model.joints["j0"].servo(0.0)
-        model.joints["j1"].servo(q)
-        model.joints["wrist"].servo(wrist_q)
+        model.joints["j0"].drive_to(0.0)
+        model.joints["j1"].drive_to(q)
+        model.joints["wrist"].drive_to(wrist_q)
         world.step()
 
 
@@ -429,9 +429,9 @@ def test_held_joint_feels_acceleration_pushes_and_contacts():
     joint = model.joints["wrist"]
     joint.feedback()
     for i in range(500):  # swings about the shoulder, which the tool is 0.3 m away from, at 4 rad/s2
-        model.joints["j0"].servo(0.0)
-        model.joints["j1"].servo(2.0 * (i * 1e-3) ** 2)
-        joint.servo(0.0)
+        model.joints["j0"].drive_to(0.0)
+        model.joints["j1"].drive_to(2.0 * (i * 1e-3) ** 2)
+        joint.drive_to(0.0)
         world.step()
     q, speed = model.joints["j1"].position(), 4.0 * 0.4985
     along, outward = np.array((math.cos(q), 0, -math.sin(q))), np.array((math.sin(q), 0, math.cos(q)))
@@ -452,7 +452,7 @@ def test_a_held_joint_bears_less_when_its_load_stands_on_something():
     world, model = world_with(Model("m", model.pose, model.links + (foot,), model.joints + (hinge,)))
     held = model.joints["j0"]
     held.feedback()
-    held.servo(0.0)
+    held.drive_to(0.0)
     world.step(1000)
     stands = scale(world)[2]
     assert held.feedback().child_force[2] + stands == pytest.approx(4 * G, rel=0.02)

@@ -46,7 +46,7 @@ def state(world):
         for link in model.links.values():
             numbers += [*link.linear_velocity(), *link.angular_velocity(), *link.applied_force(), *link.applied_torque()]
         for joint in model.joints.values():
-            numbers += [joint.core.servo_mode, joint.core.servo_target, *np.ravel(joint.core.feedback())]
+            numbers += [joint.core.drive_mode, joint.core.drive_target, *np.ravel(joint.core.feedback())]
             numbers += [joint.core.effort(axis) for axis in range(joint.axis_count)]
         out.append(struct.pack(f"{len(numbers)}d", *numbers))
     return b"".join(out)
@@ -79,7 +79,7 @@ def test_every_bit_is_as_it_was(scene):
 
 
 def test_the_scenes_do_what_they_are_for():
-    """Each road through the core is taken: direct and iterative solver, motors of drives that touch, sleep, ties."""
+    """Each road through the core is taken: direct and iterative solver, motors of drives that touch, sleep, welds."""
     counted = {scene.__name__: scene() for scene in (golden_scenes.pile, golden_scenes.grip, golden_scenes.islands, golden_scenes.drive)}
     for world in counted.values():
         world.step(STEPS)

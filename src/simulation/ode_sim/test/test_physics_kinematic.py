@@ -79,14 +79,14 @@ def test_neighbours_on_a_kinematic_link_are_stepped_once():
     assert world.contacts().size
 
 
-def test_an_attachment_to_a_servo_moved_link_steps_nothing_twice():
-    """What hangs by a joint on a link that a servo joint moves swings the same, whether or not the link holds what touches the ground."""
+def test_an_attachment_to_a_position_driven_link_steps_nothing_twice():
+    """What hangs by a joint on a link that is driven swings the same, whether or not the link holds what touches the ground."""
     world = ode_sim.World()
     world.spawn(ground())
     arms = [world.spawn(arm(3, at=(x, 0, 0)), name=f"arm{x}") for x in (0, 3)]
     for model in arms:
-        model.joints["j0"].servo(0.0)
-        model.joints["j1"].servo(0.5)
+        model.joints["j0"].drive_to(0.0)
+        model.joints["j1"].drive_to(0.5)
         model.joints["j2"].set_position(1.0)
     load = world.spawn(sphere("load", at=(0, 0.5, 0.0999), surface=SLICK))
     world.step(2)

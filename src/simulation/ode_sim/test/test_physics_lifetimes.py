@@ -79,19 +79,19 @@ def test_a_follower_outlives_its_leader():
     leader, follower = world.spawn(arm(2), name="leader"), world.spawn(arm(2, at=(2, 0, 0)), name="follower")
     led = follower.joints["j1"]
     led.follow(leader.joints["j1"], 0.5, 0.1)
-    leader.joints["j1"].servo(0.8)
+    leader.joints["j1"].drive_to(0.8)
     world.step(2)
     saved = world.save()
     assert led.position() == pytest.approx(0.5)
-    leader.joints["j1"].servo(0.2)
+    leader.joints["j1"].drive_to(0.2)
     world.step(2)
     assert led.position() == pytest.approx(0.2)
     world.restore(saved)  # it follows a joint of another model again
-    leader.joints["j1"].servo(0.4)
+    leader.joints["j1"].drive_to(0.4)
     world.step(2)
     assert led.position() == pytest.approx(0.3)
     world.remove("leader")
-    world.spawn(arm(5), name="leader").joints["j1"].servo(1.0)
+    world.spawn(arm(5), name="leader").joints["j1"].drive_to(1.0)
     del leader
     gc.collect()
     world.step(100)
@@ -118,7 +118,7 @@ def test_handles_of_what_is_gone_are_refused():
         refused(lambda: world.attach(stranger.links["link1"], here.links["link1"]))
         refused(lambda: here.joints["j1"].follow(stranger.joints["j1"]))
     refused(lambda: world.core.remove_model(gone.core))
-    for act in (lambda: gone.joints["j1"].servo(0.1), lambda: gone.joints["j1"].follow(None), lambda: setattr(gone, "pose", Pose()),
+    for act in (lambda: gone.joints["j1"].drive_to(0.1), lambda: gone.joints["j1"].follow(None), lambda: setattr(gone, "pose", Pose()),
                 lambda: gone.joints["j1"].set_position(0.1), lambda: gone.links["base"].collisions["base"].bounding_box()):
         refused(act, RuntimeError)
     gone.joints["j1"].set_limits(-1, 1)
@@ -137,7 +137,7 @@ def test_what_the_core_hands_out_keeps_what_it_points_at():
     [bytearray(1 << 16) for _ in range(50)]
     assert shape.pose == pose and len(joint.frame()) == 7 and link.pose()[2] == pytest.approx(0.3)
     joint.changed()
-    refused(lambda: joint.servo(0.1), RuntimeError)
+    refused(lambda: joint.drive_to(0.1), RuntimeError)
 
 
 def test_shared_arrays_live_as_long_as_they_are_looked_at():

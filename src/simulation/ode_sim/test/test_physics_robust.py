@@ -39,7 +39,7 @@ def test_a_place_beyond_all_reason_is_refused(far, static):
     if not math.isfinite(far):
         refused(lambda: link.add_force((1, 0, 0), (0, far, 0)))
         refused(lambda: joint.set_position(far))
-        refused(lambda: joint.servo(far))
+        refused(lambda: joint.drive_to(far))
     assert digest(world) == before and list(world.models) == ["ground_plane", "arm"]
     runs_on(world)
 
@@ -57,7 +57,7 @@ def test_a_rigid_move_that_takes_a_part_too_far_is_refused():
     before = digest(world)
     assert "2e+07" in refused(lambda: model.joints["j"].set_position(9e6))
     assert digest(world) == before
-    model.joints["j"].servo(5e9)
+    model.joints["j"].drive_to(5e9)
     runs_on(world)
     world.reset()
     assert world.link_poses[:, 0].tolist() == pytest.approx([0.0, 9e6])
@@ -78,7 +78,7 @@ def test_a_reset_brings_back_what_has_flown_apart():
 def test_a_reset_puts_joints_back_that_have_flown_apart():
     world = ode_sim.World()
     robot = world.spawn(diff_drive(at=(1, 0, 0.5)))
-    robot.joints["left"].servo(0.5)
+    robot.joints["left"].drive_to(0.5)
     world.step(10)
     robot.set_twist((1e10, 1e10, 0), (0, 0, 1e10))
     world.step(10)
@@ -145,12 +145,12 @@ def test_chains_of_sliders_that_lead_out_of_reach():
     world.spawn(ground())
     model = world.spawn(Model("m", Pose((0, 0, 1)), links, joints))
     for joint in list(model.joints.values())[1:]:
-        joint.servo(1e7)
+        joint.drive_to(1e7)
     world.step(5)
     assert model.links["l29"].pose.p[0] > 2e8
     world.spawn(box("falls", at=(0, 3, 0.3)))
     for joint in list(model.joints.values())[1:]:
-        joint.servo(0.0)
+        joint.drive_to(0.0)
     world.step(1000)
     assert world.models["falls"].pose.p[2] == pytest.approx(0.05, abs=1e-3)
     assert model.links["l29"].pose.p[0] == pytest.approx(0.0, abs=1e-6)
@@ -194,16 +194,17 @@ def test_any_number_given_to_any_setter(bad):
     robot, arm_ = world.spawn(diff_drive()), world.spawn(arm(3, at=(2, 0, 0)))
     thing = world.spawn(box("thing", at=(2, 0, 0.8)))
     tie = world.attach(arm_.links["link2"], thing.links["link"])
-    link, joint, servo = robot.links["base"], robot.joints["left"], arm_.joints["j1"]
+    link, joint, driven = robot.links["base"], robot.joints["left"], arm_.joints["j1"]
     surface = next(iter(link.collisions.values())).surface
     calls = [
         lambda: link.add_force((bad, 0, 0)), lambda: link.add_force((0, 0, 0), (bad, 0, 0)), lambda: link.add_torque((0, bad, 0)),
         lambda: link.set_force((0, 0, bad)), lambda: link.set_torque((bad, 0, bad)), lambda: link.set_twist((bad, 0, 0), (0, 0, 0)),
         lambda: link.set_twist((0, 0, 0), (0, bad, 0)), lambda: robot.set_twist((0, 0, 0), (bad, bad, bad)),
         lambda: setattr(link, "pose", Pose((0, 0, 1), (bad, 0, 0, 1))), lambda: joint.add_force(bad), lambda: joint.set_motor(bad, 1.0),
-        lambda: joint.set_motor(1.0, bad), lambda: servo.servo(bad), lambda: servo.set_position(bad), lambda: joint.set_limits(bad, bad),
+        lambda: joint.set_motor(1.0, bad), lambda: driven.drive_to(bad), lambda: driven.set_position(bad),
+        lambda: joint.set_limits(bad, bad),
         lambda: joint.set_limits(-1, bad), lambda: joint.set_limits(bad, 1), lambda: setattr(joint, "damping", bad),
-        lambda: setattr(joint, "friction", bad), lambda: joint.follow(servo, bad, 0.0), lambda: joint.follow(servo, 1.0, bad),
+        lambda: setattr(joint, "friction", bad), lambda: joint.follow(driven, bad, 0.0), lambda: joint.follow(driven, 1.0, bad),
         lambda: setattr(tie, "pose", Pose((bad, 0, 0))), lambda: setattr(world, "gravity", (0, bad, 0))]
     calls += [lambda name=name: joint.set_param(name, bad) for name in
               ("fmax", "vel", "hi_stop", "lo_stop", "stop_erp", "stop_cfm", "friction", "damping")]

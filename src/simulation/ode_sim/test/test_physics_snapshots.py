@@ -29,7 +29,7 @@ def test_a_refused_snapshot_changes_nothing():
     before, time = bytes(world.save()), world.time
     assert "other models" in refused(lambda: world.restore(saved))
     assert bytes(world.save()) == before and world.time == time and world.dt == 0.002 and world.gravity == (0, 0, -1)
-    assert world.core.ties() == []
+    assert world.core.welds() == []
     world.remove("thing")
     runs_on(world)
 
@@ -48,7 +48,7 @@ def test_a_damaged_snapshot_changes_nothing():
     damaged = [replace(good, state=good.state[:k]) for k in (0, 7, 8, 16, 100, n // 2, n - 1)]
     damaged += [
         replace(good, state=good.state + b"\0"),
-        replace(good, ties=()),
+        replace(good, welds=()),
         replace(good, generators=b"{}"),
         replace(good, generators=b"\x80\x04."),
     ]
@@ -149,7 +149,7 @@ def test_masses_come_back_with_all_that_follows_from_them():
     world = ode_sim.World()
     world.spawn(ground())
     robot = world.spawn(arm(2, bolted=False))
-    robot.joints["j1"].servo(0.4)
+    robot.joints["j1"].drive_to(0.4)
     world.step(30)
     saved = world.save()
     world.step(30)

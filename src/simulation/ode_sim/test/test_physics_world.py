@@ -195,7 +195,7 @@ def test_physics_set_as_a_whole():
 def test_model_pose_moves_everything_rigidly_bolts_included():
     world = ode_sim.World()
     model = world.spawn(arm(2))
-    list(model.joints.values())[1].servo(0.4)
+    list(model.joints.values())[1].drive_to(0.4)
     world.step()
     tip = model.links["link1"].pose.p
     model.pose = Pose((1, 2, 0), quat_from_rpy(0, 0, math.pi / 2))
@@ -307,7 +307,7 @@ def test_spawn_and_remove_while_running():
     for round_ in range(20):
         robot = world.spawn(diff_drive(), name=f"robot{round_ % 3}", pose=Pose((round_, 0, 0)))
         robot.joints["left"].set_motor(5.0, 5.0)
-        robot.joints["left"].servo(0.1) if round_ % 2 else None
+        robot.joints["left"].drive_to(0.1) if round_ % 2 else None
         world.step(20)
         if round_ >= 2:
             world.remove(f"robot{(round_ - 2) % 3}")
@@ -319,7 +319,7 @@ def test_spawn_and_remove_while_running():
     last.remove()
     assert "robot1" not in world.models
     with pytest.raises(RuntimeError, match="no longer in the world"):
-        last.joints["left"].servo(0.0)
+        last.joints["left"].drive_to(0.0)
 
 
 def test_looking_up_names_scoped_or_not_first_hit_wins():
@@ -476,7 +476,7 @@ def test_nothing_is_printed(capfd):
     hand = world.spawn(gripper())
     for i in range(6):
         world.spawn(box(f"b{i}", at=(0, 0, 0.05 + 0.09 * i), mass=10.0 ** (i - 3)))
-    hand.joints["left"].servo(0.1)
+    hand.joints["left"].drive_to(0.1)
     world.step(500)
     out = capfd.readouterr()
     assert out.out == "" and out.err == ""

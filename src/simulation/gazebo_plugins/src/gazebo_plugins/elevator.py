@@ -52,7 +52,7 @@ class Elevator(ModelPlugin):
     @staticmethod
     def _approach(joint, target: float, most: float) -> None:
         position = joint.position()
-        joint.servo(position + max(-most, min(most, target - position)))
+        joint.drive_to(position + max(-most, min(most, target - position)))
 
     def shutdown(self) -> None:
         self.topics.close()

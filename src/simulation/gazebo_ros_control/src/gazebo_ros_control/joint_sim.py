@@ -89,7 +89,7 @@ class PositionMode(Mode):
         self.handle.command = self.state.position
 
     def leave(self) -> None:
-        self.joint.servo_off()
+        self.joint.drive_off()
         self.state.effort = 0.0
 
     def press(self, active: bool) -> None:
@@ -108,7 +108,7 @@ class PositionMode(Mode):
         if self.e_stop:  # as in target(), without the call
             self.handle.command = self._frozen
         self.limits.enforce_limits(dt)
-        self.joint.servo(self.handle.command)
+        self.joint.drive_to(self.handle.command)
 
 
 class _ByPid:

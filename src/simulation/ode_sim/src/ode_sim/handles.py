@@ -213,7 +213,7 @@ class JointHandle:
             core.effort
         )  # N m or N: the sum of the forces added since the last step, after truncation; that of the step if none were
         self.motor = core.motor
-        self._servo = core.servo
+        self._drive_to = core.drive_to
 
     @property
     def index(self) -> int:
@@ -251,7 +251,7 @@ class JointHandle:
             raise ValueError(f"motor force of joint {self.scoped_name} must be a number")
         self.core.set_motor(velocity, max(max_force, 0.0), axis)
 
-    def servo(self, position: float) -> None:
+    def drive_to(self, position: float) -> None:
         """Be at ``position`` (clamped to the limits, and to 1e7) after the next step, whatever the masses, without recoil.
 
         The link beyond becomes rigidly joined and is moved exactly. While it, or something beyond it, touches another
@@ -260,23 +260,23 @@ class JointHandle:
         """
         if position - position != 0.0:  # not a number, or infinite
             raise ValueError(f"position command of joint {self.scoped_name} must be a finite number, not {position}")
-        self._servo(position)
+        self._drive_to(position)
 
-    def servo_off(self) -> None:
+    def drive_off(self) -> None:
         """Let go: the joint moves freely again."""
-        self.core.servo_off()
+        self.core.drive_off()
 
     @property
-    def servo_active(self) -> bool:
-        return self.core.servo_mode != 0
+    def drive_active(self) -> bool:
+        return self.core.drive_mode != 0
 
     @property
-    def servo_pushing(self) -> bool:
+    def drive_pushing(self) -> bool:
         """Whether the position-commanded joint is an effort-limited motor at the moment, because of a contact."""
-        return self.core.servo_mode == 2
+        return self.core.drive_mode == 2
 
     def follow(self, leader: Optional["JointHandle"], multiplier: float = 1.0, offset: float = 0.0) -> None:
-        """Mimic: keep at ``multiplier * leader + offset`` by :meth:`servo`. ``None`` ends it.
+        """Mimic: keep at ``multiplier * leader + offset`` by :meth:`drive_to`. ``None`` ends it.
 
         The leader may be of another model; when that is removed, the joint stays where it was commanded last.
         """

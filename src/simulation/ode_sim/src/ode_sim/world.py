@@ -28,7 +28,7 @@ class Snapshot:
     models: Tuple[str, ...]
     state: bytes
     generators: bytes  # seed and state of World.rng, JSON
-    ties: Tuple[int, ...] = field(default=(), compare=False)  # by which Attachment objects find theirs; no part of the state
+    welds: Tuple[int, ...] = field(default=(), compare=False)  # by which Attachment objects find theirs; no part of the state
 
     def __bytes__(self) -> bytes:
         return b"".join((repr(self.models).encode(), self.state, self.generators))
@@ -320,7 +320,7 @@ class World:
         """The whole state: continuing from it gives the same bits as going on without saving."""
         states = [(name, generator.bit_generator.state) for name, generator in sorted(self._generators.items())]
         return Snapshot(tuple(self.models), self.core.save(), json.dumps({"seed": self._seed, "streams": states}).encode(),
-                        tuple(self.core.ties()))
+                        tuple(self.core.welds()))
 
     def restore(self, snapshot: Snapshot) -> None:
         """Back to a saved state of a world with the same models.
@@ -338,7 +338,7 @@ class World:
                 generators[stream].bit_generator.state = state
         except (ValueError, TypeError, KeyError) as error:
             raise ValueError(f"the snapshot cannot be restored: its random numbers are damaged ({error})") from None
-        self.core.restore(snapshot.state, snapshot.ties)
+        self.core.restore(snapshot.state, snapshot.welds)
         self._seed, self._generators = seed, generators
 
     # ------------------------------------------------------------------------------------------ state, contacts, rays

@@ -141,7 +141,7 @@ class Episodes:
         for value, (low, high), command, joint in zip(action.tolist(), self.bounds, self.commands, self._commanded):
             value = min(max(value, low), high)
             if command.kind == "position":
-                joint.servo(value)
+                joint.drive_to(value)
             elif command.kind == "velocity":
                 joint.set_motor(value, joint.effort_limit if joint.effort_limit >= 0.0 else math.inf)
             else:
