@@ -242,7 +242,7 @@ class Panel(unittest.TestCase):
         self.publish(lambda: self.scene()[1] == {"Box_0": "hand"}, "object in the hand, for move_group")
         self.rviz.click_text("Planning")
         self.type_number("velocity_scaling_factor", 1.0)
-        self.choose("goal_state_combo_box", "left" if off(HOME) < 0.1 else "home")
+        self.choose("goal_state_combo_box", "left" if off(HOME) < off(LEFT) else "home")  # the farther one
         self.rviz.click("plan_and_execute_button")
         self.result("Executed")
         self.rviz.click_text("Scene Objects")
