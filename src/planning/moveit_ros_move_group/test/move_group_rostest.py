@@ -320,16 +320,19 @@ class Scene(unittest.TestCase):
         self.assertFalse(apply(CollisionObject(id="empty"), box("next", 2, 2, 2)))
         self.assertEqual(self.names(), ["good", "next"])
 
-    def test_a_listener_sees_changes(self):
+    def test_a_listener_sees_the_whole_scene_and_then_changes(self):
+        def operations(message):
+            return [(entry.id, entry.operation) for entry in message.world.collision_objects]
+
         seen = []
         subscriber = rospy.Subscriber("move_group/monitored_planning_scene", PlanningScene, seen.append)
         wait_until(lambda: subscriber.get_num_connections(), "the connection")
+        apply(box("early", 1, 1, 1))
+        wait_until(lambda: any(("early", 0) in operations(m) for m in seen), "a scene")  # whole, as all was removed before
         apply(box("late", 2, 2, 2))
-        wait_until(lambda: any(m.is_diff and [o.id for o in m.world.collision_objects] == ["late"] for m in seen),
-                   "the diff")
+        wait_until(lambda: any(m.is_diff and operations(m) == [("late", 0)] for m in seen), "the diff")
         apply(CollisionObject(id="late", operation=CollisionObject.REMOVE))
-        wait_until(lambda: any(m.is_diff and [(o.id, o.operation) for o in m.world.collision_objects] == [("late", 1)]
-                               for m in seen), "the removal")
+        wait_until(lambda: any(m.is_diff and operations(m) == [("late", 1)] for m in seen), "the removal")
         subscriber.unregister()
 
     def test_a_thousand_objects(self):

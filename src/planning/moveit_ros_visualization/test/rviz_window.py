@@ -10,11 +10,12 @@ import sys
 
 from python_qt_binding.QtCore import QTimer
 from python_qt_binding.QtWidgets import QApplication, QLabel, QPushButton
-from rviz_offscreen.bindings import rviz
+from rviz_offscreen.bindings import disable_anti_aliasing, rviz
 
 config = sys.argv[1]
 width, height = map(int, sys.argv[2].split("x"))
 app = QApplication([sys.argv[0]])
+disable_anti_aliasing()  # a quarter of the work for software OpenGL
 frame = rviz.VisualizationFrame()
 frame.setSplashPath("")
 frame.initialize(config)

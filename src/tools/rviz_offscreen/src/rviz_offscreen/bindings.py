@@ -43,4 +43,17 @@ else:
         from rviz import rviz
     rviz = getattr(rviz, "rviz", rviz)
 
-__all__ = ["QApplication", "QDockWidget", "QImage", "QPainter", "QPoint", "QRect", "QWidget", "rviz", "sip"]
+__all__ = ["QApplication", "QDockWidget", "QImage", "QPainter", "QPoint", "QRect", "QWidget", "disable_anti_aliasing",
+           "loaded_library", "rviz", "sip"]
+
+
+def loaded_library(name: str) -> ctypes.CDLL:
+    """A shared library that this process has loaded already, by its name without version."""
+    with open("/proc/self/maps") as maps:
+        path = next(line.split()[-1] for line in maps if f"/{name}" in line)
+    return ctypes.CDLL(path)
+
+
+def disable_anti_aliasing() -> None:
+    """What rviz's --disable-anti-aliasing does, which the bindings do not have. To be called before the first window is made."""
+    loaded_library("librviz.so")._ZN4rviz12RenderSystem19disableAntiAliasingEv()

@@ -16,7 +16,8 @@ from typing import Dict, List
 sys.modules.update({f"PyQt5.{name}": None for name in ("QtWebEngine", "QtWebEngineCore", "QtWebEngineWidgets")})
 
 from . import displays, extent  # noqa: E402
-from .bindings import QApplication, QDockWidget, QImage, QPainter, QPoint, QRect, QWidget, rviz, sip  # noqa: E402
+from .bindings import (  # noqa: E402
+    QApplication, QDockWidget, QImage, QPainter, QPoint, QRect, QWidget, disable_anti_aliasing, loaded_library, rviz, sip)
 
 _SETTLE_FRAMES = 3  # frames to draw after a change before the picture is taken: OGRE shows it one or two frames later
 
@@ -28,8 +29,7 @@ class Grabber:
         self.job = job
         self.app = QApplication(["rviz"])
         if not job["anti_aliasing"]:
-            # What rviz's --disable-anti-aliasing does; the bindings do not expose it.
-            _library("librviz.so")._ZN4rviz12RenderSystem19disableAntiAliasingEv()
+            disable_anti_aliasing()
         self.frame = rviz.VisualizationFrame()
         self.frame.setSplashPath("")
         self.frame.initialize()
@@ -153,7 +153,7 @@ class Grabber:
 
 def render_windows() -> List[int]:
     """Addresses of the OGRE windows of RViz, in the order of their making: the 3D view, then those of Image displays."""
-    ogre = _library("libOgreMain.so")
+    ogre = loaded_library("libOgreMain.so")
     root = ogre._ZN4Ogre4Root15getSingletonPtrEv
     root.restype = ctypes.c_void_p
     get_target = ogre._ZN4Ogre4Root15getRenderTargetERKNSt7__cxx1112basic_stringIcSt11char_traitsIcESaIcEEE
@@ -177,7 +177,7 @@ def window_of(panel: QWidget) -> int:
 
 def write_frame_buffer(window: int, path: str) -> None:
     """Ogre::RenderTarget::writeContentsToFile."""
-    ogre = _library("libOgreMain.so")
+    ogre = loaded_library("libOgreMain.so")
     write = ogre._ZN4Ogre12RenderTarget19writeContentsToFileERKNSt7__cxx1112basic_stringIcSt11char_traitsIcESaIcEEE
     write.restype = None
     write.argtypes = [ctypes.c_void_p, ctypes.c_void_p]
@@ -185,13 +185,6 @@ def write_frame_buffer(window: int, path: str) -> None:
         write(window, file)
     if not os.path.getsize(path):
         raise RuntimeError(f"cannot write {path}")
-
-
-def _library(name: str) -> ctypes.CDLL:
-    """A shared library that this process has loaded already, by its name without version."""
-    with open("/proc/self/maps") as maps:
-        path = next(line.split()[-1] for line in maps if f"/{name}" in line)
-    return ctypes.CDLL(path)
 
 
 class _StdString:
@@ -222,7 +215,7 @@ def main() -> None:
     json.dump({**result, "seconds": round(drawn, 3)}, answer)
     answer.write("\n")
     answer.flush()
-    _library("libroscpp.so")._ZN3ros8shutdownEv()  # unregisters the node
+    loaded_library("libroscpp.so")._ZN3ros8shutdownEv()  # unregisters the node
     os._exit(0)  # the bindings' destructors run in no useful order, and all is written
 
 
