@@ -4,8 +4,8 @@ Every ``test/test_*.py`` below src/ is pytest's, every ``test/*.test`` is rostes
 one line ``N passed, M failed``, before it the cases that failed, each with its reason; the output of what failed is printed
 in full, and kept with the rest in --logs.
 
-With --again up to three files that failed run once more, one after the other, when all others have ended. What passes then
-counts as passed, but a line ``unsteady: ...`` says what had failed: a fault of the test or of what it tests, to be found.
+With --again up to five files that failed run once more, up to twice, one after the other, when all others have ended. What passes
+then counts as passed, but a line ``unsteady: ...`` says what had failed: a fault of the test or of what it tests, to be found.
 """
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ import threading
 import time
 import xml.etree.ElementTree as ET
 from collections import deque
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Iterator, List, Optional
 
@@ -30,8 +30,9 @@ TIME_LIMIT = 300  # s for one file; a test that takes longer hangs
 ENDING = 30  # s in which it ends what it started, before it is killed
 LONGEST = 900  # s, for a folder of several files
 QUIET_LINES = 80  # of the output of what failed, with --quiet
-PROGRESS = 25  # files, between two lines that say how far it is, with --quiet
-SECOND_TRIES = 3  # files; if more have failed, it is no accident
+REASON = 200  # characters of the reason of a case, with --quiet
+SECOND_TRIES = 5  # files; if more have failed, it is no accident
+AGAIN = 2  # times that each of them runs once more
 
 
 @dataclass
@@ -132,7 +133,7 @@ def count(report: Path) -> tuple:
 
 
 def reasons(home: Path) -> Iterator[str]:
-    """One line for each case that failed: its name and the last line of why, from the reports below ``home``."""
+    """One line for each case that failed: its name and why, from the reports below ``home``."""
     for report in sorted(home.rglob("*.xml")):
         try:
             cases = list(ET.parse(report).getroot().iter("testcase"))
@@ -140,9 +141,10 @@ def reasons(home: Path) -> Iterator[str]:
             continue
         for case in cases:
             for fault in [*case.findall("failure"), *case.findall("error")]:
-                why = (fault.get("message") or (fault.text or "").strip().splitlines()[-1:] or [""])
-                text = why if isinstance(why, str) else why[0]
-                yield f"{case.get('classname', '')}.{case.get('name', '')}: {' '.join(text.split())[:500]}"
+                lines = (fault.text or "").strip().splitlines() or [""]
+                # pytest gives the message as an attribute; rosunit begins the text with it; gtest and a traceback end with it
+                why = fault.get("message") or lines[-1 if lines[0].startswith("Traceback") else 0]
+                yield f"{case.get('classname', '')}.{case.get('name', '')}: {' '.join(why.split())[:500]}"
 
 
 def _listen_to_ctrl_c() -> None:
@@ -203,14 +205,14 @@ def faults(result: Result) -> List[str]:
 
 
 def tell(result: Result, quiet: bool) -> None:
-    """One line for a file; if it failed, the reasons and its output as well. Quiet: the end of the output of failures only."""
+    """One line for a file; if it failed, the reasons and its output as well. Quiet: the reasons of failures only."""
     if quiet and not result.failed:
         return
-    if quiet:
-        result = replace(result, output="\n".join(result.output.splitlines()[-QUIET_LINES:]))
     mark = "FAIL" if result.failed else "ok"
     print(f"{mark:4} {result.job.kind:7} {result.job.name:70} {result.passed:4} passed {result.seconds:6.1f} s", flush=True)
-    if result.failed:
+    if result.failed and quiet:
+        print("\n".join(f"     {reason[:REASON]}" for reason in result.reasons), flush=True)
+    elif result.failed:
         print("\n".join(f"     {reason}" for reason in result.reasons), result.output, sep="\n", flush=True)
 
 
@@ -219,7 +221,7 @@ def main() -> int:
     parser.add_argument("packages", nargs="*", help="only these packages")
     parser.add_argument("-k", "--kind", choices=["all", "pytest", "rostest"], default="all")
     parser.add_argument("-j", "--jobs", type=int, default=min(2, os.cpu_count() or 1))
-    parser.add_argument("--again", action="store_true", help=f"run up to {SECOND_TRIES} files that failed once more, alone")
+    parser.add_argument("--again", action="store_true", help=f"run up to {SECOND_TRIES} files that failed once more, alone, at most {AGAIN} times")
     parser.add_argument("--quiet", action="store_true", help="tell only what fails")
     parser.add_argument("--logs", default=None, help="keep all output in this folder")
     options = parser.parse_args()
@@ -234,18 +236,21 @@ def main() -> int:
     for result in run_all(jobs, options.jobs, scratch):
         results[result.job.path] = result
         tell(result, options.quiet)
-        if options.quiet and (len(results) % PROGRESS == 0):
-            print(f"{len(results)} of {len(jobs)} files after {time.monotonic() - start:.0f} s", flush=True)
     unsteady: List[str] = []
     broken = [result for result in results.values() if result.failed]
     if options.again and len(broken) <= SECOND_TRIES:
         for first in broken:
-            print(f"once more: {first.job.name}", flush=True)
-            second = run(first.job, scratch)
-            tell(second, options.quiet)
-            results[first.job.path] = second
-            if not second.failed:
-                unsteady += faults(first)
+            for _ in range(AGAIN):
+                print(f"once more: {first.job.name}", flush=True)
+                another = results[first.job.path] = run(first.job, scratch)
+                tell(another, options.quiet)
+                if not another.failed:
+                    unsteady += faults(first)
+                    break
+    if options.quiet:
+        for result in results.values():
+            if result.failed:
+                print(f"--- the end of what {result.job.name} printed", *result.output.splitlines()[-QUIET_LINES:], sep="\n")
     print(f"{time.monotonic() - start:.0f} s in all, logs in {scratch}")
     passed, failed, skipped = (sum(getattr(result, kind) for result in results.values()) for kind in ("passed", "failed", "skipped"))
     if not failed and not unsteady and not options.logs:
