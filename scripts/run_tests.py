@@ -221,7 +221,7 @@ def main() -> int:
     parser.add_argument("packages", nargs="*", help="only these packages")
     parser.add_argument("-k", "--kind", choices=["all", "pytest", "rostest"], default="all")
     parser.add_argument("-j", "--jobs", type=int, default=min(2, os.cpu_count() or 1))
-    parser.add_argument("--again", action="store_true", help=f"run up to {SECOND_TRIES} files that failed once more, alone, at most {AGAIN} times")
+    parser.add_argument("--again", action="store_true", help="run the few files that failed again, alone")
     parser.add_argument("--quiet", action="store_true", help="tell only what fails")
     parser.add_argument("--logs", default=None, help="keep all output in this folder")
     options = parser.parse_args()
