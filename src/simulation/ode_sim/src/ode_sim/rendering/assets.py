@@ -8,6 +8,7 @@ import numpy as np
 
 from ode_sim.description import model as d
 from ode_sim.description.model import DescriptionError, one_line, quoted
+from ode_sim.heightmap import load_heights
 from ode_sim.images import read_rgba
 from ode_sim.math3 import compose, quat_between
 from ode_sim.rendering import geometry
@@ -114,8 +115,7 @@ class Assets:
         if isinstance(shape, d.Heightmap):
             if not shape.path:
                 return [], pose, one  # the reader has said so already
-            return self._made(shape, lambda: geometry.height_grid(
-                geometry.load_heights(shape.path), shape.size, shape.pos)), pose, one
+            return self._made(shape, lambda: geometry.height_grid(load_heights(shape), shape.size, shape.pos)), pose, one
         if isinstance(shape, d.Mesh):
             return (self._mesh_file(shape) if shape.path else []), pose, one
         raise ValueError(f"geometry {type(shape).__name__} cannot be drawn")

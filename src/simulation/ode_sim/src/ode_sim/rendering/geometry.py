@@ -6,10 +6,10 @@ from typing import Optional, Tuple
 
 import numpy as np
 
-from ode_sim.description.model import DescriptionError
-from ode_sim.images import read_grey
+from ode_sim.heightmap import thinned
 
 _SEGMENTS = 32  # round shapes; Gazebo draws cylinders and spheres with 32
+_MOST_DRAWN = 513  # rows of a height map; more than half a million triangles only slows the picture
 
 
 @dataclass(frozen=True)
@@ -164,24 +164,15 @@ def _ear_clip(ring: np.ndarray) -> np.ndarray:
 
 
 def height_grid(heights: np.ndarray, size, pos) -> TriMesh:
-    """Terrain from ``heights`` (rows, columns), 0..1, first row at +y; ``size`` (x, y, z) m, ``pos`` its centre."""
+    """Terrain from ``heights`` (rows, columns) in m, first row at +y; ``size`` (x, y, _) m, ``pos`` its centre.
+
+    Of a large map no more is drawn than what can be seen.
+    """
+    heights = thinned(heights, _MOST_DRAWN)
     rows, columns = heights.shape
     x, y = np.meshgrid(np.linspace(-0.5, 0.5, columns) * size[0], np.linspace(0.5, -0.5, rows) * size[1])
-    z = heights * size[2]
-    dz_row, dz_column = np.gradient(z)
-    normals = np.stack([-dz_column * (columns - 1) / size[0], dz_row * (rows - 1) / size[1], np.ones_like(z)], -1)
+    dz_row, dz_column = np.gradient(heights)
+    normals = np.stack([-dz_column * (columns - 1) / size[0], dz_row * (rows - 1) / size[1], np.ones_like(heights)], -1)
     u, v = np.meshgrid(np.linspace(0, 1, columns), np.linspace(1, 0, rows))
-    points = np.stack([x, y, z], -1) + np.asarray(pos, float)
+    points = np.stack([x, y, heights], -1) + np.asarray(pos, float)
     return _grid(points[::-1], _unit(normals)[::-1], np.stack([u, v], -1)[::-1])
-
-
-def load_heights(path: str) -> np.ndarray:
-    """Grey image as heights 0..1, float64 (rows, columns).
-
-    :raises DescriptionError: unreadable image, or too small.
-    """
-    heights = read_grey(path)
-    if min(heights.shape) < 2:
-        raise DescriptionError(f"image {path}: a height map must have at least 2x2 pixels")
-    step = max(1, int(np.ceil(max(heights.shape) / 513)))  # more than half a million triangles only slows the picture
-    return heights[::step, ::step]
