@@ -127,9 +127,22 @@ def test_point_clouds_in_old_packages(package):
         Cloud::Ptr last;
         void heard(const Cloud::ConstPtr& cloud) { publisher.publish(cloud); publisher.publish(*cloud); }
         void changes(Cloud::Ptr cloud) { last = cloud; publisher.publish(last); }
+        void boosted(const boost::shared_ptr<const Cloud>& cloud) { publisher.publish(*cloud); }
+        struct Node {
+          void member(const Cloud::ConstPtr& cloud) { publisher.publish(cloud); }
+          void constant(const Cloud::ConstPtr& cloud) const { publisher.publish(cloud); }
+          void bound(const Cloud::ConstPtr& cloud, int) { publisher.publish(cloud); }
+        } node;
         void subscribe(ros::NodeHandle& nh) {
           publisher = nh.advertise<Cloud>("y", 1);
-          static ros::Subscriber one = nh.subscribe("x", 1, heard), two = nh.subscribe("x", 1, changes);
+          boost::function<void(const Cloud::ConstPtr&)> function = heard;
+          static ros::Subscriber all[] = {
+              nh.subscribe("x", 1, heard), nh.subscribe("x", 1, changes), nh.subscribe("x", 1, &Node::member, &node),
+              nh.subscribe<Cloud>("x", 1, heard), nh.subscribe<Cloud>("x", 1, changes), nh.subscribe<Cloud>("x", 1, function),
+              nh.subscribe<Cloud>("x", 1, boosted), nh.subscribe<Cloud>("x", 1, &Node::member, &node),
+              nh.subscribe<Cloud>("x", 1, &Node::constant, &node, ros::TransportHints().tcpNoDelay()),
+              nh.subscribe<Cloud>("x", 1, boost::bind(&Node::bound, &node, _1, 3)), nh.subscribe<Cloud>("x", 1, boost::bind(boosted, _1)),
+              nh.subscribe<Cloud>("x", 1, [](const Cloud::ConstPtr& cloud) { publisher.publish(cloud); })};
         }
         """, "add_definitions(-std=c++11)")
     assert ended.returncode == 0, ended.stdout + ended.stderr

@@ -5,6 +5,14 @@
 #include_next <pcl_ros/point_cloud.h>
 
 #if PCL_VERSION_COMPARE(>=, 1, 11, 0)
+namespace noetic_compatibility
+{
+// subscribe<Cloud>("points", 1, callback) takes callbacks with Cloud::ConstPtr, too.
+template <typename T> struct HasStdPointers<pcl::PointCloud<T>> : std::true_type
+{
+};
+}  // namespace noetic_compatibility
+
 namespace ros
 {
 namespace message_traits
