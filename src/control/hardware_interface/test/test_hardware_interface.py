@@ -1,8 +1,10 @@
 """Handles, interfaces, claims, combination of robots, conflicts between controllers."""
+from xml.etree.ElementTree import ParseError
+
 import pytest
 from hardware_interface import (ControllerInfo, EffortJointInterface, HardwareInterface, InterfaceResources,
                                 JointHandle, JointStateHandle, JointStateInterface, PositionJointInterface, PosVelJointHandle,
-                                PosVelJointInterface, ResourceError, RobotHW, SwitchState, VelocityJointInterface)
+                                PosVelJointInterface, ResourceError, RobotHW, SwitchState, VelocityJointInterface, description_root)
 
 
 def joint(name, **state):
@@ -133,3 +135,12 @@ def test_hooks_succeed_by_default():
 def test_conflicts(controllers, conflict, caplog):
     assert RobotHW().check_for_conflict(controllers) is conflict
     assert ("Resource conflict on [j1]" in caplog.text) is conflict
+
+
+def test_a_robot_is_read_once():
+    urdf = "\ufeff\n\n<?xml version='1.0' encoding='latin-1'?>\n<robot name='ü'><link name='{}'/></robot>"
+    root = description_root(urdf.format("base"))
+    assert root.get("name") == "ü" and root.find("link").get("name") == "base"
+    assert description_root(urdf.format("base")) is root and description_root(urdf.format("arm")) is not root
+    with pytest.raises(ParseError, match="mismatched tag: line 1, column 15"):
+        description_root("<robot><link></robot>")

@@ -7,6 +7,7 @@ reads commands, the controller does the opposite, both from the one control loop
 
 Units: rad or m, rad/s or m/s, Nm or N.
 """
+from .description import description_root
 from .handles import (ActuatorHandle, ActuatorStateHandle, ForceTorqueSensorHandle, ImuSensorHandle, JointHandle,
                       JointMode, JointModeHandle, JointStateHandle, PositionVelocityTorqueGainsJointHandle,
                       PosVelAccJointHandle, PosVelJointHandle, addresses)
@@ -25,5 +26,5 @@ __all__ = [
     "PosVelAccJointInterface", "PosVelJointHandle", "PosVelJointInterface", "PositionActuatorInterface",
     "PositionJointInterface", "PositionVelocityTorqueGainsJointHandle", "PositionVelocityTorqueGainsJointInterface",
     "ResourceError", "RobotHW", "SwitchState", "VelocityActuatorInterface", "VelocityJointInterface",
-    "addresses",
+    "addresses", "description_root",
 ]

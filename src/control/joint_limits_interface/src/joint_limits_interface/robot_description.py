@@ -6,6 +6,8 @@ from math import inf
 from typing import Dict, Optional
 from xml.etree import ElementTree
 
+from hardware_interface import description_root
+
 from .angles import distance_within_limits, shortest_angular_distance
 
 
@@ -90,7 +92,7 @@ def read_joints(urdf: str) -> Dict[str, JointDescription]:
     :raises DescriptionError: the text is no XML, or a limit no number.
     """
     try:
-        root = ElementTree.fromstring(urdf.encode("utf-8"))
+        root = description_root(urdf)
     except ElementTree.ParseError as error:
         raise DescriptionError(f"the robot description is no valid XML: {error}") from None
     return {joint.name: joint for joint in map(_joint, root.iterfind("joint"))}

@@ -5,6 +5,8 @@ from dataclasses import dataclass, field
 from typing import List, Optional, Tuple
 from xml.etree import ElementTree
 
+from hardware_interface import description_root
+
 from .transmissions import TransmissionError
 
 
@@ -87,7 +89,7 @@ def parse_transmissions(urdf: str) -> Tuple[List[TransmissionInfo], List[str]]:
     :raises TransmissionError: the text is no XML.
     """
     try:
-        root = ElementTree.fromstring(urdf.encode("utf-8"))
+        root = description_root(urdf)
     except ElementTree.ParseError as error:
         raise TransmissionError(f"the robot description is no valid XML: {error}") from None
     found: List[TransmissionInfo] = []

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Dict, Sequence, Tuple
 
 from controller_interface import ParameterError
+from hardware_interface import description_root
 
 Vector = Tuple[float, float, float]
 
@@ -37,7 +38,7 @@ class RobotGeometry:
     def __init__(self, text: str, source: str = "the URDF"):
         self._source = source
         try:
-            robot = ET.fromstring(text)
+            robot = description_root(text)
         except ET.ParseError as error:
             raise GeometryError(f"{source} is not valid XML: {error}") from None
         if robot.tag != "robot":
