@@ -4,7 +4,8 @@ import math
 import pytest
 
 from ode_sim import math3
-from ode_sim.description import DescriptionError, ResourceFinder, load_world, read_light, read_model, root_kind
+from ode_sim.description import (DescriptionError, Entity, ResourceFinder, load_world, read_light, read_model, read_sdf_model,
+                                 root_kind, xmlsource)
 from ode_sim.description.model import Box, Cylinder, Inertial, Plane, Sphere
 from sdf_texts import MODEL, finder, model, models, names, text, world
 
@@ -193,6 +194,27 @@ def test_kinds_of_text(models, finder):
     assert (m.name, m.pose.p) == ("x", (1.0, 2.0, 3.0))
     light, _ = read_light("<sdf version='1.6'><light name='l' type='spot'><diffuse>1 0 0</diffuse></light></sdf>")
     assert (light.name, light.type, light.diffuse) == ("l", "spot", (1.0, 0.0, 0.0, 1.0))
+
+
+def test_a_text_to_spawn_is_parsed_once(models, finder, monkeypatch):
+    from ode_sim.description import load
+    models("thing", MODEL.format(name="thing"))
+    parsed = []
+    monkeypatch.setattr(load, "parse_xml", lambda *text: parsed.append(text) or xmlsource.parse_xml(*text))
+    inertia = "<inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/>"
+    robot = Entity(f"<robot name='r'><link name='l'><inertial><mass value='1'/>{inertia}</inertial></link></robot>", finder)
+    assert robot.kind == "urdf" and robot.model("mine")[0].name == "mine"
+    thing = Entity("<world name='w'><include><uri>model://thing</uri></include></world>", finder)
+    assert thing.kind == "model" and thing.model()[0].name == "thing"
+    lamp = Entity("<light name='l'/>")
+    assert lamp.kind == "light" and lamp.light("lamp")[0].name == "lamp"
+    assert len(parsed) == 3
+    with pytest.raises(DescriptionError, match="<light name='l'>: is no <model>"):
+        lamp.model()
+    with pytest.raises(DescriptionError, match="is no <light>"):
+        robot.light()
+    with pytest.raises(DescriptionError, match="is URDF; expected <sdf"):
+        read_sdf_model("<robot name='r'/>")
 
 
 @pytest.mark.parametrize("spawned, message", [

@@ -7,7 +7,7 @@ from typing import List
 
 from gazebo_msgs.srv import SpawnModel
 from ode_sim import math3, prepare
-from ode_sim.description import DescriptionError, read_light, read_model, root_kind
+from ode_sim.description import DescriptionError, Entity
 from ode_sim.description.model import Model, Plugin, Pose
 
 from gazebo_ros.api.geometry import frame_entity, pose_of
@@ -31,23 +31,23 @@ class SpawnServices:
 
     def _spawn(self, request, response, urdf_only: bool = False) -> str:
         try:
-            kind = root_kind(request.model_xml, self._server.finder)
-            if urdf_only and kind != "urdf":
-                raise Refused(f"the text is SDF (<{kind}>), not a URDF <robot>; use spawn_sdf_model (spawn_model -sdf)")
-            if kind == "actor":
+            entity = Entity(request.model_xml, self._server.finder)
+            if urdf_only and entity.kind != "urdf":
+                raise Refused(f"the text is SDF (<{entity.kind}>), not a URDF <robot>; use spawn_sdf_model (spawn_model -sdf)")
+            if entity.kind == "actor":
                 raise Refused("actors are not simulated here; spawn a <model> or <light>")
             x_fe = pose_of(request.initial_pose, "initial_pose")
-            if kind == "light":
-                self._spawn_light(request, x_fe)
+            if entity.kind == "light":
+                self._spawn_light(entity, request, x_fe)
             else:
-                self._spawn_model(request, x_fe)
+                self._spawn_model(entity, request, x_fe)
         except DescriptionError as error:
             raise Refused(f"model '{request.model_name}': {error}") from error
         return "SpawnModel: Successfully spawned entity"
 
-    def _spawn_model(self, request, x_fe: Pose) -> None:
+    def _spawn_model(self, entity: Entity, request, x_fe: Pose) -> None:
         server = self._server
-        model, problems = read_model(request.model_xml, name=request.model_name or None, finder=server.finder)
+        model, problems = entity.model(request.model_name or None)
         log_problems(problems, f"model {model.name}")
         set_robot_namespace(model, request.robot_namespace)
         prepare(model)
@@ -62,8 +62,8 @@ class SpawnServices:
 
         server.call(put)
 
-    def _spawn_light(self, request, x_fe: Pose) -> None:
-        light, problems = read_light(request.model_xml, name=request.model_name or None, finder=self._server.finder)
+    def _spawn_light(self, entity: Entity, request, x_fe: Pose) -> None:
+        light, problems = entity.light(request.model_name or None)
         log_problems(problems, f"light {light.name}")
 
         def put() -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 import os
 import xml.etree.ElementTree as ET
 from dataclasses import replace
-from typing import List, Optional, Tuple, Union
+from typing import List, Optional, Tuple, Union, cast
 
 from ode_sim.description.finder import ResourceFinder
 from ode_sim.description.model import DescriptionError, Light, Model, Problem, World, quoted
@@ -39,15 +39,50 @@ def load_world(path_or_text: str, finder: Optional[ResourceFinder] = None) -> Tu
     return reader.world(world), reader.problems
 
 
+class Entity:
+    """A text to spawn, parsed once: :attr:`kind` says what it is, :meth:`model` or :meth:`light` reads it, once.
+
+    :param file: where the text is from: for messages, and for file names relative to it.
+    :raises DescriptionError: neither URDF nor SDF, nothing in it to spawn, or not XML.
+    """
+
+    def __init__(self, text: str, finder: Optional[ResourceFinder] = None, file: str = ""):
+        root = parse_xml(text, file)
+        self._reader = SdfReader(finder, os.path.dirname(file))
+        #: ``urdf``, ``model``, ``light`` or ``actor``
+        self.kind = "urdf"
+        if root.tag == "robot":
+            self._element: ET.Element = root
+            return
+        if root.tag not in ("sdf", "gazebo", "world") + ENTITIES:
+            raise DescriptionError(f"{source_of(root)}: neither URDF nor SDF; expected <robot> or <sdf> as the root element")
+        self._element = _entity(self._reader, root)
+        self.kind = self._element.tag
+
+    def model(self, name: Optional[str] = None) -> Tuple[Model, List[Problem]]:
+        """The model, and what was noticed while reading it. :param name: takes the place of the one in the text."""
+        if self.kind == "urdf":
+            model = urdf_to_model(cast(Element, self._element), self._reader)
+        elif self.kind == "model":
+            model = self._reader.model(self._element)
+        else:
+            raise DescriptionError(f"{source_of(self._element)}: is no <model>")
+        return (replace(model, name=name) if name else model), self._reader.problems
+
+    def light(self, name: Optional[str] = None) -> Tuple[Light, List[Problem]]:
+        """The light, as :meth:`model`."""
+        if self.kind != "light":
+            raise DescriptionError(f"{source_of(self._element)}: is no <light>")
+        light = self._reader.light(self._element)
+        return (replace(light, name=name) if name else light), self._reader.problems
+
+
 def root_kind(text: str, finder: Optional[ResourceFinder] = None) -> str:
     """What a text to spawn is: ``urdf``, ``model``, ``light`` or ``actor``.
 
     :raises DescriptionError: none of these, or not XML.
     """
-    root = parse_xml(text)
-    if root.tag == "robot":
-        return "urdf"
-    return _entity(SdfReader(finder), root).tag
+    return Entity(text, finder).kind
 
 
 def read_model(text: str, *, name: Optional[str] = None, finder: Optional[ResourceFinder] = None,
@@ -57,50 +92,30 @@ def read_model(text: str, *, name: Optional[str] = None, finder: Optional[Resour
     :param name: takes the place of the one in the text.
     :param file: where the text is from: for messages, and for file names relative to it.
     """
-    root = parse_xml(text, file)
-    if root.tag == "robot":
-        return _urdf(root, name, finder)
-    if root.tag in ("sdf", "gazebo", "model", "world"):
-        return _sdf_model(root, name, finder)
-    raise DescriptionError(f"{source_of(root)}: neither URDF nor SDF; expected <robot> or <sdf> as the root element")
+    return Entity(text, finder, file).model(name)
 
 
 def read_urdf(text: str, *, name: Optional[str] = None, finder: Optional[ResourceFinder] = None,
               file: str = "") -> Tuple[Model, List[Problem]]:
     """A model from URDF text, by Gazebo's conversion rules."""
-    return _urdf(parse_xml(text, file), name, finder)
-
-
-def _urdf(robot: Element, name: Optional[str], finder: Optional[ResourceFinder]) -> Tuple[Model, List[Problem]]:
-    reader = SdfReader(finder, os.path.dirname(robot.file))
-    model = urdf_to_model(robot, reader)
+    reader = SdfReader(finder, os.path.dirname(file))
+    model = urdf_to_model(parse_xml(text, file), reader)
     return (replace(model, name=name) if name else model), reader.problems
 
 
 def read_sdf_model(text: str, *, name: Optional[str] = None, finder: Optional[ResourceFinder] = None,
                    file: str = "") -> Tuple[Model, List[Problem]]:
     """The first model of SDF text: ``<sdf><model>``, or in a ``<world>``, there also by ``<include>``."""
-    return _sdf_model(parse_xml(text, file), name, finder)
-
-
-def _sdf_model(root: Element, name: Optional[str], finder: Optional[ResourceFinder]) -> Tuple[Model, List[Problem]]:
-    reader = SdfReader(finder, os.path.dirname(root.file))
-    element = _entity(reader, root)
-    if element.tag != "model":
-        raise DescriptionError(f"{source_of(element)}: is no <model>")
-    model = reader.model(element)
-    return (replace(model, name=name) if name else model), reader.problems
+    entity = Entity(text, finder, file)
+    if entity.kind == "urdf":
+        raise DescriptionError(f"{file or 'text'}: is URDF; expected <sdf version='1.6'> as the root element")
+    return entity.model(name)
 
 
 def read_light(text: str, *, name: Optional[str] = None, finder: Optional[ResourceFinder] = None,
                file: str = "") -> Tuple[Light, List[Problem]]:
     """The first light of SDF text."""
-    reader = SdfReader(finder, os.path.dirname(file))
-    element = _entity(reader, parse_xml(text, file))
-    if element.tag != "light":
-        raise DescriptionError(f"{source_of(element)}: is no <light>")
-    light = reader.light(element)
-    return (replace(light, name=name) if name else light), reader.problems
+    return Entity(text, finder, file).light(name)
 
 
 def _entity(reader: SdfReader, root: Element) -> ET.Element:

@@ -11,7 +11,7 @@ from typing import Any, Callable, Dict, Optional, Tuple
 import numpy as np
 
 from ode_sim import math3
-from ode_sim.description import DescriptionError, model as d, read_light, read_model, root_kind
+from ode_sim.description import DescriptionError, Entity, model as d
 from ode_sim.description.sdf_writer import world_text
 from ode_sim.rendering.watch import SceneWatch
 from ode_sim.timeline import Timeline
@@ -171,13 +171,14 @@ class LocalSimulation(Simulation):
 
     def insert(self, name: str, text: str, pose: d.Pose) -> None:
         def do(world):
-            if root_kind(text, world.finder) == "light":
-                light, _ = read_light(text, name=name, finder=world.finder)
+            entity = Entity(text, world.finder)
+            if entity.kind == "light":
+                light, _ = entity.light(name)
                 if name in world.lights:
                     raise Refused(f"a light named '{name}' is there already")
                 world.lights[name] = replace(light, pose=pose)
                 return
-            model, problems = read_model(text, name=name, finder=world.finder)
+            model, problems = entity.model(name)
             world.problems += problems
             world.spawn(model, pose=math3.compose(pose, model.pose))
         self.call(do)
