@@ -23,12 +23,11 @@ _PATIENCE = 5.0  # wall s that a browser may take to send it, or to read the ans
 #: Until the controls are there the page draws when something has come from the server, and seldom else: what is seen then is empty,
 #: and costs a second where the processor draws. There it makes no more than 15 pictures a second later: it has a simulation to compute.
 _SPARING = b"""<script>(() => {
-  const draw = window.requestAnimationFrame.bind(window), forget = window.cancelAnimationFrame.bind(window);
-  let waiting = new Map(), last = 0, number = 0, timer = 0, due = 0, gap = 1000, loading = true;
+  const draw = window.requestAnimationFrame.bind(window);
+  let waiting = new Map(), drawn = waiting, last = 0, number = 0, timer = 0, due = 0, gap = 1000, loading = true;
   const all = time => {
-    const now = waiting;
-    waiting = new Map(), due = 0, last = performance.now();
-    for (const f of now.values()) try { f(time); } catch (error) { reportError(error); }
+    drawn = waiting, waiting = new Map(), due = 0, last = performance.now();
+    for (const f of drawn.values()) try { f(time); } catch (error) { reportError(error); }
   };
   const arm = rest => {
     const when = performance.now() + rest;
@@ -37,7 +36,7 @@ _SPARING = b"""<script>(() => {
     due = when, timer = rest > 4 ? setTimeout(() => draw(all), rest) : draw(all) && 0;
   };
   window.requestAnimationFrame = f => { waiting.set(++number, f); arm(last + gap - performance.now()); return number; };
-  window.cancelAnimationFrame = key => { waiting.delete(key) || forget(key); };
+  window.cancelAnimationFrame = key => { waiting.delete(key) || drawn.delete(key); };  // the numbers are ours, not the browser's
   const Usual = window.Worker;
   window.Worker = class extends Usual {
     constructor(...what) { super(...what); this.addEventListener("message", () => loading && waiting.size && arm(30)); }
