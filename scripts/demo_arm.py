@@ -106,6 +106,45 @@ def save_plot(path: Path, rows, target) -> None:
     figure.savefig(path, dpi=110)
 
 
+def drive(recorder: "Recorder", launch, target) -> tuple:
+    """Tell how the arm moves until it is there. :return: rows of its start and of its arrival"""
+    start = recorder.rows[0]
+    reported = start[0]
+    while True:
+        recorder.wait(launch, 20)
+        now = recorder.rows[-1]
+        arrived = all(abs(q - t) <= TOLERANCE for q, t in zip(now[2:], target))
+        if arrived or now[0] - reported >= 1.0:
+            reported = now[0]
+            say(f"t = {now[0] - start[0]:5.2f} s   " + "   ".join(f"{n} {q:+.6f}" for n, q in zip(JOINTS, now[2:])))
+        if arrived:
+            return start, now
+        if now[0] - start[0] > 120:
+            raise DemoError(f"not arrived after 120 s of sim time at {now[2:]}; targets beyond a joint limit are not reached")
+
+
+def save_joints(path: Path, rows: list) -> None:
+    with open(path, "w", newline="") as file:
+        writer = csv.writer(file)
+        writer.writerow(["sim_time", *JOINTS])
+        writer.writerows([f"{row[0]:.3f}", *(f"{q:.9f}" for q in row[2:])] for row in rows)
+
+
+def figures_of(rows: list, start: tuple, now: tuple, ready: float) -> dict:
+    """What the report says in numbers. :param ready: s from the launch command to the first joint state"""
+    moving = [row for row in rows if any(abs(q - s) > 0 for q, s in zip(row[2:], start[2:]))]
+    first = moving[0] if moving else start
+    steps = [max(abs(b - a) for a, b in zip(p[2:], q[2:])) for p, q in zip(moving, moving[1:])]
+    simulated, wall = now[0] - start[0], now[1] - start[1]
+    return {
+        "launch command to first joint state": f"{ready:.1f} s",
+        "motion, sim time": f"{now[0] - first[0]:.2f} s from the first step to arrival",
+        "largest step between two joint states": f"{max(steps or [0]):.6f} rad",
+        "final positions": "  ".join(f"{n} {q:.6f}" for n, q in zip(JOINTS, now[2:])) + " rad",
+        "real-time factor": f"{simulated / wall:.3f} ({simulated:.2f} s simulated in {wall:.2f} s)",
+    }
+
+
 def run(options: argparse.Namespace, out: Path, environment: dict, window: bool) -> int:
     import rosgraph
     import rospy
@@ -134,40 +173,15 @@ def run(options: argparse.Namespace, out: Path, environment: dict, window: bool)
         recorder.rows.clear()
         recorder.wait(launch, 20)
         with running(["rosrun", "arm_controller", "arm_controller_node", *words], environment, out / "arm_controller_node.log"):
-            start = recorder.rows[0]
-            reported = start[0]
-            while True:
-                recorder.wait(launch, 20)
-                now = recorder.rows[-1]
-                arrived = all(abs(q - t) <= TOLERANCE for q, t in zip(now[2:], target))
-                if arrived or now[0] - reported >= 1.0:
-                    reported = now[0]
-                    say(f"t = {now[0] - start[0]:5.2f} s   " + "   ".join(f"{n} {q:+.6f}" for n, q in zip(JOINTS, now[2:])))
-                if arrived:
-                    break
-                if now[0] - start[0] > 120:
-                    raise DemoError(f"not arrived after 120 s of sim time at {now[2:]}; targets beyond a joint limit are not reached")
+            start, now = drive(recorder, launch, target)
         rows = list(recorder.rows)
-        moving = [row for row in rows if any(abs(q - s) > 0 for q, s in zip(row[2:], start[2:]))]
-        first = moving[0] if moving else start
         pictures += [(Path(p), f"RViz after: {' '.join('%.4f' % q for q in now[2:])}") for p in save_rviz(out, "rviz-after")]
         if save_camera(out / "camera.png"):
             pictures.append((out / "camera.png", "The arm's own camera, /camera/image_raw"))
 
-    with open(out / "joints.csv", "w", newline="") as file:
-        writer = csv.writer(file)
-        writer.writerow(["sim_time", *JOINTS])
-        writer.writerows([f"{row[0]:.3f}", *(f"{q:.9f}" for q in row[2:])] for row in rows)
+    save_joints(out / "joints.csv", rows)
     save_plot(out / "joints.png", rows, target)
-    steps = [max(abs(b - a) for a, b in zip(p[2:], q[2:])) for p, q in zip(moving, moving[1:])]
-    simulated, wall = now[0] - start[0], now[1] - start[1]
-    figures = {
-        "launch command to first joint state": f"{ready:.1f} s",
-        "motion, sim time": f"{now[0] - first[0]:.2f} s from the first step to arrival",
-        "largest step between two joint states": f"{max(steps or [0]):.6f} rad",
-        "final positions": "  ".join(f"{n} {q:.6f}" for n, q in zip(JOINTS, now[2:])) + " rad",
-        "real-time factor": f"{simulated / wall:.3f} ({simulated:.2f} s simulated in {wall:.2f} s)",
-    }
+    figures = figures_of(rows, start, now, ready)
     save_report(out, figures, [(out / "joints.png", "The four joints over sim time"), *pictures], "The arm moves")
     for key, value in figures.items():
         say(f"{key}: {value}")

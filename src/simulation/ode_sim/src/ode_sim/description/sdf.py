@@ -8,11 +8,12 @@ from __future__ import annotations
 import math
 import xml.etree.ElementTree as ET
 from dataclasses import replace
-from typing import Any, Dict, Iterator, List, Optional, Set
+from typing import Any, Dict, Iterator, List, Mapping, Optional, Set
 
 from ode_sim import math3
 from ode_sim.description.model import (
-    FARTHEST, DescriptionError, Light, LinkState, Model, ModelState, Physics, Scene, Vec3, World, WorldState, quoted)
+    FARTHEST, DescriptionError, Light, LinkState, Model, ModelState, Physics, Pose, Scene, Vec3, World, WorldState,
+    quoted)
 from ode_sim.description.population import population
 from ode_sim.description.scaling import largest_size, scaled_model
 from ode_sim.description.sdf_frames import relative_to, world_frames
@@ -24,71 +25,81 @@ _STRONGEST_FIELD = 1e6  # T
 _LONGEST_TIME = 1e9  # s; in nanoseconds it still fits into 64 bits
 
 
+class _Contents:
+    """Models and lights of a world, in file order.
+
+    :param frames: X_WF of the world's frames, by name
+    """
+
+    def __init__(self, reader: SdfReader, frames: Mapping[str, Pose]):
+        self.models: List[Model] = []
+        self.lights: List[Light] = []
+        self._reader = reader
+        self._frames = frames
+        self._taken: Set[str] = set()  # names of models
+
+    def add(self, child: ET.Element) -> None:
+        """An element of ``<world>``; what is neither model nor light is left out, with a word if it should be seen."""
+        reader = self._reader
+        if child.tag == "model":
+            self._add_model(child)
+        elif child.tag == "light":
+            self._add_light(child)
+        elif child.tag == "include":
+            included = reader.include(child)
+            if included is None:
+                return
+            if included.tag in ("model", "light"):
+                self.add(included)
+            else:
+                reader.warn(child, "actors are not simulated; left out")
+        elif child.tag == "population":
+            template = child.find("model")
+            include = child.find("include")
+            if template is None and include is not None:
+                template = reader.include(include)
+            for copy in population(reader, child, template):
+                self._add_model(copy)
+        elif child.tag in ("actor", "road"):
+            reader.warn(child, f"{child.tag}s are not simulated; left out")
+        elif child.tag == "joint":
+            reader.warn(child, "joints between models of a world file are not simulated; left out")
+
+    def _add_model(self, source: ET.Element) -> None:
+        try:
+            model = self._reader.model(source)
+        except DescriptionError as error:
+            self._reader.warn(None, f"{error}; model '{quoted(source.get('name'))}' is left out", "error")
+            return
+        if model.name in self._taken:
+            self._reader.warn(source, f"a model named '{quoted(model.name)}' is there already; this one is left out")
+            return
+        self._taken.add(model.name)
+        frame = relative_to(source.find("pose"))
+        if frame in self._frames:
+            model = replace(model, pose=math3.compose(self._frames[frame], model.pose))
+        self.models.append(model)
+
+    def _add_light(self, source: ET.Element) -> None:
+        try:
+            self.lights.append(self._reader.light(source))
+        except DescriptionError as error:
+            self._reader.warn(None, f"{error}; light '{quoted(source.get('name'))}' is left out", "error")
+
+
 class SdfReader(SdfModels):
     """Reads one file or text, worlds included; collects :attr:`problems` on the way."""
 
     def world(self, element: ET.Element) -> World:
-        models: List[Model] = []
-        lights: List[Light] = []
-        taken: Set[str] = set()  # names of models
         plugins = self.plugins(element)
-        frames = world_frames(self, element)
-
-        def add_model(source: ET.Element) -> None:
-            try:
-                model = self.model(source)
-            except DescriptionError as error:
-                self.warn(None, f"{error}; model '{quoted(source.get('name'))}' is left out", "error")
-                return
-            if model.name in taken:
-                self.warn(source, f"a model named '{quoted(model.name)}' is there already; this one is left out")
-                return
-            taken.add(model.name)
-            frame = relative_to(source.find("pose"))
-            if frame in frames:
-                model = replace(model, pose=math3.compose(frames[frame], model.pose))
-            models.append(model)
-
-        def add_light(source: ET.Element) -> None:
-            try:
-                lights.append(self.light(source))
-            except DescriptionError as error:
-                self.warn(None, f"{error}; light '{quoted(source.get('name'))}' is left out", "error")
-
+        contents = _Contents(self, world_frames(self, element))
         for child in element:
-            if child.tag == "model":
-                add_model(child)
-            elif child.tag == "light":
-                add_light(child)
-            elif child.tag == "include":
-                included = self.include(child)
-                if included is None:
-                    continue
-                if included.tag == "model":
-                    add_model(included)
-                elif included.tag == "light":
-                    add_light(included)
-                else:
-                    self.warn(child, "actors are not simulated; left out")
-            elif child.tag == "population":
-                template = child.find("model")
-                include = child.find("include")
-                if template is None and include is not None:
-                    template = self.include(include)
-                for copy in population(self, child, template):
-                    add_model(copy)
-            elif child.tag in ("actor", "road"):
-                self.warn(child, f"{child.tag}s are not simulated; left out")
-            elif child.tag == "joint":
-                self.warn(child, "joints between models of a world file are not simulated; left out")
+            contents.add(child)
         state = self._state(element.find("state"))
         for inserted in element.findall("state/insertions/*"):
-            if inserted.tag == "model":
-                add_model(inserted)
-            elif inserted.tag == "light":
-                add_light(inserted)
-        if state is not None:
-            models = self._scaled(models, state, element)
+            if inserted.tag in ("model", "light"):
+                contents.add(inserted)
+        models = contents.models if state is None else self._scaled(contents.models, state, element)
         coordinates = element.find("spherical_coordinates")
         default = World()
         return World(
@@ -96,7 +107,7 @@ class SdfReader(SdfModels):
             gravity=self._gravity(element, default.gravity),
             magnetic_field=self.vector(element, "magnetic_field", default.magnetic_field, most=_STRONGEST_FIELD),
             physics=self._physics(element), scene=self._scene(element.find("scene")), models=tuple(models),
-            lights=tuple(lights), plugins=tuple(plugins), state=state,
+            lights=tuple(contents.lights), plugins=tuple(plugins), state=state,
             spherical_coordinates=(self.number(coordinates, "latitude_deg", 0.0),
                                    self.number(coordinates, "longitude_deg", 0.0),
                                    self.number(coordinates, "elevation", 0.0),
