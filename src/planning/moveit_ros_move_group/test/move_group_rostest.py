@@ -10,7 +10,7 @@ import rostest
 from actionlib_msgs.msg import GoalStatus
 from client import (HOME, JOINTS, LEFT, PATIENCE, Goal, apply, box, call, clear, joint_goal, move, plan, pose,
                     wait_until)
-from geometry_msgs.msg import Pose, PoseStamped, Quaternion
+from geometry_msgs.msg import Pose, PoseStamped, Quaternion, Transform, TransformStamped
 from moveit_msgs.msg import (AttachedCollisionObject, CollisionObject, Constraints, DisplayTrajectory,
                              ExecuteTrajectoryAction,
                              ExecuteTrajectoryGoal, MoveItErrorCodes, OrientationConstraint, PlanningScene,
@@ -24,6 +24,7 @@ from shape_msgs.msg import SolidPrimitive
 from std_msgs.msg import Header
 from std_srvs.srv import Empty
 from tf.transformations import quaternion_matrix
+from tf2_ros import StaticTransformBroadcaster
 
 Codes = MoveItErrorCodes
 
@@ -314,6 +315,17 @@ class Scene(unittest.TestCase):
         diff.world.collision_objects = [CollisionObject(id="b", operation=CollisionObject.REMOVE)]
         diffs.publish(diff)
         wait_until(lambda: self.names() == ["c"], "b to go")
+
+    def test_a_frame_may_be_called_by_a_number(self):
+        frame = TransformStamped(Header(frame_id="world", stamp=rospy.Time.now()), "7", Transform())
+        frame.transform.translation.x, frame.transform.rotation.w = 3.0, 1.0
+        broadcaster = StaticTransformBroadcaster()
+        broadcaster.sendTransform(frame)
+        there = box("there", 0, 0, 1)
+        there.header.frame_id = "7"
+        wait_until(lambda: apply(there), "the frame 7")
+        (known,) = scene(PlanningSceneComponents.WORLD_OBJECT_GEOMETRY).world.collision_objects
+        self.assertAlmostEqual(known.pose.position.x + known.primitive_poses[0].position.x, 3.0)
 
     def test_apply_tells_what_failed_and_goes_on(self):
         self.assertTrue(apply(box("good", 1, 1, 1)))

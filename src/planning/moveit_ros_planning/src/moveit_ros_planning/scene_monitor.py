@@ -351,13 +351,12 @@ def _frames(buffer) -> List[str]:
     """Names of all frames that TF knows."""
     text = buffer.all_frames_as_yaml()
     try:
-        frames = yaml.safe_load(text)
+        frames = yaml.load(text, Loader=yaml.BaseLoader)  # all are texts: a frame may be called "1" or "on"
     except yaml.YAMLError:
         return []
     if not isinstance(frames, dict):
         return []
-    return sorted({*frames, *(entry["parent"] for entry in frames.values() if isinstance(entry,
-                                                                                         dict) and "parent" in entry)})
+    return sorted({*frames, *(entry["parent"] for entry in frames.values() if isinstance(entry, dict) and "parent" in entry)})
 
 
 def _is_empty_diff(message: PlanningScene) -> bool:
