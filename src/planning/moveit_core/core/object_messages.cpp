@@ -12,6 +12,16 @@ namespace moveit
 {
 namespace core
 {
+ObjectParts partsOf(const collision_detection::World::Object& object)
+{
+  ObjectParts parts;
+  parts.pose = object.pose_;
+  parts.shapes = object.shapes_;
+  parts.shape_poses = object.shape_poses_;
+  parts.subframes = object.subframe_poses_;
+  return parts;
+}
+
 Eigen::Isometry3d poseFromMessage(const geometry_msgs::Pose& pose)
 {
   Eigen::Quaterniond q(pose.orientation.w, pose.orientation.x, pose.orientation.y, pose.orientation.z);

@@ -4,6 +4,7 @@
 #include <geometric_shapes/shapes.h>
 #include <moveit_msgs/CollisionObject.h>
 
+#include <moveit/collision_detection/world.h>
 #include <moveit/transforms/transforms.h>
 
 #include <eigen_stl_containers/eigen_stl_vector_container.h>
@@ -19,6 +20,8 @@ struct ObjectParts
   EigenSTL::vector_Isometry3d shape_poses;  // in the object
   FixedTransformsMap subframes;             // in the object
 };
+
+ObjectParts partsOf(const collision_detection::World::Object& object);
 
 // A quaternion of zeros counts as no rotation, any other is normalised.
 Eigen::Isometry3d poseFromMessage(const geometry_msgs::Pose& pose);

@@ -30,6 +30,25 @@ double scaling(double factor, const char* what)
   return 1.0;
 }
 
+// The way points of `path` in place of those that there are.
+void setTimed(RobotTrajectory& trajectory, const moveit::core::JointModelGroup& group, const motion::TimedPath& path)
+{
+  const std::vector<std::string>& names = group.core().variable_names;
+  const moveit::core::RobotState first = trajectory.getFirstWayPoint();
+  trajectory.clear();
+  for (std::size_t i = 0; i < path.positions.size(); ++i)
+  {
+    const auto state = std::make_shared<moveit::core::RobotState>(first);
+    state->setJointGroupActivePositions(&group, path.positions[i]);
+    for (std::size_t k = 0; k < names.size(); ++k)
+    {
+      state->setVariableVelocity(names[k], i < path.velocities.size() ? path.velocities[i][k] : 0.0);
+      state->setVariableAcceleration(names[k], i < path.accelerations.size() ? path.accelerations[i][k] : 0.0);
+    }
+    trajectory.addSuffixWayPoint(state, i == 0 ? 0.0 : path.times[i] - path.times[i - 1]);
+  }
+}
+
 template <typename Timing>
 bool timed(RobotTrajectory& trajectory, const Limits& velocities, const Limits& accelerations, double velocity_scaling,
            double acceleration_scaling, const Timing& timing)
@@ -78,19 +97,7 @@ bool timed(RobotTrajectory& trajectory, const Limits& velocities, const Limits& 
   }
   if (path.positions.empty())
     return false;
-  const moveit::core::RobotState first = trajectory.getFirstWayPoint();
-  trajectory.clear();
-  for (std::size_t i = 0; i < path.positions.size(); ++i)
-  {
-    const auto state = std::make_shared<moveit::core::RobotState>(first);
-    state->setJointGroupActivePositions(group, path.positions[i]);
-    for (std::size_t k = 0; k < names.size(); ++k)
-    {
-      state->setVariableVelocity(names[k], i < path.velocities.size() ? path.velocities[i][k] : 0.0);
-      state->setVariableAcceleration(names[k], i < path.accelerations.size() ? path.accelerations[i][k] : 0.0);
-    }
-    trajectory.addSuffixWayPoint(state, i == 0 ? 0.0 : path.times[i] - path.times[i - 1]);
-  }
+  setTimed(trajectory, *group, path);
   return true;
 }
 }  // namespace
