@@ -6,6 +6,7 @@ in full, and kept with the rest in --logs.
 
 With --again up to five files that failed run once more, up to twice, one after the other, when all others have ended. What passes
 then counts as passed, but a line ``unsteady: ...`` says what had failed: a fault of the test or of what it tests, to be found.
+With --coverage the lines of Python that were run are counted, in nodes as well; the pages are in out/coverage.
 """
 from __future__ import annotations
 
@@ -24,6 +25,8 @@ from collections import deque
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Iterator, List, Optional
+
+import coverage_of_tests
 
 ROOT = Path(__file__).resolve().parent.parent
 TIME_LIMIT = 300  # s for one file; a test that takes longer hangs
@@ -223,6 +226,7 @@ def main() -> int:
     parser.add_argument("-j", "--jobs", type=int, default=min(2, os.cpu_count() or 1))
     parser.add_argument("--again", action="store_true", help="run the few files that failed again, alone")
     parser.add_argument("--quiet", action="store_true", help="tell only what fails")
+    parser.add_argument("--coverage", action="store_true", help="count the lines of Python that are run; pages in out/coverage")
     parser.add_argument("--logs", default=None, help="keep all output in this folder")
     options = parser.parse_args()
     scratch = Path(options.logs or tempfile.mkdtemp(prefix="noetic_labs_test_")).resolve()
@@ -231,6 +235,9 @@ def main() -> int:
     if not jobs:
         print(f"no tests found for {' '.join(options.packages) or 'any package'}", file=sys.stderr)
         return 1
+    if options.coverage:
+        coverage_of_tests.install()
+        os.environ.update(coverage_of_tests.environment(scratch / "coverage"))
     start = time.monotonic()
     results = {}
     for result in run_all(jobs, options.jobs, scratch):
@@ -251,6 +258,8 @@ def main() -> int:
         for result in results.values():
             if result.failed:
                 print(f"--- the end of what {result.job.name} printed", *result.output.splitlines()[-QUIET_LINES:], sep="\n")
+    if options.coverage:
+        print(*coverage_of_tests.report(scratch / "coverage", ROOT / "out" / "coverage", options.packages), sep="\n")
     print(f"{time.monotonic() - start:.0f} s in all, logs in {scratch}")
     passed, failed, skipped = (sum(getattr(result, kind) for result in results.values()) for kind in ("passed", "failed", "skipped"))
     if not failed and not unsteady and not options.logs:
