@@ -193,8 +193,12 @@ void bindValues(py::class_<RobotState>& c)
              Random random = randomSource(seed);
              s.randomizeNear(s.model()->group(group), near, distance, random);
            },
-           py::arg("group"), py::arg("near"), py::arg("distance"), py::arg("seed") = py::none())
-      .def("in_bounds",
+           py::arg("group"), py::arg("near"), py::arg("distance"), py::arg("seed") = py::none());
+}
+
+void bindComparisons(py::class_<RobotState>& c)
+{
+  c.def("in_bounds",
            [](const RobotState& s, const std::optional<std::string>& group, double margin) {
              return s.satisfiesBounds(groupOrNull(s, group), margin);
            },
@@ -303,6 +307,7 @@ void bindState(py::module_& m)
         return "<state of '" + s.model()->name + "', " + std::to_string(s.positions().size()) + " variables>";
       });
   bindValues(c);
+  bindComparisons(c);
   bindPoses(c);
   bindOptional<&RobotState::velocities>(c, "velocities");
   bindOptional<&RobotState::efforts>(c, "efforts");

@@ -315,43 +315,81 @@ std::string ConstraintSet::problem(const RobotState& state) const
 
 // ---------------------------------------------------------------- projection
 
-bool ConstraintSet::project(RobotState& state, const JointModelGroup& group, int iterations) const
+namespace
 {
-  constexpr double SHARE = 0.9;  // a little inside the tolerance, so that what comes near is in
-  const int n = static_cast<int>(group.size());
-  Eigen::VectorXd q(n), gradient(n);
-  Eigen::MatrixXd normal(n, n);
-  for (const Joint& c : joints)
+constexpr double SHARE = 0.9;  // a little inside the tolerance, so that what comes near is in
+
+// Normal equations of what the constraints on links want of a group's joints.
+struct Wishes
+{
+  Wishes(RobotState& state, const JointModelGroup& group)
+    : state(state), group(group), gradient(group.size()), normal(group.size(), group.size())
+  {
+  }
+
+  void clear()
+  {
+    squared = 0;
+    normal.setZero();
+    gradient.setZero();
+  }
+
+  // Wants link's point moved by d, or the link turned by it (model frame).
+  void add(int link, const Vector3& point, const Vector3& d, bool turn)
+  {
+    squared += d.squaredNorm();
+    if (d.squaredNorm() < 1e-20 || link < 0)
+      return;
+    Jacobian J = state.jacobian(group, link, point);
+    if (group.base_link >= 0)
+    {
+      const Eigen::Matrix3d R = state.linkPose(group.base_link).linear();
+      J.topRows<3>() = R * J.topRows<3>();
+      J.bottomRows<3>() = R * J.bottomRows<3>();
+    }
+    const auto rows = turn ? J.bottomRows<3>() : J.topRows<3>();
+    normal.noalias() += rows.transpose() * rows;
+    gradient.noalias() += rows.transpose() * d;
+  }
+
+  Eigen::VectorXd step()
+  {
+    normal.diagonal().array() += 0.5 * squared + 1e-9;
+    return normal.ldlt().solve(gradient);
+  }
+
+  RobotState& state;
+  const JointModelGroup& group;
+  Eigen::VectorXd gradient;
+  Eigen::MatrixXd normal;
+  double squared = 0;
+};
+
+void comply(RobotState& state, const std::vector<ConstraintSet::Joint>& joints)
+{
+  for (const ConstraintSet::Joint& c : joints)
   {
     const double off = c.continuous ? wrapAngle(state.positions()[c.variable] - c.position) : state.positions()[c.variable] - c.position;
     if (off > c.above || off < -c.below)
       state.setVariable(c.variable, c.position + std::min(std::max(off, -SHARE * c.below), SHARE * c.above));
   }
+}
+}  // namespace
+
+bool ConstraintSet::project(RobotState& state, const JointModelGroup& group, int iterations) const
+{
+  const int n = static_cast<int>(group.size());
+  Eigen::VectorXd q(n);
+  Wishes wishes(state, group);
+  comply(state, joints);
   auto locked = [&](int variable) {
     return std::any_of(joints.begin(), joints.end(), [&](const Joint& c) { return c.variable == variable; });
   };
   for (int i = 0; i < iterations; ++i)
   {
     bool inside = true;
-    double squared = 0;
-    normal.setZero();
-    gradient.setZero();
-    // Wants link's point moved by dp and the link turned by dr (model frame).
-    auto want = [&](const Frame& link, const Vector3& d, bool turn) {
-      squared += d.squaredNorm();
-      if (d.squaredNorm() < 1e-20 || link.link < 0)
-        return;
-      Jacobian J = state.jacobian(group, link.link, link.pose.translation());
-      if (group.base_link >= 0)
-      {
-        const Eigen::Matrix3d R = state.linkPose(group.base_link).linear();
-        J.topRows<3>() = R * J.topRows<3>();
-        J.bottomRows<3>() = R * J.bottomRows<3>();
-      }
-      const auto rows = turn ? J.bottomRows<3>() : J.topRows<3>();
-      normal.noalias() += rows.transpose() * rows;
-      gradient.noalias() += rows.transpose() * d;
-    };
+    wishes.clear();
+    auto want = [&](const Frame& link, const Vector3& d, bool turn) { wishes.add(link.link, link.pose.translation(), d, turn); };
     for (const Position& c : positions)
     {
       if (check(state, c).satisfied)
@@ -378,9 +416,8 @@ bool ConstraintSet::project(RobotState& state, const JointModelGroup& group, int
     }
     if (inside)
       return state.satisfiesBounds(&group, SLACK);
-    normal.diagonal().array() += 0.5 * squared + 1e-9;
     state.getGroup(group, q.data());
-    const Eigen::VectorXd dq = normal.ldlt().solve(gradient);
+    const Eigen::VectorXd dq = wishes.step();
     for (int j = 0; j < n; ++j)
     {
       if (locked(group.variables[j]))

@@ -257,6 +257,108 @@ private:
   Square normal_;
   Values gradient_;
 };
+
+// Between which values a search may go, and which joints come round again after a turn.
+struct Room
+{
+  std::vector<double> lower, upper;
+  std::vector<char> turns, endless;
+};
+
+void checkSeed(const Values& seed, const JointModelGroup& group, const IkOptions& options)
+{
+  const std::size_t n = group.size();
+  for (std::size_t j = 0; j < n; ++j)
+    if (!std::isfinite(seed[j]))
+      throw InvalidInput("the seed of the inverse kinematics is not finite at '" + group.variable_names[j] + "'");
+  if (!options.consistency.empty() && options.consistency.size() != n)
+    throw InvalidInput("consistency limits: " + std::to_string(options.consistency.size()) + " values for the " +
+                       std::to_string(n) + " joints of group '" + group.name + "'");
+}
+
+// Not further from the seed than `consistency` allows.
+void narrow(Room& room, const Values& seed, const std::vector<double>& consistency)
+{
+  for (std::size_t j = 0; j < consistency.size(); ++j)
+  {
+    const double low = seed[j] - consistency[j], high = seed[j] + consistency[j];
+    if (high - low >= 2 * M_PI && room.turns[j])
+      continue;
+    const double lower = room.lower[j], upper = room.upper[j];
+    room.lower[j] = room.endless[j] ? low : std::max(lower, low);
+    room.upper[j] = room.endless[j] ? high : std::min(upper, high);
+    if (room.lower[j] > room.upper[j])  // the seed is outside the limits by more than may be moved
+      room.lower[j] = room.upper[j] = std::min(std::max(seed[j], lower), upper);
+    room.turns[j] = 0;
+  }
+}
+
+// Into the limits, by whole turns and near the seed; false if that cannot be.
+bool settle(const Room& room, const Values& seed, const Values& q, std::vector<double>& candidate)
+{
+  for (std::size_t j = 0; j < candidate.size(); ++j)
+  {
+    double value = q[j];
+    if (room.turns[j])
+    {
+      if (room.endless[j])
+        value = wrapAngle(value);
+      else
+      {
+        value = seed[j] + wrapAngle(value - seed[j]);
+        while (value > room.upper[j])
+          value -= 2 * M_PI;
+        while (value < room.lower[j])
+          value += 2 * M_PI;
+        if (value > room.upper[j])
+          return false;
+      }
+    }
+    candidate[j] = value;
+  }
+  return true;
+}
+
+bool known(const Room& room, const std::vector<std::vector<double>>& solutions, const std::vector<double>& candidate)
+{
+  for (const auto& other : solutions)
+  {
+    double apart = 0;
+    for (std::size_t j = 0; j < candidate.size(); ++j)
+      apart = std::max(apart, std::abs(room.turns[j] ? wrapAngle(candidate[j] - other[j]) : candidate[j] - other[j]));
+    if (apart < 0.02)
+      return true;
+  }
+  return false;
+}
+
+void scatter(const Room& room, const std::vector<char>& prismatic, Random& random, Values& q)
+{
+  for (std::size_t j = 0; j < room.lower.size(); ++j)
+  {
+    const double reach = prismatic[j] && room.upper[j] - room.lower[j] > 100 ? 1.0 : 0.0;
+    const double low = reach ? -reach : room.lower[j], high = reach ? reach : room.upper[j];
+    q[j] = low + (high - low) * (static_cast<double>(random() >> 11) * 0x1.0p-53);
+  }
+}
+
+void clip(const Room& room, Values& q)
+{
+  for (std::size_t j = 0; j < room.lower.size(); ++j)
+    if (!room.turns[j])
+      q[j] = std::min(std::max(q[j], room.lower[j]), room.upper[j]);
+}
+
+void nearestFirst(std::vector<std::vector<double>>& solutions, const Values& seed)
+{
+  auto away = [&](const std::vector<double>& values) {
+    double sum = 0;
+    for (std::size_t j = 0; j < values.size(); ++j)
+      sum += std::abs(values[j] - seed[j]);
+    return sum;
+  };
+  std::stable_sort(solutions.begin(), solutions.end(), [&](const auto& a, const auto& b) { return away(a) < away(b); });
+}
 }  // namespace
 
 IkResult IkSolver::solve(const RobotState& state, const std::vector<IkTarget>& targets, const IkOptions& options) const
@@ -268,87 +370,28 @@ IkResult IkSolver::solve(const RobotState& state, const std::vector<IkTarget>& t
   const int n = static_cast<int>(group_.size());
   Values seed(n), q(n), best(n);
   state.getGroup(group_, seed.data());
+  checkSeed(seed, group_, options);
+  Room room{ lower_, upper_, turns_, {} };
   for (int j = 0; j < n; ++j)
-    if (!std::isfinite(seed[j]))
-      throw InvalidInput("the seed of the inverse kinematics is not finite at '" + group_.variable_names[j] + "'");
-  if (!options.consistency.empty() && static_cast<int>(options.consistency.size()) != n)
-    throw InvalidInput("consistency limits: " + std::to_string(options.consistency.size()) + " values for the " +
-                       std::to_string(n) + " joints of group '" + group_.name + "'");
-  std::vector<double> lower = lower_, upper = upper_;
-  std::vector<char> turns = turns_;
-  for (int j = 0; j < n && !options.consistency.empty(); ++j)
-  {
-    const double low = seed[j] - options.consistency[j], high = seed[j] + options.consistency[j];
-    if (high - low >= 2 * M_PI && turns[j])
-      continue;
-    const bool endless = model_->joints[group_.active_joints[j]].continuous;
-    lower[j] = endless ? low : std::max(lower[j], low);
-    upper[j] = endless ? high : std::min(upper[j], high);
-    if (lower[j] > upper[j])  // the seed is outside the limits by more than may be moved
-      lower[j] = upper[j] = std::min(std::max(seed[j], lower_[j]), upper_[j]);
-    turns[j] = 0;
-  }
+    room.endless.push_back(model_->joints[group_.active_joints[j]].continuous);
+  narrow(room, seed, options.consistency);
 
   const std::vector<Chain> ways = chains(state, targets);
-  Descent descent(ways, lower, upper, turns);
+  Descent descent(ways, room.lower, room.upper, room.turns);
   Random random(options.random_seed * 0x9E3779B97F4A7C15ull + 0x632BE59BD9B4E019ull);
   IkResult result;
   double least = std::numeric_limits<double>::infinity();
   std::vector<double> candidate(n);
-
-  // Into the limits, by whole turns and near the seed; false if that cannot be.
-  auto settle = [&]() {
-    for (int j = 0; j < n; ++j)
-    {
-      double value = q[j];
-      if (turns[j])
-      {
-        if (model_->joints[group_.active_joints[j]].continuous)
-          value = wrapAngle(value);
-        else
-        {
-          value = seed[j] + wrapAngle(value - seed[j]);
-          while (value > upper[j])
-            value -= 2 * M_PI;
-          while (value < lower[j])
-            value += 2 * M_PI;
-          if (value > upper[j])
-            return false;
-        }
-      }
-      candidate[j] = value;
-    }
-    return true;
-  };
-  auto known = [&]() {
-    for (const auto& other : result.solutions)
-    {
-      double apart = 0;
-      for (int j = 0; j < n; ++j)
-        apart = std::max(apart, std::abs(turns[j] ? wrapAngle(candidate[j] - other[j]) : candidate[j] - other[j]));
-      if (apart < 0.02)
-        return true;
-    }
-    return false;
-  };
-
   for (int attempt = 0;; ++attempt)
   {
     if (attempt == 0)
       q = seed;
     else
-      for (int j = 0; j < n; ++j)
-      {
-        const double reach = prismatic_[j] && upper[j] - lower[j] > 100 ? 1.0 : 0.0;
-        const double low = reach ? -reach : lower[j], high = reach ? reach : upper[j];
-        q[j] = low + (high - low) * (static_cast<double>(random() >> 11) * 0x1.0p-53);
-      }
-    for (int j = 0; j < n; ++j)
-      if (!turns[j])
-        q[j] = std::min(std::max(q[j], lower[j]), upper[j]);
+      scatter(room, prismatic_, random, q);
+    clip(room, q);
     if (descent.run(q, options.tolerance, 60))
     {
-      if (settle() && !known())
+      if (settle(room, seed, q, candidate) && !known(room, result.solutions, candidate))
       {
         if (!options.valid || options.valid(candidate.data()))
           result.solutions.push_back(candidate);
@@ -356,7 +399,7 @@ IkResult IkSolver::solve(const RobotState& state, const std::vector<IkTarget>& t
           ++result.rejected;
       }
     }
-    else if (descent.squared_error < least && settle())
+    else if (descent.squared_error < least && settle(room, seed, q, candidate))
     {
       least = descent.squared_error;
       best = Eigen::Map<const Eigen::VectorXd>(candidate.data(), n);
@@ -373,14 +416,7 @@ IkResult IkSolver::solve(const RobotState& state, const std::vector<IkTarget>& t
     result.approximate = true;
     result.solutions.emplace_back(best.data(), best.data() + n);
   }
-  auto away = [&](const std::vector<double>& values) {
-    double sum = 0;
-    for (int j = 0; j < n; ++j)
-      sum += std::abs(values[j] - seed[j]);
-    return sum;
-  };
-  std::stable_sort(result.solutions.begin(), result.solutions.end(),
-                   [&](const auto& a, const auto& b) { return away(a) < away(b); });
+  nearestFirst(result.solutions, seed);
   result.time = seconds(started);
   return result;
 }

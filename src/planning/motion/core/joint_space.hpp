@@ -147,4 +147,27 @@ public:
 private:
   bool walk(const ompl::base::State* a, const ompl::base::State* b, double& reached, ompl::base::State* last) const;
 };
+
+// What the caller asks of states, too.
+class FeasibleValidity : public JointSpaceValidity
+{
+public:
+  FeasibleValidity(const ompl::base::SpaceInformationPtr& si, const JointSpace& space, const CollisionFree& free,
+                   const ConstraintSet* constraints, const std::function<bool(const RobotState&)>& feasible)
+    : JointSpaceValidity(si, space, free, constraints), joints_(space), feasible_(feasible)
+  {
+  }
+  bool isValid(const ompl::base::State* state) const override
+  {
+    if (!JointSpaceValidity::isValid(state))
+      return false;
+    StatePool::Lease lease(joints_.pool());
+    (*lease).setGroup(joints_.group(), JointSpace::values(state));
+    return feasible_(*lease);
+  }
+
+private:
+  const JointSpace& joints_;
+  const std::function<bool(const RobotState&)>& feasible_;
+};
 }  // namespace motion

@@ -107,6 +107,33 @@ void ModelBuilder::addLink(const urdf::Link& link, int parent_joint)
   }
 }
 
+namespace
+{
+// Limits as the URDF has them; those of a safety controller only narrow.
+void limit(VariableBounds& b, const urdf::Joint& urdf, bool continuous)
+{
+  if (urdf.limits)
+  {
+    b.max_velocity = std::abs(urdf.limits->velocity);
+    b.has_velocity = b.max_velocity > 1e-12;
+  }
+  if (!continuous)
+  {
+    b.has_position = urdf.limits != nullptr || urdf.safety != nullptr;
+    if (urdf.limits)
+    {
+      b.min_position = urdf.limits->lower;
+      b.max_position = urdf.limits->upper;
+    }
+    if (urdf.safety)
+    {
+      b.min_position = urdf.limits ? std::max(b.min_position, urdf.safety->soft_lower_limit) : urdf.safety->soft_lower_limit;
+      b.max_position = urdf.limits ? std::min(b.max_position, urdf.safety->soft_upper_limit) : urdf.safety->soft_upper_limit;
+    }
+  }
+}
+}  // namespace
+
 void ModelBuilder::addJoint(const urdf::Joint& urdf, int parent_link)
 {
   JointModel joint;
@@ -147,26 +174,7 @@ void ModelBuilder::addJoint(const urdf::Joint& urdf, int parent_link)
   addVariables(joint);
   if (joint.singleVariable())
   {
-    VariableBounds& b = joint.bounds[0];
-    if (urdf.limits)
-    {
-      b.max_velocity = std::abs(urdf.limits->velocity);
-      b.has_velocity = b.max_velocity > 1e-12;
-    }
-    if (!joint.continuous)
-    {
-      b.has_position = urdf.limits != nullptr || urdf.safety != nullptr;
-      if (urdf.limits)
-      {
-        b.min_position = urdf.limits->lower;
-        b.max_position = urdf.limits->upper;
-      }
-      if (urdf.safety)
-      {
-        b.min_position = urdf.limits ? std::max(b.min_position, urdf.safety->soft_lower_limit) : urdf.safety->soft_lower_limit;
-        b.max_position = urdf.limits ? std::min(b.max_position, urdf.safety->soft_upper_limit) : urdf.safety->soft_upper_limit;
-      }
-    }
+    limit(joint.bounds[0], urdf, joint.continuous);
     if (urdf.mimic)
       mimics_[joint.name] = {urdf.mimic->joint_name, {urdf.mimic->multiplier, urdf.mimic->offset}};
   }

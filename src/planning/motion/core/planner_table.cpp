@@ -5,6 +5,8 @@
 #include <ompl/base/objectives/MinimaxObjective.h>
 #include <ompl/base/objectives/PathLengthOptimizationObjective.h>
 #include <ompl/base/objectives/StateCostIntegralObjective.h>
+#include <ompl/base/terminationconditions/CostConvergenceTerminationCondition.h>
+#include <ompl/base/terminationconditions/IterationTerminationCondition.h>
 #include <ompl/geometric/planners/AnytimePathShortening.h>
 #include <ompl/geometric/planners/est/BiEST.h>
 #include <ompl/geometric/planners/est/EST.h>
@@ -37,6 +39,9 @@
 #include <ompl/geometric/planners/sbl/SBL.h>
 #include <ompl/geometric/planners/stride/STRIDE.h>
 
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
 #include <functional>
 
 namespace ob = ompl::base;
@@ -119,5 +124,29 @@ ob::OptimizationObjectivePtr makeObjective(const std::string& name, const ob::Sp
   if (name == "PathLengthOptimizationObjective")
     return std::make_shared<ob::PathLengthOptimizationObjective>(si);
   return nullptr;
+}
+
+ob::PlannerTerminationCondition makeTermination(const std::string& text, const ob::ProblemDefinitionPtr& problem,
+                                                const std::function<bool()>& stopped)
+{
+  const ob::PlannerTerminationCondition clock(stopped);
+  const std::size_t open = text.find('[');
+  const std::string kind = text.substr(0, open);
+  if (kind == "Iteration" && open != std::string::npos)
+    return ob::plannerOrTerminationCondition(clock, ob::IterationTerminationCondition(std::max(1, std::atoi(text.c_str() + open + 1))));
+  if (kind == "CostConvergence")
+  {
+    int window = 10;
+    double epsilon = 0.1;
+    if (open != std::string::npos)
+      std::sscanf(text.c_str() + open, "[%d,%lf", &window, &epsilon);
+    ob::ProblemDefinitionPtr told = problem;
+    // The problem calls this very object with each better path: it must live as long as the planner looks for one.
+    const auto converged = std::make_shared<ob::CostConvergenceTerminationCondition>(told, window, epsilon);
+    return ob::PlannerTerminationCondition([stopped, converged]() { return stopped() || (*converged)(); });
+  }
+  if (kind == "ExactSolution")
+    return ob::plannerOrTerminationCondition(clock, ob::exactSolnPlannerTerminationCondition(problem));
+  return clock;
 }
 }  // namespace motion

@@ -1,7 +1,5 @@
 #include "motion/planning.hpp"
 
-#include <ompl/base/terminationconditions/CostConvergenceTerminationCondition.h>
-#include <ompl/base/terminationconditions/IterationTerminationCondition.h>
 #include <ompl/geometric/PathGeometric.h>
 #include <ompl/geometric/PathSimplifier.h>
 #include <ompl/tools/multiplan/ParallelPlan.h>
@@ -17,6 +15,7 @@
 #include "goal_sampler.hpp"
 #include "joint_space.hpp"
 #include "planner_table.hpp"
+#include "start_and_goals.hpp"
 #include "way_round.hpp"
 
 namespace ob = ompl::base;
@@ -41,29 +40,6 @@ std::shared_timed_mutex& seeding()
   static std::shared_timed_mutex mutex;
   return mutex;
 }
-
-// What the caller asks of states, too.
-class FeasibleValidity : public JointSpaceValidity
-{
-public:
-  FeasibleValidity(const ob::SpaceInformationPtr& si, const JointSpace& space, const CollisionFree& free,
-                   const ConstraintSet* constraints, const std::function<bool(const RobotState&)>& feasible)
-    : JointSpaceValidity(si, space, free, constraints), joints_(space), feasible_(feasible)
-  {
-  }
-  bool isValid(const ob::State* state) const override
-  {
-    if (!JointSpaceValidity::isValid(state))
-      return false;
-    StatePool::Lease lease(joints_.pool());
-    (*lease).setGroup(joints_.group(), JointSpace::values(state));
-    return feasible_(*lease);
-  }
-
-private:
-  const JointSpace& joints_;
-  const std::function<bool(const RobotState&)>& feasible_;
-};
 
 class Planning
 {
@@ -138,22 +114,15 @@ private:
 
   bool startIsGood()
   {
-    for (std::size_t i = 0; i < group_.variables.size(); ++i)
+    const std::string outside = outsideLimits(*scene_.model(), group_, start_);
+    if (!outside.empty())
     {
-      const int variable = group_.variables[i];
-      const JointModel& joint = scene_.model()->joints[scene_.model()->variable_joint[variable]];
-      if (joint.satisfiesBounds(start_.joint(joint), 1e-6))
-        continue;
-      const VariableBounds& b = scene_.model()->bounds[variable];
-      char text[300];
-      std::snprintf(text, sizeof text, "the start state is outside the limits: '%s' is at %.4g, allowed is %.4g to %.4g",
-                    group_.variable_names[i].c_str(), start_.positions()[variable], b.min_position, b.max_position);
-      fail(PlanStatus::InvalidStart, text);
+      fail(PlanStatus::InvalidStart, outside);
       return false;
     }
     if (!free_(start_))
     {
-      fail(PlanStatus::StartInCollision, "the start state is in collision: " + touching(start_));
+      fail(PlanStatus::StartInCollision, "the start state is in collision: " + touching(scene_, start_, request_.group));
       return false;
     }
     if (request_.feasible && !request_.feasible(start_))
@@ -168,17 +137,6 @@ private:
       return false;
     }
     return true;
-  }
-
-  std::string touching(const RobotState& state) const
-  {
-    CollisionRequest request;
-    request.group = request_.group;
-    request.contacts = 1;
-    const CollisionResult result = scene_.check(state, request);
-    if (result.contacts.empty())
-      return "bodies overlap";
-    return "'" + result.contacts[0].body_1 + "' and '" + result.contacts[0].body_2 + "' touch";
   }
 
   bool findGoals()
@@ -208,18 +166,7 @@ private:
       return false;
     if (!any || cancelled() || goals_.empty())
       return false;
-    RobotState state(start_);
-    std::vector<std::pair<double, std::size_t>> order;
-    for (std::size_t i = 0; i < goals_.size(); ++i)
-    {
-      state.setGroup(group_, goals_[i].data());
-      order.emplace_back(start_.distance(state, &group_), i);
-    }
-    std::sort(order.begin(), order.end());
-    std::vector<std::vector<double>> sorted;
-    for (const auto& [distance, index] : order)
-      sorted.push_back(goals_[index]);
-    goals_ = std::move(sorted);
+    goals_ = nearestFirst(start_, group_, goals_);
     result_.goals = static_cast<int>(goals_.size());
     return true;
   }
@@ -240,7 +187,7 @@ private:
       RobotState state(start_);
       state.setGroup(group_, refusals.example.data());
       fail(PlanStatus::GoalInCollision, "the goal is in collision in all " + std::to_string(refusals.colliding) +
-                                            " ways found to reach it; in the first " + touching(state));
+                                            " ways found to reach it; in the first " + touching(scene_, state, request_.group));
     }
     else if (refusals.path)
       fail(PlanStatus::GoalViolatesPathConstraints, "the goal can be reached, but breaks the path constraints");
@@ -327,27 +274,6 @@ private:
     return made;
   }
 
-  ob::PlannerTerminationCondition termination()
-  {
-    const ob::PlannerTerminationCondition clock([this]() { return stopped(); });
-    const std::string text = parameter("termination_condition");
-    const std::size_t open = text.find('[');
-    const std::string kind = text.substr(0, open);
-    if (kind == "Iteration" && open != std::string::npos)
-      return ob::plannerOrTerminationCondition(clock, ob::IterationTerminationCondition(std::max(1, std::atoi(text.c_str() + open + 1))));
-    if (kind == "CostConvergence")
-    {
-      int window = 10;
-      double epsilon = 0.1;
-      if (open != std::string::npos)
-        std::sscanf(text.c_str() + open, "[%d,%lf", &window, &epsilon);
-      return ob::plannerOrTerminationCondition(clock, ob::CostConvergenceTerminationCondition(problem_, window, epsilon));
-    }
-    if (kind == "ExactSolution")
-      return ob::plannerOrTerminationCondition(clock, ob::exactSolnPlannerTerminationCondition(problem_));
-    return clock;
-  }
-
   ob::PlannerPtr planner()
   {
     const ob::PlannerPtr planner = makePlanner(result_.planner, si_);
@@ -407,7 +333,8 @@ private:
   {
     problem_->clearSolutionPaths();
     result_.attempts = 0;
-    const ob::PlannerTerminationCondition done = termination();
+    const ob::PlannerTerminationCondition done =
+        makeTermination(parameter("termination_condition"), problem_, [this]() { return stopped(); });
     try
     {
       const ob::PlannerStatus status = request_.attempts > 1 ? solveSeveral(done) : solveOnce(done);

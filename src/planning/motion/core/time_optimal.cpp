@@ -236,12 +236,10 @@ std::vector<double> row(const Vector& v)
 {
   return std::vector<double>(v.data(), v.data() + v.size());
 }
-}  // namespace
 
-TimedPath timeOptimal(const Rows& given, const TimingLimits& limits, double path_tolerance, double resample_dt,
-                      double min_angle_change)
+// Those that differ from the one before, and the end exactly.
+std::vector<Vector> wayPoints(const Rows& given, double min_angle_change)
 {
-  TimedPath out;
   std::vector<Vector> points;
   for (std::size_t i = 0; i < given.size(); ++i)
   {
@@ -250,8 +248,17 @@ TimedPath timeOptimal(const Rows& given, const TimingLimits& limits, double path
     if (change > min_angle_change)
       points.push_back(point);
     else if (i + 1 == given.size())
-      points.back() = points.size() > 1 ? point : points.back();  // the end is kept exactly
+      points.back() = points.size() > 1 ? point : points.back();
   }
+  return points;
+}
+}  // namespace
+
+TimedPath timeOptimal(const Rows& given, const TimingLimits& limits, double path_tolerance, double resample_dt,
+                      double min_angle_change)
+{
+  TimedPath out;
+  const std::vector<Vector> points = wayPoints(given, min_angle_change);
   const std::vector<double> zero(given.empty() ? 0 : given[0].size(), 0.0);
   auto add = [&](double time, const Vector& q, const Vector& v, const Vector& a) {
     out.times.push_back(time);

@@ -1,0 +1,53 @@
+#include "start_and_goals.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <utility>
+
+namespace motion
+{
+std::string touching(const PlanningScene& scene, const RobotState& state, const std::string& group)
+{
+  CollisionRequest request;
+  request.group = group;
+  request.contacts = 1;
+  const CollisionResult result = scene.check(state, request);
+  if (result.contacts.empty())
+    return "bodies overlap";
+  return "'" + result.contacts[0].body_1 + "' and '" + result.contacts[0].body_2 + "' touch";
+}
+
+std::string outsideLimits(const RobotModel& model, const JointModelGroup& group, const RobotState& start)
+{
+  for (std::size_t i = 0; i < group.variables.size(); ++i)
+  {
+    const int variable = group.variables[i];
+    const JointModel& joint = model.joints[model.variable_joint[variable]];
+    if (joint.satisfiesBounds(start.joint(joint), 1e-6))
+      continue;
+    const VariableBounds& b = model.bounds[variable];
+    char text[300];
+    std::snprintf(text, sizeof text, "the start state is outside the limits: '%s' is at %.4g, allowed is %.4g to %.4g",
+                  group.variable_names[i].c_str(), start.positions()[variable], b.min_position, b.max_position);
+    return text;
+  }
+  return "";
+}
+
+std::vector<std::vector<double>> nearestFirst(const RobotState& start, const JointModelGroup& group,
+                                              const std::vector<std::vector<double>>& goals)
+{
+  RobotState state(start);
+  std::vector<std::pair<double, std::size_t>> order;
+  for (std::size_t i = 0; i < goals.size(); ++i)
+  {
+    state.setGroup(group, goals[i].data());
+    order.emplace_back(start.distance(state, &group), i);
+  }
+  std::sort(order.begin(), order.end());
+  std::vector<std::vector<double>> sorted;
+  for (const auto& [distance, index] : order)
+    sorted.push_back(goals[index]);
+  return sorted;
+}
+}  // namespace motion
