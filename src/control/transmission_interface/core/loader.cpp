@@ -152,6 +152,59 @@ void connect(TransmissionLoaderData& data, const TransmissionInfo& info, Transmi
   offer(*data.robot_transmissions, inverse);
 }
 
+/// Where the robot keeps what its actuators measure.
+ActuatorData measurements(hwi::RobotHW& robot, const TransmissionInfo& info, const std::vector<ActuatorInfo>& actuators)
+{
+  ActuatorData measured;
+  for (const ActuatorInfo& actuator : actuators)
+  {
+    const hwi::ActuatorStateHandle handle = interface_of<hwi::ActuatorStateInterface>(robot, info).getHandle(actuator.name_);
+    measured.position.push_back(mutable_address(handle.getPositionPtr()));
+    measured.velocity.push_back(mutable_address(handle.getVelocityPtr()));
+    measured.effort.push_back(mutable_address(handle.getEffortPtr()));
+    if (handle.hasAbsolutePosition())
+      measured.absolute_position.push_back(mutable_address(handle.getAbsolutePositionPtr()));
+    if (handle.hasTorqueSensor())
+      measured.torque_sensor.push_back(mutable_address(handle.getTorqueSensorPtr()));
+  }
+  if (measured.absolute_position.size() != actuators.size())
+    measured.absolute_position.clear();  // all or none
+  if (measured.torque_sensor.size() != actuators.size())
+    measured.torque_sensor.clear();
+  return measured;
+}
+
+/// The transmission is asked for as `written` in the joint's <hardwareInterface>.
+bool asks_for(const std::string& written, const char* kind)
+{
+  return written.find(std::string(kind) + "JointInterface") != std::string::npos;
+}
+
+/// \param both: commands also go from actuators to joints
+void offer_commands(TransmissionLoaderData& data, const TransmissionInfo& info, Transmission& transmission, const std::string& written,
+                    const std::vector<ActuatorInfo>& actuators, const std::vector<JointInfo>& joints, bool both)
+{
+  ForwardTransmissionInterfaces& forward = data.transmission_interfaces;
+  InverseTransmissionInterfaces& inverse = data.inverse_transmission_interfaces;
+  const Command position = { &RawJointData::position_cmd, &JointData::position, &ActuatorData::position };
+  const Command velocity = { &RawJointData::velocity_cmd, &JointData::velocity, &ActuatorData::velocity };
+  const Command effort = { &RawJointData::effort_cmd, &JointData::effort, &ActuatorData::effort };
+  JointInterfaces& interfaces = data.joint_interfaces;
+  if (asks_for(written, "Position"))
+    connect<hwi::PositionActuatorInterface>(data, info, transmission, position, actuators, joints,
+                                            interfaces.position_joint_interface, forward.jnt_to_act_pos_cmd,
+                                            inverse.act_to_jnt_pos_cmd, both);
+  else if (asks_for(written, "Velocity"))
+    connect<hwi::VelocityActuatorInterface>(data, info, transmission, velocity, actuators, joints,
+                                            interfaces.velocity_joint_interface, forward.jnt_to_act_vel_cmd,
+                                            inverse.act_to_jnt_vel_cmd, both);
+  else if (asks_for(written, "Effort"))
+    connect<hwi::EffortActuatorInterface>(data, info, transmission, effort, actuators, joints, interfaces.effort_joint_interface,
+                                          forward.jnt_to_act_eff_cmd, inverse.act_to_jnt_eff_cmd, both);
+  else if (!asks_for(written, "State"))
+    ROS_WARN("transmission '%s': hardware interface '%s' is unknown and left out", info.name_.c_str(), written.c_str());
+}
+
 }  // namespace
 
 TransmissionInterfaceLoader::TransmissionInterfaceLoader(hwi::RobotHW* robot_hw, RobotTransmissions* robot_transmissions)
@@ -198,22 +251,7 @@ bool TransmissionInterfaceLoader::load(const TransmissionInfo& info)
       return false;
     const auto actuators = is_ours(info.type_) ? ordered(info.actuators_, role_of) : info.actuators_;
     const auto joints = is_ours(info.type_) ? ordered(info.joints_, [](const JointInfo& joint) { return joint.role_; }) : info.joints_;
-    ActuatorData measured;
-    for (const ActuatorInfo& actuator : actuators)
-    {
-      const hwi::ActuatorStateHandle handle = interface_of<hwi::ActuatorStateInterface>(*data.robot_hw, info).getHandle(actuator.name_);
-      measured.position.push_back(mutable_address(handle.getPositionPtr()));
-      measured.velocity.push_back(mutable_address(handle.getVelocityPtr()));
-      measured.effort.push_back(mutable_address(handle.getEffortPtr()));
-      if (handle.hasAbsolutePosition())
-        measured.absolute_position.push_back(mutable_address(handle.getAbsolutePositionPtr()));
-      if (handle.hasTorqueSensor())
-        measured.torque_sensor.push_back(mutable_address(handle.getTorqueSensorPtr()));
-    }
-    if (measured.absolute_position.size() != actuators.size())
-      measured.absolute_position.clear();  // all or none
-    if (measured.torque_sensor.size() != actuators.size())
-      measured.torque_sensor.clear();
+    const ActuatorData measured = measurements(*data.robot_hw, info, actuators);
     JointData states;
     for (const JointInfo& one : joints)
     {
@@ -232,10 +270,6 @@ bool TransmissionInterfaceLoader::load(const TransmissionInfo& info)
     forward.act_to_jnt_state.registerHandle(ActuatorToJointStateHandle(info.name_, transmission.get(), measured, states));
     offer(*data.robot_transmissions, forward.act_to_jnt_state);
 
-    const Command position = { &RawJointData::position_cmd, &JointData::position, &ActuatorData::position };
-    const Command velocity = { &RawJointData::velocity_cmd, &JointData::velocity, &ActuatorData::velocity };
-    const Command effort = { &RawJointData::effort_cmd, &JointData::effort, &ActuatorData::effort };
-    JointInterfaces& interfaces = data.joint_interfaces;
     for (const std::string& written : joints.front().hardware_interfaces_)
     {
       const bool both = written.find("BiDirectional") != std::string::npos;
@@ -244,20 +278,7 @@ bool TransmissionInterfaceLoader::load(const TransmissionInfo& info)
         inverse.jnt_to_act_state.registerHandle(JointToActuatorStateHandle(info.name_, transmission.get(), measured, states));
         offer(*data.robot_transmissions, inverse.jnt_to_act_state);
       }
-      const auto is = [&](const char* kind) { return written.find(std::string(kind) + "JointInterface") != std::string::npos; };
-      if (is("Position"))
-        connect<hwi::PositionActuatorInterface>(data, info, *transmission, position, actuators, joints,
-                                                interfaces.position_joint_interface, forward.jnt_to_act_pos_cmd,
-                                                inverse.act_to_jnt_pos_cmd, both);
-      else if (is("Velocity"))
-        connect<hwi::VelocityActuatorInterface>(data, info, *transmission, velocity, actuators, joints,
-                                                interfaces.velocity_joint_interface, forward.jnt_to_act_vel_cmd,
-                                                inverse.act_to_jnt_vel_cmd, both);
-      else if (is("Effort"))
-        connect<hwi::EffortActuatorInterface>(data, info, *transmission, effort, actuators, joints, interfaces.effort_joint_interface,
-                                              forward.jnt_to_act_eff_cmd, inverse.act_to_jnt_eff_cmd, both);
-      else if (!is("State"))
-        ROS_WARN("transmission '%s': hardware interface '%s' is unknown and left out", info.name_.c_str(), written.c_str());
+      offer_commands(data, info, *transmission, written, actuators, joints, both);
     }
     data.transmission_data.push_back(transmission);
     return true;
