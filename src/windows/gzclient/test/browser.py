@@ -141,12 +141,15 @@ class Browser:
         """The box of that label."""
         self._press(self._input(label, "checkbox"), f"box {label}")
 
+    def unfold(self, label):
+        """A folder of that label."""
+        self._press(f"//*[text()='{label}']", f"folder {label}")
+
     def fill(self, label, value):
         """A field of that label, by its keys, left by Enter."""
         from selenium.webdriver.common.keys import Keys
+        self._press(self._input(label), f"field {label}")  # once a folder that unfolds shows it
         element = self._find(self._input(label), f"field {label}")
-        self.driver.execute_script("arguments[0].scrollIntoView({block: 'center'})", element)
-        element.click()
         element.send_keys(Keys.CONTROL, "a")
         element.send_keys(str(value), Keys.ENTER)
 
