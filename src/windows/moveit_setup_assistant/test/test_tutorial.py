@@ -74,7 +74,7 @@ def student():
 def click_through(student, urdf, folder):
     student.type("start_path", urdf)
     student.click("start_load")
-    student.said("6 joints that move")
+    student.said("6 joints that can move")
     student.picture("start")
     student.screen("Self-Collisions")
     student.click("collisions_generate")
@@ -104,6 +104,7 @@ def click_through(student, urdf, folder):
     student.picture("poses")
     student.screen("Controllers")
     student.click("controllers_auto")
+    student.said("1 controller added")
     student.picture("controllers")
     student.screen("Author Information")
     student.type("author_name", "Ada")

@@ -17,6 +17,7 @@ from moveit_setup_assistant.configuration import Configuration
 from moveit_setup_assistant.errors import AssistantError
 from moveit_setup_assistant.robot_view import RobotView
 from moveit_setup_assistant.screens import ALL
+from moveit_setup_assistant.words import counted
 
 
 _MOST_LINES = 4  # of what is missing, below the screen
@@ -38,7 +39,8 @@ class Session:
         self._window.robot_changed()
         for line in config.warnings:
             self.say(line, bad=True)
-        lines = [f"{config.robot.name}: {len(config.robot.model.links)} links, {len(config.robot.movable_joints)} joints that move",
+        lines = [f"{config.robot.name}: {counted(len(config.robot.model.links), 'link')}, "
+                 f"{counted(len(config.robot.movable_joints), 'joint')} that can move",
                  *config.warnings[:_MOST_LINES]]
         if len(config.warnings) > _MOST_LINES:
             lines.append(f"and {len(config.warnings) - _MOST_LINES} more; all of them are in the terminal")

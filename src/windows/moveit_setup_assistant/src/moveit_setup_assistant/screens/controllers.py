@@ -2,6 +2,7 @@
 from moveit_setup_assistant.configuration import ACTION_TYPES, TRAJECTORY_TYPES, Controller
 from moveit_setup_assistant.errors import AssistantError
 from moveit_setup_assistant.screens.base import Entries, Screen, choice, line
+from moveit_setup_assistant.words import counted
 from python_qt_binding.QtWidgets import QPushButton
 
 
@@ -21,7 +22,7 @@ class ControllersScreen(Screen):
         self._entries = Entries("controllers", {
             "name": ("Controller name", line()), "type": ("Controller type", choice((*TRAJECTORY_TYPES, *ACTION_TYPES), editable=True)),
             "joints": ("Joints, blanks between them", line()), "group": ("or the joints of the group", choice())},
-            lambda: self.config.controllers, lambda c: f"{c.name}: {c.type} ({len(c.joints)} joints)",
+            lambda: self.config.controllers, lambda c: f"{c.name}: {c.type} ({counted(len(c.joints), 'joint')})",
             lambda c: {"name": c.name, "type": c.type, "joints": " ".join(c.joints), "group": ""},
             self._write, lambda c: self.config.controllers.remove(c))
         self._entries.refused.connect(lambda text: session.say(text, bad=True))
@@ -36,7 +37,7 @@ class ControllersScreen(Screen):
         before = len(self.config.controllers)
         self.config.add_default_controllers()
         self._entries.fill()
-        self.session.say(f"{len(self.config.controllers) - before} controllers added")
+        self.session.say(f"{counted(len(self.config.controllers) - before, 'controller')} added")
 
     def _write(self, thing, values) -> None:
         joints = self.session.joints_of(values["group"]) if values["group"] else values["joints"].split()

@@ -11,6 +11,7 @@ from python_qt_binding.QtWidgets import (QCheckBox, QDoubleSpinBox, QFormLayout,
 from moveit_setup_assistant import collisions
 from moveit_setup_assistant.headless import set_collisions
 from moveit_setup_assistant.screens.base import CHECKED, UNCHECKED, Screen, line
+from moveit_setup_assistant.words import counted
 
 
 class SelfCollisionsScreen(Screen):
@@ -103,7 +104,7 @@ class SelfCollisionsScreen(Screen):
             self._reasons = reasons
             set_collisions(self.config, reasons)
             self._fill()
-            self.session.say(f"{len(reasons)} pairs need no check")
+            self.session.say(f"{counted(len(reasons), 'pair')} {'needs' if len(reasons) == 1 else 'need'} no check")
         else:
             self.session.say("Stopped; the pairs are as they were.")
 

@@ -1,0 +1,6 @@
+"""What is told to the user."""
+
+
+def counted(number: int, thing: str) -> str:
+    """``thing`` is its singular."""
+    return f"{number} {thing}" if number == 1 else f"{number} {thing}s"
