@@ -20,6 +20,39 @@ std::string interface_of(const std::string& written)
   return written.compare(0, kPrefix.size(), kPrefix) == 0 ? written.substr(kPrefix.size()) : written;
 }
 
+/// That of the joint, else of the actuator; the first where there are several.
+std::string interface_of(const transmission_interface::TransmissionInfo& transmission)
+{
+  const transmission_interface::JointInfo& joint = transmission.joints_[0];
+  std::vector<std::string> interfaces = joint.hardware_interfaces_;
+  if (interfaces.empty() && !transmission.actuators_.empty())
+    interfaces = transmission.actuators_[0].hardware_interfaces_;
+  const std::string interface = interfaces.empty() ? "" : interface_of(interfaces[0]);
+  if (interfaces.size() > 1)
+    ROS_WARN("transmission '%s' names several hardware interfaces for joint '%s'; the first, %s, is taken", transmission.name_.c_str(),
+             joint.name_.c_str(), interface.c_str());
+  return interface;
+}
+
+bool drives_one(const transmission_interface::TransmissionInfo& transmission)
+{
+  if (transmission.joints_.size() == 1)
+    return true;
+  ROS_WARN("Transmission '%s' has %zu joints; it is left out: the simulation drives joints directly", transmission.name_.c_str(),
+           transmission.joints_.size());
+  return false;
+}
+
+bool possible(const std::string& interface, const transmission_interface::TransmissionInfo& transmission)
+{
+  if (interface == "EffortJointInterface" || interface == "PositionJointInterface" || interface == "VelocityJointInterface")
+    return true;
+  ROS_ERROR("transmission '%s', joint '%s': hardware interface '%s' cannot be simulated; possible are "
+            "hardware_interface/EffortJointInterface, PositionJointInterface and VelocityJointInterface",
+            transmission.name_.c_str(), transmission.joints_[0].name_.c_str(), interface.c_str());
+  return false;
+}
+
 }  // namespace
 
 bool DefaultRobotHWSim::initSim(const std::string& robot_namespace, ros::NodeHandle model_nh, gazebo::physics::ModelPtr parent_model,
@@ -51,17 +84,10 @@ bool DefaultRobotHWSim::addJoint(const transmission_interface::TransmissionInfo&
                                  const gazebo::physics::ModelPtr& model, const urdf::Model* urdf_model)
 {
   const char* const name = transmission.name_.c_str();
-  if (transmission.joints_.size() != 1)
-  {
-    ROS_WARN("Transmission '%s' has %zu joints; it is left out: the simulation drives joints directly", name,
-             transmission.joints_.size());
+  if (!drives_one(transmission))
     return true;
-  }
   const transmission_interface::JointInfo& info = transmission.joints_[0];
-  std::vector<std::string> interfaces = info.hardware_interfaces_;
-  if (interfaces.empty() && !transmission.actuators_.empty())
-    interfaces = transmission.actuators_[0].hardware_interfaces_;
-  const std::string interface = interfaces.empty() ? "" : interface_of(interfaces[0]);
+  const std::string interface = interface_of(transmission);
   const gazebo::physics::JointPtr joint = model->GetJoint(info.name_);
   if (!joint)
   {
@@ -69,16 +95,8 @@ bool DefaultRobotHWSim::addJoint(const transmission_interface::TransmissionInfo&
               model->GetName().c_str(), info.name_.c_str());
     return false;
   }
-  if (interfaces.size() > 1)
-    ROS_WARN("transmission '%s' names several hardware interfaces for joint '%s'; the first, %s, is taken", name, info.name_.c_str(),
-             interface.c_str());
-  if (interface != "EffortJointInterface" && interface != "PositionJointInterface" && interface != "VelocityJointInterface")
-  {
-    ROS_ERROR("transmission '%s', joint '%s': hardware interface '%s' cannot be simulated; possible are "
-              "hardware_interface/EffortJointInterface, PositionJointInterface and VelocityJointInterface",
-              name, info.name_.c_str(), interface.c_str());
+  if (!possible(interface, transmission))
     return false;
-  }
 
   const std::size_t j = n_dof_++;
   joint_names_.push_back(info.name_);
