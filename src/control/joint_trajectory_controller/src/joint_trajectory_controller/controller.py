@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any, List, Optional, Tuple
+from typing import Any, Callable, List, Optional, Sequence, Tuple
 
 import rospy
 from control_msgs.msg import (FollowJointTrajectoryAction, FollowJointTrajectoryFeedback, FollowJointTrajectoryResult,
@@ -10,12 +10,14 @@ from control_msgs.msg import (FollowJointTrajectoryAction, FollowJointTrajectory
 from control_msgs.srv import QueryTrajectoryState, QueryTrajectoryStateResponse
 from controller_interface import NodeHandle, ParameterError, RateGate, RealtimePublisher, to_stamp
 from controller_interface.action_controller import ActionController
+from hardware_interface import JointStateHandle, addresses
 from joint_limits_interface import shortest_angular_distance
 from realtime_tools.action_server import RealtimeGoal
 from trajectory_msgs.msg import JointTrajectory
 from urdf_geometry_parser import robot_geometry
 
 from . import tolerances
+from ._sampler import Sampler
 from .segment import Segment, active_index, stop_segment
 from .splice import Command, InvalidTrajectory, Late, map_joints, splice
 
@@ -76,6 +78,9 @@ class JointTrajectoryController(ActionController):
 
         handles = [hw.get_handle(joint) for joint in self._joints]
         self._states = [handle.state for handle in handles]
+        self._sampler = _sampler_of(self._states, self._angular)
+        self._quick: Callable = self._sampler.quick if self._sampler else lambda *_: None
+        self._sampled: tuple = (None, None, [])  # trajectory, goal and cursors that the sampler knows of
         self.init_output(handles, controller_nh)
 
         self._time = self._uptime = self._period = 0.0
@@ -115,6 +120,29 @@ class JointTrajectoryController(ActionController):
 
         publish = self._gate.due(uptime)
         report = goal is not None and uptime >= self._next_monitor
+        known = self._sampled[0] is trajectory and self._sampled[1] is goal
+        quick = self._quick(uptime, goal is not None, self.feeds_back or publish or report) if known else None
+        if quick is not None:
+            desired, errors = quick
+        else:
+            desired, errors, left = self._sample(uptime, trajectory, cursor, next_start, goal, done, publish)
+            self._remember(trajectory, cursor, next_start, goal)
+            goal = left
+        self.write_output(desired, errors, period)
+
+        first = trajectory[0][cursor[0]]
+        if goal is not None and all(done) and self._release(goal):
+            goal.succeed(Result(error_code=Result.SUCCESSFUL))
+        elif report and goal is not None:
+            self._next_monitor = max(self._next_monitor + self._monitor_period, uptime)
+            goal.feedback(self._fill(FollowJointTrajectoryFeedback(), time, uptime, first, desired, errors))
+        if publish and self._state_publisher.has_subscribers:
+            self._state_publisher.publish(
+                self._fill(JointTrajectoryControllerState(), time, uptime, first, desired, errors))
+
+    def _sample(self, uptime: float, trajectory: List[List[Segment]], cursor: List[int], next_start: List[float],
+                goal: Optional[RealtimeGoal], done: List[bool], publish: bool):
+        """Every joint at ``uptime``, and what becomes of the goal: (desired states, errors, the goal or None if it was aborted)."""
         need_errors = self.feeds_back or goal is not None or publish
         desired = []
         errors = []
@@ -146,17 +174,22 @@ class JointTrajectoryController(ActionController):
                     elif not done[joint] and uptime >= segment.end + segment.tolerances.goal_time:
                         self._abort(goal, Result.GOAL_TOLERANCE_VIOLATED, joint, "goal", error, broken)
                         goal = None
-        self.write_output(desired, errors, period)
+        return desired, errors, goal
 
-        first = trajectory[0][cursor[0]]
-        if goal is not None and all(done) and self._release(goal):
-            goal.succeed(Result(error_code=Result.SUCCESSFUL))
-        elif report and goal is not None:
-            self._next_monitor = max(self._next_monitor + self._monitor_period, uptime)
-            goal.feedback(self._fill(FollowJointTrajectoryFeedback(), time, uptime, first, desired, errors))
-        if publish and self._state_publisher.has_subscribers:
-            self._state_publisher.publish(
-                self._fill(JointTrajectoryControllerState(), time, uptime, first, desired, errors))
+    def _remember(self, trajectory: List[List[Segment]], cursor: List[int], next_start: List[float],
+                  goal: Optional[RealtimeGoal]) -> None:
+        """Hand the segments that are under way to the sampler, which answers from then on until something happens."""
+        if self._sampler is None:
+            return
+        known = self._sampled[0] is trajectory and self._sampled[1] is goal
+        for joint, index in enumerate(cursor):
+            if known and self._sampled[2][joint] == index:
+                continue
+            segment = trajectory[joint][index]
+            path = segment.tolerances.path
+            self._sampler.follow(joint, segment.start, segment.end, segment.coefficients, segment.end_position,
+                                 next_start[joint], goal is not None and segment.goal is goal, path.position, path.velocity)
+        self._sampled = trajectory, goal, list(cursor)
 
     def _fill(self, message, time: float, uptime: float, segment: Segment, desired, errors):
         """State and feedback messages carry the same fields."""
@@ -276,6 +309,17 @@ class JointTrajectoryController(ActionController):
                                          f"{request.time.to_sec():.3f} s")
         samples = [segments[active_index(segments, time)].sample(time) for segments in trajectory]
         return QueryTrajectoryStateResponse(self._joints, *map(list, zip(*samples)))
+
+
+def _sampler_of(states: Sequence[JointStateHandle], angular: Sequence[bool]) -> Optional[Sampler]:
+    """In C++, for handles whose numbers it may read; None for those of other classes."""
+    sampler = Sampler()
+    for state, turns in zip(states, angular):
+        if not isinstance(state, JointStateHandle):
+            return None
+        position, velocity = addresses(state)[:2]
+        sampler.add_joint(position, velocity, turns)
+    return sampler
 
 
 def _positive(nh: NodeHandle, name: str, default: float) -> float:
