@@ -60,6 +60,12 @@ void Link::SetCollideMode(const std::string& mode)
     shape->surface.collide_bitmask = none ? 0 : 0xFFFF;
 }
 
+void Link::SetLaserRetro(float retro)
+{
+  for (const CollisionPtr& collision : collisions_)
+    collision->SetLaserRetro(retro);
+}
+
 void Link::SetKinematic(const bool& kinematic)
 {
   core_->kinematic = kinematic;

@@ -6,6 +6,7 @@
 
 #include <compiled_plugins/guard.h>
 #include <gazebo/physics/physics.hh>
+#include <gazebo/sensors/SensorManager.hh>
 
 #include "sdf_text.hpp"
 
@@ -111,11 +112,15 @@ void LoadedPlugin::LoadWorld(int index, const std::string& text)
   call("Init()", [&] { world_->Init(); });
 }
 
-void LoadedPlugin::LoadSensor(const sensors::SensorPtr& sensor, const std::string& text)
+void LoadedPlugin::LoadSensor(const std::string& name, int index, const std::string& text)
 {
   if (!sensor_)
     wrong_kind(kind_, "sensor");
-  const sdf::ElementPtr element = plugin_element(sdf::ElementPtr(), 0, text);
+  const sensors::SensorPtr sensor = sensors::SensorManager::Instance()->GetSensor(name);
+  if (!sensor)
+    throw std::runtime_error("sensors of this type are not there in C++, but for rays, contacts, IMU, GPS, altimeter and magnetometer; "
+                             "in Python they are (gazebo_ros.plugin)");
+  const sdf::ElementPtr element = plugin_element(sensor->Element(), index, text);
   call("Load()", [&] { sensor_->Load(sensor, element); });
   call("Init()", [&] { sensor_->Init(); });
 }

@@ -19,7 +19,7 @@ public:
   void LoadModel(const std::string& model, int index, const std::string& text);
   void LoadWorld(int index, const std::string& text);
   void LoadSystem(int argc, char** argv);
-  void LoadSensor(const sensors::SensorPtr& sensor, const std::string& text);
+  void LoadSensor(const std::string& sensor, int index, const std::string& text);  // sensor: its scoped name
   void Reset();
   void Destroy();
 

@@ -164,6 +164,7 @@ void Mirror::addLink(Model& model, const LinkRecord& record)
     collision->shape_ = make_shape(collision, each);
     collision->shape_->SetName(each.kind);
     collision->surface_.reset(new SurfaceParams(collision->core_));
+    collision->retro_ = static_cast<float>(each.retro);
     number_collision(each.shape, collision.get());
     link->collisions_.push_back(collision);
     link->AddChild(collision);

@@ -22,6 +22,7 @@ struct CollisionRecord
   int shape = 0;
   std::string kind, uri;
   std::vector<double> numbers;
+  double retro = 0;
 };
 
 struct LinkRecord

@@ -2,6 +2,7 @@
 #include <dlfcn.h>
 
 #include <gazebo/gazebo.hh>
+#include <gazebo/sensors/SensorManager.hh>
 #include <pybind11/functional.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
@@ -21,7 +22,7 @@ namespace
 
 using Free = py::call_guard<py::gil_scoped_release>;
 using Numbers = std::vector<double>;
-using CollisionTuple = std::tuple<std::string, int, std::string, Numbers, std::string>;
+using CollisionTuple = std::tuple<std::string, int, std::string, Numbers, std::string, double>;
 using LinkTuple = std::tuple<std::string, int, std::vector<CollisionTuple>, std::vector<std::string>>;
 using JointTuple = std::tuple<std::string, std::string, int>;
 
@@ -41,6 +42,7 @@ void start(std::uintptr_t core, const std::string& name, const std::string& text
 {
   Mirror::Get().Start(reinterpret_cast<ode_sim::World*>(core), name, text, update_rate);
   Mirror::Get().Describe(magnetic_field, place);
+  gazebo::sensors::SensorManager::Instance()->Start();
 }
 
 void add_model(const std::string& name, const std::string& text, int id, const Numbers& X, const std::vector<LinkTuple>& links,
@@ -51,8 +53,8 @@ void add_model(const std::string& name, const std::string& text, int id, const N
   for (const auto& [link_name, link_id, collisions, sensors] : links)
   {
     model.links.push_back({ link_name, link_id, {}, sensors });
-    for (const auto& [collision, shape, kind, numbers, uri] : collisions)
-      model.links.back().collisions.push_back({ collision, shape, kind, uri, numbers });
+    for (const auto& [collision, shape, kind, numbers, uri, retro] : collisions)
+      model.links.back().collisions.push_back({ collision, shape, kind, uri, numbers, retro });
   }
   for (const auto& [joint, type, joint_id] : joints)
     model.joints.push_back({ joint, type, joint_id });
@@ -99,6 +101,7 @@ PYBIND11_MODULE(_core, m)
   py::class_<LoadedPlugin, std::shared_ptr<LoadedPlugin>>(m, "Plugin")
       .def(py::init<const std::string&, const std::string&, const std::string&, const std::string&>(), Free())
       .def("load_model", &LoadedPlugin::LoadModel, Free())
+      .def("load_sensor", &LoadedPlugin::LoadSensor, Free())
       .def("load_world", &LoadedPlugin::LoadWorld, Free())
       .def("load_system", &load_system, Free())
       .def("reset", &LoadedPlugin::Reset, Free())

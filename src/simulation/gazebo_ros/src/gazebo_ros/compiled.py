@@ -87,13 +87,14 @@ class CompiledPlugin(ModelPlugin, SensorPlugin, WorldPlugin):
 
     def load(self, server, *subject_and_sdf) -> None:
         subject = subject_and_sdf[0] if len(subject_and_sdf) > 1 else None
-        if isinstance(subject, Sensor):
-            raise PluginError("compiled plugins of sensors are not supported here; those of models and worlds are")
         bridge(server, self._clock)
         text = sdf_writer.element_text(self._plugin.element)
         try:
             self._core = _core.Plugin(self._library, self._plugin.filename, self._plugin.name, self._label)
-            if subject is None:
+            if isinstance(subject, Sensor):
+                name = f"{server.description.name}::{subject.scoped_name}"
+                self._core.load_sensor(name, _index(self._plugin, subject.description.plugins), text)
+            elif subject is None:
                 self._core.load_world(_index(self._plugin, server.description.plugins), text)
             else:
                 self._core.load_model(subject.name, _index(self._plugin, subject.description.plugins), text)
@@ -253,9 +254,10 @@ class Bridge:
         self._later(lambda: setattr(physics, name, int(value) if whole else value), f"{name} = {value:g}")
 
 
-def _collision(handle) -> Tuple[str, int, str, List[float], str]:
+def _collision(handle) -> Tuple[str, int, str, List[float], str, float]:
     geometry = handle.description.geometry
     kind = type(geometry).__name__.lower()
     numbers = {"box": lambda g: g.size, "sphere": lambda g: (g.radius,), "cylinder": lambda g: (g.radius, g.length),
                "capsule": lambda g: (g.radius, g.length), "plane": lambda g: g.normal, "mesh": lambda g: g.scale}
-    return handle.name, handle.core.id, kind, list(numbers.get(kind, lambda g: ())(geometry)), getattr(geometry, "uri", "")
+    return handle.name, handle.core.id, kind, list(numbers.get(kind, lambda g: ())(geometry)), getattr(geometry, "uri", ""), \
+        handle.laser_retro

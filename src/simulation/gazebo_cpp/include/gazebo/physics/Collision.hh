@@ -24,8 +24,8 @@ public:
   SurfaceParamsPtr GetSurface() const { return surface_; }
   virtual void SetCategoryBits(unsigned int) {}
   virtual void SetCollideBits(unsigned int bits);
-  void SetLaserRetro(float) {}
-  float GetLaserRetro() const { return 0; }
+  void SetLaserRetro(float retro) { retro_ = retro; }
+  float GetLaserRetro() const { return retro_; }
   unsigned int GetMaxContacts();
   virtual void SetMaxContacts(unsigned int most);
   bool IsPlaceable() const { return !IsStatic(); }
@@ -36,6 +36,7 @@ private:
   std::shared_ptr<ode_sim::Shape> core_;
   ShapePtr shape_;
   SurfaceParamsPtr surface_;
+  float retro_ = 0;
 };
 
 }  // namespace physics

@@ -34,7 +34,7 @@ public:
   virtual void SetSelfCollide(bool collide);
   bool GetSelfCollide() const;
   void SetCollideMode(const std::string& mode);
-  void SetLaserRetro(float) {}
+  void SetLaserRetro(float retro);
   virtual void SetKinematic(const bool& kinematic);
   virtual bool GetKinematic() const;
   virtual void SetAutoDisable(bool) {}

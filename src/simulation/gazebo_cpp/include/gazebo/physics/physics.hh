@@ -11,6 +11,7 @@
 #include <gazebo/physics/JointWrench.hh>
 #include <gazebo/physics/Link.hh>
 #include <gazebo/physics/Model.hh>
+#include <gazebo/physics/MultiRayShape.hh>
 #include <gazebo/physics/PhysicsEngine.hh>
 #include <gazebo/physics/PhysicsIface.hh>
 #include <gazebo/physics/PhysicsTypes.hh>

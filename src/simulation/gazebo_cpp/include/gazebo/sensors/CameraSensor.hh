@@ -1,1 +1,1 @@
-#error "no sensors of Gazebo in C++ here: a plugin of a sensor cannot be built; in Python it can (gazebo_ros.plugin)"
+#error "there is no rendering of Gazebo here: a plugin that reads cameras in C++ cannot be built; in Python it can (gazebo_ros.plugin)"

@@ -1,1 +1,46 @@
-#error "no sensors of Gazebo in C++ here: a plugin of a sensor cannot be built; in Python it can (gazebo_ros.plugin)"
+#pragma once
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include <gazebo/common/SingletonT.hh>
+#include <gazebo/physics/PhysicsTypes.hh>
+#include <gazebo/sensors/Sensor.hh>
+
+namespace gazebo
+{
+namespace sensors
+{
+
+/// All sensors of the world's models. Those that need pictures (cameras) are not among them.
+class GAZEBO_VISIBLE SensorManager : public SingletonT<SensorManager>
+{
+public:
+  /// \param name world::model::link::sensor, or the sensor's own name where only one has it
+  SensorPtr GetSensor(const std::string& name) const;
+  Sensor_V GetSensors() const;
+  bool SensorsInitialized() { return true; }
+  void ResetLastUpdateTimes();
+  void RemoveSensor(const std::string& name);
+
+  /// For the simulator: from now on it knows of models, steps and resets.
+  void Start();
+
+private:
+  friend class SingletonT<SensorManager>;
+  SensorManager() = default;
+  void add(const physics::LinkPtr& link, const sdf::ElementPtr& sdf);  // sdf: <sensor>; of a kind that is not here: nothing
+  void addOf(const std::string& model);
+  void removeOf(const std::string& model);
+  void step();
+  mutable std::mutex mutex_;
+  std::shared_ptr<const Sensor_V> sensors_ = std::make_shared<Sensor_V>();
+  std::vector<event::ConnectionPtr> connections_;
+};
+
+/// By name, as SensorManager::GetSensor().
+GAZEBO_VISIBLE SensorPtr get_sensor(const std::string& name);
+
+}  // namespace sensors
+}  // namespace gazebo

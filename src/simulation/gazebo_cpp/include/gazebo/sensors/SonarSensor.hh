@@ -1,1 +1,1 @@
-#error "no sensors of Gazebo in C++ here: a plugin of a sensor cannot be built; in Python it can (gazebo_ros.plugin)"
+#error "gazebo::sensors::SonarSensor is not here in C++: rays, contacts, IMU, GPS, altimeter and magnetometer are; in Python it can be written (gazebo_ros.plugin)"

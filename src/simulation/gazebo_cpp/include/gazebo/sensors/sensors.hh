@@ -1,3 +1,14 @@
 #pragma once
 #include <gazebo/gazebo_config.h>
+#include <gazebo/sensors/AltimeterSensor.hh>
+#include <gazebo/sensors/ContactSensor.hh>
+#include <gazebo/sensors/GpsSensor.hh>
+#include <gazebo/sensors/GpuRaySensor.hh>
+#include <gazebo/sensors/ImuSensor.hh>
+#include <gazebo/sensors/MagnetometerSensor.hh>
+#include <gazebo/sensors/Noise.hh>
+#include <gazebo/sensors/RaySensor.hh>
+#include <gazebo/sensors/Sensor.hh>
+#include <gazebo/sensors/SensorManager.hh>
 #include <gazebo/sensors/SensorTypes.hh>
+#include <gazebo/sensors/SensorsIface.hh>

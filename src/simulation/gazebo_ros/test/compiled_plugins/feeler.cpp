@@ -1,0 +1,63 @@
+// A plugin for sensors of any kind: publishes what they measure, with the stamp first.
+#include <gazebo/gazebo.hh>
+#include <gazebo/sensors/sensors.hh>
+#include <ros/ros.h>
+#include <std_msgs/Float64MultiArray.h>
+
+namespace gazebo
+{
+
+class Feeler : public SensorPlugin
+{
+public:
+  void Load(sensors::SensorPtr sensor, sdf::ElementPtr sdf) override
+  {
+    sensor_ = sensor;
+    values_ = nh_.advertise<std_msgs::Float64MultiArray>("feel/" + sensor->Name(), 1000, true);
+    updated_ = sensor->ConnectUpdated([this] { OnUpdate(); });
+    sensor->SetActive(true);
+    Publish({ sdf->Get<double>("mark"), sensors::get_sensor(sensor->ScopedName()) == sensor ? 1.0 : 0.0 });
+  }
+
+private:
+  void OnUpdate()
+  {
+    std::vector<double> values{ sensor_->LastMeasurementTime().Double() };
+    const auto add = [&](const ignition::math::Vector3d& v) { values.insert(values.end(), { v.X(), v.Y(), v.Z() }); };
+    if (const auto imu = std::dynamic_pointer_cast<sensors::ImuSensor>(sensor_))
+      add(imu->AngularVelocity()), add(imu->LinearAcceleration(true)), add(imu->Orientation().Euler());
+    else if (const auto contact = std::dynamic_pointer_cast<sensors::ContactSensor>(sensor_))
+    {
+      const msgs::Contacts now = contact->Contacts();
+      values.push_back(contact->GetCollisionContactCount(contact->GetCollisionName(0)));
+      double force = 0;
+      for (const auto& each : now.contact())
+        for (const auto& wrench : each.wrench())
+          force += std::abs(wrench.body_1_wrench().force().z());
+      values.push_back(force);
+    }
+    else if (const auto gps = std::dynamic_pointer_cast<sensors::GpsSensor>(sensor_))
+      values.insert(values.end(), { gps->Latitude().Degree(), gps->Longitude().Degree(), gps->Altitude() });
+    else if (const auto altimeter = std::dynamic_pointer_cast<sensors::AltimeterSensor>(sensor_))
+      values.insert(values.end(), { altimeter->Altitude(), altimeter->VerticalVelocity() });
+    else if (const auto field = std::dynamic_pointer_cast<sensors::MagnetometerSensor>(sensor_))
+      add(field->MagneticField() * 1e6);
+    Publish(values);
+  }
+
+  void Publish(const std::vector<double>& values)
+  {
+    std_msgs::Float64MultiArray message;
+    message.data = values;
+    values_.publish(message);
+  }
+
+  ros::NodeHandle nh_;
+  ros::Publisher values_;
+  sensors::SensorPtr sensor_;
+  event::ConnectionPtr updated_;
+};
+
+GZ_REGISTER_SENSOR_PLUGIN(Feeler)
+
+}  // namespace gazebo

@@ -1,0 +1,113 @@
+#!/usr/bin/env python3
+"""Plugins of sensors in C++: what Gazebo's own classes tell them."""
+import importlib.util
+import math
+import os
+import sys
+import unittest
+
+import rospy
+import rostest
+from rosgraph_msgs.msg import Log
+from std_msgs.msg import Float64MultiArray
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from simulator import Case  # noqa: E402
+
+MODEL = """<sdf version="1.6"><model name="post"><pose>0 0 0.5 0 0 {yaw}</pose><link name="l"><inertial><mass>2</mass></inertial>
+<collision name="c"><geometry><box><size>1 1 1</size></box></geometry></collision>{sensors}</link></model></sdf>"""
+WALL = """<sdf version="1.6"><model name="wall"><static>1</static><pose>3.5 0 1 0 0 0</pose><link name="l"><collision name="c">
+<laser_retro>70</laser_retro><geometry><box><size>1 10 4</size></box></geometry></collision></link></model></sdf>"""
+RAY = """<sensor name="eye" type="{type}"><update_rate>50</update_rate><pose>0.5 0 0.4 0 0 0</pose><ray><scan>
+<horizontal><samples>3</samples><min_angle>-0.5</min_angle><max_angle>0.5</max_angle></horizontal>
+<vertical><samples>2</samples><min_angle>0</min_angle><max_angle>1.2</max_angle></vertical></scan>
+<range><min>0.1</min><max>5</max></range></ray><plugin name="p" filename="libgazebo_ros_test_{plugin}.so"/></sensor>"""
+SENSOR = """<sensor name="{type}" type="{type}"><update_rate>{rate}</update_rate>{block}<plugin name="first" filename="libother.so"/>
+<plugin name="p" filename="libgazebo_ros_test_feeler.so"><mark>7</mark></plugin></sensor>"""
+
+
+@unittest.skipUnless(importlib.util.find_spec("gazebo_cpp._core"), "this system lacks what Gazebo's headers need")
+class SensorsTest(Case):
+    def setUp(self):
+        self.log, self.got, self.subscribers = [], {}, []
+        self.listen("/rosout", Log, lambda m: self.log.append(m.msg))
+        self.wait(lambda: self.subscribers[0].get_num_connections() > 1)
+        self.sim.empty("reset_simulation")
+
+    def tearDown(self):
+        for name in self.sim.world().model_names:
+            if name != "ground_plane":
+                self.sim.delete(name)
+        for subscriber in self.subscribers:
+            subscriber.unregister()
+
+    def listen(self, topic, kind, f):
+        self.subscribers.append(rospy.Subscriber(topic, kind, f))
+
+    def values(self, topic, sensors, steps, count, yaw=0.0):
+        """The values of a topic, with the one that is latched at the start, after so many steps."""
+        got = []
+        self.listen(topic, Float64MultiArray, lambda m: got.append(m.data))
+        self.done(self.sim.spawn("post", MODEL.format(sensors=sensors, yaw=yaw)))
+        self.wait(lambda: all(subscriber.get_num_connections() for subscriber in self.subscribers))
+        self.sim.step(steps)
+        self.wait(lambda: len(got) >= count)
+        return got
+
+    def test_rays(self):
+        self.done(self.sim.spawn("wall", WALL))
+        fans = []
+        self.listen("/scan/fan", Float64MultiArray, lambda m: fans.append(m.data))
+        got = self.values("/scan/values", RAY.format(type="ray", plugin="scanner"), 100, 5)
+        self.wait(lambda: len(fans) >= 5)
+        self.assertEqual([round(m[0], 6) for m in got], [0.02, 0.04, 0.06, 0.08, 0.1])
+        near, side = 2.5, 2.5 / math.cos(0.5)  # of the face of the wall; the upper row looks over it
+        expected = [side, near, side, 5.0, 5.0, 5.0]
+        for each, wanted in zip(fans[0], expected):
+            self.assertAlmostEqual(each, wanted, delta=1e-3)
+        self.assertEqual(got[0][1:6], (-0.5, 0.5, 3.0, 2.0, 5.0))
+        for each, wanted in zip(got[0][6:12], expected[:3] + [math.inf] * 3):
+            self.assertTrue(each == wanted or abs(each - wanted) < 1e-3, got[0])
+        self.assertEqual(got[0][12:], (70.0, 70.0, 70.0, 0.0, 0.0, 0.0))
+
+    def feel(self, kind, rate=100, block="", **more):
+        got = self.values("/feel/" + kind, SENSOR.format(type=kind, rate=rate, block=block), 50, 1 + rate // 20, **more)
+        self.assertEqual(got[0], (7.0, 1.0))  # its own <plugin> of two; found by its scoped name
+        return got[-1]
+
+    def near(self, values, wanted, delta):
+        self.assertEqual(len(values), len(wanted))
+        for value, each in zip(values, wanted):
+            self.assertAlmostEqual(value, each, delta=delta, msg=str(values))
+
+    def test_imu(self):
+        self.near(self.feel("imu", yaw=0.3), (0.05, 0, 0, 0, 0, 0, 9.8, 0, 0, 0), 0.01)
+
+    def test_contact(self):
+        _, points, force = self.feel("contact", block="<contact><collision>c</collision></contact>")
+        self.assertGreaterEqual(points, 3)
+        self.assertAlmostEqual(force, 2 * 9.8, delta=0.2)
+
+    def test_gps(self):
+        self.near(self.feel("gps"), (0.05, 0.0, 0.0, 0.5), 1e-3)
+
+    def test_altimeter(self):
+        self.near(self.feel("altimeter"), (0.05, 0.0, 0.0), 1e-3)
+
+    def test_magnetometer(self):
+        self.near(self.feel("magnetometer", yaw=math.pi / 2), (0.05, 22.8758, -5.5645, -42.3884), 1e-3)
+
+    def test_a_sensor_that_is_not_there_in_cpp_is_one_line(self):
+        self.done(self.sim.spawn("post", MODEL.format(yaw=0, sensors=SENSOR.format(type="camera", rate=5, block="<camera/>"))))
+        self.wait(lambda: any("plugin p" in line and "rays, contacts, IMU" in line for line in self.log))
+        self.assertIn("post", self.sim.world().model_names)
+
+    def test_a_plugin_of_rays_in_another_sensor_is_one_line(self):
+        block = "<imu/><plugin name='ray' filename='libRayPlugin.so'/>"
+        self.done(self.sim.spawn("post", MODEL.format(yaw=0, sensors=SENSOR.format(type="imu", rate=5, block=block))))
+        self.wait(lambda: any("plugin ray" in line and "belongs into a sensor of type ray" in line for line in self.log))
+
+
+if __name__ == "__main__":
+    rospy.init_node("compiled_sensors_rostest")
+    rostest.rosrun("gazebo_ros", "compiled_sensors", SensorsTest)
