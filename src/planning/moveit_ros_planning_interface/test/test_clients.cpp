@@ -278,12 +278,18 @@ TEST_F(Clients, RequestsSayWhatWasSet) {
   EXPECT_EQ(request.path_constraints.orientation_constraints.size(), 1u);
   arm_.setPlanningPipelineId("chomp");
   EXPECT_EQ(arm_.getPlannerId(), "");
-
   arm_.clearPathConstraints();
-  arm_.setPoseReferenceFrame("base_link");
-  arm_.setPositionTarget(0.3, 0.1, 0.4);
   arm_.constructMotionPlanRequest(request);
   EXPECT_TRUE(request.path_constraints.orientation_constraints.empty());
+}
+
+TEST_F(Clients, GoalsOfPosesSayTheirTolerances) {
+  arm_.setGoalPositionTolerance(0.02);
+  arm_.setGoalOrientationTolerance(0.03);
+  arm_.setPoseReferenceFrame("base_link");
+  moveit_msgs::MotionPlanRequest request;
+  arm_.setPositionTarget(0.3, 0.1, 0.4);
+  arm_.constructMotionPlanRequest(request);
   ASSERT_EQ(request.goal_constraints.size(), 1u);
   EXPECT_TRUE(request.goal_constraints[0].orientation_constraints.empty());
   ASSERT_EQ(request.goal_constraints[0].position_constraints.size(), 1u);
