@@ -16,7 +16,14 @@ stays inactive, everything else goes on.
 """
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from plugin_loader import PluginError
+
+if TYPE_CHECKING:  # a plugin's own annotations may name them, too: from gazebo_ros.protocols import Server
+    from gazebo_ros.protocols import Sensor, Server
+    from gazebo_ros.sdf_element import SdfElement
+    from ode_sim.handles import ModelHandle
 
 __all__ = ["ModelPlugin", "PluginError", "SensorPlugin", "WorldPlugin"]
 
@@ -33,32 +40,32 @@ class _Plugin:
 
 
 class ModelPlugin(_Plugin):
-    def load(self, server, model, sdf) -> None:
+    def load(self, server: Server, model: ModelHandle, sdf: SdfElement) -> None:
         """Start.
 
-        :param server: :class:`gazebo_ros.server.Server`
-        :param model: ``ode_sim.ModelHandle`` the plugin belongs to
+        :param server: :class:`gazebo_ros.protocols.Server`
+        :param model: ``ode_sim.handles.ModelHandle`` the plugin belongs to
         :param sdf: :class:`gazebo_ros.SdfElement` of ``<plugin>``
         """
         raise NotImplementedError
 
 
 class SensorPlugin(_Plugin):
-    def load(self, server, sensor, sdf) -> None:
+    def load(self, server: Server, sensor: Sensor, sdf: SdfElement) -> None:
         """Start.
 
-        :param server: :class:`gazebo_ros.server.Server`
-        :param sensor: :class:`gazebo_ros.sensors.Sensor` the plugin belongs to
+        :param server: :class:`gazebo_ros.protocols.Server`
+        :param sensor: :class:`gazebo_ros.protocols.Sensor` the plugin belongs to
         :param sdf: :class:`gazebo_ros.SdfElement` of ``<plugin>``
         """
         raise NotImplementedError
 
 
 class WorldPlugin(_Plugin):
-    def load(self, server, sdf) -> None:
+    def load(self, server: Server, sdf: SdfElement) -> None:
         """Start.
 
-        :param server: :class:`gazebo_ros.server.Server`
+        :param server: :class:`gazebo_ros.protocols.Server`
         :param sdf: :class:`gazebo_ros.SdfElement` of ``<plugin>``
         """
         raise NotImplementedError

@@ -6,11 +6,13 @@ import threading
 import time
 from concurrent.futures import Future
 from dataclasses import dataclass, field
-from typing import Any, Callable, Dict, Iterable, List, Optional, Tuple
+from typing import Any, Callable, Dict, Iterable, List, Optional, Tuple, Type, Union
 
 import rospy
 from ode_sim.description import model as d
+from ode_sim.handles import ModelHandle
 
+from gazebo_ros import protocols
 from gazebo_ros.callbacks import CallbackList, Connection
 from gazebo_ros.plugin import ModelPlugin, PluginError, SensorPlugin, WorldPlugin
 from gazebo_ros.plugin_host import PluginHost, PluginInstance, ResolvedPlugin, plugin_sdf
@@ -280,7 +282,8 @@ class Server:
     def _finish_request(self) -> None:
         request, self._request = self._request, None
         self.stepped.call()
-        request.set_result(None)
+        if request is not None:
+            request.set_result(None)
 
     def reset_world(self) -> None:
         """Model poses back to the initial ones, velocities zero; time and joint angles stay. Physics thread."""
@@ -364,7 +367,7 @@ class Server:
         for handle, plugins in models:
             self._load_model_plugins(handle, plugins)
 
-    def _load_model_plugins(self, handle, resolved: ResolvedModel) -> None:
+    def _load_model_plugins(self, handle: ModelHandle, resolved: ResolvedModel) -> None:
         """Sensors first, in link order, then the model's own plugins in file order, as Gazebo."""
         runtime = self._models[handle.name] = _ModelRuntime()
         for link in handle.links.values():
@@ -379,7 +382,8 @@ class Server:
         for plugin in filter(None, resolved.plugins):
             self._start(plugin, ModelPlugin, runtime.plugins, handle)
 
-    def _start(self, resolved: ResolvedPlugin, base: type, started: List[PluginInstance], *subject: Any) -> None:
+    def _start(self, resolved: ResolvedPlugin, base: Type[Any], started: List[PluginInstance],
+               *subject: Union[ModelHandle, protocols.Sensor]) -> None:
         """Load one plugin; a failure leaves it out with one line.
 
         :param subject: what the plugin is attached to: a model handle, a Sensor, or nothing for the world
@@ -391,7 +395,8 @@ class Server:
         for thing in subject:
             if isinstance(thing, Sensor):
                 thing.owner = instance
-        if instance.attempt(instance.plugin.load, ServerView(self, instance), *subject, plugin_sdf(resolved)):
+        seen: protocols.Server = ServerView(self, instance)
+        if instance.attempt(instance.plugin.load, seen, *subject, plugin_sdf(resolved)):
             started.append(instance)
         else:
             self._disconnect(instance)
