@@ -15,6 +15,7 @@ struct Joint
 {
   const double* position = nullptr;  // measured, rad or m
   const double* velocity = nullptr;
+  double* command = nullptr;         // where its position goes, or nobody takes it here
   bool angular = false;
   double start = 0, end = 0, next_start = 0;  // s; of the segment and of the one after it
   std::array<double, 6> c{};
@@ -59,6 +60,8 @@ public:
     points_.emplace_back();
   }
 
+  void addCommand(std::size_t index, std::uintptr_t command) { joints_.at(index).command = reinterpret_cast<double*>(command); }
+
   void follow(std::size_t index, double start, double end, const std::array<double, 6>& coefficients, double end_position,
               double next_start, bool watched, double position_tolerance, double velocity_tolerance)
   {
@@ -73,7 +76,7 @@ public:
     joint.velocity_tolerance = velocity_tolerance;
   }
 
-  py::object quick(double time, bool watch, bool with_errors)
+  py::object quick(double time, bool watch, bool whole)
   {
     for (std::size_t j = 0; j < joints_.size(); ++j)
     {
@@ -84,7 +87,15 @@ public:
       if (!ordinary(joint, points_[j], time, watch && joint.watched))
         return py::none();
     }
-    return py::reinterpret_steal<py::object>(PyTuple_Pack(2, desired().ptr(), (with_errors ? errors() : py::list()).ptr()));
+    bool written = true;
+    for (std::size_t j = 0; j < joints_.size(); ++j)
+      if (joints_[j].command)
+        *joints_[j].command = points_[j].position;
+      else
+        written = false;
+    if (written && !whole)
+      return nothing_;
+    return py::reinterpret_steal<py::object>(PyTuple_Pack(2, desired().ptr(), (whole ? errors() : py::list()).ptr()));
   }
 
 private:
@@ -129,6 +140,7 @@ private:
 
   std::vector<Joint> joints_;
   std::vector<Point> points_;
+  const py::tuple nothing_ = py::make_tuple(py::tuple(), py::tuple());
 };
 }  // namespace
 
@@ -138,6 +150,7 @@ PYBIND11_MODULE(_sampler, m)
   py::class_<Sampler>(m, "Sampler")
       .def(py::init<>())
       .def("add_joint", &Sampler::addJoint, py::arg("position"), py::arg("velocity"), py::arg("angular"))
+      .def("add_command", &Sampler::addCommand, py::arg("joint"), py::arg("command"))
       .def("follow",
            [](Sampler& s, std::size_t joint, double start, double end, const py::tuple& coefficients, double end_position,
               double next_start, bool watched, double position_tolerance, double velocity_tolerance) {
@@ -148,5 +161,5 @@ PYBIND11_MODULE(_sampler, m)
                c[i] = coefficients[i].cast<double>();
              s.follow(joint, start, end, c, end_position, next_start, watched, position_tolerance, velocity_tolerance);
            })
-      .def("quick", &Sampler::quick, py::arg("time"), py::arg("watch"), py::arg("with_errors"));
+      .def("quick", &Sampler::quick, py::arg("time"), py::arg("watch"), py::arg("whole"));
 }

@@ -3,7 +3,7 @@ import math
 import random
 
 import pytest
-from hardware_interface import JointStateHandle, addresses
+from hardware_interface import JointHandle, JointStateHandle, addresses
 from joint_trajectory_controller._sampler import Sampler
 from joint_trajectory_controller.segment import Segment, State
 
@@ -87,9 +87,22 @@ def test_the_end_of_a_goal_is_for_the_controller(one):
     assert sampler.quick(1.5, True, False) is not None
 
 
+def test_positions_are_written_where_all_cycles_are_ordinary(one):
+    sampler, state = one
+    handle = JointHandle(state, 7.0)
+    sampler.add_command(0, addresses(handle)[0])
+    segment = Segment(0.0, State(0.0), 1.0, State(1.0))
+    follow(sampler, segment, next_start=1.0)
+    assert sampler.quick(0.25, False, False) == ((), ()) and handle.command == 0.25
+    assert sampler.quick(0.5, False, True) == ([segment.sample(0.5)], [(0.5, 1.0)]) and handle.command == 0.5
+    assert sampler.quick(1.0, False, True) is None and handle.command == 0.5
+
+
 def test_a_joint_that_is_not_there_is_refused(one):
     sampler, _ = one
     with pytest.raises(IndexError):
         follow(sampler, Segment(0.0, State(0.0), 1.0, State(1.0)), joint=1)
+    with pytest.raises(IndexError):
+        sampler.add_command(1, addresses(JointHandle(JointStateHandle("j")))[0])
     with pytest.raises(ValueError, match="six coefficients"):
         sampler.follow(0, 0.0, 1.0, (0.0,) * 5, 0.0, 1.0, False, 0.0, 0.0)

@@ -10,7 +10,7 @@ from control_msgs.msg import (FollowJointTrajectoryAction, FollowJointTrajectory
 from control_msgs.srv import QueryTrajectoryState, QueryTrajectoryStateResponse
 from controller_interface import NodeHandle, ParameterError, RateGate, RealtimePublisher, to_stamp
 from controller_interface.action_controller import ActionController
-from hardware_interface import JointStateHandle, addresses
+from hardware_interface import JointHandle, JointStateHandle, addresses
 from joint_limits_interface import shortest_angular_distance
 from realtime_tools.action_server import RealtimeGoal
 from trajectory_msgs.msg import JointTrajectory
@@ -80,6 +80,7 @@ class JointTrajectoryController(ActionController):
         self._states = [handle.state for handle in handles]
         self._sampler = _sampler_of(self._states, self._angular)
         self._quick: Callable = self._sampler.quick if self._sampler else lambda *_: None
+        self._writes = False
         self._sampled: tuple = (None, None, [])  # trajectory, goal and cursors that the sampler knows of
         self.init_output(handles, controller_nh)
 
@@ -124,11 +125,13 @@ class JointTrajectoryController(ActionController):
         quick = self._quick(uptime, goal is not None, self.feeds_back or publish or report) if known else None
         if quick is not None:
             desired, errors = quick
+            if not self._writes:
+                self.write_output(desired, errors, period)
         else:
             desired, errors, left = self._sample(uptime, trajectory, cursor, next_start, goal, done, publish)
             self._remember(trajectory, cursor, next_start, goal)
             goal = left
-        self.write_output(desired, errors, period)
+            self.write_output(desired, errors, period)
 
         first = trajectory[0][cursor[0]]
         if goal is not None and all(done) and self._release(goal):
@@ -139,6 +142,14 @@ class JointTrajectoryController(ActionController):
         if publish and self._state_publisher.has_subscribers:
             self._state_publisher.publish(
                 self._fill(JointTrajectoryControllerState(), time, uptime, first, desired, errors))
+
+    def write_positions_to(self, handles: Sequence[Any]) -> None:
+        """For a variant that writes desired positions and nothing else: ordinary cycles write them without ``write_output``."""
+        if self._sampler is None or not all(isinstance(handle, JointHandle) for handle in handles):
+            return
+        for joint, handle in enumerate(handles):
+            self._sampler.add_command(joint, addresses(handle)[0])
+        self._writes = True
 
     def _sample(self, uptime: float, trajectory: List[List[Segment]], cursor: List[int], next_start: List[float],
                 goal: Optional[RealtimeGoal], done: List[bool], publish: bool):

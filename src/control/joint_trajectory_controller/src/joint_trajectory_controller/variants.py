@@ -19,6 +19,8 @@ class PositionTrajectoryController(JointTrajectoryController):
 
     def init_output(self, handles, controller_nh):
         self._handles = handles
+        if type(self).write_output is PositionTrajectoryController.write_output:
+            self.write_positions_to(handles)
 
     def start_output(self):
         for handle in self._handles:
