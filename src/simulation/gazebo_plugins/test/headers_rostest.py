@@ -10,7 +10,8 @@ from geometry_msgs.msg import Pose
 from std_msgs.msg import String
 
 MODEL = """<sdf version="1.6"><model name="cart"><link name="a"/><link name="b"/><joint name="wheel" type="revolute"><parent>a</parent>
-<child>b</child><axis><xyz>0 0 1</xyz></axis></joint><plugin name="user" filename="libgazebo_plugins_test_user.so">{more}</plugin></model></sdf>"""
+<child>b</child><axis><xyz>0 0 1</xyz></axis></joint>
+<plugin name="user" filename="libgazebo_plugins_test_user.so">{more}</plugin></model></sdf>"""
 
 
 @unittest.skipUnless(importlib.util.find_spec("gazebo_cpp._core"), "this system lacks what Gazebo's headers need")
