@@ -13,6 +13,7 @@ zstandard = pytest.importorskip("zstandard")
 from ode_sim.viewer import LocalSimulation, Page  # noqa: E402
 from ode_sim.viewer.panels.base import Panel  # noqa: E402
 from ode_sim.viewer.porter import entitled, page_of_viser  # noqa: E402
+from ode_sim.viewer.website import Website  # noqa: E402
 
 DIGITS = "!#$%()*+,-./0123456789:;=?@ABCDEFGHIJKLMNOPQRSTUVWXYZ[\\]^_abcdefghijklmnopqrstuvwxyz{|}~"
 
@@ -59,5 +60,23 @@ def test_panels_that_come_later_know_the_world_that_is_shown():
         assert isinstance(page.panels[-1], Notes) and told == [["box"]]
         page.turn()
         assert sum(isinstance(p, Notes) for p in page.panels) == 1
+    finally:
+        page.close()
+
+
+def test_more_tabs_wait_until_a_browser_that_is_expected_has_shown_the_world(monkeypatch):
+    class Notes(Panel):
+        title = "Notes"
+
+    page = Page(LocalSimulation(World(d.World()), paused=True), website=Website(0), later=lambda: (Notes,))
+    try:
+        for look in (60.0, 0.0):
+            page.turn()
+            page.turn()
+            assert not isinstance(page.panels[-1], Notes)
+            monkeypatch.setattr("ode_sim.viewer.page._FIRST_LOOK", look)
+            page._on_connect(None)
+        page.turn()
+        assert isinstance(page.panels[-1], Notes)
     finally:
         page.close()

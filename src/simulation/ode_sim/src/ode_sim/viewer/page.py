@@ -25,6 +25,7 @@ _IDLE_PERIOD = 0.25  # the same while no browser shows it
 _TEXT_PERIOD = 0.2  # wall s between two updates of numbers
 _SETTLING = 20.0  # wall s in which the eye follows a world that is still being put together
 _PATIENCE = 15.0  # wall s that somebody who knocked may take to come in
+_FIRST_LOOK = 1.0  # wall s for the browser of the first who came in, before it gets more tabs to make
 _log = logging.getLogger("viewer")
 
 
@@ -33,7 +34,8 @@ class Page:
 
     :param website: a port that is held already; it is opened, ``port`` and ``listen`` are not used
     :param panels: classes of more :class:`~ode_sim.viewer.panels.base.Panel`, behind the standard ones
-    :param later: gives still more of them when the world has been shown, so that nobody waits for them with it
+    :param later: gives still more of them when the world has been shown, so that nobody waits for them with it; if ``website`` is
+        given, somebody is expected, who is shown the world before
     :param say: where lines for the user go who started it
     :raises ode_sim.viewer.website.Unavailable: no page can be served
     """
@@ -55,6 +57,8 @@ class Page:
         self._counting = threading.Lock()
         self._next_text = 0.0
         self._absent = False
+        self._expected = website is not None
+        self._came: Optional[float] = None  # when the first browser was there
         self._begun = time.monotonic()
         self._settled = self._begun + _SETTLING
         self.server.gui.configure_theme(control_width="medium", show_logo=False, show_share_button=False)
@@ -165,6 +169,8 @@ class Page:
     def turn(self) -> None:
         """One look at the simulation."""
         self._do_jobs()
+        if self.frame is not None or self._absent:
+            self._complete()
         if self._begun and time.monotonic() > self._begun + _PATIENCE:
             self._begun = 0.0
             if not self._pages:  # nobody came in
@@ -249,7 +255,7 @@ class Page:
 
     def _complete(self) -> None:
         """The panels that come later. Drawing thread."""
-        if self._later is None:
+        if self._later is None or self._busy_with_the_world():
             return
         kinds, self._later = self._later(), None
         count = len(self.panels)
@@ -260,11 +266,19 @@ class Page:
             else:
                 panel.on_world(self.world)
 
+    def _busy_with_the_world(self) -> bool:
+        """The browser of the first who looks makes its page just now, or is about to."""
+        if self._came is None:
+            return self._expected and self._begun > 0.0
+        return time.monotonic() < self._came + _FIRST_LOOK
+
     def _picked(self, model: str, link: str, event: Any) -> None:
         if not self.placing.takes(event):
             self.attempt(event, lambda: self.later(lambda: self.selection.select(model, link)))
 
     def _on_connect(self, client: Any) -> None:
+        if self._came is None:
+            self._came = time.monotonic()
         self._count()
 
     def _on_disconnect(self, client: Any) -> None:
