@@ -191,6 +191,14 @@ def test_parameters_reach_the_planner(scene, model):
     assert "range" in motion.planners()["RRTConnect"] and motion.planner_problem("RRT", {"range": 1}) == ""
 
 
+@pytest.mark.parametrize("condition, ends", (("Iteration[40]", True), ("", False)))
+def test_a_planner_ends_when_its_condition_says(scene, model, condition, ends):
+    """RRTstar uses all its time but for this."""
+    result = motion.plan(scene, request(model, planner="RRTstar", planning_time=3.0,
+                                        planner_params={"termination_condition": condition}))
+    assert (result.planning_time < 2.0) is ends, (result.status, result.planning_time)
+
+
 def test_cancel_ends_a_long_search_at_once(scene, model):
     """RRTstar uses all its time; the token ends it from another thread."""
     token, done = motion.CancelToken(), []
