@@ -242,10 +242,10 @@ class Clicks(unittest.TestCase):
             return page.pixel((x, y, 0.0), (0.0, -0.01, 13.0), (0.0, 0.0, 0.0), FIELD)
         page.settled(before)
         page.mouse(at(*CORNERS[0]), at(*CORNERS[1]), drag=True)
-        page.see("1 walls")
+        page.see("1 wall on 1 level")
         for corner in (*CORNERS[1:], CORNERS[0]):
             page.mouse(at(*corner))
-        page.see("8 walls")
+        page.see("8 walls on 1 level")
         page.choose("Tool", "Door")
         page.mouse(page.pixel((0.0, -2.45, 2.5), (0.0, -0.01, 13.0), (0.0, 0.0, 0.0), FIELD))
         page.see("Picked: door")

@@ -167,7 +167,7 @@ class BuildingPanel(Panel):
         self._level.value = str(plan.level)
         self._busy = False
         walls = sum(len(level.walls) for level in building.levels) if building is not None else 0
-        self._note.content = note(f"{walls} walls on {plan.levels} levels" if walls else "nothing is drawn yet")
+        self._note.content = note(f"{_counted(walls, 'wall')} on {_counted(plan.levels, 'level')}" if walls else "nothing is drawn yet")
         self._paper.visible = building is not None
         if building is not None:
             self._show_sketch(np.asarray(building_image.draw(building, 400)))
@@ -422,3 +422,7 @@ class BuildingPanel(Panel):
         self._scale.value = 0.0
         self._show_picture()
         self._refresh()
+
+
+def _counted(number: int, thing: str) -> str:
+    return f"{number} {thing}" if number == 1 else f"{number} {thing}s"
