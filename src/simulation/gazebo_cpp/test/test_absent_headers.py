@@ -23,3 +23,10 @@ def test_nothing_that_is_here_includes_what_is_not():
     assert len(names) > 20
     for path in sorted(INCLUDE.rglob("*.hh")):
         assert not [line for line in path.read_text().splitlines() if line.startswith("#include") and line.split()[1] in names], path
+
+
+def test_threads_of_boost_are_known_to_whoever_includes_gazebos_messages():
+    source = "#include <gazebo/common/Console.hh>\nboost::thread thread;\nboost::mutex mutex;\n"
+    done = subprocess.run(["g++", "-std=c++17", "-fsyntax-only", "-x", "c++", f"-I{INCLUDE}", "-"], input=source, capture_output=True,
+                          text=True)
+    assert not done.returncode, done.stderr
