@@ -46,7 +46,8 @@ using SubscribedByStdPointer =
 
 // The same for what boost::bind() makes and for lambdas, which do not tell what they take.
 template <typename Message, typename Callback>
-using SubscribedByCallable = typename std::enable_if<HasStdPointers<Message>::value && std::is_class<Callback>::value, ros::Subscriber>::type;
+using SubscribedByCallable =
+    typename std::enable_if<HasStdPointers<Message>::value && std::is_class<Callback>::value, ros::Subscriber>::type;
 
 // A received message as whichever pointer a callback wants.
 template <typename Message> class Received
