@@ -47,6 +47,32 @@ class NodeSignals(unittest.TestCase):
         self.assertNotIn("/waiting", self.publishers())
         return output, node.returncode
 
+    def test_a_thread_that_publishes_until_the_end_says_nothing(self):
+        """As the status timer of actionlib's servers, which looks at nothing before it publishes."""
+        for late, said in (("topic.publish()", False), ("raise ValueError('a fault')", True)):
+            code = f"""
+import node_signals, rospy, threading
+from std_msgs.msg import Empty
+with node_signals.silent():
+    node_signals.init_node("late", anonymous=True)
+    topic = rospy.Publisher("/late", Empty, queue_size=1)
+    def publish():
+        while True:
+            topic.publish()
+            if rospy.is_shutdown():
+                {late}
+    thread = threading.Thread(target=publish, daemon=True)
+    thread.start()
+    print("up", flush=True)
+    node_signals.spin()
+    thread.join(20)
+"""
+            node = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+            self.assertEqual(node.stdout.readline(), "up\n")
+            node.send_signal(signal.SIGINT)
+            _, errors = node.communicate(timeout=60)
+            self.assertEqual("Traceback" in errors, said, errors)
+
     @staticmethod
     def publishers():
         return [node for topic, nodes in rosgraph.Master("/test").getSystemState()[0] for node in nodes

@@ -132,9 +132,18 @@ def _watch_for_starvation() -> None:
         _end_starved(error) if _starved(error) else main(kind, error, trace)
 
     def in_thread(args) -> None:
-        _end_starved(args.exc_value) if _starved(args.exc_value) else thread(args)
+        if _starved(args.exc_value):
+            _end_starved(args.exc_value)
+        elif not _over(args.exc_value):
+            thread(args)
 
     sys.excepthook, threading.excepthook = in_main, in_thread
+
+
+def _over(error: Optional[BaseException]) -> bool:
+    """A thread that published, or waited, while the node was shut down: the status timer of an action server, say."""
+    rospy = sys.modules.get("rospy")
+    return rospy is not None and rospy.is_shutdown() and isinstance(error, rospy.ROSException)
 
 
 def _notice_shutdown() -> None:
