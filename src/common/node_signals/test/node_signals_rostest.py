@@ -56,16 +56,15 @@ from std_msgs.msg import Empty
 with node_signals.silent():
     node_signals.init_node("late", anonymous=True)
     topic = rospy.Publisher("/late", Empty, queue_size=1)
+    over = threading.Event()
     def publish():
-        while True:
-            topic.publish()
-            if rospy.is_shutdown():
-                {late}
+        over.wait()
+        {late}
     thread = threading.Thread(target=publish, daemon=True)
     thread.start()
+    rospy.on_shutdown(lambda: (topic.unregister(), over.set(), thread.join(20)))
     print("up", flush=True)
     node_signals.spin()
-    thread.join(20)
 """
             node = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
             self.assertEqual(node.stdout.readline(), "up\n")

@@ -143,7 +143,9 @@ def _watch_for_starvation() -> None:
 def _over(error: Optional[BaseException]) -> bool:
     """A thread that published, or waited, while the node was shut down: the status timer of an action server, say."""
     rospy = sys.modules.get("rospy")
-    return rospy is not None and rospy.is_shutdown() and isinstance(error, rospy.ROSException)
+    if rospy is None or not isinstance(error, rospy.ROSException):
+        return False
+    return rospy.is_shutdown() or rospy.core.is_shutdown_requested()
 
 
 def _notice_shutdown() -> None:
