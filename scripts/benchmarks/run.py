@@ -34,6 +34,7 @@ WANTED = [
     (r"^rqt_image_view.*part of a core", "<", 0.25), (r"motors: p99 cycle", "<", 1.5), (r"^mbot.*real-time factor, throttled$", ">=", 0.99),
     (r"^mbot.*real-time factor, uncapped$", ">=", 10.0), (r"mbots: cost per mbot against one", "<=", 1.05),
     (r"^RViz with MotionPlanning: seconds", "<", 4.0), (r"^goal dragged.*pictures", ">=", 30.0),
+    (r"^compiled controller: what calling", "<=", 0.5), (r"^compiled model plugin that reads", "<=", 1.0),
     (r"^40 arm homeworks, 2 workers", "<", 480.0), (r"^class: throughput", ">=", 1.8), (r"^class: share of sub", ">=", 1.0),
     (r"^sandbox: seconds", "<", 0.3), (r"^class: driver's memory for a queue of 10000", "<", 500.0),
 ]
@@ -221,6 +222,8 @@ SECTIONS = {
     "page": ("gzclient's page in Chromium: how soon, ten reconnects, a heavy world, three pages, a slow network, broken meshes",
              lambda quick: section_script("view_browser.py", *(["usable", "arm", "pages"] if quick else []))),
     "class": ("lab_check: a class of arm homeworks with seeded faults; the sandbox", class_of),
+    "compiled": ("a compiled controller and a compiled model plugin: what calling them costs",
+                 lambda quick: section_script("compiled.py", *(["--quick"] if quick else []))),
     "can": ("cycles of rm_hw against the motor bench", lambda quick: section_script("can_loop.py", "--seconds", 5 if quick else 20)),
 }
 if os.path.exists(os.path.join(HERE, "mobile.py")):

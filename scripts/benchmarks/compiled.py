@@ -1,0 +1,61 @@
+#!/usr/bin/env python3
+"""What a compiled controller and a compiled model plugin cost in a step, beside what they do themselves; see scripts/bench."""
+import argparse
+import json
+import os
+import shutil
+import subprocess
+import tempfile
+
+import run
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+MANY = 20
+ROUNDS = 11
+
+
+def built(folder: str) -> dict:
+    """The environment of a workspace with the package bench_compiled in it, as a user builds one."""
+    shutil.copytree(os.path.join(HERE, "bench_compiled"), os.path.join(folder, "src", "bench_compiled"))
+    subprocess.run(["catkin", "build", "--workspace", folder, "--no-notify", "--no-status"], check=True, stdout=subprocess.DEVNULL)
+    script = f"source {folder}/devel/setup.bash && env -0"
+    shown = subprocess.run(["bash", "-c", script], check=True, capture_output=True, text=True).stdout
+    return dict(line.split("=", 1) for line in shown.split("\0") if "=" in line)
+
+
+def step(environment: dict, steps: int, controllers: int = 0, rounds: int = 1, plugins: int = 0) -> float:
+    """Processor time of the physics thread in a step, us; the least of three runs."""
+    times = []
+    for _ in range(3):
+        with run.master() as own:
+            environment = {**environment, "ROS_MASTER_URI": own["ROS_MASTER_URI"], "ROS_HOME": own["ROS_HOME"]}
+            times.append(run.program("compiled_steps.py", steps, controllers, rounds, plugins, environment=environment)["step"])
+    return min(times)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--json", required=True)
+    parser.add_argument("--quick", action="store_true")
+    options = parser.parse_args()
+    steps = 4000 if options.quick else 20000
+    with tempfile.TemporaryDirectory() as folder:
+        environment = built(folder)
+        alone = step(environment, steps)
+        read = step(environment, steps, controllers=MANY)
+        itself = (step(environment, steps, controllers=MANY, rounds=ROUNDS) - read) / MANY / (ROUNDS - 1)
+        one, many = (step(environment, steps, plugins=count) for count in (1, 1 + MANY))
+    figures = {
+        "UR5 with Python's controllers alone, us per step": alone,
+        "compiled controller that reads 6 joints, us per step": (read - alone) / MANY,
+        "compiled controller: what it does itself, us per step": itself,
+        "compiled controller: what calling it costs more, us": (read - alone) / MANY - itself,
+        "first compiled model plugin, with the mirror of the world that it brings, us per step": one - alone,
+        "compiled model plugin that reads a pose and adds a force, us per step": (many - one) / MANY,
+    }
+    with open(options.json, "w", encoding="utf-8") as file:
+        json.dump(figures, file)
+
+
+if __name__ == "__main__":
+    main()
