@@ -15,12 +15,12 @@ ROUNDS = 11
 
 
 def built(folder: str) -> dict:
-    """The environment of a workspace with the package bench_compiled in it, as a user builds one."""
+    """The environment of a workspace with the package bench_compiled in it, as a user builds one. The labs stay visible."""
     shutil.copytree(os.path.join(HERE, "bench_compiled"), os.path.join(folder, "src", "bench_compiled"))
     subprocess.run(["catkin", "build", "--workspace", folder, "--no-notify", "--no-status"], check=True, stdout=subprocess.DEVNULL)
-    script = f"source {folder}/devel/setup.bash && env -0"
-    shown = subprocess.run(["bash", "-c", script], check=True, capture_output=True, text=True).stdout
-    return dict(line.split("=", 1) for line in shown.split("\0") if "=" in line)
+    devel = os.path.join(folder, "devel")
+    before = {"CMAKE_PREFIX_PATH": devel, "LD_LIBRARY_PATH": os.path.join(devel, "lib"), "ROS_PACKAGE_PATH": os.path.join(folder, "src")}
+    return {**os.environ, **{name: f"{value}:{os.environ.get(name, '')}" for name, value in before.items()}}
 
 
 def step(environment: dict, steps: int, controllers: int = 0, rounds: int = 1, plugins: int = 0) -> float:
