@@ -22,8 +22,6 @@ using Lock = std::lock_guard<std::mutex>;
 namespace
 {
 
-bool heard(const transport::PublisherPtr& publisher) { return publisher && publisher->HasConnections(); }
-
 double noisy(const NoisePtr& noise, double value, double dt) { return noise ? noise->Apply(value, dt) : value; }
 
 }  // namespace
@@ -32,7 +30,6 @@ double noisy(const NoisePtr& noise, double value, double dt) { return noise ? no
 
 ContactSensor::ContactSensor() : Sensor(OTHER) {}
 ContactSensor::~ContactSensor() = default;
-bool ContactSensor::listened() const { return heard(publisher_); }
 
 void ContactSensor::Load(const std::string& world)
 {
@@ -102,7 +99,6 @@ unsigned int ContactSensor::GetCollisionContactCount(const std::string& collisio
 
 ImuSensor::ImuSensor() : Sensor(OTHER) {}
 ImuSensor::~ImuSensor() = default;
-bool ImuSensor::listened() const { return heard(publisher_); }
 
 void ImuSensor::Load(const std::string& world)
 {
@@ -183,7 +179,6 @@ void ImuSensor::SetReferencePose() { q_WR_ = worldPose().Rot(); }
 
 GpsSensor::GpsSensor() : Sensor(OTHER) {}
 GpsSensor::~GpsSensor() = default;
-bool GpsSensor::listened() const { return heard(publisher_); }
 
 void GpsSensor::Load(const std::string& world)
 {
@@ -249,7 +244,6 @@ Vector3d GpsSensor::VelocityENU() const
 
 AltimeterSensor::AltimeterSensor() : Sensor(OTHER) {}
 AltimeterSensor::~AltimeterSensor() = default;
-bool AltimeterSensor::listened() const { return heard(publisher_); }
 
 void AltimeterSensor::Load(const std::string& world)
 {
@@ -301,7 +295,6 @@ void AltimeterSensor::SetReferenceAltitude(double altitude)
 
 MagnetometerSensor::MagnetometerSensor() : Sensor(OTHER) {}
 MagnetometerSensor::~MagnetometerSensor() = default;
-bool MagnetometerSensor::listened() const { return heard(publisher_); }
 
 void MagnetometerSensor::Load(const std::string& world)
 {

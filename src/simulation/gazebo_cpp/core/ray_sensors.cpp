@@ -100,7 +100,6 @@ double step(const Scan& scan, int count) { return count > 1 ? (scan.max - scan.m
 RaySensor::RaySensor() : Sensor(RAY) {}
 RaySensor::~RaySensor() = default;
 bool RaySensor::IsActive() const { return Sensor::IsActive() || shape_->Listeners(); }
-bool RaySensor::listened() const { return publisher_ && publisher_->HasConnections(); }
 
 void RaySensor::Load(const std::string& world)
 {

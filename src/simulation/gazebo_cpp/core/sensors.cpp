@@ -54,6 +54,7 @@ void Sensor::Load(const std::string& world, sdf::ElementPtr element)
 void Sensor::Load(const std::string& world) { world_ = world; }
 void Sensor::Fini() { active = false; }
 std::string Sensor::ScopedName() const { return world_ + "::" + parentName + "::" + name_; }
+bool Sensor::listened() const { return publisher_ && publisher_->HasConnections(); }
 bool Sensor::IsActive() const { return active || updated_.ConnectionCount() || listened(); }
 
 void Sensor::SetUpdateRate(double hz)
@@ -130,7 +131,8 @@ void Sensor::Step(int64_t now_ns)
   if (!due(now_ns))
     return;
   take(now_ns);  // whether anybody wants it or not: when it measures must not depend on who listens since when
-  if (IsActive())
+  // Of most nobody in C++ knows: Python's plugins measure by themselves.
+  if (known_ ? IsActive() : listened())
     Update(true);
 }
 
@@ -151,30 +153,47 @@ SensorPtr get_sensor(const std::string& name) { return SensorManager::Instance()
 
 Sensor_V SensorManager::GetSensors() const
 {
+  const auto all = list();
+  for (const SensorPtr& sensor : *all)
+    sensor->known_ = true;
+  return *all;
+}
+
+std::shared_ptr<const Sensor_V> SensorManager::list() const
+{
   const std::lock_guard<std::mutex> lock(mutex_);
-  return *sensors_;
+  return sensors_;
 }
 
 SensorPtr SensorManager::GetSensor(const std::string& name) const
 {
   SensorPtr found;
   unsigned int several = 0;
-  for (const SensorPtr& sensor : GetSensors())
+  const auto all = list();
+  for (const SensorPtr& sensor : *all)
   {
     if (sensor->ScopedName() == name)
-      return sensor;
+    {
+      found = sensor, several = 1;
+      break;
+    }
     if (sensor->Name() == name)
       found = sensor, ++several;
   }
   if (several < 2)
+  {
+    if (found)
+      found->known_ = true;
     return found;
+  }
   gzerr << several << " sensors are named '" << name << "'; say which: " << found->ScopedName() << ", ..." << std::endl;
   return SensorPtr();
 }
 
 void SensorManager::ResetLastUpdateTimes()
 {
-  for (const SensorPtr& sensor : GetSensors())
+  const auto all = list();
+  for (const SensorPtr& sensor : *all)
     sensor->Restart();
 }
 
@@ -269,12 +288,8 @@ void SensorManager::step()
 {
   const common::Time now = physics::get_world()->SimTime();
   const int64_t now_ns = now.sec * INT64_C(1000000000) + now.nsec;
-  std::shared_ptr<const Sensor_V> sensors;
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    sensors = sensors_;
-  }
-  for (const SensorPtr& sensor : *sensors)
+  const auto all = list();
+  for (const SensorPtr& sensor : *all)
     sensor->Step(now_ns);
 }
 

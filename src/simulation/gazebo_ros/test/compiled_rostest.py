@@ -40,9 +40,7 @@ class CompiledTest(Case):
         self.sim.empty("reset_simulation")
 
     def tearDown(self):
-        for name in self.sim.world().model_names:
-            if name != "ground_plane":
-                self.sim.delete(name)
+        self.sim.clear()
         for subscriber in self.subscribers:
             subscriber.unregister()
         self.orders.unregister()

@@ -35,9 +35,7 @@ class SensorsTest(Case):
         self.sim.empty("reset_simulation")
 
     def tearDown(self):
-        for name in self.sim.world().model_names:
-            if name != "ground_plane":
-                self.sim.delete(name)
+        self.sim.clear()
         for subscriber in self.subscribers:
             subscriber.unregister()
 

@@ -63,6 +63,12 @@ class Simulator:
     def world(self):
         return self.proxy("get_world_properties", srv.GetWorldProperties)()
 
+    def clear(self):
+        """Delete all models but the ground."""
+        for name in self.world().model_names:
+            if name != "ground_plane":
+                self.delete(name)
+
     def model(self, name, frame=""):
         return self.proxy("get_model_state", srv.GetModelState)(name, frame)
 

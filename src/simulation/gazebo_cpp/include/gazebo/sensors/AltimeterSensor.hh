@@ -23,12 +23,10 @@ public:
 
 protected:
   bool UpdateImpl(bool force) override;
-  bool listened() const override;
 
 private:
   mutable std::mutex mutex_;
   msgs::Altimeter message_;
-  transport::PublisherPtr publisher_;
 };
 
 }  // namespace sensors

@@ -28,13 +28,11 @@ public:
 
 protected:
   bool UpdateImpl(bool force) override;
-  bool listened() const override;
 
 private:
   std::vector<std::string> collisions_;  // scoped
   mutable std::mutex mutex_;
   msgs::Contacts contacts_;
-  transport::PublisherPtr publisher_;
 };
 
 }  // namespace sensors

@@ -29,12 +29,10 @@ public:
 
 protected:
   bool UpdateImpl(bool force) override;
-  bool listened() const override;
 
 private:
   mutable std::mutex mutex_;
   msgs::GPS message_;
-  transport::PublisherPtr publisher_;
 };
 
 }  // namespace sensors

@@ -28,7 +28,6 @@ public:
 
 protected:
   bool UpdateImpl(bool force) override;
-  bool listened() const override;
 
 private:
   mutable std::mutex mutex_;
@@ -36,7 +35,6 @@ private:
   ignition::math::Vector3d rates_, acceleration_, last_velocity_;
   ignition::math::Quaterniond q_WR_;
   bool moved_ = false;
-  transport::PublisherPtr publisher_;
 };
 
 }  // namespace sensors

@@ -22,12 +22,10 @@ public:
 
 protected:
   bool UpdateImpl(bool force) override;
-  bool listened() const override;
 
 private:
   mutable std::mutex mutex_;
   msgs::Magnetometer message_;
-  transport::PublisherPtr publisher_;
 };
 
 }  // namespace sensors

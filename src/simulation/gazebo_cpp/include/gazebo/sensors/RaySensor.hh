@@ -45,14 +45,12 @@ public:
 
 protected:
   bool UpdateImpl(bool force) override;
-  bool listened() const override;
   double reported(const std::vector<double>& rays, int row, int column, bool nearest) const;
 
   physics::MultiRayShapePtr shape_;
   mutable std::mutex mutex_;
   msgs::LaserScan scan_;
   double range_resolution_ = 0;
-  transport::PublisherPtr publisher_;
 };
 
 }  // namespace sensors

@@ -1,5 +1,6 @@
 // The part that all sensors share: what it is, where it is, and when it measures.
 #pragma once
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -23,8 +24,8 @@ namespace gazebo
 namespace sensors
 {
 
-/// A sensor of a link. It measures after a step, at <update_rate> of sim time, while somebody wants it: who made it active
-/// (<always_on> does), is connected to it, or listens to its topic. Whoever has a pointer to one removed may go on to ask it.
+/// A sensor of a link. It measures after a step, at <update_rate> of sim time, while somebody wants it: who has asked for it, while it
+/// is active (<always_on> makes it so) or somebody is connected to it, or who listens to its topic. Whoever has a pointer to one removed may go on to ask it.
 class GAZEBO_VISIBLE Sensor : public std::enable_shared_from_this<Sensor>
 {
 public:
@@ -66,7 +67,7 @@ public:
 
 protected:
   virtual bool UpdateImpl(bool force) = 0;   // measure
-  virtual bool listened() const { return false; }  // to its topic
+  bool listened() const;  // to its topic
   std::string topicOf(const std::string& end) const;
   ignition::math::Pose3d worldPose() const;
   ignition::math::Vector3d velocity() const;  // of the sensor's origin, world axes, m/s
@@ -83,14 +84,17 @@ protected:
   common::Time lastUpdateTime, lastMeasurementTime;
   std::map<SensorNoiseType, NoisePtr> noises;
   std::string topic_;
+  transport::PublisherPtr publisher_;  // of its topic
 
 private:
+  friend class SensorManager;
   bool due(int64_t now_ns);
   void take(int64_t now_ns);
   SensorCategory category_;
   uint32_t id_;
   std::string name_, type_, world_;
   bool visualize_ = false;
+  std::atomic<bool> known_{ false };  // somebody has asked for it
   double rate_ = 0, dt_ = 0;
   int64_t period_ns_ = 0, last_ns_ = 0, late_ns_ = 0;
   boost::weak_ptr<physics::Link> link_;

@@ -34,6 +34,7 @@ private:
   void addOf(const std::string& model);
   void removeOf(const std::string& model);
   void step();
+  std::shared_ptr<const Sensor_V> list() const;
   mutable std::mutex mutex_;
   std::shared_ptr<const Sensor_V> sensors_ = std::make_shared<Sensor_V>();
   std::vector<event::ConnectionPtr> connections_;
