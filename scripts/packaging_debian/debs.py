@@ -120,7 +120,7 @@ def platform(tree: Path, root: Path, release: Release) -> Path:
     shutil.copytree(tree, folder / PREFIX.lstrip("/"), symlinks=True)
     copyright_text = (root / "LICENSE").read_text() + _add_on_licences(tree)
     return _build(folder, "noetic-labs", release, release.architecture,
-                  [*_python_range(), *sections(root, "run"), *_library_depends(tree)],
+                  [*_python_range(), *sections(root, "demo", "run"), *_library_depends(tree)],
                   "ROS 1 Noetic's other half: simulator, controllers, xacro, planning",
                   "What Debian's ROS packages lack to run packages written for ROS Noetic, Gazebo Classic and ros_control,\n"
                   f"under the same names, in {PREFIX}. In a new shell: source {PREFIX}/setup.bash",
