@@ -12,6 +12,7 @@
 
 #include "context_tab.hpp"
 #include "joints_tab.hpp"
+#include "manipulation_tab.hpp"
 #include "objects_tab.hpp"
 #include "planning_tab.hpp"
 #include "stored_tabs.hpp"
@@ -45,9 +46,10 @@ Dock::Dock(MotionPlanningDisplay* display, QWidget* parent) : QWidget(parent), d
   setObjectName("MotionPlanningUI");
   tabs_ = new QTabWidget;
   tabs_->setObjectName("tabWidget");
+  tabs_->setElideMode(Qt::ElideRight);  // all of them are to be seen before any is scrolled away
   const auto add = [this](auto* tab, const QString& title) {
     all_.push_back(tab);
-    tabs_->addTab(new Page(tab), title);
+    tabs_->setTabToolTip(tabs_->addTab(new Page(tab), title), title);
     return tab;
   };
   status_ = new StatusTab(this);
@@ -58,6 +60,7 @@ Dock::Dock(MotionPlanningDisplay* display, QWidget* parent) : QWidget(parent), d
   add(new StoredScenesTab(this), "Stored Scenes");
   add(new StoredStatesTab(this), "Stored States");
   add(status_, "Status");
+  manipulation_ = add(new ManipulationTab(this), "Manipulation");
   tabs_->setCurrentIndex(1);
   progress_ = new QProgressBar;
   progress_->setObjectName("background_job_progress");
@@ -151,7 +154,7 @@ void Dock::warehouseChanged() {
 
 void Dock::update() {
   for (Tab* tab : all_) tab->update();
-  progress_->setVisible(planning_->busy());
+  progress_->setVisible(planning_->busy() || manipulation_->busy());
 }
 
 void Dock::markersCleared() { objects_->markerCleared(); }

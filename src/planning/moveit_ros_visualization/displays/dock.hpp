@@ -18,6 +18,7 @@ class QProgressBar;
 namespace moveit_rviz_plugin {
 class ContextTab;
 class Dock;
+class ManipulationTab;
 class ObjectsTab;
 class PlanningTab;
 class StatusTab;
@@ -91,6 +92,7 @@ class Dock : public QWidget {
   ContextTab* context_;
   PlanningTab* planning_;
   ObjectsTab* objects_;
+  ManipulationTab* manipulation_;
   StatusTab* status_;
   std::vector<Tab*> all_;
   std::unique_ptr<Warehouse> warehouse_;

@@ -20,6 +20,7 @@
 namespace moveit_rviz_plugin {
 namespace {
 const char* const MARKER_TOPIC = "rviz_moveit_motion_planning_display/robot_interaction_interactive_marker_topic";
+constexpr float PLACE_SIZE = 0.02f;  // m, of the dots where something may be put down
 }  // namespace
 
 MotionPlanningDisplay::MotionPlanningDisplay() {
@@ -76,6 +77,7 @@ MotionPlanningDisplay::~MotionPlanningDisplay() {
   delete marker_display_;
   path_.reset();
   workspace_.reset();
+  places_.clear();
   dropMetrics();
   for (Query& query : queries_) query.ghost.reset();
   if (dock_panel_)
@@ -280,6 +282,17 @@ void MotionPlanningDisplay::placeWorkspace() {
   workspace_->setPosition(toOgre(workspace_centre_));
   workspace_->setScale(toOgre(workspace_size_));
   workspace_->getRootNode()->setVisible(isEnabled() && workspace_shown_->getBool());
+}
+
+void MotionPlanningDisplay::showPlaces(const std::vector<Eigen::Vector3d>& places) {
+  places_.clear();
+  for (const Eigen::Vector3d& place : places) {
+    auto shape = std::make_unique<rviz::Shape>(rviz::Shape::Sphere, scene_manager_, modelNode());
+    shape->setColor(1.0f, 0.0f, 0.0f, 1.0f);
+    shape->setScale(Ogre::Vector3(PLACE_SIZE));
+    shape->setPosition(toOgre(place));
+    places_.push_back(std::move(shape));
+  }
 }
 
 void MotionPlanningDisplay::update(float wall_dt, float ros_dt) {

@@ -61,6 +61,8 @@ class MotionPlanningDisplay : public PlanningSceneDisplay {
   // A marker of the panel, for an object that is moved; "" takes it away.
   void setObjectMarker(const std::string& id, const Eigen::Isometry3d& pose, double size);
   void moveObjectMarker(const Eigen::Isometry3d& pose);
+  // Where an object may be put down, m in the model frame.
+  void showPlaces(const std::vector<Eigen::Vector3d>& places);
 
  protected:
   void onInitialize() override;
@@ -126,6 +128,7 @@ class MotionPlanningDisplay : public PlanningSceneDisplay {
   rviz::Display* marker_display_ = nullptr;
   std::unique_ptr<interactive_markers::InteractiveMarkerServer> server_;
   std::unique_ptr<rviz::Shape> workspace_;
+  std::vector<std::unique_ptr<rviz::Shape>> places_;
   std::unique_ptr<rviz::MovableText> text_;
   Ogre::SceneNode* text_node_ = nullptr;  // the model node's child
   Eigen::Vector3d workspace_centre_ = Eigen::Vector3d::Zero(), workspace_size_ = Eigen::Vector3d::Constant(2.0);

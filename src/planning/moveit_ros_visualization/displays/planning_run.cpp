@@ -18,8 +18,6 @@
 #include <QLabel>
 #include <QPushButton>
 #include <QSpinBox>
-#include <chrono>
-#include <thread>
 
 #include "context_tab.hpp"
 #include "objects_tab.hpp"
@@ -29,8 +27,6 @@ namespace moveit_rviz_plugin {
 namespace {
 constexpr double GOAL_TOLERANCE = 1e-4;   // rad, m
 constexpr double LINE_STEP = 0.01;        // m
-constexpr double SERVER_PATIENCE = 5.0;   // s
-const auto TICK = std::chrono::milliseconds(10);
 
 std::string reason(const moveit_msgs::MoveItErrorCodes& code) { return moveit::core::MoveItErrorCode::toString(code); }
 }  // namespace
@@ -189,40 +185,14 @@ void PlanningTab::clearOctomap() {
 
 // ---------------------------------------------------------------- in threads
 
-// Waits for the server, then for the result; ends early when the display goes. The client that has the result, or null.
-template <typename Client, typename Goal>
-std::shared_ptr<Client> PlanningTab::run(std::shared_ptr<Client>& kept, const std::string& name, const Goal& goal,
-                                         std::string& why) {
-  std::shared_ptr<Client> client;
-  {
-    const std::lock_guard<std::mutex> lock(clients_lock_);
-    if (!kept) kept = std::make_shared<Client>(name, true);
-    client = kept;
-  }
-  const Jobs& jobs = dock_->display().jobs();
-  const auto until = [&client, &jobs](const std::function<bool()>& met) {
-    ros::WallTime alone = ros::WallTime::now();
-    while (!met()) {
-      if (jobs.ending() || !ros::ok()) return false;
-      if (client->isServerConnected()) alone = ros::WallTime::now();
-      if ((ros::WallTime::now() - alone).toSec() > SERVER_PATIENCE) return false;
-      std::this_thread::sleep_for(TICK);
-    }
-    return true;
-  };
-  if (!until([&client]() { return client->isServerConnected(); })) {
-    why = "nobody serves the action " + ros::names::resolve(name) + ": is move_group running?";
-    return nullptr;
-  }
-  client->sendGoal(goal);
-  if (!until([&client]() { return client->getState().isDone(); })) {
-    why = "move_group went away";
-    return nullptr;
-  }
-  if (!client->getResult()) {
-    why = "move_group gave no result";
-    return nullptr;
-  }
+// The client that has the result of a success, or null.
+template <typename Action>
+std::shared_ptr<typename ActionCall<Action>::Client> PlanningTab::run(ActionCall<Action>& call, const char* name,
+                                                                      const typename ActionCall<Action>::Goal& goal,
+                                                                      std::string& why) {
+  const auto client =
+      call.run(dock_->display().jobs(), dock_->display().named(name), goal, "is move_group running?", why);
+  if (!client) return nullptr;
   const moveit_msgs::MoveItErrorCodes code = client->getResult()->error_code;
   why = reason(code);
   return code.val == moveit_msgs::MoveItErrorCodes::SUCCESS ? client : nullptr;
@@ -230,7 +200,7 @@ std::shared_ptr<Client> PlanningTab::run(std::shared_ptr<Client>& kept, const st
 
 void PlanningTab::runPlan(const moveit_msgs::MoveGroupGoal& goal, bool then_execute) {
   std::string why;
-  const std::shared_ptr<MoveGroupClient> client = run(move_group_, dock_->display().named("move_group"), goal, why);
+  const auto client = run(move_group_, "move_group", goal, why);
   if (then_execute) return executed(client != nullptr, why);
   if (!client) return failed("Failed", why);
   const auto result = client->getResult();
@@ -240,7 +210,7 @@ void PlanningTab::runPlan(const moveit_msgs::MoveGroupGoal& goal, bool then_exec
 bool PlanningTab::runTrajectory(const moveit_msgs::RobotTrajectory& trajectory, std::string& why) {
   moveit_msgs::ExecuteTrajectoryGoal goal;
   goal.trajectory = trajectory;
-  return run(executor_, dock_->display().named("execute_trajectory"), goal, why) != nullptr;
+  return run(executor_, "execute_trajectory", goal, why) != nullptr;
 }
 
 bool PlanningTab::runCartesian(const Line& line, Planned& plan, std::string& why) {

@@ -214,7 +214,6 @@ void PlanningTab::robotLoaded() {
 void PlanningTab::robotGone() {
   plan_.reset();
   execute_button_->setEnabled(false);
-  const std::lock_guard<std::mutex> lock(clients_lock_);
   move_group_.reset();
   executor_.reset();
 }

@@ -1,15 +1,14 @@
 // The tab Planning: commands, the query, options.
 #pragma once
 
-#include <actionlib/client/simple_action_client.h>
 #include <moveit_msgs/ExecuteTrajectoryAction.h>
 #include <moveit_msgs/MotionPlanRequest.h>
 #include <moveit_msgs/MoveGroupAction.h>
 
 #include <atomic>
 #include <memory>
-#include <mutex>
 
+#include "action_call.hpp"
 #include "dock.hpp"
 
 class QCheckBox;
@@ -47,12 +46,11 @@ class PlanningTab : public Tab {
   void setQueryTo(Which which, const std::string& state);
   // As the widgets stand.
   moveit_msgs::MotionPlanRequest request() const;
+  moveit_msgs::MoveGroupGoal goal(bool plan_only) const;
   bool busy() const { return busy_ > 0; }
   void update() override;
 
  private:
-  using MoveGroupClient = actionlib::SimpleActionClient<moveit_msgs::MoveGroupAction>;
-  using ExecuteClient = actionlib::SimpleActionClient<moveit_msgs::ExecuteTrajectoryAction>;
   struct Planned {
     moveit_msgs::RobotState start;
     moveit_msgs::RobotTrajectory trajectory;
@@ -80,13 +78,13 @@ class PlanningTab : public Tab {
   bool wantsLine() const;
   Line line() const;
   // In the background.
-  moveit_msgs::MoveGroupGoal goal(bool plan_only) const;
   void runPlan(const moveit_msgs::MoveGroupGoal& goal, bool then_execute);
   bool runCartesian(const Line& line, Planned& plan, std::string& why);
   void runLine(const Line& line, bool then_execute);
   bool runTrajectory(const moveit_msgs::RobotTrajectory& trajectory, std::string& why);
-  template <typename Client, typename Goal>
-  std::shared_ptr<Client> run(std::shared_ptr<Client>& kept, const std::string& name, const Goal& goal, std::string& why);
+  template <typename Action>
+  std::shared_ptr<typename ActionCall<Action>::Client> run(ActionCall<Action>& call, const char* name,
+                                                           const typename ActionCall<Action>::Goal& goal, std::string& why);
   void inThread(std::function<void()> job);
 
   QPushButton* plan_button_;
@@ -109,9 +107,8 @@ class PlanningTab : public Tab {
   QCheckBox* replanning_;
   QCheckBox* looking_;
 
-  std::shared_ptr<MoveGroupClient> move_group_;
-  std::shared_ptr<ExecuteClient> executor_;
-  std::mutex clients_lock_;
+  ActionCall<moveit_msgs::MoveGroupAction> move_group_;
+  ActionCall<moveit_msgs::ExecuteTrajectoryAction> executor_;
   std::shared_ptr<Planned> plan_;
   moveit_msgs::Constraints path_constraints_;
   std::vector<ros::Subscriber> external_topics_;

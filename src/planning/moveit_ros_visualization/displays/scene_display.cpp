@@ -326,6 +326,7 @@ void PlanningSceneDisplay::showScene() {
   SceneView::Style style;
   style.color = scene_color_->getColor();
   style.alpha = scene_alpha_->getFloat();
+  style.marked = marked_;
   style.voxels.rendering = static_cast<VoxelRendering>(voxel_rendering_->getOptionInt());
   style.voxels.coloring = static_cast<VoxelColoring>(voxel_coloring_->getOptionInt());
   const planning_scene_monitor::LockedPlanningSceneRO scene(monitor_);

@@ -5,6 +5,7 @@
 #include <rviz/display.h>
 
 #include <atomic>
+#include <map>
 #include <memory>
 #include <moveit/planning_scene_monitor/planning_scene_monitor.h>
 #include <string>
@@ -49,6 +50,11 @@ class PlanningSceneDisplay : public rviz::Display {
   moveit::core::RobotStatePtr currentState() const;
   // The scene was changed here.
   void sceneEdited() { dirty_ = true; }
+  // Objects in these colours, in this display only.
+  void markObjects(const std::map<std::string, QColor>& marked) {
+    marked_ = marked;
+    dirty_ = true;
+  }
   bool moveGroupThere() const { return move_group_there_; }
 
  protected:
@@ -107,6 +113,7 @@ class PlanningSceneDisplay : public rviz::Display {
   std::atomic<bool> dirty_{false};
   bool move_group_there_ = false;
   float since_shown_ = 0.0f;
+  std::map<std::string, QColor> marked_;
   Told told_waiting_, told_robot_;
 };
 

@@ -37,6 +37,10 @@ void SceneView::show(const planning_scene::PlanningScene& scene, const Style& st
       const std_msgs::ColorRGBA& own = scene.getObjectColor(item.first);
       color = Ogre::ColourValue(own.r, own.g, own.b, own.a * style.alpha);
     }
+    const auto marked = style.marked.find(item.first);
+    if (marked != style.marked.end())
+      color = Ogre::ColourValue(static_cast<float>(marked->second.redF()), static_cast<float>(marked->second.greenF()),
+                                static_cast<float>(marked->second.blueF()), 1.0f);
     for (std::size_t i = 0; i < shown.views.size(); ++i) {
       shown.views[i]->setPose(object.global_shape_poses_[i]);
       shown.views[i]->setColor(color);

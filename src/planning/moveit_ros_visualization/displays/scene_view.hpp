@@ -17,6 +17,7 @@ class SceneView {
   struct Style {
     QColor color{50, 230, 50};  // of objects without a colour of their own
     float alpha = 1.0f;
+    std::map<std::string, QColor> marked;  // before all other colours
     VoxelStyle voxels;
   };
 
