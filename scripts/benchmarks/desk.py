@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """RViz with MotionPlanning and a UR5: how soon it is there, and pictures and inverse kinematics a second while the goal is dragged.
 
-On a private X server, drawn by the processor without anti-aliasing (as rviz_offscreen does); the 3-D view has 800 x 600 pixels.
+On a private X server, drawn by the processor, without anti-aliasing (as scripts/offscreen and rviz_offscreen have it) and with it (as
+RViz has it on a desktop); the 3-D view has 800 x 600 pixels.
 """
 import argparse
 import ctypes
@@ -31,10 +32,11 @@ CONFIG = {
         "Tools": [{"Class": "rviz/Interact"}]}}
 
 
-def window(config):
+def window(config, smooth):
     """RViz's window, in a process of its own; its label "figures" says [answers of inverse kinematics, pictures a second, the
     view's size, the display's status]."""
-    ctypes.CDLL("librviz.so.7d")._ZN4rviz12RenderSystem19disableAntiAliasingEv()
+    if not smooth:
+        ctypes.CDLL("librviz.so.7d")._ZN4rviz12RenderSystem19disableAntiAliasingEv()
     from python_qt_binding.QtCore import QTimer
     from python_qt_binding.QtWidgets import QApplication, QDoubleSpinBox, QLabel, QWidget
     from rviz import bindings as rviz
@@ -89,20 +91,21 @@ def hand():
     return {"X": position.x, "Y": position.y, "Z": position.z}
 
 
-def open_window(desktop, config):
+def open_window(desktop, config, *options):
     """Seconds from the command to a display that has its robot and scene; the least of two starts."""
     least, program = math.inf, None
     for _ in range(2):
         if program is not None:
             program.end()
         begin = time.monotonic()
-        program = desktop.run([os.path.abspath(__file__), "--window", config])
+        program = desktop.run([os.path.abspath(__file__), "--window", config, *options],
+                              DRI_NO_MSAA="0" if "--smooth" in options else "1")
         program.wait(lambda: program.ask("text", "figures") and json.loads(program.ask("text", "figures"))[3] == "Status: Ok")
         least = min(least, time.monotonic() - begin)
     return least, program
 
 
-def drag(desktop, program, seconds):
+def drag(desktop, program, seconds, how):
     """Pictures and answers of inverse kinematics a second while the goal goes in circles; ms of processor time a picture."""
     program.click_text("Joints")
     program.wait(lambda: json.loads(program.text("figures"))[2] == list(SIZE), "view of the wanted size")
@@ -130,7 +133,9 @@ def drag(desktop, program, seconds):
     answers = (json.loads(program.text("figures"))[0] - before) / passed
     desktop.xdotool("mouseup", 1)
     mean = sum(pictures[1:]) / max(1, len(pictures) - 1)
-    return mean, answers, 1000 * (sum(times()[:2]) - spent) / max(1.0, mean * passed)
+    name = f"goal dragged, 800x600, UR5{how}: "
+    return {name + "pictures a second": mean, name + "answers of inverse kinematics a second": answers,
+            name + "processor ms of RViz a picture, all threads": 1000 * (sum(times()[:2]) - spent) / max(1.0, mean * passed)}
 
 
 def measure(seconds):
@@ -146,12 +151,12 @@ def measure(seconds):
             yaml.safe_dump(CONFIG, file)
         with Desktop("1600x900x24") as desktop:
             opened, program = open_window(desktop, config)
-            pictures, answers, cost = drag(desktop, program, seconds)
+            figures = {"RViz with MotionPlanning: seconds to its robot and scene": opened, **drag(desktop, program, seconds, "")}
             program.end()
-    return {"RViz with MotionPlanning: seconds to its robot and scene": opened,
-            "goal dragged, 800x600, UR5: pictures a second": pictures,
-            "goal dragged, 800x600, UR5: processor ms of RViz a picture, all threads": cost,
-            "goal dragged, 800x600, UR5: answers of inverse kinematics a second": answers}
+            _, program = open_window(desktop, config, "--smooth")
+            figures.update(drag(desktop, program, seconds, ", anti-aliased"))
+            program.end()
+    return figures
 
 
 def main():
@@ -159,9 +164,10 @@ def main():
     parser.add_argument("--json", metavar="FILE")
     parser.add_argument("--seconds", type=float, default=10.0, help="of dragging")
     parser.add_argument("--window", metavar="CONFIG", help=argparse.SUPPRESS)
+    parser.add_argument("--smooth", action="store_true", help=argparse.SUPPRESS)
     options = parser.parse_args()
     if options.window:
-        return window(options.window)
+        return window(options.window, options.smooth)
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         port = probe.getsockname()[1]
