@@ -30,13 +30,29 @@ def program(page):
     return zstandard.decompress(words.astype(">u4").tobytes() + last.to_bytes(max(len(rest) - 1, 0), "big")).decode()
 
 
-def test_the_light_by_a_picture_is_taken_out_of_the_program_of_this_viser():
+def changed():
+    """The program of this viser before and after what the page does to it."""
     page = page_of_viser("Gazebo").decode()
-    pattern, by = re.search(r'decode\(heap\.subarray\(up\+ss,up\+sz\)\)\.replace\(/(.*)/,"(.*?)"\);', page).groups()
-    before = program(page)
-    assert len(re.findall(pattern, before)) == 1
-    after = re.sub(pattern, by.replace("$1", r"\1"), before)
-    assert re.search(r"=null\?null:\w+\.hdri_data;if\(", after)
+    changes = re.search(r'decode\(heap\.subarray\(up\+ss,up\+sz\)\)((?:\.replace\(/.*?/,"[^"]*"\))+);', page).group(1)
+    before = after = program(page)
+    for pattern, by in re.findall(r'\.replace\(/(.*?)/,"([^"]*)"\)', changes):
+        pattern = pattern.replace("[^]", r"[\s\S]")  # as it is said in Python
+        assert len(re.findall(pattern, after)) == 1, pattern
+        after = re.sub(pattern, re.sub(r"\$(\d)", r"\\\1", by), after)
+    return before, after
+
+
+def test_the_light_by_a_picture_is_taken_out_of_the_program_of_this_viser():
+    assert re.search(r"=null\?null:\w+\.hdri_data;if\(", changed()[1])
+
+
+def test_who_draws_is_asked_later_and_of_the_canvas_that_is_there():
+    before, after = changed()
+    later = re.search(r"setTimeout\(\(\)=>\{let (\w+)=([\w$]+)\(\);console\.log\(`WebGL support.*?\},5e3\)\},\[\]\),null\}", after)
+    assert later and later.group(2) + "()" in before
+    asks = re.search(r"function " + re.escape(later.group(2)) + r"\(\)\{let \w+=(.*?),", after).group(1)
+    assert asks.startswith("document.querySelector('canvas[data-engine]')")
+    assert "`data-engine`" in before  # three.js marks its canvas so
 
 
 def test_another_page_is_left_as_it_is_but_for_its_title():

@@ -72,16 +72,23 @@ def page_of_viser(title: str) -> Optional[bytes]:
     return None
 
 
-#: viser's page unpacks its program with this line. Until the server has told otherwise that program lights the scene by a picture,
-#: which takes the processor 0.4 s to prepare; here the server always tells otherwise.
-_UNPACKED = b"const code=td.decode(heap.subarray(up+ss,up+sz));"
-_UNLIT = _UNPACKED[:-1] + rb""".replace(/===null\?[\w$]+:([\w$]+\.hdri_data)/,"===null?null:$1");"""
+#: viser's page unpacks its program with this line; what follows is done to the program there.
+_UNPACKED = b"const code=td.decode(heap.subarray(up+ss,up+sz))"
+#: Until the server has told otherwise that program lights the scene by a picture, which takes the processor 0.4 s to prepare; here the
+#: server always tells otherwise.
+_UNLIT = rb""".replace(/===null\?[\w$]+:([\w$]+\.hdri_data)/,"===null?null:$1")"""
+#: It makes a canvas of its own to find out whether the processor draws, which takes that 0.2 s and more: later is soon enough to say so,
+#: and the canvas of the scene knows it as well.
+_ASKED_LATER = (rb""".replace(/let ([\w$]+)=([\w$]+)\(\);(console\.log\(`WebGL support[^]*?`webgl-software-rendering`[^]*?`orange`\}\))"""
+                rb"""(?=\},\[\]\))/,"setTimeout(()=>{let $1=$2();$3},5e3)")"""
+                rb""".replace(/=document\.createElement\(`canvas`\)(?=,[\w$]+=!1,[\w$]+=`unknown`)/,"""
+                rb""""=document.querySelector('canvas[data-engine]')??document.createElement('canvas')")""")
 
 
 def entitled(page: bytes, title: str) -> bytes:
     """viser's page under another name than its own, sparing where it draws."""
     head = f"<title>{html.escape(title)}</title>".encode() + _SPARING
-    return page.replace(_UNPACKED, _UNLIT, 1).replace(b"<title>Viser</title>", head, 1)
+    return page.replace(_UNPACKED, _UNPACKED + _UNLIT + _ASKED_LATER, 1).replace(b"<title>Viser</title>", head, 1)
 
 
 class Porter(threading.Thread):
