@@ -13,6 +13,25 @@ namespace ob = ompl::base;
 
 namespace motion
 {
+namespace
+{
+// The words of a list between commas or blanks.
+std::vector<std::string> listed(const std::string& text)
+{
+  std::vector<std::string> names;
+  std::string name;
+  for (char c : text + ",")
+    if (c != ',' && c != ' ')
+      name += c;
+    else if (!name.empty())
+    {
+      names.push_back(name);
+      name.clear();
+    }
+  return names;
+}
+}  // namespace
+
 std::unique_ptr<RobotState> StatePool::take()
 {
   {
@@ -64,38 +83,37 @@ void JointSpace::limit(std::size_t index, double lower, double upper)
     throw InvalidInput("nothing is left of the range of '" + group_.variable_names[index] + "': the path constraints or the workspace exclude all of it");
 }
 
-void JointSpace::setProjection(const std::string& text)
+// As upstream, what such a setting says wrongly is left out and does not keep the group from being planned for: configurations are
+// copied from robot to robot.
+std::vector<std::string> JointSpace::setProjection(const std::string& text)
 {
-  const std::size_t open = text.find('('), close = text.find(')');
   if (text.empty())
-    return;
-  if (open == std::string::npos || close == std::string::npos || close < open)
-    throw InvalidInput("projection_evaluator '" + text.substr(0, 60) + "' is neither joints(a,b) nor link(l)");
-  const std::string kind = text.substr(0, open);
-  std::string list = text.substr(open + 1, close - open - 1);
-  std::vector<std::string> names;
-  std::string name;
-  for (char c : list + ",")
-    if (c == ',' || c == ' ')
-    {
-      if (!name.empty())
-        names.push_back(name);
-      name.clear();
-    }
-    else
-      name += c;
+    return {};
+  const std::size_t open = text.find('('), close = text.find(')');
+  const bool call = open != std::string::npos && close != std::string::npos && open < close;
+  const std::string kind = call ? text.substr(0, open) : "";
+  const std::vector<std::string> names = call ? listed(text.substr(open + 1, close - open - 1)) : std::vector<std::string>();
+  std::vector<std::string> problems;
+  const std::string is = "projection_evaluator '" + text.substr(0, 60) + "' ";
   if (kind == "link" && names.size() == 1)
-    projection_link_ = model_->link(names[0]).index;
+  {
+    if (const LinkModel* link = model_->findLink(names[0]))
+      projection_link_ = link->index;
+    else
+      problems.push_back(is + "names no link of robot '" + model_->name + "': the default is used");
+  }
   else if (kind == "joints" && !names.empty())
     for (const std::string& joint : names)
     {
       const auto found = std::find(group_.variable_names.begin(), group_.variable_names.end(), joint);
       if (found == group_.variable_names.end())
-        throwUnknown("joint", joint, "group '" + group_.name + "'", group_.variable_names);
-      projection_joints_.push_back(static_cast<int>(found - group_.variable_names.begin()));
+        problems.push_back(is + "names '" + joint + "', which is no joint of group '" + group_.name + "': left out");
+      else
+        projection_joints_.push_back(static_cast<int>(found - group_.variable_names.begin()));
     }
   else
-    throw InvalidInput("projection_evaluator '" + text.substr(0, 60) + "' is neither joints(a,b) nor link(l)");
+    problems.push_back(is + "is neither joints(a,b) nor link(l): the default is used");
+  return problems;
 }
 
 double JointSpace::distance(const double* a, const double* b) const

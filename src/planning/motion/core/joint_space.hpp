@@ -53,7 +53,7 @@ public:
   // ------------------------------------------------------------ before setup
   void limit(std::size_t index, double lower, double upper);  // narrows the bounds of a variable of the group
   void projectOnto(const ConstraintSet* constraints) { constraints_ = constraints; }
-  void setProjection(const std::string& description);  // throws InvalidInput, UnknownName
+  std::vector<std::string> setProjection(const std::string& description);  // what of it is left out, in a line each
 
   const JointModelGroup& group() const { return group_; }
   std::size_t size() const { return lower_.size(); }

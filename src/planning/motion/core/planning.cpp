@@ -210,7 +210,8 @@ private:
       limitWorkspace();
     if (!path_.positions.empty() || !path_.orientations.empty())
       space_->projectOnto(&path_);
-    space_->setProjection(request_.projection);
+    for (const std::string& problem : space_->setProjection(request_.projection))
+      warn(problem);
     si_ = std::make_shared<ob::SpaceInformation>(space_);
     const ConstraintSet* constraints = path_.empty() ? nullptr : &path_;
     if (request_.feasible)

@@ -238,13 +238,22 @@ def test_timeout(scene, model):
     (dict(goal=[0.3, -1.2, 3.1, -0.9, 1.1, 0.5]), "goal_in_collision", -27, "'link_1' and 'link_4' touch"),
     (dict(planner="Teleport"), "unknown_planner", -1, "no planner 'Teleport'"),
     (dict(planner="stomp::STOMP"), "unknown_planner", -1, "RRTConnect"),
-    (dict(projection="joints(nobody)", planner="KPIECE"), "invalid_request", -16, "no joint 'nobody'"),
     (dict(planning_time=0.0), "invalid_request", -16, "planning time"),
     (dict(longest_valid_segment_fraction=2.0), "invalid_request", -16, "longest_valid_segment_fraction")])
 def test_joint_requests_that_are_odd(scene, model, change, status, code, said):
     result = motion.plan(scene, request(model, **change))
     assert (result.status, result.code) == (status, code), result.message
     assert said in result.message and "\n" not in result.message
+
+
+@pytest.mark.parametrize("projection, said", [
+    ("joints({0},nobody)", "'nobody', which is no joint of group 'arm'"), ("link(nobody)", "no link of robot"),
+    ("joints(", "neither joints(a,b) nor link(l)"), ("7", "neither joints(a,b) nor link(l)")])
+def test_a_wrong_projection_is_told_and_left_out(scene, model, projection, said):
+    names = model.group("arm").variables
+    result = motion.plan(scene, request(model, projection=projection.format(*names), planner="KPIECE"))
+    assert result and any(said in line for line in result.warnings), (result.message, result.warnings)
+    assert not motion.plan(scene, request(model, projection="joints({0}, {1})".format(*names), planner="KPIECE")).warnings
 
 
 @pytest.mark.parametrize("goal, status, said", [

@@ -3,7 +3,7 @@ messages."""
 from __future__ import annotations
 
 import time
-from typing import Any, Callable, Dict, List, Optional
+from typing import Any, Callable, Dict, List, Optional, Set
 
 import motion
 import rospy
@@ -53,6 +53,7 @@ class Pipeline:
         parameters = parameters if isinstance(parameters, dict) else {}
         adapters = str(parameters.get("request_adapters", "")).split()
         self.config: Dict[str, Any] = {parameter.name: parameter.default for parameter in _PARAMETERS}
+        self._told: Set[str] = set()
         self.compiled = self._compiled(adapters)
         if self.compiled is not None:
             rospy.loginfo("Using planning interface '%s' (compiled)", self.title)
@@ -116,6 +117,10 @@ class Pipeline:
             planner: Callable = self._pilz if self.is_pilz else motion.plan
             result = self._adapters.generate(scene, self.request(scene, message), cancel, planner)
         took = time.monotonic() - started
+        for warning in result.warnings:
+            if warning not in self._told:
+                self._told.add(warning)
+                rospy.logwarn("%s", warning)
         if result:
             rospy.loginfo("Planned a motion of %.2f s with %d way points for group '%s' in %.3f s (%s)",
                           result.trajectory.duration,
