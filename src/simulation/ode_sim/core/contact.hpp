@@ -19,7 +19,7 @@ struct Contact {
   bool swapped = false;  // ODE's first body is that of b
   int feedback = -1;     // in StepState::feedback
   bool told = false;     // who asks for forces is told this one
-  int row = -1;          // in StepState::gazebo_contacts
+  int row = -1;          // in StepState::ode_contacts
   double fastest = 0;    // m/s, of pushing apart
 };
 

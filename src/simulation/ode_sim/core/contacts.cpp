@@ -43,7 +43,7 @@ void set_hardness(const Settings& set, Contact& c, dContact& d) {
   c.fastest = hard.fastest;
 }
 
-// Surface speed that the bodies do not have: links moved by position drives, and kinematic ones.
+// Surface speed that the bodies do not have: links moved by position drives, kinematic ones, and belts.
 void set_surface_speed(const StepState& state, const Contact& c, const Vec3& n, const Vec3& t1, dBodyID first, dBodyID second,
                        dContact& d) {
   const Link *l1 = c.a->link, *l2 = c.b->link;
@@ -53,13 +53,14 @@ void set_surface_speed(const StepState& state, const Contact& c, const Vec3& n, 
     return l->moving || (k.root && k.root->kinematic) || (k.by && !state.of(*cluster_of(*k.by).root->model).jump);
   };
   const bool driven1 = driven(l1), driven2 = driven(l2);
-  if (!driven1 && !driven2) return;
+  if (!driven1 && !driven2 && !l1->belt.told && !l2->belt.told) return;
   auto slide = [&](const Link* l, dBodyID body) {
     Vec3 u = l->velocity_at(c.pos);
     if (body) u = u - (body_velocity(body) + cross(body_spin(body), c.pos - vec(dBodyGetPosition(body))));
     return u;
   };
-  const Vec3 u = (driven1 ? slide(l1, first) : Vec3{}) - (driven2 ? slide(l2, second) : Vec3{});
+  const Vec3 u = (driven1 ? slide(l1, first) : Vec3{}) - (driven2 ? slide(l2, second) : Vec3{}) + l1->belt.surface_velocity(n) -
+                 l2->belt.surface_velocity(-n);
   d.surface.mode |= dContactMotion1 | dContactMotion2 | dContactMotionN;
   d.surface.motion1 = -dot(t1, u);
   d.surface.motion2 = -dot(cross(n, t1), u);
@@ -92,10 +93,8 @@ void make_contact_joints(Scene& scene, StepState& state) {
     const dContact d = as_ode_has_it(scene, state, c, first, second);
     c.joint = dJointCreateContact(scene.ode, scene.step_joints, &d);
     dJointAttach(c.joint, first, second);
-    if (scene.settings.like_gazebo) {
-      c.row = static_cast<int>(state.gazebo_contacts.size());
-      state.gazebo_contacts.push_back(d);
-    }
+    c.row = static_cast<int>(state.ode_contacts.size());
+    state.ode_contacts.push_back(d);
     c.told = c.a->watched || c.b->watched || state.of(*c.a->link).weighed || state.of(*c.b->link).weighed;
     c.feedback = next++;
     dJointSetFeedback(c.joint, &state.feedback[c.feedback]);

@@ -27,8 +27,10 @@ const Borne* borne_before(const std::vector<Borne>& borne, const Contact& c) {
   return nearest;
 }
 
-// fdir1 of the surface that counts, world axes.
+// The way that a belt is meant to go, else fdir1 of the surface that counts; world axes.
 Vec3 asked_for(const Contact& c) {
+  if (c.a->link->belt.told) return c.a->link->belt.meant(c.pos, c.normal);
+  if (c.b->link->belt.told) return c.b->link->belt.meant(c.pos, -c.normal);
   const Surface* surface = directed(c.a->surface, c.b->surface);
   if (!surface) return {};
   const Shape& shape = surface == &c.a->surface ? *c.a : *c.b;
@@ -96,7 +98,8 @@ void set_friction(const Scene& scene, const StepState& state, const Contact& c, 
   if (rough.isotropic() && !set.like_gazebo) {
     // Where it slides, friction is to point against the motion, not along two fixed axes at once: fully along the slip, and
     // across it in proportion (Coulomb), or a wheel that spins would still be held sideways like one that stands.
-    wanted = c.a->link->velocity_at(c.pos) - c.b->link->velocity_at(c.pos);
+    wanted = c.a->link->velocity_at(c.pos) - c.b->link->velocity_at(c.pos) + c.a->link->belt.surface_velocity(c.normal) -
+             c.b->link->belt.surface_velocity(-c.normal);
     const double speed = norm(wanted - n * dot(n, wanted));
     if (speed < 1e-5) wanted = {};
     else if (load > 0 && rough.mu > 0) d.surface.slip2 += speed / (rough.mu * load);

@@ -68,6 +68,27 @@ struct Shape {
   bool watched = false;
 };
 
+// The surface of a link that runs round it, as a track's does, for the next step. World axes.
+struct Belt {
+  double speed = 0;  // m/s, of driving forwards
+  Vec3 left;         // unit; forwards is at right angles to it and to the ground
+  bool told = false;
+  // The motion that the vehicle is meant to make, of its point `at`: friction that is not the same in both directions takes its first
+  // one along it.
+  Vec3 v, w, at;
+
+  // n: normal of a contact, into the link.
+  Vec3 forwards(const Vec3& n) const {
+    const Vec3 f = cross(left, n);
+    return norm(f) > 1e-6 ? f * (1 / norm(f)) : Vec3{};
+  }
+  Vec3 surface_velocity(const Vec3& n) const { return forwards(n) * -speed; }
+  Vec3 meant(const Vec3& p, const Vec3& n) const {
+    const Vec3 motion = v + cross(w, p - at);
+    return norm(motion - n * dot(n, motion)) > 1e-6 ? motion : forwards(n);
+  }
+};
+
 struct Link {
   int id = 0;
   int row = 0;  // in link_poses
@@ -87,6 +108,7 @@ struct Link {
   Pose X_WL;
   Vec3 v, w;                           // of the link origin, world axes
   Vec3 force, torque;                  // about the CoM, world axes, for the next step
+  Belt belt;
   Vec3 applied_force, applied_torque;  // those of the last step
 
   // Place in the cluster, see assembly.cpp.

@@ -85,6 +85,7 @@ std::pair<py::array_t<double>, py::array_t<int32_t>> rays(World& w, Doubles orig
 void bind_world(py::module_& m) {
   py::class_<Counters>(m, "Counters")
       .def_readonly("direct", &Counters::direct)
+      .def_readonly("trees", &Counters::trees)
       .def_readonly("quick", &Counters::quick)
       .def_readonly("fallbacks", &Counters::fallbacks)
       .def_readonly("promotions", &Counters::promotions)

@@ -38,6 +38,13 @@ void bind_links(py::module_& m) {
       .def("add_torque", [](Link& l, T3 t) { push(l.torque, in(t)); })
       .def("set_force", [](Link& l, T3 f) { l.force = limited(in(f), kStrongest, "a force"); })
       .def("set_torque", [](Link& l, T3 t) { l.torque = limited(in(t), kStrongest, "a torque"); })
+      .def("run_belt", [](Link& l, double speed, T3 left, T3 v, T3 w) {
+        const Vec3 axis = in(left);
+        const double size = norm(axis);
+        if (!(size > 0) || !std::isfinite(size)) throw std::invalid_argument("the axis across a belt has no direction");
+        l.belt = {limited(speed, kFastestSet, "a belt's speed"), axis * (1 / size), true, limited(in(v), kFastestSet, "a velocity"),
+                  limited(in(w), kFastestSet, "a velocity"), l.X_WL.p};
+      })
       .def("force", [](Link& l) { return out(l.force); })
       .def("torque", [](Link& l) { return out(l.torque); })
       .def("applied_force", [](Link& l) { return out(l.applied_force); })

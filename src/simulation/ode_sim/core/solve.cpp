@@ -103,15 +103,19 @@ void drop_absurd_forces(Scene& scene, const StepState& state) {
   }
 }
 
-// Joints alone exactly, small islands with contacts exactly if the direct solver finds its way, all others by iterations.
+// Joints alone exactly, small islands with contacts exactly if the direct solver finds its way, trees of joints in larger ones exactly
+// and their contacts by iterations, all others by iterations.
 void choose_solvers(const Settings& set, StepState& state) {
   for (Pass* pass : {&state.exact, &state.touching, &state.iterative}) pass->clear();
+  state.trees.clear();
   for (auto& island : state.islands) {
     if (!island.awake) continue;
     const bool alone = island.contact_rows == 0 && island.rows <= kMostExactRows;
     const bool small = island.rows + island.contact_rows <= (island.joints ? set.direct_rows : set.heap_rows);
     Pass& pass = set.like_gazebo ? state.iterative : alone ? state.exact : small ? state.touching : state.iterative;
-    pass.add(island);
+    const bool trees = &pass == &state.iterative && island.joints && !set.like_gazebo;
+    if (trees) state.trees.push_back(&island);
+    else pass.add(island);
     for (Cluster* c : island.clusters) state.of(*c).iterative = &pass == &state.iterative;
   }
 }
@@ -160,6 +164,8 @@ void solve(Scene& scene, StepState& state) {
   run_direct(scene, state.exact, said);
   tell(scene, state.exact, said);
   run_touching(scene, state, said);
+  for (const Island* island : state.trees)
+    if (!run_trees(scene, state, *island)) state.iterative.add(*island);
   if (scene.settings.like_gazebo) run_like_gazebo(scene, state, state.iterative);
   else run_iterative(scene, state.iterative, scene.settings.iters, said);
   for (auto& start : kinematic)

@@ -6,7 +6,7 @@
 namespace ode_sim {
 
 void StepState::forget() {
-  pairs.clear(), contacts.clear(), feedback.clear(), gazebo_contacts.clear(), weld_joints.clear();
+  pairs.clear(), contacts.clear(), feedback.clear(), ode_contacts.clear(), weld_joints.clear();
   nodes.clear(), islands.clear(), before.clear(), loads.clear();
 }
 
@@ -44,7 +44,7 @@ void start_drives(Scene& scene, StepState& state) {
 
 // What is pushed wakes up, before its contacts are looked for.
 void wake_pushed(Scene& scene) {
-  auto pushed = [](const auto& l) { return dot(l->force, l->force) > 0 || dot(l->torque, l->torque) > 0; };
+  auto pushed = [](const auto& l) { return dot(l->force, l->force) > 0 || dot(l->torque, l->torque) > 0 || l->belt.speed != 0; };
   for (auto& m : scene.models)
     if (m->may_sleep && std::any_of(m->links.begin(), m->links.end(), pushed)) wake(*m);
 }
@@ -90,7 +90,7 @@ void move_drives(Scene& scene, StepState& state) {
 
 void forget_forces(Scene& scene) {
   for (auto& m : scene.models) {
-    for (auto& l : m->links) l->force = l->torque = {};
+    for (auto& l : m->links) l->force = l->torque = {}, l->belt = {};
     for (auto& j : m->joints)
       for (auto& a : j->axes) a.stepped();
   }
@@ -144,7 +144,7 @@ void abandon_step(Scene& scene, StepState& state) {
   for (auto& m : scene.models) {
     m->dirty = true;
     for (auto& l : m->links) {
-      l->force = l->torque = {};
+      l->force = l->torque = {}, l->belt = {};
       if (l->body) dBodySetForce(l->body, 0, 0, 0), dBodySetTorque(l->body, 0, 0, 0), dBodyDisable(l->body);
     }
     for (auto& j : m->joints)

@@ -78,13 +78,14 @@ struct StepState {
   std::vector<std::pair<Shape*, Shape*>> pairs;  // whose bounding boxes overlap
   std::vector<Contact> contacts;
   std::vector<dJointFeedback> feedback;  // of the contacts
-  std::vector<dContact> gazebo_contacts;
+  std::vector<dContact> ode_contacts;       // as ODE has them, for solvers of our own
   std::vector<dJointID> weld_joints;  // of each weld of the scene; null where it connects nothing
 
   std::vector<Cluster*> nodes;  // that have a body which forces move
   std::vector<Island> islands;
   std::vector<BodyState> before;  // the bodies of the nodes before the solver
   Pass exact, touching, iterative;
+  std::vector<const Island*> trees;
 
   void forget();                       // the step before
   void number(Scene& scene);           // gives everything its place in the lists above

@@ -9,7 +9,7 @@ import pytest
 import ode_sim
 from ode_sim import _core
 from ode_sim.description import model as d
-from ode_sim.description.model import Axis, Box, Collision, Inertial, Joint, Link, Mesh, Model, Pose
+from ode_sim.description.model import Axis, Box, Collision, Inertial, Joint, Link, Mesh, Model, Pose, Sphere
 from physics_checks import refused, runs_on
 from physics_determinism import digest
 from physics_models import arm, box, box_inertia, diff_drive, ground, pendulum, sphere
@@ -342,4 +342,16 @@ def test_more_joints_than_the_direct_solver_can_take():
     world = ode_sim.World()
     world.spawn(many(3000, lambda i: i - 1))
     runs_on(world, 2)
-    assert world.core.counters.direct == 0 and world.core.counters.quick > 0
+    assert world.core.counters.direct == 0 and world.core.counters.trees > 0
+
+
+def test_what_hangs_too_deep_to_be_solved_exactly_with_its_contacts():
+    """A chain of 400 links, all of them on the floor, goes to the iterations, as before."""
+    world = ode_sim.World()
+    world.spawn(ground())
+    ball = (Collision("c", Pose(), Sphere(0.05)),)
+    links = tuple(Link(f"l{i}", Pose((0.2 * i, 0, 0.05)), Inertial(1.0, Pose(), 0.01, 0, 0, 0.01, 0, 0.01), ball) for i in range(400))
+    joints = tuple(Joint(f"j{i}", "revolute", f"l{i - 1}", f"l{i}", axes=(Axis((0, 0, 1)),)) for i in range(1, 400))
+    world.spawn(Model("chain", Pose(), links, joints))
+    runs_on(world, 2)
+    assert world.core.counters.trees == 0 and world.core.counters.quick > 0

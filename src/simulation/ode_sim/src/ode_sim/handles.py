@@ -132,6 +132,10 @@ class LinkHandle:
             finite(p_W, f"point of force on link {self.scoped_name}")
             self.core.add_force_at(tuple(f_W), tuple(p_W))
 
+    def run_belt(self, speed: float, left_W: Vec3, linear: Vec3 = (0.0, 0.0, 0.0), angular: Vec3 = (0.0, 0.0, 0.0)) -> None:
+        """In the next step the surface runs round the link, as a track's, and drives it; m/s. ``linear``, ``angular``: what is meant."""
+        self.core.run_belt(speed, left_W, linear, angular)
+
     def add_torque(self, t_W: Vec3) -> None:
         finite(t_W, f"torque on link {self.scoped_name}")
         self.core.add_torque(tuple(t_W))
