@@ -167,6 +167,16 @@ def test_colour_and_friction_are_changed_and_saved(page):
 
 # ---------------------------------------------------------------------------------------------- films
 
+@pytest.mark.parametrize("shadows", (True, False))
+def test_the_box_for_shadows_says_what_is_drawn(shadows):
+    page = Page(LocalSimulation(World(d.World()), paused=True), port=0, shadows=shadows)
+    try:
+        shown = [handle.value for handle in page.server.gui._gui_input_handle_from_uuid.values() if handle.label == "Shadows"]
+        assert shown == [shadows] == [page.drawing.shadows]
+    finally:
+        page.close()
+
+
 def test_a_film_shows_what_moved(page, tmp_path):
     cv2 = pytest.importorskip("cv2")
     client, record = Client(), panel(page, "RecordPanel")

@@ -17,9 +17,8 @@ def make_page(website: Any, shadows: bool) -> Any:
     simulation = RosSimulation()
     simulation.look(True)  # the first frame comes while the rest is imported
     from ode_sim.viewer import Page
-    page = Page(simulation, title="Gazebo", website=website, say=lambda line: rospy.logwarn("%s", line), later=_panels)
-    page.drawing.shadows = shadows or bool(glob.glob("/dev/dri/renderD*"))
-    return page
+    return Page(simulation, title="Gazebo", website=website, say=lambda line: rospy.logwarn("%s", line), later=_panels,
+                shadows=shadows or bool(glob.glob("/dev/dri/renderD*")))
 
 
 def _panels() -> Sequence[type]:

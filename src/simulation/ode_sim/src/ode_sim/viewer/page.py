@@ -37,12 +37,13 @@ class Page:
     :param later: gives still more of them when the world has been shown, so that nobody waits for them with it; if ``website`` is
         given, somebody is expected, who is shown the world before
     :param say: where lines for the user go who started it
+    :param shadows: drawn from the beginning; the tab View changes it
     :raises ode_sim.viewer.website.Unavailable: no page can be served
     """
 
     def __init__(self, simulation: Simulation, port: int = DEFAULT_PORT, listen: bool = False, title: str = "Gazebo",
                  panels: Sequence[type] = (), say: Callable[[str], None] = _log.warning,
-                 website: Optional[Website] = None, later: Callable[[], Sequence[type]] = tuple):
+                 website: Optional[Website] = None, later: Callable[[], Sequence[type]] = tuple, shadows: bool = True):
         self.simulation = simulation
         self.website = website or Website(port, listen, title)
         self.server = self.website.open()
@@ -68,6 +69,7 @@ class Page:
         self.pull = Pull(self)
         self.placing = Placing(self)
         self.drawing = Drawing(self.server, self._picked, self.pull.attach)
+        self.drawing.shadows = shadows
         self.overlays = Overlays(self)
         self.selection = Selection(self)
         self.resizing = Resizing(self)

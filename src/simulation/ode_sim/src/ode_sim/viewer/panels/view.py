@@ -25,9 +25,9 @@ class ViewPanel(Panel):
                                           step=0.001)
         self._scale.on_update(lambda event: setattr(page.overlays, "force_scale", float(event.target.value)))
         self._on_box(self.gui.add_checkbox("Grid", True), lambda on: setattr(page.drawing.grid, "visible", on))
-        for label, name, usual in (("Transparent", "transparent", False), ("Wireframe", "wireframe", False),
-                                   ("Shadows", "shadows", True)):
-            self._on_box(self.gui.add_checkbox(label, usual), lambda on, name=name: self._draw_as(name, on))
+        for name in ("transparent", "wireframe", "shadows"):
+            box = self.gui.add_checkbox(name.capitalize(), getattr(page.drawing, name))
+            self._on_box(box, lambda on, name=name: self._draw_as(name, on))
         self.gui.add_button("Show all", hint="from where the whole world is seen").on_click(self._on_all)
         self._follow = self.gui.add_checkbox("Follow what is picked", False, hint="the eye keeps its distance")
         views = self.gui.add_button_group("Look from", tuple(_VIEWS))
