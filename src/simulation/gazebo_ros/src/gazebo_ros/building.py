@@ -78,7 +78,8 @@ class Wall:
     @property
     def reach(self) -> Tuple[float, float]:
         """m beyond start and end."""
-        return tuple(0.0 if butts else 0.5 * self.thickness for butts in self.butts)
+        start, end = (0.0 if butts else 0.5 * self.thickness for butts in self.butts)
+        return start, end
 
     @property
     def length(self) -> float:
@@ -162,10 +163,14 @@ class _Entry:
             raise PlanError(f"{self.place}.{key}: {_shown(value)} is no name")
         return str(value)
 
-    def point(self, key: str, sizes: Tuple[int, ...] = (2,)) -> Tuple[float, ...]:
+    def numbers(self, key: str, sizes: Tuple[int, ...]) -> Tuple[float, ...]:
         if key not in self.value:
             raise PlanError(f"{self.place}: '{key}' is missing")
-        return _point(self.value[key], f"{self.place}.{key}", sizes)
+        return _numbers(self.value[key], f"{self.place}.{key}", sizes)
+
+    def point(self, key: str) -> Point:
+        x, y = self.numbers(key, (2,))
+        return x, y
 
     def entries(self, key: str, most: int = _MOST) -> List[Tuple[Any, str]]:
         value = self.value.get(key) or []
@@ -179,10 +184,10 @@ class _Entry:
     def look(self, default: Look) -> Look:
         color = self.value.get("color")
         if color is not None:
-            rgb = _point(color, self.place + ".color", (3,))
-            if not all(0.0 <= c <= 1.0 for c in rgb):
+            r, g, b = _numbers(color, self.place + ".color", (3,))
+            if not all(0.0 <= c <= 1.0 for c in (r, g, b)):
                 raise PlanError(f"{self.place}.color: {_shown(color)} must be three numbers from 0 to 1")
-            return Look(color=rgb)
+            return Look(color=(r, g, b))
         return Look(self.text("material", default.material)) if "material" in self.value else default
 
 
@@ -205,7 +210,7 @@ def _is_number(value: Any) -> bool:
         return False
 
 
-def _point(value: Any, place: str, sizes: Tuple[int, ...]) -> Tuple[float, ...]:
+def _numbers(value: Any, place: str, sizes: Tuple[int, ...]) -> Tuple[float, ...]:
     if not isinstance(value, (list, tuple)) or len(value) not in sizes or not all(map(_is_number, value)):
         raise PlanError(f"{place}: {_shown(value)} is not {' or '.join(str(size) for size in sizes)} numbers, [x, y]")
     if max(map(abs, value)) > FARTHEST:
@@ -270,7 +275,7 @@ def _walls(parent: _Entry, defaults: _Entry, default_look: Look) -> List[Wall]:
     for value, place in parent.entries("walls"):
         entry = _Entry(value, place, ("from", "to", "path", "thickness", "height", "doors", "windows") + _LOOK)
         if "path" in entry.value:
-            path = [_point(point, at, (2,)) for point, at in entry.entries("path")]
+            path = [(x, y) for x, y in (_numbers(point, at, (2,)) for point, at in entry.entries("path"))]
         else:
             path = [entry.point("from"), entry.point("to")]
         if len(path) < 2 or any(math.dist(a, b) < 1e-6 for a, b in zip(path, path[1:])):
@@ -358,7 +363,7 @@ def _models(top: _Entry) -> List[Placed]:
             raise PlanError(f"{place}: 'model' is missing, the name of a model directory such as table")
         count = names[model] = names.get(model, -1) + 1
         name = entry.text("name", f"{model}_{count}" if count else model)
-        x, y, *z = entry.point("at", (2, 3))
+        x, y, *z = entry.numbers("at", (2, 3))
         models.append(Placed(model, name, (x, y, z[0] if z else 0.0), entry.number("yaw", 0.0, positive=False)))
     return models
 
@@ -367,9 +372,9 @@ def _walls_of_image(top: _Entry, defaults: _Entry, look: Look, folder: str) -> L
     if "walls" in top.value:
         raise PlanError("image: takes the place of 'walls'; give one of the two")
     resolution = top.number("resolution", None, most=100.0)
-    origin = top.point("origin", (2, 3)) if "origin" in top.value else (0.0, 0.0)
+    x, y = top.numbers("origin", (2, 3))[:2] if "origin" in top.value else (0.0, 0.0)
     height = defaults.number("height", 2.5)
-    rectangles = wall_rectangles(os.path.join(folder, top.text("image", "", most=4096)), resolution, origin[:2],
+    rectangles = wall_rectangles(os.path.join(folder, top.text("image", "", most=4096)), resolution, (x, y),
                                  top.number("occupied_thresh", 0.5), bool(top.value.get("negate", 0)))
     if max(abs(value) for rectangle in rectangles for value in rectangle) > FARTHEST:
         raise PlanError(f"resolution: with {resolution:g} m per pixel the picture reaches farther than {FARTHEST:g} m")

@@ -49,9 +49,9 @@ def draw(building: Building, width: int = 1000) -> Image.Image:
             _draw_wall(pen, wall, at)
         if number == 0:
             for placed in building.models:
-                x, y = at(*placed.at[:2])
-                pen.ellipse([x - 5, y - 5, x + 5, y + 5], fill=_MODEL)
-                pen.text((x + 8, y - 6), placed.name, fill=_MODEL)
+                u, v = at(*placed.at[:2])
+                pen.ellipse([u - 5, v - 5, u + 5, v + 5], fill=_MODEL)
+                pen.text((u + 8, v - 6), placed.name, fill=_MODEL)
         pen.text((number * page[0] + 8, 6), f"{building.name}, level {number}   grid {grid} m", fill=_WALL)
     return image
 

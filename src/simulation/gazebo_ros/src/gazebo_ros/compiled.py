@@ -49,7 +49,8 @@ def find_library(filename: str) -> Optional[str]:
     names = [base] if base.endswith(".so") else [base + ".so", f"lib{base}.so", base]
     if names[0].endswith(".so") and not base.startswith("lib"):
         names.append("lib" + names[0])
-    for place in ([folder] if os.path.isabs(folder) else [os.path.join(path, folder) for path in folders()]):
+    absolute = os.path.isabs(folder)  # of another machine, maybe: Gazebo's own folder, a workspace that has moved
+    for place in ([folder, *folders()] if absolute else [os.path.join(path, folder) for path in folders()]):
         for each in names:
             path = os.path.join(place, each)
             if os.path.isfile(path):
@@ -64,6 +65,7 @@ def resolve(library: str, plugin: d.Plugin, label: str) -> Callable[[], "Compile
     :raises PluginError: the library cannot be loaded
     """
     import compiled_plugins
+    _core.share_tf()
     problem = compiled_plugins.why_not(library)
     if problem:
         raise PluginError(problem)
@@ -222,7 +224,8 @@ class Bridge:
         for problem in problems:
             rospy.logwarn("model %s: %s", model.name, problem)
         if pose:
-            model = replace(model, pose=d.Pose(tuple(pose[:3]), tuple(pose[3:])))
+            x, y, z, *q = pose
+            model = replace(model, pose=d.Pose((x, y, z), (q[0], q[1], q[2], q[3])))
         resolved = server.resolve(model)
         self._later(lambda: server.spawn(model, resolved), f"inserting model '{model.name}'")
 

@@ -11,7 +11,7 @@ import threading
 import time
 import traceback
 import xmlrpc.client
-from typing import List, Optional, Tuple
+from typing import Any, List, Optional, Tuple
 
 import node_signals
 import ode_sim
@@ -20,6 +20,7 @@ import rospkg
 import rospy
 from node_signals import master_watch
 from ode_sim.description import DescriptionError, Problem, ResourceFinder, load_world
+from ode_sim.description import model as d
 from rospy.names import load_mappings
 from std_msgs.msg import Bool
 
@@ -153,7 +154,7 @@ def _runs_already() -> bool:
     timeout = socket.getdefaulttimeout()
     socket.setdefaulttimeout(2.0)
     try:
-        node = xmlrpc.client.ServerProxy(rosgraph.Master(name).lookupNode(name))
+        node: Any = xmlrpc.client.ServerProxy(rosgraph.Master(name).lookupNode(name))
         if node.getName(name)[2] != name:
             return False
         pid = node.getPid(name)[2]
@@ -166,7 +167,7 @@ def _runs_already() -> bool:
     return True
 
 
-def _load_world(name: str, finder: ResourceFinder) -> Tuple[object, List[Problem]]:
+def _load_world(name: str, finder: ResourceFinder) -> Tuple[d.World, List[Problem]]:
     """The description of a world; the empty one, with one line, when that cannot be had."""
     try:
         return load_world(name, finder)

@@ -1,7 +1,7 @@
 """Walls found in the picture of a floor plan."""
 from __future__ import annotations
 
-from typing import List, Tuple
+from typing import Dict, List, Tuple
 
 import numpy as np
 from ode_sim.description.model import DescriptionError
@@ -47,7 +47,7 @@ def _merged_runs(mask: np.ndarray) -> List[Tuple[int, int, int, int]]:
     No more than are too many.
     """
     done: List[Tuple[int, int, int, int]] = []
-    open_runs = {}  # (column0, column1) -> first row
+    open_runs: Dict[Tuple[int, int], int] = {}  # (column0, column1) -> first row
     for row in range(mask.shape[0] + 1):
         line = mask[row] if row < mask.shape[0] else np.zeros(mask.shape[1], bool)
         edges = np.flatnonzero(np.diff(np.concatenate(([0], line.astype(np.int8), [0]))))

@@ -5,7 +5,7 @@ import difflib
 import os
 import traceback
 from dataclasses import dataclass
-from typing import Any, Callable, Dict, List, Optional
+from typing import Any, Callable, Dict, Optional, Sequence
 
 import rospkg
 import rospy
@@ -65,7 +65,7 @@ class PluginHost:
     :param builtin: library names that the server itself stands for, accepted silently
     """
 
-    def __init__(self, rospack: Optional[rospkg.RosPack] = None, builtin: List[str] = ()):
+    def __init__(self, rospack: Optional[rospkg.RosPack] = None, builtin: Sequence[str] = ()):
         found, problems = find_plugins("gazebo_ros", rospack=rospack)
         for line in problems:
             rospy.logwarn("%s", line)

@@ -166,8 +166,8 @@ def spawn(options: argparse.Namespace) -> None:
     client = gazebo_interface.spawn_urdf_model_client if options.urdf else gazebo_interface.spawn_sdf_model_client
 
     def ask() -> bool:
-        return client(options.model, text, options.robot_namespace, pose_of(options), options.reference_frame,
-                      options.gazebo_namespace)
+        return bool(client(options.model, text, options.robot_namespace, pose_of(options), options.reference_frame,
+                           options.gazebo_namespace))
     if bond:  # from here on its end waits for the answer, so the simulator must be there
         service = f"{options.gazebo_namespace}/spawn_{'urdf' if options.urdf else 'sdf'}_model"
         rospy.wait_for_service(service)

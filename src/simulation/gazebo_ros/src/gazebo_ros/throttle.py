@@ -22,7 +22,7 @@ class Throttle:
     def __init__(self, rate: float = 1000.0, catch_up: float = 0.1, clock: Callable[[], int] = time.monotonic_ns):
         self._catch_up_ns = int(catch_up * _NS)
         self._clock = clock
-        self.restart()
+        self._next_ns = clock()
         self.rate = rate
 
     @property

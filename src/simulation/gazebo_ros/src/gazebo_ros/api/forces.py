@@ -2,11 +2,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, List, Optional
+from typing import Any, Callable, List, Optional, Tuple
 
 from gazebo_msgs.srv import ApplyBodyWrench, ApplyJointEffort, BodyRequest, JointRequest
 from ode_sim import math3
-from ode_sim.description.model import Vec3
 
 from gazebo_ros.api.geometry import frame_entity, vector_of
 from gazebo_ros.api.handlers import Refused, advertise, finite
@@ -20,30 +19,13 @@ class _Job:
     target: Any  # link or joint handle
     start_ns: int
     end_ns: Optional[int]
+    act: Callable[[], None]
 
     def active(self, now_ns: int) -> bool:
         return self.start_ns <= now_ns and (self.end_ns is None or now_ns <= self.end_ns)
 
     def over(self, now_ns: int) -> bool:
         return self.end_ns is not None and now_ns > self.end_ns
-
-
-@dataclass
-class _Wrench(_Job):
-    force: Vec3  # on the centre of mass, world axes
-    torque: Vec3
-
-    def apply(self) -> None:
-        self.target.set_force(self.force)
-        self.target.set_torque(self.torque)
-
-
-@dataclass
-class _Effort(_Job):
-    effort: float
-
-    def apply(self) -> None:
-        self.target.add_force(self.effort)
 
 
 class ForceJobs:
@@ -54,8 +36,8 @@ class ForceJobs:
 
     def __init__(self, server: Server):
         self._server = server
-        self._wrenches: List[_Wrench] = []
-        self._efforts: List[_Effort] = []
+        self._wrenches: List[_Job] = []
+        self._efforts: List[_Job] = []
         server.before_step(self._on_step)
         server.world.on_remove.append(self._forget)
         advertise(server, "apply_body_wrench", ApplyBodyWrench, self._apply_body_wrench)
@@ -69,14 +51,14 @@ class ForceJobs:
             for jobs in (self._wrenches, self._efforts):
                 for job in jobs:
                     if job.active(now_ns):
-                        job.apply()
+                        job.act()
                 jobs[:] = [job for job in jobs if not job.over(now_ns)]
 
     def _forget(self, model) -> None:
         for jobs in (self._wrenches, self._efforts):
             jobs[:] = [job for job in jobs if job.target.model is not model]
 
-    def _times(self, request) -> tuple:
+    def _times(self, request) -> Tuple[int, Optional[int]]:
         """(start_ns, end_ns) of a request; a start in the past is now."""
         start_ns = max(request.start_time.to_nsec(), self._server.now().to_nsec())
         duration_ns = request.duration.to_nsec()
@@ -95,7 +77,11 @@ class ForceJobs:
             x_wf, x_wl = frame.pose, link.pose
             force, torque = math3.rotate(x_wf, force), math3.rotate(x_wf, torque)
             torque = math3.add(torque, math3.cross(math3.sub(x_wf.p, x_wl.p), force))
-        self._wrenches.append(_Wrench(link, *self._times(request), force, torque))
+
+        def act() -> None:  # on the centre of mass, world axes
+            link.set_force(force)
+            link.set_torque(torque)
+        self._wrenches.append(_Job(link, *self._times(request), act))
         return ""
 
     def _apply_joint_effort(self, request, response) -> str:
@@ -103,7 +89,7 @@ class ForceJobs:
         if joint is None:
             raise Refused(f"joint '{request.joint_name}' not found")
         finite("effort", request.effort)
-        self._efforts.append(_Effort(joint, *self._times(request), request.effort))
+        self._efforts.append(_Job(joint, *self._times(request), lambda: joint.add_force(request.effort)))
         return "ApplyJointEffort: effort set"
 
     def _clear_body_wrenches(self, request, response) -> None:

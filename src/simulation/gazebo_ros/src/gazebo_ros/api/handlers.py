@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any, Callable, Iterable
+from typing import Any, Callable, Iterable, Optional
 
 import rospy
 
@@ -13,13 +13,14 @@ class Refused(ValueError):
     """The request cannot be met; the text says why and what to do."""
 
 
-def advertise(server: Server, name: str, service: type, f: Callable[[Any, Any], str],
+def advertise(server: Server, name: str, service: Any, f: Callable[[Any, Any], Optional[str]],
               in_physics_thread: bool = True, prefix: str = "") -> rospy.Service:
-    """Offer ``~name``. ``f(request, response)`` fills the response and returns the status line.
+    """Offer ``~name``. ``f(request, response)`` fills the response and returns the status line, if there is one.
 
     A :class:`Refused`, or the ``ValueError`` by which ode_sim refuses a value, becomes ``success=false``; so does what
     nobody foresaw, with an ERROR line. Responses without a ``success`` field cannot say it, so it is logged instead.
 
+    :param service: class of the service, as in ``std_srvs.srv.Empty``
     :param prefix: begins the status line of a failure; by default the service's name in camel case
     """
     prefix = prefix or "".join(word.capitalize() for word in name.split("_"))

@@ -21,7 +21,7 @@ class MetricsPublisher:
         self._sim_ns = server.world.time_ns
         self._counts: Dict[str, int] = {}
         server.after_step(self._on_step)
-        server.stepped.connect(self._elapsed)  # a pause is no slow simulation
+        server.stepped.connect(self._restart)  # a pause is no slow simulation
 
     def _on_step(self) -> None:
         if self._publisher.impl.connections and time.monotonic_ns() - self._wall_ns >= _PERIOD_NS:
@@ -40,6 +40,9 @@ class MetricsPublisher:
                 f"{self._server.description.name}::{sensor.scoped_name}", count / sim if sim > 0 else 0.0, rate,
                 rate if sensor.type in _RENDERED else -1.0))
         self._publisher.publish(message)
+
+    def _restart(self) -> None:
+        self._elapsed()
 
     def _elapsed(self) -> Tuple[float, float]:
         """(wall, sim) seconds since the last call."""

@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any, Dict
+from typing import Any, Dict, Optional
 
 import rospy
 from dynamic_parameters import Parameter, Server as ParameterServer
@@ -46,7 +46,7 @@ class PhysicsServices:
         self._server = server
         self._world = server.world
         self._auto_disable = False
-        self._parameters = None
+        self._parameters: Optional[ParameterServer] = None
         advertise(server, "get_physics_properties", GetPhysicsProperties, self._get)
         advertise(server, "set_physics_properties", SetPhysicsProperties, self._set, in_physics_thread=False)
 

@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import struct
-from typing import Any, Iterable, Tuple
+from typing import Any, Iterable, List, Tuple
 
 import rospy
 from gazebo_msgs.msg import LinkStates, ModelStates
@@ -16,7 +16,9 @@ class _Serialized:
 
     def set(self, entries: Iterable[Tuple[bytes, Any]]) -> None:
         """:param entries: (name, model or link handle)"""
-        names, poses, twists = [], [], []
+        names: List[bytes] = []
+        poses: List[float] = []
+        twists: List[float] = []
         for name, entity in entries:
             names.append(struct.pack("<I", len(name)) + name)
             pose = entity.pose

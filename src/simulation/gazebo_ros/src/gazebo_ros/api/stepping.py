@@ -1,6 +1,8 @@
 """Pause, single steps and resets."""
 from __future__ import annotations
 
+from typing import Any, Callable
+
 from std_srvs.srv import Empty
 
 from gazebo_ros.api.handlers import Refused, advertise
@@ -14,8 +16,12 @@ class SteppingServices:
         for name, f in (("pause_physics", server.pause), ("unpause_physics", server.unpause),
                         ("reset_world", server.reset_world), ("reset_simulation", server.reset_simulation),
                         ("reset_time", server.reset_time)):
-            advertise(server, name, Empty, lambda request, response, f=f: f())
+            advertise(server, name, Empty, self._calling(f))
         advertise(server, "step", StepWorld, self._step, in_physics_thread=False)
+
+    @staticmethod
+    def _calling(f: Callable[[], None]) -> Callable[[Any, Any], None]:
+        return lambda request, response: f()
 
     def _step(self, request, response) -> str:
         """Answers when the last step is done."""

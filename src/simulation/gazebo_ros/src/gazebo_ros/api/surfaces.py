@@ -51,9 +51,9 @@ class SurfaceServices:
             entity = self._world.find_link(scope) if scope else None
         if not isinstance(entity, (ModelHandle, LinkHandle)):
             raise Refused(f"there is no model, link or visual [{request.name}]")
-        links = entity.links.values() if isinstance(entity, ModelHandle) else [entity]
+        links = list(entity.links.values()) if isinstance(entity, ModelHandle) else [entity]
         painted = sum(paint(link, (c.r, c.g, c.b, c.a), visual) for link in links)
         if not painted:
             raise Refused(f"[{request.name}] has nothing to see" if not visual else
-                          f"{entity.scoped_name} has no visual '{visual}'")
+                          f"{links[0].scoped_name} has no visual '{visual}'")
         return f"SetVisual: {painted} visuals"
