@@ -37,6 +37,14 @@ void show_to_all()
   }
 }
 
+/// Gazebo's process has tf, by its own ROS plugin; those who use it often forget to link it.
+void share_tf()
+{
+  for (const char* name : { "libtf.so.1d", "libtf.so" })
+    if (dlopen(name, RTLD_LAZY | RTLD_GLOBAL))
+      return;
+}
+
 void start(std::uintptr_t core, const std::string& name, const std::string& text, double update_rate, const Numbers& magnetic_field,
            const Numbers& place)
 {
@@ -90,6 +98,7 @@ PYBIND11_MODULE(_core, m)
   m.doc() = "Gazebo Classic's C++ API over a simulated world: the mirror of its models, and compiled plugins.";
   show_to_all();
   m.def("start", &start, Free());
+  m.def("share_tf", &share_tf, Free());
   m.def("stop", [] { Mirror::Get().Stop(); }, Free());
   m.def("set_host", &set_host);
   m.def("set_reporter", &gazebo::internal::SetReporter);

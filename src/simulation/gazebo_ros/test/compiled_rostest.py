@@ -71,6 +71,15 @@ class CompiledTest(Case):
         self.step_until(lambda: self.sim.joint("elbow").rate[0] > 0.1)
         effort.unregister()
 
+    def test_private_parameters_are_those_of_the_simulator(self):
+        rospy.set_param("/gazebo/worker_effort", 0.5)
+        try:
+            self.spawn_arm()
+            self.sim.step(400)
+            self.assertAlmostEqual(self.sim.joint("elbow").rate[0], 0.4, delta=1e-3)
+        finally:
+            rospy.delete_param("/gazebo/worker_effort")
+
     def test_model_plugin_pushes_and_moves_its_model(self):
         self.done(self.sim.spawn("box", BOX))
         self.sim.step(100)

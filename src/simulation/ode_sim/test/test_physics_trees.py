@@ -70,8 +70,8 @@ def test_a_base_on_sixty_rollers_stands():
     assert rover.world.core.counters.trees > 0 and rover.world.core.counters.quick == 0 and not rover.world.messages
 
 
-@pytest.mark.parametrize("speeds, motion", [((4, 4, 4, 4), (1, 0, 0)), ((-4, 4, 4, -4), (0, 1, 0)), ((-4, 4, -4, 4), (0, 0, 1 / (2 * HALF)))],
-                         ids=["ahead", "left", "round"])
+@pytest.mark.parametrize("speeds, motion", [((4, 4, 4, 4), (1, 0, 0)), ((-4, 4, 4, -4), (0, 1, 0)),
+                                            ((-4, 4, -4, 4), (0, 0, 1 / (2 * HALF)))], ids=["ahead", "left", "round"])
 def test_it_goes_where_its_wheels_take_it(speeds, motion):
     rover = Rover()
     rover.turn(speeds)

@@ -24,21 +24,31 @@ __all__ = ["set_time", "start_roscpp", "why_not"]
 
 _starting = threading.Lock()
 _clock: Optional[bool] = None
+_name = ""  # of roscpp's node
 
 
 def start_roscpp() -> bool:
     """Make sure that compiled code finds roscpp running, and that what it does wrong is named.
 
+    What is set now among rospy's private parameters is there for roscpp's node as well: ``~`` is another name to it.
+
     :return: whether its clock is to be moved by ``set_time``: this is so under simulated time, in a node of rospy.
     """
-    global _clock
+    global _clock, _name
     with _starting:
         if _clock is None:
             simulated = rospy.rostime.is_wallclock() is False
             name = rospy.get_name().rpartition("/")[2] + "_compiled"
             words = dict(rospy.names.get_mappings(), __ns=rospy.get_namespace())
-            made = _core.start(name, words, rospy.get_time() if simulated else -1.0)
+            made = _name = _core.start(name, words, rospy.get_time() if simulated else -1.0)
             _core.watch()
             atexit.register(_core.stop)
             _clock = simulated and made.rpartition("/")[2] == name
+        _share_parameters()
         return _clock
+
+
+def _share_parameters() -> None:
+    private = rospy.get_param(rospy.get_name(), None)
+    if isinstance(private, dict) and private and _name != rospy.get_name():
+        rospy.set_param(_name, private)

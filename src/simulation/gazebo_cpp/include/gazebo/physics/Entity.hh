@@ -5,6 +5,7 @@
 #include <ignition/math/Pose3.hh>
 #include <ignition/math/Vector3.hh>
 
+#include <gazebo/msgs/msgs.hh>
 #include <gazebo/physics/Base.hh>
 
 namespace gazebo

@@ -11,6 +11,7 @@
 #include <gazebo/common/SphericalCoordinates.hh>
 #include <gazebo/common/Time.hh>
 #include <gazebo/common/UpdateInfo.hh>
+#include <gazebo/msgs/msgs.hh>
 #include <gazebo/physics/Base.hh>
 #include <gazebo/physics/PhysicsTypes.hh>
 

@@ -11,6 +11,7 @@
 #include <boost/thread/mutex.hpp>
 
 #include <gazebo/common/Time.hh>
+#include <gazebo/msgs/msgs.hh>
 #include <gazebo/transport/Publisher.hh>
 #include <gazebo/transport/Subscriber.hh>
 
