@@ -157,7 +157,7 @@ def clean(tree: Path) -> None:
 #: Folders of a package that are not installed as they stand: tests, C++ sources, what CMake and catkin handle.
 _NOT_INSTALLED = {"test", "core", "bindings", "osmesa", "env-hooks", "cmake", "include", "docs", "rosdep"}
 #: What a compiler takes; headers in include/ are CMake's business.
-_COMPILED = {".c", ".cc", ".cpp", ".cxx", ".h", ".hpp"}
+_COMPILED = {".c", ".cc", ".cpp", ".cxx", ".h", ".hh", ".hpp", ".proto"}
 
 
 def not_installed(sources: Path, tree: Path) -> List[str]:
