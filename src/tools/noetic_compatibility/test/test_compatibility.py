@@ -39,6 +39,16 @@ def package(tmp_path):
     return make
 
 
+def test_headers_of_packages_that_are_not_declared_are_found(package):
+    """All of Noetic's headers lie in one folder: sources include what their package.xml does not name."""
+    ended = package("moveit_ros_planning_interface", """
+        #include <moveit/move_group_interface/move_group_interface.h>
+        #include <moveit_visual_tools/moveit_visual_tools.h>
+        #include <controller_interface/controller.h>
+    """)
+    assert ended.returncode == 0, ended.stdout
+
+
 @pytest.mark.parametrize("standard", ["", "add_compile_options(-std=c++11)"])
 def test_old_sources_build(package, standard):
     """Placeholders without namespace, an undeclared package's messages, headers under their names of before 2018."""
