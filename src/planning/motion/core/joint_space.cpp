@@ -106,6 +106,9 @@ std::vector<std::string> JointSpace::setProjection(const std::string& text)
     for (const std::string& joint : names)
     {
       const auto found = std::find(group_.variable_names.begin(), group_.variable_names.end(), joint);
+      const JointModel* other = model_->findJoint(joint);
+      if (found == group_.variable_names.end() && other && other->mimic >= 0)
+        continue;  // it follows one that may be named as well
       if (found == group_.variable_names.end())
         problems.push_back(is + "names '" + joint + "', which is no joint of group '" + group_.name + "': left out");
       else

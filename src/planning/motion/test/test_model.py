@@ -135,6 +135,13 @@ def test_defaults_mimic_and_passive(hand):
     assert hand.joint("a_right").passive and hand.joint("a_right").mimic == ("b_left", -2.0, -0.001)
 
 
+def test_a_projection_may_name_what_follows(hand):
+    goal = motion.joint_goal(hand, "fingers", [0.03])
+    asked = motion.MotionRequest("fingers", goals=[goal], seed=1, projection="joints(b_left,a_right)", planner="KPIECE")
+    result = motion.plan(motion.PlanningScene(hand), asked)
+    assert result and result.warnings == []
+
+
 def test_joint_limits_yaml_wins_over_the_urdf():
     limits = {
         "lift": {
