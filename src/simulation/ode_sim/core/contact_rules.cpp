@@ -42,7 +42,9 @@ Hardness contact_hardness(const Surface& a, const Surface& b, const Touch& touch
   if (g > 0) fastest = std::min(fastest, std::max(comes_back, 0.01));
   if (depth > kDeep && touch.one_is_fixed && -touch.outwards > 0.7 * g)
     fastest = std::max(fastest, 0.9 * std::sqrt(2 * g * (depth - kDeep)));
-  const double pressed_in = kp > 0 && touch.inverse_mass > 0 ? g / (touch.inverse_mass * kp) : 0;
+  double pressed_in = kp > 0 && touch.inverse_mass > 0 ? g / (touch.inverse_mass * kp) : 0;
+  // A soft spring that was put in deeper pushes no more than it is to: each of several would carry the weight, and throw it.
+  if (touch.depth > kDeep && touch.leaving > 0 && pressed_in > kSlack) pressed_in *= std::max(1 - touch.leaving / fastest, 0.0);
   if (out.soft_erp > 0) depth = std::min(depth, fastest * set.dt / out.soft_erp + pressed_in);
   out.depth = depth;
   return out;

@@ -12,6 +12,7 @@ struct Touch {
   int merged = 1;           // contacts that it stands for
   double inverse_mass = 0;  // 1/kg, sum over the models that are not static
   bool one_is_fixed = false;  // of the two models, exactly one is static
+  double leaving = 0;  // m/s, how fast they part already
   double outwards = 0;  // m/s^2, gravity along the normal out of the static one: negative as on a floor
 };
 

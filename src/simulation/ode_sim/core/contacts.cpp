@@ -31,6 +31,7 @@ void set_hardness(const Settings& set, Contact& c, dContact& d) {
     if (!m->is_static) touch.inverse_mass += 1 / m->mass;
   touch.one_is_fixed = a.is_static != b.is_static;
   touch.outwards = a.is_static ? -dot(c.normal, set.gravity) : dot(c.normal, set.gravity);
+  touch.leaving = dot(c.normal, c.a->link->velocity_at(c.pos) - c.b->link->velocity_at(c.pos));
   const Hardness hard = contact_hardness(c.a->surface, c.b->surface, touch,
                                          {set.dt, set.erp, set.contact_softness, set.contact_max_vel, norm(set.gravity), set.like_gazebo});
   d.surface.mode = dContactMu2 | dContactSoftERP | dContactSoftCFM | dContactApprox1 | dContactFDir1 | dContactBounce |

@@ -90,6 +90,21 @@ TEST(ContactHardness, WhatWasPutDeepIntoTheFloorComesOutAsGravityWouldBringItBac
   EXPECT_NEAR(contact_hardness({}, {}, wall, set).depth, 0.01 * set.dt, 1e-4);
 }
 
+TEST(ContactHardness, ASoftSpringPutInDeeplyPushesNoFasterThanItIsTo) {
+  Surface soft;
+  soft.kp = 1e4, soft.max_vel = 1;
+  const HardnessSettings set;
+  Touch touch = on_floor(0.05);
+  const double still = contact_hardness(soft, {}, touch, set).depth;
+  touch.leaving = 0.5;
+  const double rising = contact_hardness(soft, {}, touch, set).depth;
+  touch.leaving = 5;
+  const Hardness flying = contact_hardness(soft, {}, touch, set);
+  EXPECT_GT(still, rising);
+  EXPECT_GT(rising, flying.depth);
+  EXPECT_NEAR(flying.depth * flying.soft_erp / set.dt, 0.9 * std::sqrt(2 * 9.8 * (0.05 - 2e-5 - 0.01)), 1e-3);
+}
+
 TEST(ContactHardness, AMergedContactIsAsHardAsThoseThatItStandsFor) {
   Touch merged = on_floor(0);
   merged.merged = 3;
