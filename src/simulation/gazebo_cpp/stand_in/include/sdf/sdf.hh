@@ -1,0 +1,12 @@
+#pragma once
+#include <sdf/Assert.hh>
+#include <sdf/Console.hh>
+#include <sdf/Element.hh>
+#include <sdf/Error.hh>
+#include <sdf/Exception.hh>
+#include <sdf/Param.hh>
+#include <sdf/SDFImpl.hh>
+#include <sdf/Types.hh>
+#include <sdf/parser.hh>
+#include <sdf/sdf_config.h>
+#include <sdf/system_util.hh>

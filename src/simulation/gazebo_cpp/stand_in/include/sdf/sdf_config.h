@@ -1,0 +1,9 @@
+#pragma once
+
+#define SDF_MAJOR_VERSION 12
+#define SDF_MINOR_VERSION 3
+#define SDF_PATCH_VERSION 0
+#define SDF_VERSION_FULL "12.3.0"
+#define SDF_VERSION "1.9"
+#define SDF_PROTOCOL_VERSION "1.9"
+#define SDF_VERSION_NAMESPACE v12
