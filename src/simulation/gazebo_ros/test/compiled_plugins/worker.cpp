@@ -24,7 +24,7 @@ public:
     joint_ = model->GetJoint("elbow");
     link_ = model->GetLink("tip");
     effort_ = sdf->Get<double>("effort", 0.0).first;
-    ros::NodeHandle("~").getParam("worker_effort", effort_);
+    effort_ = ros::NodeHandle("~").param("worker_effort", effort_.load());
     force_ = sdf->Get<ignition::math::Vector3d>("force");
     ros::NodeHandle nh(sdf->Get<std::string>("robotNamespace", model->GetName()).first);
     seen_ = nh.advertise<geometry_msgs::PointStamped>("seen", 10);
