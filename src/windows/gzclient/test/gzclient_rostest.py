@@ -83,11 +83,10 @@ class Stream(unittest.TestCase):
         self.frame(lambda frame: not frame.paused and frame.iterations > before + 100 and frame.real_time_factor > 0.0)
 
     def test_what_comes_and_goes_is_another_revision(self):
-        before = self.simulation.describe().revision
         still = "<sdf version='1.6'><model name='x'><static>1</static><link name='l'/></model></sdf>"
         self.simulation.insert("extra", still, Pose((9.0, 9.0, 1.0)))
-        frame = self.frame(lambda frame: frame.revision != before)
         record = self.simulation.describe()
+        frame = self.frame(lambda frame: frame.revision == record.revision)  # a frame of before lacks the row
         self.assertEqual(record.model("extra").pose(frame).p, (9.0, 9.0, 1.0))
         with self.assertRaisesRegex(Refused, "already exists"):
             self.simulation.insert("extra", "<sdf version='1.6'><model name='x'><link name='l'/></model></sdf>", Pose())

@@ -59,6 +59,9 @@ def test_topic(gui):
     gui.plugin.publish()
     gui.plugin.set_topic("/base/cmd_vel")
     assert gui.plugin._publisher.name == "/base/cmd_vel"
+    kept = gui.plugin._publisher
+    gui.plugin.set_topic("/base/cmd_vel")
+    assert gui.plugin._publisher is kept
 
 
 def test_closing_stops_the_robot():

@@ -33,10 +33,16 @@ class RobotSteering(Plugin):
         return self._widget
 
     def set_topic(self, topic: str) -> None:
-        """A name that cannot be one is marked, and nothing is published."""
-        self._unregister()
+        """A name that cannot be one is marked, and nothing is published.
+
+        The same name keeps its publisher: Enter and the loss of the focus both end an edit, and a second publisher would
+        break the connection that a robot is just making to the first.
+        """
         legal = bool(topic) and rosgraph.names.is_legal_name(topic)
         self._widget.mark_topic(legal)
+        if legal and self._publisher is not None and self._publisher.resolved_name == rospy.resolve_name(topic):
+            return
+        self._unregister()
         if legal:
             self._publisher = rospy.Publisher(topic, Twist, queue_size=10)
 
