@@ -5,9 +5,11 @@
 #include <QGuiApplication>
 #include <QInputDialog>
 #include <QProgressBar>
+#include <QProxyStyle>
 #include <QScreen>
 #include <QScrollArea>
 #include <QScrollBar>
+#include <QTabBar>
 #include <QVBoxLayout>
 
 #include "context_tab.hpp"
@@ -40,6 +42,14 @@ class Page : public QScrollArea {
         .boundedTo(QSize(static_cast<int>(WIDTH_SHARE * screen.width()), static_cast<int>(HEIGHT_SHARE * screen.height())));
   }
 };
+
+// Eight tabs are more than a narrow panel has room for: little beside their words.
+class NarrowTabs : public QProxyStyle {
+ public:
+  int pixelMetric(PixelMetric metric, const QStyleOption* option, const QWidget* widget) const override {
+    return metric == PM_TabBarTabHSpace ? 10 : QProxyStyle::pixelMetric(metric, option, widget);
+  }
+};
 }  // namespace
 
 Dock::Dock(MotionPlanningDisplay* display, QWidget* parent) : QWidget(parent), display_(display) {
@@ -47,6 +57,9 @@ Dock::Dock(MotionPlanningDisplay* display, QWidget* parent) : QWidget(parent), d
   tabs_ = new QTabWidget;
   tabs_->setObjectName("tabWidget");
   tabs_->setElideMode(Qt::ElideRight);  // all of them are to be seen before any is scrolled away
+  auto* narrow = new NarrowTabs;
+  narrow->setParent(this);
+  tabs_->tabBar()->setStyle(narrow);
   const auto add = [this](auto* tab, const QString& title) {
     all_.push_back(tab);
     tabs_->setTabToolTip(tabs_->addTab(new Page(tab), title), title);
