@@ -42,7 +42,8 @@ class Robot:
             self.sim.add(mode.__name__, mode(self.joint, handle, limits, *more))
 
     def seen(self):
-        return [(self.sim.mode.handle.command, self.state.position, self.state.velocity, self.state.effort, self.joint.core.drive_mode,
+        commanded_effort = None if self.sim.mode.bears else self.state.effort
+        return [(self.sim.mode.handle.command, self.state.position, self.state.velocity, commanded_effort, self.joint.core.drive_mode,
                  self.joint.core.drive_target, self.joint.motor(), self.joint.effort())]
 
 
@@ -99,3 +100,41 @@ def test_the_core_does_what_the_modes_do(hard, soft):
         by_hand.world.step()
         wired.world.step()
     assert wired.world.link_poses.tobytes() == by_hand.world.link_poses.tobytes()
+
+
+CRANE = """<robot name="crane"><link name="world"/>
+<link name="boom"><inertial><origin xyz="0.5 0 0"/><mass value="2"/>
+<inertia ixx="0.1" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.1"/></inertial></link>
+<link name="hook"><inertial><mass value="3"/><inertia ixx="0.1" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.1"/></inertial></link>
+<joint name="luff" type="revolute"><parent link="world"/><child link="boom"/><axis xyz="0 1 0"/>
+<limit lower="-2" upper="2" effort="90" velocity="4"/></joint>
+<joint name="lift" type="prismatic"><parent link="boom"/><child link="hook"/><origin xyz="1 0 0"/><axis xyz="0 0 1"/>
+<limit lower="-1" upper="1" effort="90" velocity="4"/></joint></robot>"""
+GRAVITY = 9.8  # of a world that says nothing else
+
+
+@pytest.mark.parametrize("lifting", [PositionMode, VelocityMode])
+def test_a_robot_that_holds_itself_up_reports_what_its_joints_bear(lifting):
+    world = ode_sim.World()
+    model = world.spawn_urdf(CRANE)
+    sims = {}
+    for name, mode in (("luff", PositionMode), ("lift", lifting)):
+        sim = sims[name] = JointSim(model.joints[name], JointStateHandle(name))
+        handle = JointHandle(sim.state, 0.0)
+        limits = MODES[mode][0](handle, HARD)
+        sim.add(mode.__name__, mode(sim.joint, handle, limits, *(() if mode is PositionMode else (HARD.max_effort * 10,))))
+    wiring = Wiring(sims.values())
+    for step in range(1500):
+        wiring.read()
+        sims["luff"].mode.handle.command = -0.6 * min(step * DT, 1.0)  # the boom rises
+        sims["lift"].mode.handle.command = 0.0
+        wiring.write(DT)
+        world.step()
+    wiring.read()
+    reach = math.cos(0.6) - math.sin(0.6) * sims["lift"].state.position  # m, of the hook; a motor that keeps a speed has sagged a little
+    assert sims["luff"].state.effort == pytest.approx(-(2 * 0.5 * math.cos(0.6) + 3 * reach) * GRAVITY, rel=1e-6)
+    assert sims["lift"].state.effort == pytest.approx(3 * math.cos(0.6) * GRAVITY, rel=1e-6)
+    sims["luff"].add("EffortMode", EffortMode(sims["luff"].joint, JointHandle(sims["luff"].state, 0.0),
+                                              EffortJointSaturationHandle(JointHandle(sims["luff"].state, 0.0), HARD), 90.0))
+    sims["luff"].switch("EffortMode")
+    assert sims["luff"].state.effort == 0.0

@@ -8,12 +8,18 @@ namespace ode_sim {
 
 namespace {
 
-void momentum(const Load& load, Vec3& linear, Vec3& spin) {
+// Once for each link, however many joints bear it.
+void find_momentum(const Link& l, LinkStep& step) {
+  step.momentum = l.velocity_at(l.com_W()) * l.mass;
+  step.spin = rotate(l.X_WL.q, l.inertia * rotate(conjugate(l.X_WL.q), l.w));
+}
+
+void momentum(const StepState& state, const Load& load, Vec3& linear, Vec3& spin) {
   linear = spin = {};
   for (const Link* l : load.links) {
-    const Vec3 p = l->velocity_at(l->com_W()) * l->mass;
-    linear += p;
-    spin += rotate(l->X_WL.q, l->inertia * rotate(conjugate(l->X_WL.q), l->w)) + cross(l->com_W() - load.anchor, p);
+    const LinkStep& step = state.of(*l);
+    linear += step.momentum;
+    spin += step.spin + cross(l->com_W() - load.anchor, step.momentum);
   }
 }
 
@@ -23,13 +29,15 @@ Load load_beyond(const Scene& scene, StepState& state, Joint& j) {
   load.links = links_beyond(j, &loop);
   if (loop) load.links.clear();
   load.anchor = j.frame_W().p;
-  momentum(load, load.momentum, load.spin);
   for (Link* l : load.links) {
-    state.of(*l).weighed = true;
+    LinkStep& step = state.of(*l);
+    if (!step.weighed) find_momentum(*l, step);
+    step.weighed = true;
     const Vec3 f = (l->gravity ? scene.settings.gravity * l->mass : Vec3{}) + l->force;
     load.force += f;
     load.torque += cross(l->com_W() - load.anchor, f) + l->torque;
   }
+  momentum(state, load, load.momentum, load.spin);
   return load;
 }
 
@@ -58,7 +66,7 @@ void read_load(const Scene& scene, const StepState& state, Joint& j, const Load&
   j.feedback = {};
   if (load.links.empty()) return;
   Vec3 linear, spin, force = load.force, torque = load.torque;
-  momentum(load, linear, spin);
+  momentum(state, load, linear, spin);
   add_outer_forces(scene, state, load, force, torque);
   force = -force;
   torque = -torque;
@@ -82,7 +90,11 @@ void weigh(const Scene& scene, StepState& state, Model& model) {
 }
 
 // ... and after it.
-void read_loads(const Scene& scene, const StepState& state) {
+void read_loads(const Scene& scene, StepState& state) {
+  if (state.loads.empty()) return;
+  for (auto& m : scene.models)
+    for (auto& l : m->links)
+      if (state.of(*l).weighed) find_momentum(*l, state.of(*l));
   for (auto& [joint, load] : state.loads)
     if (joint->drive == DriveMode::Locked) read_load(scene, state, *joint, load);
 }

@@ -39,6 +39,7 @@ void bind_wiring(py::module_& m) {
       })
       .def("add_command", &add_command)
       .def("set_working", &Wiring::set_working)
+      .def("report_load", &Wiring::report_load)
       .def("previous", &Wiring::previous)
       .def("set_previous", &Wiring::set_previous)
       .def("read", &Wiring::read)

@@ -77,7 +77,7 @@ void guard_numbers(Scene& scene, StepState& state);
 
 // loads.cpp: forces of joints that ODE does not have
 void weigh(const Scene& scene, StepState& state, Model& model);
-void read_loads(const Scene& scene, const StepState& state);
+void read_loads(const Scene& scene, StepState& state);
 
 // results.cpp: from the bodies to the links, from the links to whoever looks
 void pull(Scene& scene, bool drives = true);

@@ -17,6 +17,7 @@ struct Accelerations {
 struct LinkStep {
   bool weighed = false;  // part of some load: forces of its contacts are wanted
   int node = -1;         // of the island search, where it has a kinematic body
+  Vec3 momentum, spin;   // of a weighed link; angular momentum about its CoM
   Accelerations own;     // of the link origin
 };
 

@@ -9,6 +9,12 @@ namespace ode_sim {
 
 namespace {
 
+// Force or torque along the axis that the joint gave to its child in the last step.
+double load_along_axis(const Joint& joint) {
+  const Vec3 axis = rotate(joint.frame_W().q, joint.axes[0].xyz);
+  return dot(axis, joint.type == JointType::Prismatic ? joint.feedback.child_force : joint.feedback.child_torque);
+}
+
 double saturated(double v, double low, double high) { return v < low ? low : v > high ? high : v; }
 
 }  // namespace
@@ -80,9 +86,10 @@ int Wiring::add_command(int joint, const Command& command) {
 }
 
 void Wiring::read() {
-  for (auto& [joint, places] : joints_) {
+  for (auto& [joint, places, by_load] : joints_) {
     *places.position = joint->axes[0].q;
     *places.velocity = joint->axes[0].qd;
+    if (by_load && places.effort) *places.effort = load_along_axis(*joint);
   }
 }
 

@@ -44,6 +44,8 @@ class Wiring {
   int add_joint(std::shared_ptr<Joint> joint, const Places& places);
   int add_command(int joint, const Command& command);  // its number; it rests until it is set to work
   void set_working(int command, bool on) { commands_.at(command).working = on; }
+  // Whether the effort of a joint is what its drive or motor bears. The joint must be watched.
+  void report_load(int joint, bool on) { joints_.at(joint).by_load = on; }
   // The command before, from which the next one starts; NaN: the measured position.
   double previous(int command) const { return commands_.at(command).previous; }
   void set_previous(int command, double value) { commands_.at(command).previous = value; }
@@ -55,6 +57,7 @@ class Wiring {
   struct Wired {
     std::shared_ptr<Joint> joint;
     Places places;
+    bool by_load = false;
   };
   struct Working : Command {
     int joint = 0;

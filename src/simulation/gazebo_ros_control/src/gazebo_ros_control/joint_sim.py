@@ -19,6 +19,8 @@ class Mode:
 
     #: Whether wiring.py may do what ``write`` does.
     wired = False
+    #: Whether the joint's effort is the load that its drive or motor bears, not a command.
+    bears = False
     effort_limit = math.inf
 
     def __init__(self, joint, handle: JointHandle, limits):
@@ -78,7 +80,7 @@ class PositionMode(Mode):
 
     __slots__ = ("_frozen",)
 
-    wired = True
+    wired = bears = True
 
     def __init__(self, joint, handle: JointHandle, limits):
         super().__init__(joint, handle, limits)
@@ -119,6 +121,8 @@ class _ByPid:
 
     __slots__ = ()
 
+    bears = False
+
     def enter(self) -> None:
         super().enter()
         self._pid.reset()
@@ -156,7 +160,7 @@ class VelocityMode(Mode):
 
     __slots__ = ("effort_limit",)
 
-    wired = True
+    wired = bears = True
 
     def __init__(self, joint, handle: JointHandle, limits, effort_limit: float):
         super().__init__(joint, handle, limits)
@@ -164,6 +168,7 @@ class VelocityMode(Mode):
 
     def leave(self) -> None:
         self.joint.set_motor(0.0, 0.0)
+        self.state.effort = 0.0
 
     def target(self, dt: float) -> float:
         """The velocity to have."""

@@ -19,11 +19,13 @@ class Wiring:
         self._numbers: Dict[Mode, int] = {}
         self._by_hand: Tuple[JointSim, ...] = ()  # whose mode writes for itself
         self._stopped = False
-        self.read = self._core.read  #: positions and velocities into the states
+        self.read = self._core.read  #: positions, velocities and what drives bear, into the states
         self._write = self._core.write
-        for sim in self._sims:
-            joint = self._core.add_joint(sim.joint.core, *addresses(sim.state)[:3])
+        self._joints = [self._core.add_joint(sim.joint.core, *addresses(sim.state)[:3]) for sim in self._sims]
+        for joint, sim in zip(self._joints, self._sims):
             for mode in sim.modes.values():
+                if mode.bears:
+                    sim.joint.core.watch()
                 if mode.wired:
                     self._add(joint, mode)
         self.reset()
@@ -41,7 +43,8 @@ class Wiring:
         for number in self._numbers.values():
             self._core.set_working(number, False)
         by_hand = []
-        for sim in self._sims:
+        for joint, sim in zip(self._joints, self._sims):
+            self._core.report_load(joint, sim.mode is not None and sim.mode.bears)
             number = self._numbers.get(sim.mode)
             if number is None or self._stopped:
                 by_hand.append(sim)
