@@ -130,6 +130,24 @@ def test_elements_of_a_hand_written_srdf_survive(package):
         assert kept in text
 
 
+def test_an_srdf_of_macros_is_read_and_kept(package):
+    """As panda_moveit_config has it."""
+    srdf, marker = package / "config" / "small.srdf", package / ".setup_assistant"
+    text = srdf.read_text().replace('name="home"', 'name="$(arg pose)"').replace(
+        '<robot name="small">', '<robot name="small" xmlns:xacro="http://ros.org/wiki/xacro"><xacro:arg name="pose" default="home"/>')
+    (package / "config" / "small.srdf.xacro").write_text(text)
+    srdf.unlink()
+    marker.write_text(marker.read_text().replace("config/small.srdf", "config/small.srdf.xacro"))
+    controllers = package / "config" / "ros_controllers.yaml"
+    controllers.write_text(controllers.read_text().replace("- turn", "- $(arg prefix)turn"))  # filled in when it is launched
+    config = Configuration.load(package)
+    assert not config.problems()
+    assert [group.name for group in config.semantics.groups] == ["arm", "wing", "all"]
+    assert config.semantics.group_states[0].name == "home"
+    file = next(file for file in package_writer.plan(config, package) if file.path == "config/small.srdf.xacro")
+    assert file.state is package_writer.State.HAND_MADE and not file.write
+
+
 @pytest.mark.parametrize("change, says", [
     (("chain: [base, inside]", "chain: [base, nowhere]"), "group 'arm' names the link 'nowhere'"),
     (("joints: [swinging]", "joints: [swing ing]"), "names the joint 'swing ing'"),
@@ -172,6 +190,14 @@ def test_a_folder_that_cannot_be_written(described, tmp_path):
         package_writer.write(made(described), tmp_path / "locked" / "config")
 
 
+def test_what_the_system_does_not_let_us_look_at_is_one_line(described, tmp_path):
+    too_long = tmp_path / ("a" * 300)
+    for refused in (lambda: package_writer.refuse_foreign(too_long), lambda: package_writer.plan(made(described), too_long),
+                    lambda: RobotSource.from_file(too_long), lambda: Configuration.load(too_long)):
+        with pytest.raises(AssistantError, match="cannot be read: File name too long"):
+            refused()
+
+
 def test_a_write_that_fails_in_the_middle_leaves_the_package_as_it_was(package, monkeypatch):
     config = Configuration.load(package)
     config.author_name = "Somebody Else"
@@ -191,7 +217,7 @@ def test_descriptions_that_cannot_be_used(described, tmp_path):
     with pytest.raises(AssistantError, match="there is no such file"):
         RobotSource.from_file(tmp_path / "none.urdf")
     (tmp_path / "broken.urdf").write_text("<robot name='x'><link></robot>")
-    with pytest.raises(AssistantError, match="broken.urdf' is no robot description"):
+    with pytest.raises(AssistantError, match="broken.urdf' is no robot description: .* line 1, column 24"):
         Configuration.new(RobotSource.from_file(tmp_path / "broken.urdf"))
     (tmp_path / "broken.xacro").write_text('<robot name="x" xmlns:xacro="http://ros.org/wiki/xacro"><link name="${nobody}"/></robot>')
     with pytest.raises(AssistantError, match="xacro cannot expand .*nobody"):

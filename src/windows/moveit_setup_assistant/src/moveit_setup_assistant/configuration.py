@@ -7,7 +7,7 @@ from typing import Any, Dict, List, Optional
 
 import yaml
 
-from moveit_setup_assistant.errors import AssistantError
+from moveit_setup_assistant.errors import AssistantError, files_told
 from moveit_setup_assistant.robot_source import Robot, RobotSource
 from moveit_setup_assistant.semantics import Semantics
 
@@ -18,6 +18,8 @@ SOLVERS = ("kdl_kinematics_plugin/KDLKinematicsPlugin", "lma_kinematics_plugin/L
 TRAJECTORY_TYPES = ("effort_controllers/JointTrajectoryController", "position_controllers/JointTrajectoryController",
                     "velocity_controllers/JointTrajectoryController")
 ACTION_TYPES = {"FollowJointTrajectory": "follow_joint_trajectory", "GripperCommand": "gripper_action"}
+
+SUBSTITUTED = "$("  # roslaunch fills such names in, with rosparam's subst_value
 
 
 @dataclass
@@ -95,6 +97,7 @@ class Configuration:
         return cls(source, robot, Semantics(robot.name), warnings=list(robot.warnings))
 
     @classmethod
+    @files_told()
     def load(cls, package: Path) -> "Configuration":
         """The configuration that a package of MoveIt's assistant, or of this one, holds.
 
@@ -109,7 +112,7 @@ class Configuration:
         srdf = (values.get("SRDF") or {}).get("relative_path") or ""
         made = cls.new(RobotSource(urdf.get("package") or "", urdf.get("relative_path") or "", str(urdf.get("xacro_args") or "")))
         made.srdf_path = srdf
-        made.semantics = Semantics.load(package / made.srdf_file)
+        made.semantics = Semantics.load(package / made.srdf_file, made.source.xacro_args)
         made.author_name, made.author_email = str(author.get("author_name") or ""), str(author.get("author_email") or "")
         made.generated_timestamp = written_at(package)
         made._load_yaml(package / "config")
@@ -165,8 +168,8 @@ class Configuration:
         joints = set(self.robot.model.joints)
         for controller in self.controllers:
             found += [f"controller '{controller.name}' names the joint '{joint}', which the robot does not have"
-                      for joint in controller.joints if joint not in joints]
-            if any(c.isspace() for c in controller.name) or not controller.name:
+                      for joint in controller.joints if joint not in joints and SUBSTITUTED not in joint]
+            if not controller.name or any(c.isspace() for c in controller.name) and SUBSTITUTED not in controller.name:
                 found.append(f"controller '{controller.name}' has a name with blanks, or none; use letters, digits and _")
         for group in self.semantics.groups:
             if not group.name or any(c.isspace() for c in group.name):

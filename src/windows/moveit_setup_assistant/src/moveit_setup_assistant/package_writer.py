@@ -16,7 +16,7 @@ import rospkg
 
 from moveit_setup_assistant import documents
 from moveit_setup_assistant.configuration import MARKER, Configuration
-from moveit_setup_assistant.errors import AssistantError
+from moveit_setup_assistant.errors import AssistantError, files_told
 
 HAND_MADE_AFTER = 10  # s after the package was written: a file changed later than this was changed by hand
 
@@ -97,6 +97,7 @@ def templates_folder() -> Path:
     return beside if beside.is_dir() else Path(rospkg.RosPack().get_path("moveit_setup_assistant")) / "templates"
 
 
+@files_told()
 def plan(config: Configuration, package: Path) -> List[PlannedFile]:
     """All files of the package, compared with those that ``package`` holds now.
 
@@ -161,6 +162,7 @@ def _move(staged: Path, package: Path, paths: List[str]) -> None:
         os.replace(staged / path, package / path)
 
 
+@files_told()
 def refuse_foreign(package: Path) -> None:
     """:raises AssistantError: ``package`` cannot become, or is not, a package of an assistant's."""
     if package.exists() and not package.is_dir():
@@ -178,7 +180,7 @@ def _compare(package: Path, path: str, text: str, purpose: str, timestamp: int) 
         return PlannedFile(path, text, purpose, State.NEW, True)
     if on_disk.read_text(encoding="utf-8", errors="replace") == text:
         return PlannedFile(path, text, purpose, State.SAME, False)
-    by_hand = abs(on_disk.stat().st_mtime - timestamp) > HAND_MADE_AFTER
+    by_hand = on_disk.suffix == ".xacro" or abs(on_disk.stat().st_mtime - timestamp) > HAND_MADE_AFTER  # no assistant writes macros
     return PlannedFile(path, text, purpose, State.HAND_MADE if by_hand else State.CHANGED, not by_hand)
 
 

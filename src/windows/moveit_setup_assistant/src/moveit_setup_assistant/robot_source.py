@@ -11,7 +11,7 @@ import motion
 import rospkg
 from motion.files import resolve
 
-from moveit_setup_assistant.errors import AssistantError
+from moveit_setup_assistant.errors import AssistantError, files_told
 
 
 @dataclass
@@ -23,6 +23,7 @@ class RobotSource:
     xacro_args: str = ""
 
     @classmethod
+    @files_told()
     def from_file(cls, path, xacro_args: str = "") -> "RobotSource":
         """The source that names ``path`` by the package around it, so that it is found on other machines too.
 
@@ -37,6 +38,7 @@ class RobotSource:
                 return cls(_package_name(manifest), str(path.relative_to(folder)), xacro_args)
         return cls("", str(path), xacro_args)
 
+    @files_told()
     def file(self) -> Path:
         """The file's absolute path.
 
@@ -67,6 +69,7 @@ class RobotSource:
         except (OSError, AssistantError):
             return False
 
+    @files_told()
     def load(self, progress: Optional[Callable[[str], None]] = None) -> "Robot":
         """Read, expand and parse the description.
 
@@ -75,7 +78,7 @@ class RobotSource:
         path = self.file()
         if progress:
             progress(f"reading {path}")
-        text = _expand(path, self.xacro_args) if self.is_xacro else path.read_text(encoding="utf-8", errors="replace")
+        text = expanded(path, self.xacro_args) if self.is_xacro else path.read_text(encoding="utf-8", errors="replace")
         return Robot.from_text(text, str(path))
 
 
@@ -86,7 +89,12 @@ def _package_name(manifest: Path) -> str:
         return manifest.parent.name
 
 
-def _expand(path: Path, arguments: str) -> str:
+def expanded(path: Path, arguments: str) -> str:
+    """What xacro makes of a file.
+
+    :param arguments: ``name:=value name:=value``
+    :raises AssistantError: an argument or the file cannot be used.
+    """
     import xacro  # late: a plain URDF does without
 
     mappings: Dict[str, str] = {}
@@ -111,6 +119,15 @@ def _reason(error: Exception) -> str:
     if inner and text.count(inner) > 1:
         text = inner
     return " ".join(text.split())[:300]
+
+
+def _xml_fault(text: str) -> str:
+    """Where the XML ends to be XML, which urdf's parser does not say; '' if it is some."""
+    try:
+        ET.fromstring(text)
+    except ET.ParseError as error:
+        return f"its XML cannot be read: {error}"
+    return ""
 
 
 def _missing_visuals(urdf: str) -> List[str]:
@@ -139,7 +156,7 @@ class Robot:
         try:
             model = motion.load_model(urdf)
         except motion.MotionError as error:
-            raise AssistantError(f"'{origin}' is no robot description: {error}") from error
+            raise AssistantError(f"'{origin}' is no robot description: {_xml_fault(urdf) or error}") from error
         return cls(model.name, urdf, model, [*model.warnings, *_missing_visuals(urdf)])
 
     def with_srdf(self, srdf: str) -> "motion.RobotModel":

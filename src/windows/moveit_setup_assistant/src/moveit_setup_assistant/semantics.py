@@ -8,6 +8,7 @@ from typing import Iterable, List, Tuple
 from srdfdom.srdf import ParseError, Robot
 
 from moveit_setup_assistant.errors import AssistantError
+from moveit_setup_assistant.robot_source import expanded
 
 # (tag, comment) in the order in which they are written. Other elements keep their place at the end.
 SECTIONS: Tuple[Tuple[str, str], ...] = (
@@ -42,10 +43,10 @@ class Semantics(Robot):
         return made
 
     @classmethod
-    def load(cls, path: Path) -> "Semantics":
+    def load(cls, path: Path, xacro_args: str = "") -> "Semantics":
         """:raises AssistantError: the file is missing, no XML, or lacks an attribute."""
         try:
-            return cls.from_xml_string(path.read_bytes())
+            return cls.from_xml_string(expanded(path, xacro_args) if path.suffix == ".xacro" else path.read_bytes())
         except OSError as error:
             raise AssistantError(f"SRDF '{path}' cannot be read: {error.strerror}") from error
         except ParseError as error:

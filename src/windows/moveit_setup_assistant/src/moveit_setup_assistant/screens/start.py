@@ -7,7 +7,7 @@ import rospkg
 from python_qt_binding.QtWidgets import QFileDialog, QFormLayout, QHBoxLayout, QPushButton, QRadioButton
 
 from moveit_setup_assistant.configuration import Configuration
-from moveit_setup_assistant.errors import AssistantError
+from moveit_setup_assistant.errors import AssistantError, files_told
 from moveit_setup_assistant.robot_source import RobotSource
 from moveit_setup_assistant.screens.base import Screen, line
 
@@ -80,6 +80,7 @@ class StartScreen(Screen):
             self._path.setText(found)
 
 
+@files_told()
 def _package_folder(text: str) -> Path:
     """The folder that ``text`` names, or that of the package of this name."""
     folder = Path(text).expanduser()
