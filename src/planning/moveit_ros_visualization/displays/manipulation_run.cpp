@@ -87,6 +87,7 @@ void ManipulationTab::detect() {
   dock_->objects().publishIfEdited();
   listing_ = true;
   fillAgain();
+  enable();
   detect_->setEnabled(false);
   show("Detecting...");
   inThread([this]() {

@@ -140,6 +140,9 @@ void ManipulationTab::moveGroupCame() {
 }
 
 void ManipulationTab::enable() {
+  // From a button that cannot be pressed any more the keys would go on to the numbers below, and the page scroll to them.
+  for (const QPushButton* pressed : {detect_, pick_, place_, stop_})
+    if (pressed->hasFocus()) objects_->setFocus();
   pick_->setEnabled(!busy() && !chosen(objects_).empty());
   place_->setEnabled(!busy() && !in_hand_.empty() && !chosen(surfaces_).empty());
   stop_->setEnabled(busy());
