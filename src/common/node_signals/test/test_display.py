@@ -63,3 +63,9 @@ def test_without_a_display_one_line_names_the_remedy(tmp_path, command):
 def test_everything_else_is_passed_on_word_by_word(tmp_path, command, changed):
     ended = run(tmp_path, *command, **changed)
     assert (ended.returncode, ended.stderr) == (0, "") and ended.stdout.split() == f"{command[0]}: {' '.join(command[1:])}".split()
+
+
+@pytest.mark.parametrize("options", [[], ["--prefix", "nice -n 5"]])
+def test_view_frames_of_tf_is_that_of_tf2(tmp_path, options):
+    ended = run(tmp_path, "rosrun", *options, "tf", "view_frames")
+    assert ended.stdout.split() == f"rosrun: {' '.join(options)} tf2_tools view_frames.py".split(), ended.stderr

@@ -1,5 +1,6 @@
 """What `#!/usr/bin/env python` finds in nodes."""
 import os
+import shutil
 import socket
 import subprocess
 
@@ -34,6 +35,7 @@ def test_python_is_debians_where_there_is_none_or_another(tmp_path, debian, anot
     assert answer.stdout == "['a b'] 3\n", answer.stderr
     added = environment["PATH"].split(":")[0]
     assert os.listdir(added) == ["python"], "nothing else is displaced"
+    assert shutil.which("python2", path=environment["PATH"]).endswith("/python2/python2")
     before = dict(environment)
     supply_python(environment)
     assert environment == before
@@ -41,11 +43,26 @@ def test_python_is_debians_where_there_is_none_or_another(tmp_path, debian, anot
 
 def test_an_environment_that_knows_python_stays(tmp_path, debian):
     (debian / "python").symlink_to("python3")
+    program(debian, "python2")
     for folder in (debian, tmp_path / "conda"):
         program(tmp_path / "conda", "python3")  # a python3 of its own, with or without rospy
         environment = {"PATH": str(folder)}
         supply_python(environment)
         assert environment == {"PATH": str(folder)}
+
+
+@pytest.mark.parametrize("text, code, out, told", [
+    ("import sys\nprint('%d %s' % (sys.version_info[0], sys.argv[1]))\n", 0, "3 a b\n", "it runs with Python 3"),
+    ("import sys\nprint sys.argv\n", 1, "", "node, line 3: written for Python 2"),
+    ("if True:\n\tx = 1\n        print(x)\n", 1, "", "2to3 -w")])
+@pytest.mark.parametrize("name", ["python2", "python2.7"])
+def test_a_script_for_python_2_runs_if_python_3_reads_it_and_else_one_line_says_what_to_do(tmp_path, debian, name, text, code, out, told):
+    program(tmp_path, "node", f"#!/usr/bin/env {name}\n{text}")
+    environment = {"PATH": str(debian)}
+    supply_python(environment)
+    answer = subprocess.run([tmp_path / "node", "a b"], env=environment, capture_output=True, text=True, timeout=60)
+    assert (answer.returncode, answer.stdout, answer.stderr.count("\n")) == (code, out, 1)
+    assert told in answer.stderr
 
 
 @pytest.mark.parametrize("command", ["rosrun old_nodes talk", "roslaunch old_nodes talk.launch"])

@@ -1,6 +1,7 @@
 """Windows on a machine without a screen: one line that says what to do, where Qt prints a page and dumps core.
 
-``rosrun`` and ``rviz`` of this package look first whether a window is asked for, and run what comes next on PATH.
+``rosrun`` and ``rviz`` of this package look first whether a window is asked for, and run what comes next on PATH; ``rosrun`` gives
+nodes a ``python`` and puts a working program in the place of one that Debian's cannot be.
 """
 from __future__ import annotations
 
@@ -46,11 +47,24 @@ def asked_for(words: List[str]) -> Optional[str]:
     if os.path.basename(words[0]) != "rosrun":
         package = program = os.path.basename(words[0])
     else:
-        words = words[1:]
-        while words and words[0].startswith("-"):
-            words = words[2 if words[0] in ("-p", "--prefix") else 1:]
-        package, program = (words + ["", ""])[:2]
+        at = _place_of_package(words)
+        package, program = (words[at:] + ["", ""])[:2]
     return program if program in WINDOWS.get(package, ()) else None
+
+
+def _place_of_package(words: List[str]) -> int:
+    at = 1
+    while at < len(words) and words[at].startswith("-"):
+        at += 2 if words[at] in ("-p", "--prefix") else 1
+    return at
+
+
+def in_working_order(words: List[str]) -> List[str]:
+    """``rosrun tf view_frames``, which Debian's tf ends with a trace, as the program of tf2 that draws the same frames.pdf."""
+    at = _place_of_package(words)
+    if os.path.basename(words[0]) == "rosrun" and words[at:] == ["tf", "view_frames"]:
+        return words[:at] + ["tf2_tools", "view_frames.py"]
+    return words
 
 
 def next_on_path(command: str) -> str:
@@ -72,6 +86,6 @@ def main() -> None:
     supply_python(os.environ)
     program = next_on_path(sys.argv[0])
     try:
-        os.execv(program, [program, *sys.argv[1:]])
+        os.execv(program, [program, *in_working_order(sys.argv)[1:]])
     except OSError as error:
         sys.exit(f"{program}: {error.strerror}; scripts/setup installs it")
