@@ -1,4 +1,4 @@
-"""``#!/usr/bin/env python`` and ``python2`` of nodes: on Ubuntu the package python-is-python3 says what the first is, Debian has neither."""
+"""``python`` and ``python2`` in first lines of nodes: on Ubuntu a package (python-is-python3) gives the first, Debian has neither."""
 from __future__ import annotations
 
 import os
