@@ -154,7 +154,7 @@ def clean(tree: Path) -> None:
             run(["strip", "--strip-unneeded", path], f"stripping {path.name}")
 
 
-#: Folders of a package that are not installed as they stand: tests, C++ sources, libraries that Debian may lack, what CMake and catkin handle.
+#: Folders of a package that are not installed as they stand: tests, C++ sources, stand-ins for libraries, what CMake and catkin handle.
 _NOT_INSTALLED = {"test", "core", "bindings", "stand_in", "osmesa", "env-hooks", "cmake", "include", "docs", "rosdep"}
 #: What a compiler takes; headers in include/ are CMake's business.
 _COMPILED = {".c", ".cc", ".cpp", ".cxx", ".h", ".hh", ".hpp", ".proto"}
