@@ -13,6 +13,7 @@ struct Touch {
   double inverse_mass = 0;  // 1/kg, sum over the models that are not static
   bool one_is_fixed = false;  // of the two models, exactly one is static
   double leaving = 0;  // m/s, how fast they part already
+  bool emerging = false;  // the other model still comes out of the static one
   double outwards = 0;  // m/s^2, gravity along the normal out of the static one: negative as on a floor
 };
 
@@ -28,6 +29,9 @@ struct HardnessSettings {
   double dt = 0.001, erp = 0.2, softness = 0.02, fastest = 100, gravity = 9.8;
   bool like_gazebo = false;
 };
+
+// More overlap (m) than falling presses in: it was put there.
+bool is_deep(double depth);
 
 // How hard the contact is, and how fast overlap is undone.
 Hardness contact_hardness(const Surface& a, const Surface& b, const Touch& touch, const HardnessSettings& settings);

@@ -22,6 +22,21 @@ dBodyID pushed(const Link& l) {
   return c.root && !c.root->kinematic ? static_cast<dBodyID>(c.root->body) : nullptr;
 }
 
+// m/s, how fast the two part at the contact.
+double leaving(const Contact& c) { return dot(c.normal, c.a->link->velocity_at(c.pos) - c.b->link->velocity_at(c.pos)); }
+
+// What was put deep into something static keeps to its way out until nothing of it has risen for a while.
+void see_what_emerges(const Scene& scene, const StepState& state) {
+  constexpr double kRises = 0.02, kWhile = 0.1;  // m/s, s
+  for (auto& m : scene.models) m->emerging = std::max(m->emerging - scene.settings.dt, 0.0);
+  for (auto& c : state.contacts) {
+    Model &a = *c.a->link->model, &b = *c.b->link->model;
+    if (a.is_static == b.is_static) continue;
+    Model& m = a.is_static ? b : a;
+    if (is_deep(c.depth) || (m.emerging > 0 && leaving(c) > kRises)) m.emerging = kWhile;
+  }
+}
+
 void set_hardness(const Settings& set, Contact& c, dContact& d) {
   const Model &a = *c.a->link->model, &b = *c.b->link->model;
   Touch touch;
@@ -31,7 +46,8 @@ void set_hardness(const Settings& set, Contact& c, dContact& d) {
     if (!m->is_static) touch.inverse_mass += 1 / m->mass;
   touch.one_is_fixed = a.is_static != b.is_static;
   touch.outwards = a.is_static ? -dot(c.normal, set.gravity) : dot(c.normal, set.gravity);
-  touch.leaving = dot(c.normal, c.a->link->velocity_at(c.pos) - c.b->link->velocity_at(c.pos));
+  touch.leaving = leaving(c);
+  touch.emerging = a.emerging > 0 || b.emerging > 0;
   const Hardness hard = contact_hardness(c.a->surface, c.b->surface, touch,
                                          {set.dt, set.erp, set.contact_softness, set.contact_max_vel, norm(set.gravity), set.like_gazebo});
   d.surface.mode = dContactMu2 | dContactSoftERP | dContactSoftCFM | dContactApprox1 | dContactFDir1 | dContactBounce |
@@ -83,6 +99,7 @@ dContact as_ode_has_it(const Scene& scene, const StepState& state, Contact& c, d
 
 void make_contact_joints(Scene& scene, StepState& state) {
   count_contacts(state);
+  see_what_emerges(scene, state);
   state.feedback.assign(state.contacts.size(), {});
   int next = 0;
   for (auto& c : state.contacts) {

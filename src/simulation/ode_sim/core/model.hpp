@@ -146,6 +146,7 @@ struct Model {
 
   std::set<std::pair<int, int>> exempt;  // shape pairs that already touched when the position drives were engaged
   bool take_exempt = false;
+  double emerging = 0;  // s, for which it still counts as what was put deep into something static and comes out of it
   int visits = 0;  // searches that went over its links
 };
 

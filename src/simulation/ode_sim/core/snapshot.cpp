@@ -12,7 +12,7 @@ namespace ode_sim {
 
 namespace {
 
-constexpr uint64_t kVersion = 0x366d69735f65646full;  // "ode_sim6"; counts up when what is written changes
+constexpr uint64_t kVersion = 0x376d69735f65646full;  // "ode_sim7"; counts up when what is written changes
 
 uint64_t digest(const char* data, size_t size) {  // FNV-1a
   uint64_t h = 0xcbf29ce484222325ull;
@@ -149,6 +149,7 @@ template <class F> void walk(F& f, Scene& scene) {
     f.same(static_cast<int>(m->joints.size()), kOtherModels);
     f.same(static_cast<int>(m->links.size()), kOtherModels);
     f.flag(m->take_exempt);
+    f.number(m->emerging);
     f.flag(m->loop);
     for (auto& j : m->joints) visit(f, *j);
     for (auto& l : m->links) visit(f, *l);

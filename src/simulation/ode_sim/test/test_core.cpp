@@ -105,6 +105,16 @@ TEST(ContactHardness, ASoftSpringPutInDeeplyPushesNoFasterThanItIsTo) {
   EXPECT_NEAR(flying.depth * flying.soft_erp / set.dt, 0.9 * std::sqrt(2 * 9.8 * (0.05 - 2e-5 - 0.01)), 1e-3);
 }
 
+TEST(ContactHardness, ASoftSpringPutInDeeplyKeepsToThatOnItsLastCentimetre) {
+  Surface soft;
+  soft.kp = 1e4, soft.max_vel = 1;
+  Touch touch = on_floor(0.005);
+  touch.leaving = 5;
+  const double falling = contact_hardness(soft, {}, touch, {}).depth;
+  touch.emerging = true;
+  EXPECT_LT(contact_hardness(soft, {}, touch, {}).depth, falling);
+}
+
 TEST(ContactHardness, AMergedContactIsAsHardAsThoseThatItStandsFor) {
   Touch merged = on_floor(0);
   merged.merged = 3;

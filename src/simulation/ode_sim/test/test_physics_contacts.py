@@ -380,6 +380,24 @@ def test_a_wheel_that_falls_on_a_thin_floor_stays_on_its_side(lies, rest, below)
     assert up * wheel.pose.p[2] == pytest.approx(rest + 0.005, abs=2e-3)
 
 
+@pytest.mark.parametrize("depth", [0.02, 0.05, 0.2, 1.0])
+@pytest.mark.parametrize("soft", [Surface(), Surface(kp=5e4, kd=100.0, max_vel=1.0)])
+def test_what_is_spawned_inside_the_floor_comes_out_and_is_not_thrown(depth, soft):
+    """Each of its many contacts could carry it all: together they must not shoot it up."""
+    world = ode_sim.World()
+    world.spawn(ground())
+    feet = tuple(Collision(f"{x} {y}", Pose((0.1 * x, 0.1 * y, 0)), Sphere(0.05), surface=soft)
+                 for x in range(-2, 3) for y in range(-2, 3))
+    robot = world.spawn(Model("robot", Pose((0, 0, 0.05 - depth)), (Link("base", inertial=Inertial(15.0, ixx=0.3, iyy=0.3, izz=0.5),
+                                                                          collisions=feet),)))
+    highest = -1.0
+    for _ in range(300):
+        world.step(10)
+        highest = max(highest, robot.pose.p[2])
+    assert highest < 0.05 + 0.012
+    assert robot.pose.p[2] == pytest.approx(0.05, abs=1e-3) and np.linalg.norm(robot.twist().linear) < 1e-3
+
+
 def test_rays_follow_what_moves_and_bad_rays_hit_nothing():
     world = ode_sim.World()
     wall = world.spawn(box("wall", at=(2, 0, 0.5), size=(0.2, 1, 1), static=True))
