@@ -9,6 +9,7 @@ namespace ode_sim {
 
 namespace {
 
+constexpr double kFollows = 0.2;  // part of the way to its leader that a follower makes in a step while it pushes
 constexpr double kJump = 30;  // m/s, rad/s: a position drive commanded to move faster than this is teleported
 
 // The fastest that a drive may go, m/s or rad/s.
@@ -19,8 +20,12 @@ void follow_leader(Joint& j, double dt) {
   if (!leader) return;
   const Joint& l = *leader;
   const Axis& a = j.axes[0];
-  const double q = l.drive == DriveMode::Locked ? l.target : l.axes[0].q + l.axes[0].qd * dt;
-  const double wanted = std::min(std::max(j.multiplier * q + j.offset, a.lower), a.upper);
+  // Two fingers hold one thing: what one gives way the other is pushed, and a follower that made it good within a step would drive
+  // both to and fro.
+  const bool pushes = j.drive == DriveMode::Motor && l.drive != DriveMode::Locked;
+  const double q = l.drive == DriveMode::Locked ? l.target : l.axes[0].q + (pushes ? 0 : l.axes[0].qd * dt);
+  double wanted = std::min(std::max(j.multiplier * q + j.offset, a.lower), a.upper);
+  if (pushes) wanted = a.q + kFollows * (wanted - a.q);
   j.target = std::min(std::max(wanted, -kFarthest), kFarthest);  // joints that follow each other would grow without bound
 }
 

@@ -224,6 +224,29 @@ def test_mimic_follows_its_leader():
     assert not right.drive_active
 
 
+@pytest.mark.parametrize("gain, closed", [(1e3, 0.072), (1e4, 0.0701), (3e5, 0.0701)])
+def test_a_follower_and_the_finger_that_it_follows_hold_a_block_still(gain, closed):
+    """What one gives way the other is pushed: a follower that made it good at once would drive both to and fro."""
+    world, hand, block, _ = world_with(gripper(), box("part", at=(0, 0, 0.225), size=(0.05, 0.05, 0.05), mass=0.05),
+                                       box("stand", at=(0, 0, 0.1), size=(0.1, 0.03, 0.2), static=True))
+    left, right, lift = (hand.joints[n] for n in ("left", "right", "lift"))
+    right.follow(left, 1.0, 0.0)
+    lift.drive_to(0.0)
+
+    def close(w):
+        left.add_law(np.clip(gain * (closed - left.position()), -20, 20), gain * w.dt, 20.0)
+
+    world.before_step.append(close)
+    world.step(1000)
+    speeds = []
+    for i in range(500):
+        lift.drive_to(i * 1e-4)
+        world.step()
+        speeds.append(right.velocity())
+    assert block.pose.p[2] == pytest.approx(0.225 + 0.05, abs=1e-3)
+    assert np.abs(speeds).max() < 0.01
+
+
 def test_touching_from_the_start_is_no_collision_course():
     """A link that stands in the floor when its joint is first commanded moves on as commanded."""
     model = arm(1, base_size=(0.3, 0.3, 0.02), length=0.2, at=(0, 0, -0.05))
