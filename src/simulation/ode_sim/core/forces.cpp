@@ -86,6 +86,8 @@ MotorRow axis_row(const Axis& a, double dt, double inverse_inertia, bool like_ga
   const bool off_stops = a.q - a.lower > kNearStop && a.upper - a.q > kNearStop;
   const bool by_law = !like_gazebo && off_stops && !drive && a.motor_force <= 0 && dt * a.slope * inverse_inertia > kStiffLaw &&
                       (a.law == 0 || a.admitted(a.law) != 0);
+  const double bound = a.effort >= 0 ? std::min(a.law_bound, a.effort) : a.law_bound;
+  const double at_rest = std::min(std::max(a.law + a.slope * a.qd, -bound), bound);  // what the law gives when the step ends at rest
   MotorRow row;
   row.force = a.force;
   if (drive) {
@@ -94,10 +96,15 @@ MotorRow axis_row(const Axis& a, double dt, double inverse_inertia, bool like_ga
   } else if (a.motor_force > 0) {
     row.speed = a.motor_velocity;
     row.most = a.motor_force;
+  } else if (by_law && std::abs(at_rest) <= a.friction) {
+    // Dry friction holds it, against what else pulls as well: a row as soft as the law would let it creep. Where it is pulled along
+    // all the same, the law is held through the step, and so damps no more than one step can bear.
+    row.most = a.friction;
+    row.force += at_rest - a.qd * std::min(a.slope, 1 / (dt * inverse_inertia)) - a.lawful();
   } else if (by_law) {
     row.speed = speed_by_law(a, dt, inverse_inertia);
     row.softness = 1 / a.slope;
-    row.most = a.effort >= 0 ? std::min(a.law_bound, a.effort) : a.law_bound;
+    row.most = bound;
     row.force -= a.lawful();
   } else if (a.friction > 0) {
     row.most = a.friction;

@@ -37,6 +37,13 @@ def test_it_lags_by_the_load_over_the_gain_as_the_law_says():
     assert driven(*wheel(friction=0.4), target=0.3) == pytest.approx(0.0, abs=1e-6)
 
 
+def test_dry_friction_holds_what_the_law_does_not_move_against_other_forces_too():
+    world, joint = wheel(friction=0.4)
+    assert driven(world, joint, target=0.3, load=0.6) == pytest.approx(0.0, abs=1e-9)
+    assert joint.position() == pytest.approx(0.0, abs=1e-9)
+    assert -0.5 < driven(world, joint, target=0.3, load=0.8) < -0.05  # the law slows what pulls it along
+
+
 def test_the_bounds_of_the_force_hold():
     for effort, bound in ((-1.0, 0.02), (0.02, 1e9)):
         model = pendulum(length=0.0, mass=0.1, inertia=INERTIA)
