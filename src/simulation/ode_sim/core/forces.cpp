@@ -14,6 +14,7 @@ constexpr double kStopSkin = 1e-12;  // a joint put exactly on its stop is to be
 constexpr double kNearStop = 1e-9;   // within the reach of the skin
 constexpr double kBackTurn = 10, kBackSlide = 1;  // rad/s, m/s: from beyond a stop
 constexpr double kStiffLaw = 1;      // share of a speed error that a controller makes good in one step; more swings
+constexpr double kSwings = 0.05;     // the same of a law of the position alone, where nothing else damps the joint
 
 void apply_axis_force(const Joint& j, int axis, double f) {
   if (f == 0) return;
@@ -67,14 +68,15 @@ MotorRow drive_row(const Scene& scene, Joint& j) {
 }  // namespace
 
 double speed_by_law(const Axis& a, double dt, double inverse_inertia) {
-  double speed = a.qd + a.law / a.slope;
+  const double slope = a.steepness();
+  double speed = a.undamped() ? a.law / slope : a.qd + a.law / slope;
   if (a.velocity > 0) {
-    const double over = (std::abs(speed) - a.velocity) * a.slope;  // the law's force at the limit
+    const double over = (std::abs(speed) - a.velocity) * slope;  // the law's force at the limit
     const double push = std::min(std::max(over, 0.0), a.effort >= 0 ? std::min(a.law_bound, a.effort) : a.law_bound);
     const double most = a.velocity + dt * inverse_inertia * push;
     speed = std::min(std::max(speed, -most), most);
   }
-  return std::copysign(std::max(std::abs(speed) - a.friction / a.slope, 0.0), speed);
+  return std::copysign(std::max(std::abs(speed) - a.friction / slope, 0.0), speed);
 }
 
 MotorRow axis_row(const Axis& a, double dt, double inverse_inertia, bool like_gazebo, bool always_implicit, const MotorRow* drive) {
@@ -84,10 +86,10 @@ MotorRow axis_row(const Axis& a, double dt, double inverse_inertia, bool like_ga
   const double stiff = dt * (damping + dt * stiffness) * inverse_inertia;
   // At a stop ODE turns motors into torques of their greatest size.
   const bool off_stops = a.q - a.lower > kNearStop && a.upper - a.q > kNearStop;
-  const bool by_law = !like_gazebo && off_stops && !drive && a.motor_force <= 0 && dt * a.slope * inverse_inertia > kStiffLaw &&
-                      (a.law == 0 || a.admitted(a.law) != 0);
+  const bool stiff_law = dt * a.steepness() * inverse_inertia > (a.undamped() ? kSwings : kStiffLaw);
+  const bool by_law = !like_gazebo && off_stops && !drive && a.motor_force <= 0 && stiff_law && (a.law == 0 || a.admitted(a.law) != 0);
   const double bound = a.effort >= 0 ? std::min(a.law_bound, a.effort) : a.law_bound;
-  const double at_rest = std::min(std::max(a.law + a.slope * a.qd, -bound), bound);  // what the law gives when the step ends at rest
+  const double at_rest = std::min(std::max(a.law_at_rest(), -bound), bound);  // what the law gives when the step ends at rest
   MotorRow row;
   row.force = a.force;
   if (drive) {
@@ -100,10 +102,10 @@ MotorRow axis_row(const Axis& a, double dt, double inverse_inertia, bool like_ga
     // Dry friction holds it, against what else pulls as well: a row as soft as the law would let it creep. Where it is pulled along
     // all the same, the law is held through the step, and so damps no more than one step can bear.
     row.most = a.friction;
-    row.force += at_rest - a.qd * std::min(a.slope, 1 / (dt * inverse_inertia)) - a.lawful();
+    row.force += at_rest - a.qd * std::min(a.steepness(), 1 / (dt * inverse_inertia)) - a.lawful();
   } else if (by_law) {
     row.speed = speed_by_law(a, dt, inverse_inertia);
-    row.softness = 1 / a.slope;
+    row.softness = 1 / a.steepness();
     row.most = bound;
     row.force -= a.lawful();
   } else if (a.friction > 0) {

@@ -29,6 +29,8 @@ struct Axis {
   double q = 0, qd = 0, force = 0, applied = 0;  // applied: the force of the last step
   bool commanded = false;                        // a force was added since the last step
   // The part of the force that a controller gives at the speed qd, before its bound; it gives `slope` less per unit of speed.
+  // A negative slope is that of a law of the position alone. Where nothing else damps the joint, what was given is taken as at rest,
+  // and gets less with all of the speed.
   double law = 0, slope = 0, law_bound = 0;
   double motor_velocity = 0, motor_force = 0;
 
@@ -40,6 +42,9 @@ struct Axis {
     if (velocity >= 0 && ((qd > velocity && f > 0) || (qd < -velocity && f < 0))) return 0;
     return effort >= 0 ? std::min(std::max(f, -effort), effort) : f;
   }
+  double steepness() const { return slope < 0 ? -slope : slope; }
+  bool undamped() const { return slope < 0 && friction <= 0 && damping <= 0; }
+  double law_at_rest() const { return undamped() ? law : law + steepness() * qd; }
   double lawful() const { return admitted(std::min(std::max(law, -law_bound), law_bound)); }
 };
 

@@ -30,7 +30,7 @@ void add_force(Axis& a, double force) {
 
 void add_law(Axis& a, double force, double slope, double bound) {
   a.law = limited(force, kStrongest, "a force");
-  a.slope = std::max(limited(slope, kStrongest, "a controller's slope"), 0.0);
+  a.slope = limited(slope, kStrongest, "a controller's slope");
   a.law_bound = std::max(limited(bound, kInf, "the bound of a force"), 0.0);
   a.force += a.lawful();
   a.commanded = true;

@@ -125,7 +125,7 @@ void Wiring::give(const Working& c, double wanted) {
   const double slope = c.slope ? *c.slope : 0;
   // What other limits than that of the effort made of a command is no law.
   const bool by_effort = c.effort_limit <= std::abs(allowed) && std::abs(allowed) < std::abs(wanted) && std::abs(wanted) < kInf;
-  if (slope > 0 && (wanted == allowed || by_effort)) add_law(axis, wanted, slope, c.effort_limit);
+  if (slope != 0 && (wanted == allowed || by_effort)) add_law(axis, wanted, slope, c.effort_limit);
   else add_force(axis, allowed);
   if (double* effort = joints_[c.joint].places.effort) *effort = axis.effort_now();
 }

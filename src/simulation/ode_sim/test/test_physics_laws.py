@@ -44,6 +44,15 @@ def test_dry_friction_holds_what_the_law_does_not_move_against_other_forces_too(
     assert -0.5 < driven(world, joint, target=0.3, load=0.8) < -0.05  # the law slows what pulls it along
 
 
+@pytest.mark.parametrize("gain", [40.0, 4000.0])
+def test_a_law_of_the_position_alone_comes_to_rest(gain):
+    world, joint = wheel()
+    for _ in range(1000):
+        joint.add_law(gain * (0.1 - joint.position()), -gain * world.dt)
+        world.step(1)
+    assert joint.position() == pytest.approx(0.1, abs=1e-9) and abs(joint.velocity()) < 1e-9
+
+
 def test_the_bounds_of_the_force_hold():
     for effort, bound in ((-1.0, 0.02), (0.02, 1e9)):
         model = pendulum(length=0.0, mass=0.1, inertia=INERTIA)

@@ -87,9 +87,14 @@ class Pid:
         return command
 
     def slope_of_position(self, dt: float) -> float:
-        """How much less the next command gets per unit of speed of what is measured, where the error is one of position."""
+        """How much less the next command gets per unit of speed of what is measured, where the error is one of position.
+
+        Negative where there is no D gain: nothing of the command is of the speed yet.
+        """
         gains = self.gains
-        return gains.d + gains.p * dt
+        if gains.d == 0.0:
+            return -gains.p * dt if gains.p > 0.0 else 0.0
+        return max(gains.d + gains.p * dt, 0.0)
 
     def slope_of_velocity(self, dt: float) -> float:
         """The same where the error is one of speed."""

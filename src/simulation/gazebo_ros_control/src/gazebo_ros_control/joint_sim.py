@@ -68,7 +68,7 @@ class EffortMode(Mode):
         allowed = handle.command
         if self.e_stop:
             self.joint.add_force(0.0)
-        elif handle.slope > 0.0 and (wanted == allowed or self.effort_limit <= abs(allowed) < abs(wanted) < math.inf):
+        elif handle.slope != 0.0 and (wanted == allowed or self.effort_limit <= abs(allowed) < abs(wanted) < math.inf):
             self.joint.add_law(wanted, handle.slope, self.effort_limit)
         else:  # what other limits made of the command is no law
             self.joint.add_force(allowed)
@@ -132,7 +132,7 @@ class _ByPid:
 
     def push(self, error: float, slope: float, dt: float) -> None:
         """Apply what the PID says to this error."""
-        self.joint.add_law(self._pid.compute_command(error, dt), max(slope, 0.0), self.effort_limit)
+        self.joint.add_law(self._pid.compute_command(error, dt), slope, self.effort_limit)
         self.state.effort = self.joint.effort()
 
 

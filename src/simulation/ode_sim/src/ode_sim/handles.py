@@ -236,12 +236,12 @@ class JointHandle:
 
     def add_law(self, force: float, slope: float, bound: float = math.inf, axis: int = 0) -> None:
         """The force of a controller, for the next step: ``force`` N m or N at the joint's present speed, ``slope`` less for each
-        rad/s or m/s that it gets faster, and never more than ``bound``.
+        rad/s or m/s that it gets faster, and never more than ``bound``. Negative: a law of the position alone, whose ``force`` is
+        taken as at rest where the joint has no friction and damping: it comes to rest instead of swinging on.
 
         As ``add_force`` of ``force``, cut to the bound, where that holds for a step. Where the slope would make good more than the
-        whole error of the speed within one step, the force is that at the speed which the step arrives at: a controller whose
-        gains are too high for the joint's inertia and the step then drives the joint instead of throwing it to and fro. Not with
-        the ``gazebo`` solver. One controller per axis and step.
+        whole error of the speed within one step, the force is that at the speed which the step arrives at: too high gains then drive
+        the joint instead of throwing it to and fro. Not with the ``gazebo`` solver. One controller per axis and step.
         """
         finite((force, slope), f"force of a controller on joint {self.scoped_name}")
         if math.isnan(bound):
