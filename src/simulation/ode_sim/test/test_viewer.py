@@ -295,6 +295,11 @@ def test_joints_are_put_and_driven():
         page.simulation.command_joint("arm", "hinge", "position", -1.0, (40.0, 0.0, 5.0))
         page.simulation.step(4000)
         wait(page, lambda: abs(page.frame.joints[row] + 1.0) < 0.01)
+        use(joints._mode, client, "velocity")  # with gains that a light link bears
+        wait(page, lambda: joints._sliders["hinge"] is not slider)
+        use(joints._sliders["hinge"], client, 0.5)
+        page.simulation.step(2000)
+        wait(page, lambda: page.frame.iterations == 6000 and -0.6 < page.frame.joints[row] < 0.1)
         assert not client.told
     finally:
         page.close()

@@ -10,6 +10,7 @@ from ode_sim.viewer.simulation import JOINT_MODES, Frame
 
 _MOST = 24  # sliders
 _MODES = ("set", *JOINT_MODES)
+_GAINS = {"position": (100.0, 0.0, 5.0), "velocity": (1.0, 0.1, 0.01)}  # p, i, d; more throws a light link about that is to keep a speed
 
 
 class JointsPanel(Panel):
@@ -21,17 +22,19 @@ class JointsPanel(Panel):
             "Slider", _MODES, hint="set: put the joint there at once. force, position, velocity: drive it from now on. "
                                    "none: let go")
         with self.gui.add_folder("PID of position and velocity", expand_by_default=False):
-            self._p = self.gui.add_number("p", 100.0, step=1.0)
-            self._i = self.gui.add_number("i", 0.0, step=0.1)
-            self._d = self.gui.add_number("d", 5.0, step=0.1)
+            self._pid = tuple(self.gui.add_number(name, value, step=step) for name, value, step in zip(
+                "pid", _GAINS["position"], (1.0, 0.1, 0.1)))
         self._force = self.gui.add_number("Largest force (N m, N)", 10.0, min=0.001, step=1.0)
         self._folder = self.gui.add_folder("Pick a model first")
         self._sliders: Dict[str, Any] = {}
         self._made: List[Any] = []
         self._model = ""
         page.selection.on_change.append(self._on_select)
-        for control in (self._mode, self._force):
-            control.on_update(lambda event: event.client_id is not None and page.later(self._build))
+        self._gains = dict(_GAINS)  # as they were typed last, by mode
+        for gain in self._pid:
+            self.on_update(gain, lambda _: self._gains.update({self._mode.value: self._typed()}))
+        self.on_update(self._mode, lambda mode: page.later(lambda: self._switch(mode)))
+        self._force.on_update(lambda event: event.client_id is not None and page.later(self._build))
 
     def on_frame(self, frame: Frame) -> None:
         record = self.page.world.model(self._model)
@@ -41,6 +44,14 @@ class JointsPanel(Panel):
             row = record.joints.get(name)
             if row is not None:
                 slider.value = min(slider.max, max(slider.min, round(float(frame.joints[row]), 3)))
+
+    def _typed(self) -> tuple:
+        return tuple(float(gain.value) for gain in self._pid)
+
+    def _switch(self, mode: str) -> None:
+        for gain, value in zip(self._pid, self._gains.get(mode, self._typed())):
+            gain.value = value
+        self._build()
 
     def _on_select(self) -> None:
         if self.page.selection.model != self._model:
@@ -80,5 +91,4 @@ class JointsPanel(Panel):
         if mode == "set":
             self.simulation.set_joint_position(self._model, joint, value)
         else:
-            gains = (float(self._p.value), float(self._i.value), float(self._d.value))
-            self.simulation.command_joint(self._model, joint, mode, value, gains)
+            self.simulation.command_joint(self._model, joint, mode, value, self._typed())
