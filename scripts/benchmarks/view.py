@@ -123,7 +123,7 @@ def hand_latency(environment):
 
 
 def page_figures(environment):
-    """Seconds from the command to the whole page, the least of three, and what a window costs that nobody looks at."""
+    """Seconds from the command to the whole page, the least of three, and what of the processor gzclient takes until it has an address."""
     import urllib.request
     times, idle = [], []
     plain = {name: value for name, value in environment.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY")}
@@ -142,7 +142,7 @@ def page_figures(environment):
             os.killpg(client.pid, signal.SIGINT)
             client.wait(timeout=30)
     return {"view: first page served, s after the command": min(times),
-            "view, nobody looks: processor s of gzclient's start": min(idle)}
+            "view: processor s of gzclient until it says its address": min(idle)}
 
 
 def drawing_figures():
