@@ -12,6 +12,10 @@ from moveit_core.controller_manager import ControllerManager
 from moveit_core.errors import one_line
 from plugin_loader import PluginError, find_plugins
 
+_SIMPLE = "moveit_simple_controller_manager/MoveItSimpleControllerManager"
+_WORDS = {"simple": _SIMPLE, "fake": "moveit_fake_controller_manager/MoveItFakeControllerManager",
+          "ros_control": "moveit_ros_control_interface::MoveItControllerManager"}
+
 
 def load_manager(model, namespace: str = "~") -> Optional[ControllerManager]:
     """The controller manager that ``~moveit_controller_manager`` names; None (and an error line) if there is none."""
@@ -28,6 +32,10 @@ def load_manager(model, namespace: str = "~") -> Optional[ControllerManager]:
                      "sets it). "
                      "Trajectories are planned, but cannot be executed", parameter)
         return None
+    if name not in managers and _meant(name, namespace) in managers:
+        rospy.logwarn("parameter %s is '%s', which is no controller manager; it is taken for the word by which "
+                      "trajectory_execution.launch.xml chooses a file: %s is used", parameter, name, _meant(name, namespace))
+        name = _meant(name, namespace)
     if name not in managers:
         rospy.logerr("Exception while loading controller manager '%s': nobody exports it; there are: %s", name,
                      ", ".join(sorted(managers)))
@@ -39,6 +47,14 @@ def load_manager(model, namespace: str = "~") -> Optional[ControllerManager]:
     except PluginError as error:
         rospy.logerr("Exception while loading controller manager '%s': %s", name, error)
         return None
+
+
+def _meant(name: str, namespace: str) -> str:
+    """The manager behind a word of launch files: trajectory_execution.launch.xml passes on "simple", "fake" or the robot's name,
+    with which it finds the next file, under the very argument in which that file may have its manager as a default."""
+    if "/" in name or "::" in name:  # somebody's class
+        return ""
+    return _WORDS.get(name, _SIMPLE if rospy.get_param(namespace + "controller_list", None) else "")
 
 
 class ControllerChoice:
