@@ -411,7 +411,9 @@ class Execution(unittest.TestCase):
         self.assertEqual((status, result.error_code.val), (GoalStatus.ABORTED, Codes.CONTROL_FAILED))
         self.assertIn("another is being executed", text)
         third = move(HOME)  # a new goal of the same action ends the running one
-        self.assertEqual(first.result()[0], GoalStatus.PREEMPTED)
+        status, _result, text = first.result()
+        self.assertEqual(status, GoalStatus.PREEMPTED)
+        self.assertIn("another goal came for move_group", text)
         self.assertEqual(third.result()[1].error_code.val, Codes.SUCCESS)
 
     def test_a_plan_that_fails_executes_nothing(self):

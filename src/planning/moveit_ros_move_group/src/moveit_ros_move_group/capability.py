@@ -99,6 +99,8 @@ class ActionCapability(Capability):
         if code == MoveItErrorCodes.SUCCESS:
             self._server.set_succeeded(result, text)
         elif code == MoveItErrorCodes.PREEMPTED:
+            if self._server.is_new_goal_available():
+                text += f"; another goal came for {self.action_name}, which does one at a time: is a second client running?"
             self._server.set_preempted(result, text)
         else:
             self._server.set_aborted(result, text)

@@ -28,6 +28,8 @@ _DEFAULT = ("move_group/MoveGroupCartesianPathService", "move_group/MoveGroupKin
             "move_group/MoveGroupPlanService", "move_group/MoveGroupQueryPlannersService",
             "move_group/MoveGroupStateValidationService", "move_group/MoveGroupGetPlanningSceneService",
             "move_group/ApplyPlanningSceneService", "move_group/ClearOctomapService")
+# Clients wait for these two alone, and call everything else at once then.
+_LAST = ("move_group/MoveGroupExecuteTrajectoryAction", "move_group/MoveGroupMoveAction")
 _GREEN, _CYAN, _BLUE, _PLAIN = "\033[32m", "\033[36m", "\033[34m", "\033[0m"
 
 
@@ -91,7 +93,7 @@ class MoveGroup:
         found, problems = find_plugins("moveit_ros_move_group")
         for problem in problems:
             rospy.logwarn("%s", problem)
-        for name in self._wanted():
+        for name in sorted(self._wanted(), key=_LAST.__contains__):
             _print(f"{_CYAN}Loading '{name}'...{_PLAIN}")
             if name not in found:
                 rospy.logerr("Exception while loading move_group capability '%s': nobody exports it; there are: %s",
