@@ -49,3 +49,12 @@ def test_ctrl_c_in_the_first_second(script, tmp_path):
     finally:
         process.kill()
     assert (rest, process.returncode) == ("", -signal.SIGINT)
+
+
+@pytest.mark.parametrize("raised, told", [("print('a line\\n' * 100000)", "code 141\n"), ("raise BrokenPipeError()", "Traceback")])
+def test_what_nobody_reads_ends_without_a_word(tmp_path, raised, told):
+    script = tmp_path / "script"
+    script.write_text(f"import node_signals\nwith node_signals.silent():\n    {raised}\n")
+    process = subprocess.run(["bash", "-c", f"{{ {sys.executable} {script}; echo code $? >&2; }} | head -n 1"],
+                             capture_output=True, text=True, timeout=60)
+    assert process.stderr.startswith(told), process.stderr

@@ -24,6 +24,7 @@ import contextlib
 import errno
 import logging
 import os
+import select
 import signal
 import sys
 import threading
@@ -37,7 +38,7 @@ _shut_down = threading.Event()  # the shutdown hooks have run, the master knows
 @contextlib.contextmanager
 def silent():
     """Within the block SIGINT and SIGTERM end the process as they end a program in C: at once, without output - unless
-    the block takes them over, as :func:`init_node` does.
+    the block takes them over, as :func:`init_node` does. So does output that nobody reads any more (``... | head``).
 
     Costs no import of rospy, so that it can stand before all others. Main thread only.
     """
@@ -46,9 +47,20 @@ def silent():
     _watch_for_starvation()
     try:
         yield
+    except BrokenPipeError:
+        if not _nobody_reads():
+            raise
+        os._exit(128 + signal.SIGPIPE)
     finally:
         if signal.getsignal(signal.SIGINT) == signal.SIG_DFL:
             signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+def _nobody_reads() -> bool:
+    """Whether the reader of what is printed is gone; other pipes, a connection's, are somebody else's trouble."""
+    output = select.poll()
+    output.register(1, 0)
+    return any(event & select.POLLERR for _, event in output.poll(0))
 
 
 def init_node(name: str, **options) -> None:

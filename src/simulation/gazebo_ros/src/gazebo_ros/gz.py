@@ -147,7 +147,8 @@ def topic(options: argparse.Namespace) -> None:
         return
     for word, name in (("echo", options.echo), ("info", options.info), ("hz", options.hz)):
         if name:
-            os.execvp("rostopic", ["rostopic", word, name])
+            limit = ["timeout", "--foreground", f"{options.duration:g}"] if options.duration else []
+            os.execvp((limit or ["rostopic"])[0], [*limit, "rostopic", word, name])
     raise Failure("say what: -l lists, -e TOPIC shows messages, -i TOPIC who sends them, -z TOPIC how often")
 
 
@@ -210,6 +211,7 @@ def parser() -> argparse.ArgumentParser:
     add("-l", "--list", action="store_true")
     for short, name in (("e", "echo"), ("i", "info"), ("z", "hz")):
         add(f"-{short}", f"--{name}", metavar="TOPIC")
+    add("-d", "--duration", type=float, help="s of showing or measuring; without it: until Ctrl-C")
     add = command(log).add_argument
     add("-d", "--record", metavar="0|1", help="accepted, to say what to do instead")
     command(helps, "help").add_argument("about", nargs="?", default="", metavar="COMMAND")
