@@ -55,6 +55,14 @@ def test_who_draws_is_asked_later_and_of_the_canvas_that_is_there():
     assert "`data-engine`" in before  # three.js marks its canvas so
 
 
+def test_a_button_does_not_take_the_place_of_a_value_that_waits_to_be_sent():
+    before, after = changed()
+    sender = re.search(r"let n=!0,r=!1,i=null,a=null;function o\(s\)\{.*?return\{send:o,flush:s,cancel:c\}\}", after).group()
+    assert ("(r&&i&&(i.type!==s.type||i.uuid!==s.uuid||i.name!==s.name)&&(c.sendMessage(i),r=!1),i=s,n?(c.sendMessage(s),r=!1,n=!1,"
+            in sender)
+    assert "(i=s,n?(c.sendMessage(s),r=!1,n=!1," in before
+
+
 def test_another_page_is_left_as_it_is_but_for_its_title():
     assert entitled(b"<html>x</html>", "t") == b"<html>x</html>"
 

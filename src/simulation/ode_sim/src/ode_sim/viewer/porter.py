@@ -83,12 +83,17 @@ _ASKED_LATER = (rb""".replace(/let ([\w$]+)=([\w$]+)\(\);(console\.log\(`WebGL s
                 rb"""(?=\},\[\]\))/,"setTimeout(()=>{let $1=$2();$3},5e3)")"""
                 rb""".replace(/=document\.createElement\(`canvas`\)(?=,[\w$]+=!1,[\w$]+=`unknown`)/,"""
                 rb""""=document.querySelector('canvas[data-engine]')??document.createElement('canvas')")""")
+#: What is typed and pressed goes to the server at most every 50 ms, the last of it only: a button pressed right after a field was filled
+#: took the place of the field's value, which was lost. What concerns something else is sent first.
+_NOTHING_LOST = (rb""".replace(/([\w$]+)\.sendMessage!==null&&\(([\w$]+)=([\w$]+),([\w$]+)\?\(\1\.sendMessage\(\3\),([\w$]+)=!1/,"""
+                 rb""""$1.sendMessage!==null&&($5&&$2&&($2.type!==$3.type||$2.uuid!==$3.uuid||$2.name!==$3.name)&&"""
+                 rb"""($1.sendMessage($2),$5=!1),$2=$3,$4?($1.sendMessage($3),$5=!1")""")
 
 
 def entitled(page: bytes, title: str) -> bytes:
     """viser's page under another name than its own, sparing where it draws."""
     head = f"<title>{html.escape(title)}</title>".encode() + _SPARING
-    return page.replace(_UNPACKED, _UNPACKED + _UNLIT + _ASKED_LATER, 1).replace(b"<title>Viser</title>", head, 1)
+    return page.replace(_UNPACKED, _UNPACKED + _UNLIT + _ASKED_LATER + _NOTHING_LOST, 1).replace(b"<title>Viser</title>", head, 1)
 
 
 class Porter(threading.Thread):
