@@ -31,8 +31,11 @@ Load load_beyond(const Scene& scene, StepState& state, Joint& j) {
   load.anchor = j.frame_W().p;
   for (Link* l : load.links) {
     LinkStep& step = state.of(*l);
-    if (!step.weighed) find_momentum(*l, step);
-    step.weighed = true;
+    if (!step.weighed) {
+      step.weighed = true;
+      state.weighed.push_back(l);
+      find_momentum(*l, step);
+    }
     const Vec3 f = (l->gravity ? scene.settings.gravity * l->mass : Vec3{}) + l->force;
     load.force += f;
     load.torque += cross(l->com_W() - load.anchor, f) + l->torque;
@@ -91,10 +94,7 @@ void weigh(const Scene& scene, StepState& state, Model& model) {
 
 // ... and after it.
 void read_loads(const Scene& scene, StepState& state) {
-  if (state.loads.empty()) return;
-  for (auto& m : scene.models)
-    for (auto& l : m->links)
-      if (state.of(*l).weighed) find_momentum(*l, state.of(*l));
+  for (Link* l : state.weighed) find_momentum(*l, state.of(*l));
   for (auto& [joint, load] : state.loads)
     if (joint->drive == DriveMode::Locked) read_load(scene, state, *joint, load);
 }

@@ -7,7 +7,7 @@ namespace ode_sim {
 
 void StepState::forget() {
   pairs.clear(), contacts.clear(), feedback.clear(), ode_contacts.clear(), weld_joints.clear();
-  nodes.clear(), islands.clear(), before.clear(), loads.clear();
+  nodes.clear(), islands.clear(), before.clear(), loads.clear(), weighed.clear();
 }
 
 void StepState::number(Scene& scene) {

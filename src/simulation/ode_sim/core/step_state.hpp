@@ -75,6 +75,7 @@ struct StepState {
   std::vector<JointStep> joints;
   std::vector<ModelStep> models;
   std::vector<std::pair<Joint*, Load>> loads;  // beyond position drives that are watched
+  std::vector<Link*> weighed;                  // each link of the loads once
 
   std::vector<std::pair<Shape*, Shape*>> pairs;  // whose bounding boxes overlap
   std::vector<Contact> contacts;
