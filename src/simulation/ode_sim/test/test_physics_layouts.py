@@ -10,7 +10,7 @@ import ode_sim
 from ode_sim.description.model import (
     Axis, Box, Collision, Cylinder, Inertial, Joint, Link, Mesh, Model, Pose, Sphere, Surface)
 from ode_sim.math3 import quat_from_rpy
-from physics_models import ground
+from physics_models import car_urdf, ground
 
 G, RADIUS = 9.8, 0.1
 BESIDE = ((0.0, 0.2), (0.0, -0.2))
@@ -192,3 +192,40 @@ def test_a_wheel_that_is_a_mesh_turns_about_the_middle_of_its_tread(tmp_path):
     robot.joints["w1"].set_motor(2.0, 50.0)
     world.step(2000)
     assert robot.twist().angular[2] == pytest.approx(2.0 * RADIUS / 0.2, rel=0.02)
+
+
+def steered_car(offset):
+    """A car whose tyres stand `offset` outside of what they turn about when they are steered."""
+    text = car_urdf(track=0.2, radius=0.05)
+    tyre = '<collision><origin rpy="1.5707963 0 0"/>'
+    for part in text.split("<link ")[1:]:
+        if "_tyre" in part:
+            out = offset if "left" in part else -offset
+            text = text.replace(part, part.replace(tyre, tyre.replace("origin ", f'origin xyz="0 {out} 0" ')))
+    return text
+
+
+@pytest.mark.parametrize("step", [0.001, 0.00025])
+def test_steering_gives_way_to_wheels_of_one_speed_as_statics_have_it(step):
+    """All wheels follow one speed by a P gain. Rolling, the inner ones are held back and the outer ones drawn on, each by
+    gain x rate x b / radius^2; that, beside the kingpin, turns a steering back which is held by a P gain as well."""
+    told, speed, drive, hold, base, radius, offset, b = 0.2, 10.0, 0.5, 1.0, 0.5, 0.05, 0.0225, 0.1225
+    world = ode_sim.World()
+    world.physics.max_step_size = step
+    world.spawn(ground())
+    car = world.spawn_urdf(steered_car(offset), name="car", pose=Pose((0, 0, radius)))
+    wheels = [joint for name, joint in car.joints.items() if name.endswith("_wheel")]
+    knuckles = [joint for name, joint in car.joints.items() if name.endswith("_steer")]
+
+    def control(_):
+        for joint in wheels:
+            joint.add_law(drive * (speed - joint.velocity()), drive)
+        for joint in knuckles:
+            joint.add_law(hold * (told - joint.position()) - 0.5 * joint.velocity(), 0.5 + hold * step)
+
+    world.before_step.append(control)
+    world.step(round(2 / step))
+    rate = np.mean([(world.step(round(0.01 / step)), car.twist().angular[2])[1] for _ in range(100)])
+    angle = told / (1 + offset * drive * b * speed / (hold * base * radius))
+    assert rate == pytest.approx(speed * radius * math.tan(angle) / base, rel=0.03)
+    assert np.mean([joint.position() for joint in knuckles]) == pytest.approx(angle, rel=0.03)
