@@ -15,6 +15,12 @@ def test_defaults():
     assert command_line.remarks(options) == []
 
 
+@pytest.mark.parametrize("value, waits", [("1", True), ("0", False), ("", False)])
+def test_lock_step_can_be_asked_for_in_the_environment(monkeypatch, value, waits):
+    monkeypatch.setenv("ODE_SIM_LOCKSTEP", value)
+    assert command_line.parse([]).lockstep is waits
+
+
 def test_only_the_first_world_counts_and_plugins_may_repeat():
     options = command_line.parse("a.world b.world -s liba.so -s libb.so --minimal_comms".split())
     assert options.world == "a.world" and options.server_plugin == ["liba.so", "libb.so"]

@@ -48,7 +48,7 @@ class RateWatch:
         if due >= _KEPT * wanted:
             return said + (f"{left_out} of {of} were left out, since this machine does not draw them as fast as the "
                            "simulation runs. Fewer or smaller pictures help, a lower real_time_update_rate of the world, "
-                           "or lock-step, where the simulation waits for each picture (extra_gazebo_args:=--lockstep)")
+                           "or lock-step, where the simulation waits for each picture (ODE_SIM_LOCKSTEP=1 in the environment)")
         if 1.0 / dt < wanted:
             return said + f"one is taken after a step of the physics, which is {dt:g} s long"
         return said + (f"of the sensor's {sensor_rate:g} a second (<update_rate>) the plugin takes those that are "

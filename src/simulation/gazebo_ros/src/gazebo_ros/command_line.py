@@ -2,9 +2,11 @@
 from __future__ import annotations
 
 import argparse
+import os
 from typing import List
 
 VERSION = "noetic_labs simulator 0.1.0\nGazebo multi-robot simulator, version 11 (stand-in on ODE)"
+LOCKSTEP_VARIABLE = "ODE_SIM_LOCKSTEP"  # for launch files that do not pass options on
 ENGINES = ("ode", "bullet", "dart", "simbody")
 
 
@@ -20,7 +22,8 @@ def parse(arguments: List[str]) -> argparse.Namespace:
     parser.add_argument("-v", "--version", action="version", version=VERSION)
     parser.add_argument("--verbose", action="store_true", help="say more on the terminal")
     parser.add_argument("-u", "--pause", action="store_true", help="start paused")
-    parser.add_argument("--lockstep", action="store_true", help="physics waits for the sensors")
+    parser.add_argument("--lockstep", action="store_true", default=os.environ.get(LOCKSTEP_VARIABLE, "0") not in ("", "0"),
+                        help=f"physics waits for the sensors, as with {LOCKSTEP_VARIABLE}=1 in the environment")
     parser.add_argument("-e", "--physics", default="ode", metavar="ENGINE", help="only ode is there")
     parser.add_argument("--seed", type=int, help="of the random numbers")
     parser.add_argument("--iters", type=int, default=0, metavar="N", help="end after N steps")

@@ -48,6 +48,8 @@ def parser() -> argparse.ArgumentParser:
     add("--listen", type=float, default=5.0, help="seconds of simulation to listen to the sensors (default 5; 0: not)")
     add("--slow", type=float, default=0.25,
         help="simulated seconds per second while listening to sensors (default 0.25)")
+    add("--lockstep", action="store_true",
+        help="physics waits for every picture: rates of cameras are then those of simulated time, however busy the machine")
     add("--factor", type=float,
         help="simulated seconds per second while driving (default: the world's own; 0: as fast as it goes)")
     add("--reach", type=float, default=0.0,
@@ -95,7 +97,8 @@ def measure(launches: List[Launch], given: Dict[str, str], options: argparse.Nam
     with contextlib.suppress(FileNotFoundError):
         os.remove(figures)
     try:
-        outcome = session.look("launch_gallery.measuring", words, log, job, options.windows)
+        outcome = session.look("launch_gallery.measuring", words, log, job, options.windows,
+                               {"ODE_SIM_LOCKSTEP": "1"} if options.lockstep else {})
     except KeyboardInterrupt:
         outcome = session.Outcome(notes=["interrupted"])
         if os.path.exists(figures):

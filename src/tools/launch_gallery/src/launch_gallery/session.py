@@ -63,18 +63,20 @@ class Outcome:
     notes: List[str] = field(default_factory=list)
 
 
-def look(module: str, words: List[str], log: str, job: dict, windows: bool = True) -> Outcome:
+def look(module: str, words: List[str], log: str, job: dict, windows: bool = True,
+         variables: Optional[Dict[str, str]] = None) -> Outcome:
     """Launch, have ``module`` look, stop.
 
     :param module: run as ``python3 -m`` with ``job`` as JSON on standard input; answers with a JSON line.
     :param words: files and arguments of roslaunch.
     :param windows: with a display, on which windows may open.
+    :param variables: more of the environment.
     """
     outcome = Outcome()
     port = free_port()
     with private_display() if windows else contextlib.nullcontext({"DISPLAY": ""}) as display, tempfile.TemporaryDirectory() as home:
         # the simulator leaves shadows out where no graphics card draws; a picture in a minute can afford them
-        environment = {"ODE_SIM_SHADOWS": "on", **os.environ, **display, "ROS_HOME": home,
+        environment = {"ODE_SIM_SHADOWS": "on", **os.environ, **(variables or {}), **display, "ROS_HOME": home,
                        "ROS_MASTER_URI": f"http://localhost:{port}", "PYTHONUNBUFFERED": "1"}
         with running(["roslaunch", "-p", str(port), *words], environment, log) as process:
             looker = subprocess.Popen([sys.executable, "-m", module], env=environment, text=True,
