@@ -166,6 +166,17 @@ class Motions(Commander):
         self.at([1.2] + HOME[1:])
         self.assertFalse(self.arm.execute(trajectory))  # it starts where the arm no longer is
 
+    def test_a_stop_ends_the_motion_before_it_and_no_later_one(self):
+        for _ in range(5):
+            self.arm.go([1.0] + HOME[1:], wait=False)
+            self.arm.stop()
+        self.arm.stop()
+        self.assertTrue(self.arm.go([0.2] + HOME[1:]))
+        self.at([0.2] + HOME[1:])
+        for value in (0.1, 0.2, 0.1, 0.2):
+            self.arm.stop()
+            self.assertTrue(self.arm.go([value] + HOME[1:]))
+
     def test_poses_shifts_and_lines(self):
         pose = self.arm.get_current_pose()
         pose.pose.position.y += 0.1

@@ -61,8 +61,9 @@ def pose_goal(target, link="hand", frame="world"):
 
 class Names(unittest.TestCase):
     def test_everything_that_clients_look_for_is_there(self):
-        rospy.wait_for_service("plan_sequence_path", timeout=PATIENCE)  # the last one to come up
-        published, subscribed, services = (dict(part) for part in rosgraph.Master("/test").getSystemState())
+        master = rosgraph.Master("/test")
+        wait_until(lambda: "/move_group/cancel" in dict(master.getSystemState()[1]), "move_group")  # it comes up last
+        published, subscribed, services = (dict(part) for part in master.getSystemState())
         for action in ("move_group", "execute_trajectory", "pickup", "place", "sequence_move_group"):
             self.assertIn("/move_group", published[f"/{action}/status"], action)
         for topic in ("monitored_planning_scene", "display_planned_path", "display_contacts",

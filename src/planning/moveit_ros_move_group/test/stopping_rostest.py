@@ -8,13 +8,14 @@ import rospkg
 import rospy
 import rostest
 from actionlib_msgs.msg import GoalStatus
-from moveit_msgs.msg import MoveGroupAction, MoveGroupGoal, MoveItErrorCodes
+from moveit_msgs.msg import ExecuteTrajectoryAction, ExecuteTrajectoryActionGoal, ExecuteTrajectoryGoal
+from moveit_msgs.msg import MoveGroupAction, MoveGroupActionGoal, MoveGroupGoal, MoveItErrorCodes
 from moveit_msgs.srv import GetPositionFK, GetPositionFKRequest
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 
 sys.path.insert(0, rospkg.RosPack().get_path("moveit_ros_move_group") + "/test")
-from client import HOME, JOINTS, LEFT, PATIENCE, Goal, apply, box, call, clear, move, request, wait_until  # noqa: E402
+from client import HOME, JOINTS, LEFT, PATIENCE, Goal, apply, box, call, clear, move, plan, request, wait_until  # noqa: E402
 
 Codes = MoveItErrorCodes
 LONG = 600.0  # s: planning that uses all its time ends only because it is stopped
@@ -77,6 +78,53 @@ class Stopping(unittest.TestCase):
         self.event.publish("stop")
         self.ended(goal, GoalStatus.ABORTED, Codes.CONTROL_FAILED, "said to stop")  # upstream's code
         self.assertFalse(at(LEFT))
+
+    def overtaken(self, name, kind, action_goal, goal):
+        """The result of a goal that is overtaken by a stop which was sent after it."""
+        ended = []
+        results = rospy.Subscriber(name + "/result", kind().action_result.__class__, ended.append)
+        goals = rospy.Publisher(name + "/goal", action_goal, queue_size=1)
+        wait_until(lambda: goals.get_num_connections() and results.get_num_connections(), "move_group")
+        message = action_goal(goal=goal)
+        message.goal_id.stamp = rospy.Time.now()
+        message.goal_id.id = f"overtaken {name} {message.goal_id.stamp}"
+        self.event.publish("stop")
+        goals.publish(message)
+        wait_until(lambda: [result for result in ended if result.status.goal_id.id == message.goal_id.id], "a result")
+        results.unregister()
+        goals.unregister()
+        return ended[-1].result
+
+    def test_a_stop_that_overtakes_its_goal(self):
+        message = MoveGroupGoal(request=request(LEFT))
+        diff = message.planning_options.planning_scene_diff
+        diff.is_diff = diff.robot_state.is_diff = True
+        for _ in range(5):
+            result = self.overtaken("move_group", MoveGroupAction, MoveGroupActionGoal, message)
+            self.assertEqual(result.error_code.val, Codes.PREEMPTED)
+        path = plan(LEFT).trajectory
+        for _ in range(5):
+            result = self.overtaken("execute_trajectory", ExecuteTrajectoryAction, ExecuteTrajectoryActionGoal,
+                                    ExecuteTrajectoryGoal(trajectory=path))
+            self.assertEqual(result.error_code.val, Codes.PREEMPTED)
+        self.assertTrue(at(HOME))
+
+    def test_a_stop_or_a_cancel_right_after_the_goal(self):
+        for _ in range(10):
+            goal = move(LEFT)
+            self.event.publish("stop")
+            self.assertIn(goal.result()[1].error_code.val, (Codes.PREEMPTED, Codes.CONTROL_FAILED))
+            goal = move(LEFT)
+            goal.cancel()
+            # An actionlib client takes a status from before the goal for the loss of it when it has cancelled it already.
+            self.assertIn(goal.result()[0], (GoalStatus.PREEMPTED, GoalStatus.RECALLED, GoalStatus.LOST))
+        rospy.sleep(0.5)
+        self.assertTrue(at(HOME))
+
+    def test_a_goal_that_comes_after_a_stop(self):
+        self.event.publish("stop")
+        rospy.sleep(0.3)
+        self.ended(move(LEFT), GoalStatus.SUCCEEDED, Codes.SUCCESS)
 
     def test_cancel_between_two_plans(self):
         message = MoveGroupGoal(request=request(LEFT, max_velocity_scaling_factor=0.05))

@@ -8,6 +8,10 @@
 #include <moveit_msgs/PlaceAction.h>
 #include <ros/ros.h>
 
+#include <atomic>
+#include <chrono>
+#include <thread>
+
 #include "action_queue.h"
 
 namespace moveit {
@@ -70,6 +74,17 @@ struct MoveGroupInterface::Impl {
   std::unique_ptr<moveit_msgs::Constraints> path_constraints;
   std::unique_ptr<moveit_msgs::TrajectoryConstraints> trajectory_constraints;
   std::string end_effector_link, pose_frame, support_surface;
+
+  /// A stop has just been sent. A goal that comes to move_group within STOP_HOLDS of it may have been sent before it.
+  static void noteStop() { stopped() = std::chrono::steady_clock::now(); }
+  static void outlastStop() { std::this_thread::sleep_until(stopped().load() + STOP_HOLDS); }
+
+private:
+  static constexpr std::chrono::milliseconds STOP_HOLDS{ 100 };
+  static std::atomic<std::chrono::steady_clock::time_point>& stopped() {
+    static std::atomic<std::chrono::steady_clock::time_point> when{ {} };
+    return when;
+  }
 };
 
 template <class Action, class Goal, class Result>
@@ -80,6 +95,7 @@ moveit::core::MoveItErrorCode MoveGroupInterface::Impl::call(const Client<Action
     ROS_WARN_STREAM_NAMED(LOGNAME, name << " action server not connected");
     return moveit_msgs::MoveItErrorCodes::COMMUNICATION_FAILURE;
   }
+  outlastStop();
   {
     const auto lock = queue->lock();
     client->sendGoal(goal);

@@ -202,6 +202,7 @@ void MoveGroupInterface::stop() {
   event.data = "stop";
   waitForSubscriber(impl_->event_publisher);
   impl_->event_publisher.publish(event);
+  Impl::noteStop();
 }
 
 moveit_msgs::PickupGoal MoveGroupInterface::constructPickupGoal(const std::string& object,

@@ -187,6 +187,22 @@ TEST_F(Clients, StopEndsAMotion) {
   EXPECT_LT(arm_.getCurrentJointValues().at(0), 2.4);
 }
 
+TEST_F(Clients, StopWhatTheyHaveJustAskedForAndNothingLater) {
+  goHome();
+  const std::vector<double> home = arm_.getCurrentJointValues();
+  for (int count = 0; count < 5; ++count) {
+    arm_.setJointValueTarget({1.5, -0.6, 1.6, 0, 1.0, 0});
+    ASSERT_EQ(arm_.asyncMove(), Codes::SUCCESS);
+    arm_.stop();
+    ASSERT_TRUE(arm_.getMoveGroupClient().waitForResult(ros::Duration(PATIENCE)));
+    EXPECT_NE(arm_.getMoveGroupClient().getState(), actionlib::SimpleClientGoalState::SUCCEEDED);
+    EXPECT_NEAR(arm_.getCurrentJointValues().at(0), home.at(0), 0.02);
+    arm_.stop();
+    arm_.setJointValueTarget(home);
+    EXPECT_EQ(arm_.move(), Codes::SUCCESS);
+  }
+}
+
 TEST_F(Clients, ReachPosesAndFollowLines) {
   goHome();
   geometry_msgs::Pose target = arm_.getCurrentPose().pose;
@@ -312,7 +328,9 @@ TEST_F(Clients, GoalsOfPosesSayTheirTolerances) {
 
 TEST_F(Clients, StartStatesStickUntilReset) {
   goHome();
-  moveit::core::RobotState start(*arm_.getCurrentState());
+  const moveit::core::RobotStatePtr now = arm_.getCurrentState(PATIENCE);
+  ASSERT_TRUE(now);
+  moveit::core::RobotState start(*now);
   start.setVariablePosition("joint_1", -1.0);
   arm_.setStartState(start);
   arm_.setNamedTarget("left");

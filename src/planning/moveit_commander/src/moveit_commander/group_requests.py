@@ -109,6 +109,7 @@ class GroupRequests:
 
     def move(self, wait: bool) -> bool:
         """Plan and execute; True when it succeeded (or, without ``wait``, was sent)."""
+        self.session.outlast_stop()
         goal = self._goal(False)
         if not wait:
             self._move.send(goal)
@@ -118,6 +119,7 @@ class GroupRequests:
 
     def execute(self, trajectory: RobotTrajectory, wait: bool) -> bool:
         """Execute a trajectory."""
+        self.session.outlast_stop()
         goal = ExecuteTrajectoryGoal(trajectory=trajectory)
         if not wait:
             self._execute.send(goal)
@@ -134,8 +136,9 @@ class GroupRequests:
         return False
 
     def stop(self) -> None:
-        """Stop what moves."""
-        self._stop.publish("stop")
+        """Stop what moves, or was told to."""
+        publish(self._stop, String("stop"), 1.0)
+        self.session.note_stop()
 
     # --- services ---
 
@@ -226,6 +229,7 @@ class GroupRequests:
         if not action.wait(5.0):
             rospy.logerr("%s action server not connected: %s", what, rospy.resolve_name(action.name))
             return MoveItErrorCodes.FAILURE
+        self.session.outlast_stop()
         result = action.call(goal)
         if result is None:
             return MoveItErrorCodes.FAILURE

@@ -19,6 +19,8 @@ from moveit_ros_planning.state_monitor import CurrentStateMonitor
 
 from .roscpp_initializer import ensure_node
 
+#: wall s: a goal that comes to move_group this soon after a stop may have been sent before it
+_STOP_HOLDS = 0.1
 _sessions: Dict[Tuple[str, str], "Session"] = {}
 _lock = threading.Lock()
 
@@ -34,10 +36,19 @@ class Session:
             raise RuntimeError(str(error)) from error
         self.model: motion.RobotModel = self.description.model
         self._monitor: Optional[CurrentStateMonitor] = None
+        self._stopped = -_STOP_HOLDS
 
     def name(self, relative: str) -> str:
         """``relative`` in the namespace of the move_group."""
         return ns_join(self.ns, relative) if self.ns else relative
+
+    def note_stop(self) -> None:
+        """A stop has just been sent."""
+        self._stopped = time.monotonic()
+
+    def outlast_stop(self) -> None:
+        """Wait until a stop that this process has sent cannot be taken for one of the motion that it asks for next."""
+        time.sleep(max(0.0, self._stopped + _STOP_HOLDS - time.monotonic()))
 
     @property
     def monitor(self) -> CurrentStateMonitor:

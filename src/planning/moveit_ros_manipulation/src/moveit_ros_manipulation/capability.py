@@ -15,7 +15,7 @@ from dynamic_parameters import Parameter, Server
 from moveit_core import states
 from moveit_core.errors import PlanningError
 from moveit_ros_move_group.capability import ActionCapability, Capability, result_text
-from moveit_ros_planning.plan_execution import Plan, Stop
+from moveit_ros_planning.plan_execution import Plan
 from moveit_ros_planning.robot_model import scaling_factors
 
 from .planner import Manipulation, Outcome, Settings, Task, allowing, hand_pose
@@ -56,15 +56,10 @@ class _Manipulate(ActionCapability):
     """What picking and placing have in common."""
 
     def __init__(self, context, settings: Settings):
-        self._stop = Stop()
         self._settings = settings
         super().__init__(context)
 
-    def preempt(self) -> None:
-        self._stop.set()
-
     def serve(self, goal, result) -> str:
-        self._stop = Stop()
         self.feedback("PLANNING")
         self.context.monitor.wait_for_state()
         options = goal.planning_options
@@ -73,8 +68,8 @@ class _Manipulate(ActionCapability):
             plan = self.plan(self.context.monitor.copy(options.planning_scene_diff), goal, result)
         else:
             plan = self.context.plan_execution.plan_and_execute(
-                lambda scene: self.plan(scene, goal, result), options.planning_scene_diff, self._stop, options.replan,
-                options.replan_attempts, options.replan_delay, before=lambda: self.feedback("MONITOR"))
+                lambda scene: self.plan(scene, goal, result), options.planning_scene_diff, self.stop, options.replan,
+                options.replan_attempts, options.replan_delay, before=lambda: self.feedback("MONITOR"), stops=self.stops)
         result.error_code.val, result.planning_time = plan.code, plan.planning_time
         trajectories = [segment.trajectory for segment in plan.segments]
         if trajectories:
@@ -108,7 +103,7 @@ class _Manipulate(ActionCapability):
         """A planner for the time that the goal allows."""
         seconds = goal.allowed_planning_time if goal.allowed_planning_time > 0 else 5.0
         return Manipulation(lambda scene, group, values, left: self._free(scene, goal, group, values, left), seconds,
-                            self._stop.is_set, self._settings)
+                            self.stop.is_set, self._settings)
 
     def _free(self, scene, goal, group: str, values, seconds: float) -> motion.PlanResult:
         request = MotionPlanRequest(group_name=group, planner_id=goal.planner_id, allowed_planning_time=seconds,
@@ -119,7 +114,7 @@ class _Manipulate(ActionCapability):
         names = list(self.context.model.group(group).variables)
         request.goal_constraints = [Constraints(joint_constraints=[JointConstraint(name, float(value), 1e-4, 1e-4, 1.0)
                                                                    for name, value in zip(names, values)])]
-        return self.context.pipelines.find("").generate(scene, request, self._stop.token)
+        return self.context.pipelines.find("").generate(scene, request, self.stop.token)
 
     def first_that_works(self, scene, goal, tasks, result, field: str) -> Plan:
         """Try tasks (entry, Task) in order; the entry that works goes into ``field`` of the result."""
@@ -131,7 +126,7 @@ class _Manipulate(ActionCapability):
                 setattr(result, field, entry)
                 return Plan(MoveItErrorCodes.SUCCESS, "", last.segments, started - planner.left)
             rospy.loginfo("%s: %s", entry.id or "one way", last.message)
-            if planner.left <= 0 or self._stop.is_set():
+            if planner.left <= 0 or self.stop.is_set():
                 break
         return Plan(last.code, f"none of the {len(tasks)} ways can be planned; the last one: {last.message}", [],
                     started - planner.left)

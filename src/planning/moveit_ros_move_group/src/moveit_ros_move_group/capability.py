@@ -2,7 +2,6 @@
 from __future__ import annotations
 
 import functools
-import threading
 from typing import Any, Callable
 
 import actionlib
@@ -11,6 +10,7 @@ import rospy
 from moveit_msgs.msg import MoveItErrorCodes
 
 from moveit_core.errors import PlanningError, code_name, one_line
+from moveit_ros_planning.plan_execution import Stop
 
 from .context import Context
 
@@ -59,6 +59,23 @@ def _set_code(response, code: int) -> None:
             holder.error_code.val = code
 
 
+class _Server(actionlib.SimpleActionServer):
+    """Notes with each goal how often it had been said to stop before it came: it may wait for the end of another."""
+
+    def __init__(self, name: str, kind: type, execute: Callable[[Any], None], stops_before: Callable[[rospy.Time], int]):
+        self._stops_before = stops_before
+        super().__init__(name, kind, execute_cb=execute, auto_start=False)
+
+    def internal_goal_callback(self, goal) -> None:
+        goal.stops = self._stops_before(goal.get_goal_id().stamp)
+        super().internal_goal_callback(goal)
+
+    @property
+    def stops(self) -> int:
+        """Those of the goal that runs."""
+        return self.current_goal.stops
+
+
 class ActionCapability(Capability):
     """A capability behind an action with one goal at a time; a new goal stops the running one."""
 
@@ -68,14 +85,20 @@ class ActionCapability(Capability):
 
     def __init__(self, context: Context):
         super().__init__(context)
-        self._server = actionlib.SimpleActionServer(self.action_name, self.action, execute_cb=self._execute,
-                                                    auto_start=False)
+        #: of the goal that runs: whether it is to end, and how often it had been said to stop before it came
+        self.stop, self.stops = Stop(), 0
+        execution = context.execution
+        self._server = _Server(self.action_name, self.action, self._execute,
+                               execution.stops_before if execution is not None else lambda stamp: 0)
         self._server.register_preempt_callback(self.preempt)
-        self._busy = threading.Lock()
         self._server.start()
 
     def preempt(self) -> None:
         """A cancel, or a new goal: stop the running one."""
+        self.stop.set()
+
+    def shutdown(self) -> None:
+        self.preempt()
 
     def serve(self, goal, result) -> str:
         """Do what ``goal`` says and fill ``result`` (its error_code above all); the text of the goal's status."""
@@ -87,6 +110,9 @@ class ActionCapability(Capability):
 
     def _execute(self, goal) -> None:
         result = type(self.action().action_result.result)()
+        self.stop, self.stops = Stop(), self._server.stops
+        if self._server.is_preempt_requested():
+            self.stop.set()
         try:
             text = self.serve(goal, result)
         except PlanningError as error:

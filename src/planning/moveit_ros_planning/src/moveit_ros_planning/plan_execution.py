@@ -88,13 +88,15 @@ class PlanExecution:
 
     def plan_and_execute(self, make: Callable[[motion.PlanningScene], Plan], diff: PlanningScene, stop: Stop,
                          replan: bool = False,
-                         attempts: int = 0, delay: float = 0.0, before: Callable[[], None] = lambda: None) -> Plan:
+                         attempts: int = 0, delay: float = 0.0, before: Callable[[], None] = lambda: None,
+                         stops: Optional[int] = None) -> Plan:
         """Plan with ``make(scene)`` and execute; with ``replan``, again after failures that planning again may mend.
 
         :param delay: wall seconds between attempts.
         :param before: called before each execution.
+        :param stops: see TrajectoryExecution.start.
         """
-        stops = self._execution.stops
+        stops = self._execution.stops if stops is None else stops
         left = (attempts or int(self.config["max_replan_attempts"])) if replan else 1
         while True:
             left -= 1

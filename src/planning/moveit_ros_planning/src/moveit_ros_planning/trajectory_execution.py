@@ -39,6 +39,8 @@ _PARAMETERS = [
 ]
 #: a line about the remaining time is printed this often (s)
 _REPORT = 5.0
+#: wall s: a stop that comes this little before a goal which was stamped no later was meant for it
+_TOGETHER = 0.1
 
 
 class ExecutionError(Exception):
@@ -69,6 +71,7 @@ class TrajectoryExecution:
         self._running: Optional[Execution] = None
         #: how often it was said to stop; who has seen it change is not to start a motion
         self.stops = 0
+        self._last_stop = (-math.inf, rospy.Time())  # when it came: monotonic and ROS time
         self._on_stop: List[Callable[[], None]] = []
         self.config: Dict[str, object] = {}
         self._server = Server(namespace + "trajectory_execution", _PARAMETERS, self._reconfigure)
@@ -90,6 +93,7 @@ class TrajectoryExecution:
 
     def _on_event(self, message: String) -> None:
         if message.data == "stop":
+            self._last_stop = (time.monotonic(), rospy.Time.now())
             self.stop()
         else:
             rospy.logwarn("Unknown event type: '%s'; the only one is 'stop'", message.data[:40])
@@ -109,6 +113,14 @@ class TrajectoryExecution:
         if running is not None:
             running.stop()
 
+    def stops_before(self, stamp: rospy.Time) -> int:
+        """The ``stops`` of :meth:`start` for a goal of this stamp that arrives now.
+
+        Goals and stops come on two connections, so that a stop which was sent right after a goal may arrive before it.
+        """
+        wall, ros = self._last_stop
+        return self.stops - int(time.monotonic() - wall < _TOGETHER and stamp <= ros)
+
     @contextmanager
     def calling_at_stop(self, call: Callable[[], None]) -> Iterator[None]:
         """``call()`` whenever it is said to stop, inside the block."""
@@ -123,7 +135,8 @@ class TrajectoryExecution:
         """Start to execute trajectories one after the other.
 
         :param on_segment: called with the index of each that has ended well; False stops.
-        :param stops: ``self.stops`` when the motion was asked for, default now; a stop since then ends it at once.
+        :param stops: ``self.stops``, or :meth:`stops_before`, when the motion was asked for, default now; a stop since then
+            ends it at once.
         :raises ExecutionError: nothing can execute them, they do not start where the robot is, or another is running.
         """
         stops = self.stops if stops is None else stops

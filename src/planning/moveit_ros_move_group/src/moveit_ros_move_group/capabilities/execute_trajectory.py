@@ -23,6 +23,7 @@ class ExecuteTrajectory(ActionCapability):
         super().__init__(context)
 
     def preempt(self) -> None:
+        super().preempt()
         running = self._execution
         if running is not None:
             running.stop()
@@ -32,14 +33,13 @@ class ExecuteTrajectory(ActionCapability):
             return self.failed(result, MoveItErrorCodes.CONTROL_FAILED,
                                "Cannot execute trajectory since ~allow_trajectory_execution was set to false")
         rospy.loginfo("Execution request received")
-        stops = self.context.execution.stops
         self.feedback("MONITOR")
         try:
-            self._execution = self.context.execution.start([goal.trajectory], stops=stops)
+            self._execution = self.context.execution.start([goal.trajectory], stops=self.stops)
         except ExecutionError as error:
             rospy.logerr("%s", error)
             return self.failed(result, MoveItErrorCodes.CONTROL_FAILED, str(error))
-        if self._server.is_preempt_requested():
+        if self.stop.is_set():
             self._execution.stop()
         while not self._execution.wait(0.2) and not rospy.is_shutdown():
             pass

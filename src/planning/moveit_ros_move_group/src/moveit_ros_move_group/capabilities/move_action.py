@@ -6,7 +6,7 @@ import rospy
 from moveit_msgs.msg import MotionPlanRequest, MoveGroupAction, MoveItErrorCodes, PlanningScene, RobotState
 
 from moveit_core import states
-from moveit_ros_planning.plan_execution import Plan, Segment, Stop
+from moveit_ros_planning.plan_execution import Plan, Segment
 
 from ..capability import ActionCapability, result_text
 
@@ -40,19 +40,8 @@ class MoveAction(ActionCapability):
     action_name = "move_group"
     action = MoveGroupAction
 
-    def __init__(self, context):
-        self._stop = Stop()
-        super().__init__(context)
-
-    def preempt(self) -> None:
-        self._stop.set()
-
-    def shutdown(self) -> None:
-        self._stop.set()
-
     def serve(self, goal, result) -> str:
-        self._stop = Stop()
-        if self._server.is_preempt_requested():
+        if self.stop.is_set():
             return self.failed(result, MoveItErrorCodes.PREEMPTED, "Preempt requested before the goal is planned.")
         self.feedback("PLANNING")
         self.context.monitor.wait_for_state()
@@ -89,12 +78,12 @@ class MoveAction(ActionCapability):
         options, request = goal.planning_options, current_state_only(goal.request)
         diff = without_robot_state(options.planning_scene_diff)
         return self.context.plan_execution.plan_and_execute(
-            lambda scene: self._plan(scene, request), diff, self._stop, options.replan, options.replan_attempts,
-            options.replan_delay, before=lambda: self.feedback("MONITOR"))
+            lambda scene: self._plan(scene, request), diff, self.stop, options.replan, options.replan_attempts,
+            options.replan_delay, before=lambda: self.feedback("MONITOR"), stops=self.stops)
 
     def _plan(self, scene: motion.PlanningScene, request: MotionPlanRequest) -> Plan:
         self.feedback("PLANNING")
-        result = self.context.plan(scene, request, self._stop.token)
+        result = self.context.plan(scene, request, self.stop.token)
         plan = Plan(result.code, result.message, planning_time=result.planning_time)
         if result.trajectory is not None:
             plan.segments = [Segment(result.trajectory)]

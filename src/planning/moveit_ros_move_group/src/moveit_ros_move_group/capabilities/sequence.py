@@ -10,7 +10,7 @@ from moveit_msgs.srv import GetMotionSequence
 
 from moveit_core import states
 from moveit_core.errors import PlanningError
-from moveit_ros_planning.plan_execution import Plan, Segment, Stop
+from moveit_ros_planning.plan_execution import Plan, Segment
 from moveit_ros_planning.planning_pipeline import Pipeline
 
 from ..capability import ActionCapability, Capability, result_text, serve
@@ -66,13 +66,6 @@ class SequenceAction(ActionCapability):
     action_name = "sequence_move_group"
     action = MoveGroupSequenceAction
 
-    def __init__(self, context):
-        self._stop = Stop()
-        super().__init__(context)
-
-    def preempt(self) -> None:
-        self._stop.set()
-
     def code(self, result) -> int:
         return result.response.error_code.val
 
@@ -81,7 +74,6 @@ class SequenceAction(ActionCapability):
         return message
 
     def serve(self, goal, result) -> str:
-        self._stop = Stop()
         self.feedback("PLANNING")
         if not goal.request.items:
             return self.failed(result, MoveItErrorCodes.SUCCESS, "The sequence is empty.")
@@ -94,13 +86,13 @@ class SequenceAction(ActionCapability):
                 current_state_only(item.req)
             plan = self.context.plan_execution.plan_and_execute(
                 lambda scene: self._plan(scene, goal.request), without_robot_state(options.planning_scene_diff),
-                self._stop,
-                options.replan, options.replan_attempts, options.replan_delay, before=lambda: self.feedback("MONITOR"))
+                self.stop, options.replan, options.replan_attempts, options.replan_delay,
+                before=lambda: self.feedback("MONITOR"), stops=self.stops)
         result.response.error_code.val, result.response.planning_time = plan.code, plan.planning_time
         _fill(result.response, [segment.trajectory for segment in plan.segments])
         return result_text(plan.code, plan.message, not plan.segments, options.plan_only)
 
     def _plan(self, scene, request: MotionSequenceRequest) -> Plan:
-        found = plan_sequence(self.context, scene, request, self._stop.token)
+        found = plan_sequence(self.context, scene, request, self.stop.token)
         return Plan(found.code, found.message, [Segment(trajectory, f"sequence {number}") for number, trajectory in
                                                 enumerate(found.trajectories or ())], found.planning_time)
