@@ -32,7 +32,7 @@ def parser() -> argparse.ArgumentParser:
         help="what to launch, several files together; windows are off by themselves: gui:=false rviz:=false")
     add("--output", "-o", default="out/measure", help="folder for picture, figures and log (default out/measure)")
     add("--name", help="of these files (default: the launch file's)")
-    add("--model", default="", help="robot in the simulation (default: the movable model with most joints)")
+    add("--model", default="", help="robot in the simulation (default: the movable model with most joints, of several the last)")
     add("--command", default="", help="topic of Twist, TwistStamped or Ackermann messages (default: the best cmd_vel)")
     add("--speed", type=float, default=0.3, help="straight on, m/s (default 0.3; 0: not)")
     add("--aside", type=float, default=0.0, help="to the left, m/s, for robots that can (default 0: not)")

@@ -17,7 +17,7 @@ def _service(name: str) -> rospy.ServiceProxy:
 
 
 def subject(seconds: float) -> str:
-    """What to look at: the movable model with most joints; '' if nothing can move.
+    """What to look at: the movable model with most joints, of several the one that came last; '' if nothing can move.
 
     :raises rospy.ROSException: the simulator did not answer within ``seconds``
     """
@@ -26,7 +26,7 @@ def subject(seconds: float) -> str:
         raise rospy.ROSException("nobody publishes /gazebo/model_states")
     properties = _service("/gazebo/get_model_properties")
     known = {name: properties(name) for name in rospy.wait_for_message("/gazebo/model_states", kind, seconds).name}
-    movable = [name for name in known if not known[name].is_static]
+    movable = [name for name in reversed(list(known)) if not known[name].is_static]  # a robot comes after its world's own things
     return max(movable, key=lambda name: len(known[name].joint_names), default="")
 
 
