@@ -63,6 +63,17 @@ def test_a_button_does_not_take_the_place_of_a_value_that_waits_to_be_sent():
     assert "(i=s,n?(c.sendMessage(s),r=!1,n=!1," in before
 
 
+def test_a_handle_that_is_drawn_through_a_body_is_hit_before_it():
+    before, after = changed()
+    order = re.search(r"\.sort\(\((\w+),(\w+)\)=>\{let grip=(o=>.*?),first=grip\(\2\.object\)-grip\(\1\.object\);"
+                      r"if\(first\)return first;", after)
+    assert before.count("raycaster.intersectObject(") == 1 and after.index("raycaster.intersectObject(") < order.start()
+    # the parts of a handle that are hit are not drawn, or drawn through everything, in a group that stands where it is put
+    assert re.search(r"matrixAutoUpdate:!1,.{1,800}?createElement\(`mesh`,\{visible:!1,position:\[0,", before, re.DOTALL)
+    assert re.search(r"lineWidth:\w+\*4,visible:!1,", before)
+    assert "!o.visible&&o.parent?.matrixAutoUpdate===!1" in order.group(3)
+
+
 def test_another_page_is_left_as_it_is_but_for_its_title():
     assert entitled(b"<html>x</html>", "t") == b"<html>x</html>"
 

@@ -88,12 +88,17 @@ _ASKED_LATER = (rb""".replace(/let ([\w$]+)=([\w$]+)\(\);(console\.log\(`WebGL s
 _NOTHING_LOST = (rb""".replace(/([\w$]+)\.sendMessage!==null&&\(([\w$]+)=([\w$]+),([\w$]+)\?\(\1\.sendMessage\(\3\),([\w$]+)=!1/,"""
                  rb""""$1.sendMessage!==null&&($5&&$2&&($2.type!==$3.type||$2.uuid!==$3.uuid||$2.name!==$3.name)&&"""
                  rb"""($1.sendMessage($2),$5=!1),$2=$3,$4?($1.sendMessage($3),$5=!1")""")
+#: Handles that are drawn through everything are gripped so, too: what is hit of them is hit first. Some are gripped by a part that is not
+#: drawn at all, in a group that stands where it is put.
+_ON_TOP = (rb""".replace(/\.sort\(\(([\w$]+),([\w$]+)\)=>\{(?=let [\w$]+=[\w$]+\(\1\.object\),)/,"""
+           rb"""".sort(($1,$2)=>{let grip=o=>o.material?.depthTest===!1||!o.visible&&o.parent?.matrixAutoUpdate===!1?1:0,"""
+           rb"""first=grip($2.object)-grip($1.object);if(first)return first;")""")
 
 
 def entitled(page: bytes, title: str) -> bytes:
     """viser's page under another name than its own, sparing where it draws."""
     head = f"<title>{html.escape(title)}</title>".encode() + _SPARING
-    return page.replace(_UNPACKED, _UNPACKED + _UNLIT + _ASKED_LATER + _NOTHING_LOST, 1).replace(b"<title>Viser</title>", head, 1)
+    return page.replace(_UNPACKED, _UNPACKED + _UNLIT + _ASKED_LATER + _NOTHING_LOST + _ON_TOP, 1).replace(b"<title>Viser</title>", head, 1)
 
 
 class Porter(threading.Thread):
