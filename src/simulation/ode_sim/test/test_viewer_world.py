@@ -113,6 +113,7 @@ def test_contacts_bear_the_weight_and_change_no_bit():
         simulation.step(2000)
         borne(simulation, 9.8)
         assert np.allclose(simulation.contacts()[:, 2], 0.0, atol=0.01)
+        assert (simulation.contacts()[:, 5] > 0.0).all()  # on the ball, not on the ground below it, where no arrow is seen
         assert simulation.call(lambda world: bytes(world.save())) == bytes(plain.save())
         simulation.insert("late", "<sdf version='1.6'><model name='m'><allow_auto_disable>0</allow_auto_disable><link name='l'>"
                           "<collision name='c'><geometry><box><size>1 1 1</size></box></geometry></collision></link></model></sdf>",

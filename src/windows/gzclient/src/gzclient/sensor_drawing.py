@@ -7,7 +7,7 @@ from typing import Any, Callable, Dict, NamedTuple, Tuple
 import numpy as np
 from gazebo_msgs.msg import ContactsState
 from geometry_msgs.msg import WrenchStamped
-from ode_sim.math3 import Pose, rotate
+from ode_sim.math3 import Pose, rotate, scale
 from ode_sim.viewer.arrows import Forces
 from ode_sim.viewer.drawing import wxyz
 from ode_sim.viewer.simulation import Frame, WorldRecord
@@ -105,16 +105,21 @@ def _cloud(view: View, source: Any, place: Place) -> None:
 
 
 def _bumper(view: View, source: Any, place: Place) -> None:
-    """Places are those of the world, whatever the frame says; forces turn with the link of the first collision."""
+    """Places are those of the world, whatever the frame says; forces turn with the link of the first collision, on which they act.
+
+    Of a body on something that stands the force on the body is drawn: the other one is hidden in what stands.
+    """
     places, forces = [], []
     for state in source.message.states:
         model, _, rest = state.collision1_name.partition("::")
         record = view.world.model(model)
         row = record.links.get(rest.rpartition("::")[0]) if record is not None else None
+        other = view.world.model(state.collision2_name.partition("::")[0])
         turn = Pose(q=view.frame.pose(row).q) if row is not None else Pose()
+        sign = -1.0 if record is not None and record.static and other is not None and not other.static else 1.0
         for p, wrench in zip(state.contact_positions, state.wrenches):
             places.append((p.x, p.y, p.z))
-            forces.append(rotate(turn, (wrench.force.x, wrench.force.y, wrench.force.z)))
+            forces.append(scale(rotate(turn, (wrench.force.x, wrench.force.y, wrench.force.z)), sign))
     _forces(view, source, place, (220, 30, 160)).show(
         np.array(places, float).reshape(-1, 3), np.array(forces, float).reshape(-1, 3), view.scale)
 

@@ -32,9 +32,16 @@ class ContactWatch:
                 self._add(model)
 
     def read(self) -> np.ndarray:
-        """(N, 6) float32 of the last step: place m, force on the first body N, world axes."""
+        """(N, 6) float32 of the last step: place m, force N on the body that can move (on the first of two), world axes."""
         found = self._world.contacts()[:_MOST]
-        return np.concatenate([found["position"], found["force"]], axis=1).astype(np.float32)
+        bears = np.array([self._stands(one) and not self._stands(other)
+                          for one, other in zip(found["collision1"], found["collision2"])], bool)
+        force = np.where(bears[:, None], -found["force"], found["force"])
+        return np.concatenate([found["position"], force], axis=1).astype(np.float32)
+
+    def _stands(self, collision_id: int) -> bool:
+        collision = self._world.collision(collision_id)
+        return collision is None or collision.link.model.static
 
     def _add(self, model: Any) -> None:
         if self._on:

@@ -207,6 +207,7 @@ class Page:
         """All anew, after a change of how things are drawn. Drawing thread."""
         self.drawing.redraw(self.world)
         self.overlays.update(self.world)
+        self._each(lambda panel: panel.on_world(self.world))  # what they hung on the links went with these
         self.frame = None
 
     def _take(self, world: WorldRecord, frame: Frame) -> None:

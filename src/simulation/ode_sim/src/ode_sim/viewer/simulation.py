@@ -210,7 +210,7 @@ class Simulation(ABC):
 
     @abstractmethod
     def contacts(self) -> np.ndarray:
-        """(N, 6) float32 of the newest moment: place m, force on the first body N, world axes."""
+        """(N, 6) float32 of the newest moment: place m, force N on the body that can move, world axes."""
 
     @abstractmethod
     def moments(self) -> Tuple[KeptMoment, ...]:

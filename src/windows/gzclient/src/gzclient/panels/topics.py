@@ -40,6 +40,7 @@ class TopicsPanel(Panel):
         self._search = self.gui.add_text("Search", "")
         self._chosen = self.gui.add_dropdown("Topic", (_NONE,))
         self._field = self.gui.add_text("Plot", "", hint="a number of the message, as in pose[0].position.x")
+        self._why = self.gui.add_html("", visible=False)  # there is no plot
         self._state = self.gui.add_html(note("no topic"))
         self._picture = self.gui.add_folder("Picture", visible=False)
         self._image: Any = None
@@ -70,7 +71,7 @@ class TopicsPanel(Panel):
             self._subscriber = None
         self._topic, self._message, self._count, self._drawn = topic, None, 0, 0
         self._points.clear()
-        self._picture.visible = self._text.visible = False
+        self._picture.visible = self._text.visible = self._why.visible = self._plots.visible = False
         if topic == _NONE:
             self._state.content = note("no topic")
             return
@@ -86,7 +87,8 @@ class TopicsPanel(Panel):
     def _plot_field(self, path: str) -> None:
         self._path = path.strip().lstrip("/")
         self._points.clear()
-        self._plots.visible = bool(self._path)
+        self._why.visible = self._plots.visible = False
+        self._drawn = -1  # the message that is there already is looked at again
 
     def _take(self, message: Any) -> None:
         self._message = message
@@ -134,8 +136,12 @@ class TopicsPanel(Panel):
         try:
             number_at(message, self._path)
         except Refused as error:
-            self._state.content = note(str(error))
+            self._why.content = note(str(error))
+            self._why.visible = True
+            self._plots.visible = False
             return
+        self._why.visible = False
+        self._plots.visible = True
         points: List[Tuple[float, float]] = list(self._points)
         if len(points) < 2:
             return

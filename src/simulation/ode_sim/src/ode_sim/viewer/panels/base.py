@@ -21,7 +21,7 @@ class Panel:
         self.simulation = page.simulation
 
     def on_world(self, world: WorldRecord) -> None:
-        """Another world, or a change of what is in it. Drawing thread."""
+        """Another world, a change of what is in it, or all of it drawn anew. Drawing thread."""
 
     def on_frame(self, frame: Frame) -> None:
         """Five times a second. Drawing thread."""
