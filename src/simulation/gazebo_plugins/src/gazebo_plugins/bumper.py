@@ -1,7 +1,7 @@
 """libgazebo_ros_bumper.so: gazebo_msgs/ContactsState of a contact sensor, empty ones included."""
 from __future__ import annotations
 
-from typing import List
+from typing import Dict, List, Tuple
 
 import rospy
 from gazebo_msgs.msg import ContactsState, ContactState
@@ -67,7 +67,7 @@ class Bumper(SensorPlugin):
             self.states.clear()
             self.steps = 0
         self.steps += 1
-        pairs = {}
+        pairs: Dict[Tuple[int, int], list] = {}
         for contact in self.world.contacts():
             first, second = int(contact["collision1"]), int(contact["collision2"])
             if first in self.collisions or second in self.collisions:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import Tuple
 
+import rospy
 from gazebo_ros.plugin import ModelPlugin, PluginError
 from ode_sim import math3
 from ode_sim.math3 import Pose
@@ -27,6 +28,9 @@ class ForceBasedMove(ModelPlugin):
     gain, turn_gain = 10000.0, 100.0
     timeout, holds_after_timeout = math.inf, True
     fastest, fastest_turn = math.inf, math.inf
+
+    last_time: rospy.Time
+    place: Pose  #: where the odometry has the base
 
     def load(self, server, model, sdf) -> None:
         self.server, self.model = server, model

@@ -2,7 +2,6 @@
 from __future__ import annotations
 
 import math
-from typing import Optional
 
 import rospy
 from gazebo_ros.plugin import ModelPlugin, PluginError
@@ -19,6 +18,9 @@ class Harness(ModelPlugin):
     Topics ``harness/velocity`` (m/s along the joint's axis) and ``harness/detach`` in the model's namespace. The winch
     moves exactly as commanded, within the joint's limits, whatever the load: its ``<pid>`` is not needed.
     """
+
+    start: Pose
+    attachment: Attachment
 
     def load(self, server, model, sdf) -> None:
         self.server, self.model = server, model
@@ -41,8 +43,6 @@ class Harness(ModelPlugin):
         self.lower = limit.get("lower", -math.inf) if limit else -math.inf
         self.upper = limit.get("upper", math.inf) if limit else math.inf
         self.velocity = self.way = 0.0
-        self.start: Optional[Pose] = None
-        self.attachment: Optional[Attachment] = None
         self._hold()
         self.topics = Topics(sdf, model.name, "A")
         self.topics.subscriber("harness/velocity", Float32, self._wind)

@@ -89,7 +89,7 @@ class ImageTopics:
     def outputs(self) -> Tuple[str, ...]:
         """What somebody listens to now."""
         theora = self._theora is not None and self._theora.wanted()
-        wanted = (self._source,) if theora or self._raw.get_num_connections() else ()
+        wanted: Tuple[str, ...] = (self._source,) if theora or self._raw.get_num_connections() else ()
         if self._compressed is not None and self._compressed.get_num_connections():
             wanted += (self._settings,)
         return wanted

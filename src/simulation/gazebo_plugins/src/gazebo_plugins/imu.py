@@ -6,6 +6,7 @@ rest), the sensor's includes the reaction to gravity (+9.8 along z at rest).
 from __future__ import annotations
 
 import math
+from typing import Optional
 
 import numpy as np
 from geometry_msgs.msg import Quaternion, Vector3
@@ -80,12 +81,13 @@ class ImuPlugin(ModelPlugin):
 class AxisNoise:
     """SDF's ``<noise>`` of one axis: value + bias + N(mean, stddev), the bias drawn once, optionally wandering."""
 
-    def __init__(self, sdf: SdfElement, rng):
+    def __init__(self, sdf: Optional[SdfElement], rng):
         noise = sdf.child("noise") if sdf else None
         self._rng = rng
         get = noise.get if noise else (lambda tag, default: default)
-        active = bool(noise) and (noise.attrib.get("type") or get("type", "none")) != "none"
-        self.mean, self.sigma = (get("mean", 0.0), get("stddev", 0.0)) if active else (0.0, 0.0)
+        active = noise is not None and (noise.attrib.get("type") or get("type", "none")) != "none"
+        self.mean = get("mean", 0.0) if active else 0.0
+        self.sigma = get("stddev", 0.0) if active else 0.0
         self.bias = 0.0
         bias_sigma = get("bias_stddev", 0.0)
         if active and bias_sigma:
@@ -144,15 +146,15 @@ class ImuSensor(SensorPlugin):
         q_SW = math3.quat_inverse(q_WS)
         rates = math3.quat_rotate(q_SW, sensor.link.angular_velocity())
         acceleration = math3.quat_rotate(q_SW, tuple(acceleration_W))
-        rates = [noise(value, dt) for noise, value in zip(self.axis_noise[0], rates)]
-        acceleration = [noise(value, dt) for noise, value in zip(self.axis_noise[1], acceleration)]
+        noisy_rates = [noise(value, dt) for noise, value in zip(self.axis_noise[0], rates)]
+        noisy_acceleration = [noise(value, dt) for noise, value in zip(self.axis_noise[1], acceleration)]
         orientation = math3.quat_multiply(self.reference, q_WS) if self.reference else q_WS
         orientation = math3.quat_multiply(self.offset, orientation)
         message = self.message
         message.header.stamp = sensor.measurement_time
         message.orientation = Quaternion(*self.noise.vector(orientation))
-        message.angular_velocity = Vector3(*self.noise.vector(rates))
-        message.linear_acceleration = Vector3(*self.noise.vector(acceleration))
+        message.angular_velocity = Vector3(*self.noise.vector(noisy_rates))
+        message.linear_acceleration = Vector3(*self.noise.vector(noisy_acceleration))
         self.publisher.publish(message)
 
     def shutdown(self) -> None:

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import threading
+from typing import Any, Dict
 
 import rospy
 from gazebo_ros.names import join
@@ -24,7 +25,8 @@ class Prosilica(Camera):
 
     def load(self, server, sensor, sdf) -> None:
         super().load(server, sensor, sdf)
-        self._server, self._publishers, self._service = server, {}, None
+        self._server, self._service = server, None
+        self._publishers: Dict[str, Any] = {}
         namespace = self.camera.namespace
         mode = self._mode(namespace)
         if mode not in ("streaming", "polled"):

@@ -1,7 +1,7 @@
 """What most plugins share towards ROS: topics in the plugin's namespace, rate gates, noise, messages from poses."""
 from __future__ import annotations
 
-from typing import Any, Callable, Dict, List, Optional, Sequence
+from typing import Any, Callable, Collection, Dict, List, Optional, Sequence
 
 import rospy
 import tf2_ros
@@ -208,7 +208,7 @@ def required(sdf, tag: str) -> str:
     return value
 
 
-def diagonal(values: Sequence[float]) -> List[float]:
+def diagonal(values: Collection[float]) -> List[float]:
     """Row-major covariance matrix with that diagonal."""
     size = len(values)
     matrix = [0.0] * (size * size)

@@ -17,6 +17,8 @@ _FASTEST, _HOLDING = 20.0, 10.0  # steering without <steeringSpeed>: rad/s, and 
 class TricycleDrive(ModelPlugin):
     """``linear.x`` is the rim speed of the driven wheel, ``angular.z`` the **steering angle** (rad, within +-pi/2)."""
 
+    rim_speed: float  #: m/s, of the driven wheel
+
     def load(self, server, model, sdf) -> None:
         self.server, self.model = server, model
         self.topics = Topics(sdf, model.name, "A")

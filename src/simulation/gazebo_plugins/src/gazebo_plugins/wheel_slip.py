@@ -26,9 +26,10 @@ class _Wheel:
         link = model.links.get(name)
         if link is None:
             raise PluginError(f"<wheel link_name='{name}'>: model {model.name} has {', '.join(model.links)}")
-        self.joint = next((joint for joint in model.joints.values() if joint.child is link and joint.axis_count), None)
-        if self.joint is None:
+        joint = next((joint for joint in model.joints.values() if joint.child is link and joint.axis_count), None)
+        if joint is None:
             raise PluginError(f"<wheel link_name='{name}'>: the link does not turn on a joint")
+        self.joint = joint
         self.radius, self.force = sdf.get("wheel_radius", 0.0), sdf.get("wheel_normal_force", 0.0)
         if self.radius <= 0.0 or self.force <= 0.0:
             raise PluginError(f"<wheel link_name='{name}'>: <wheel_radius> (m) and <wheel_normal_force> (N) must be "

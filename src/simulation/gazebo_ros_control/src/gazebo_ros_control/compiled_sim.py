@@ -9,6 +9,7 @@ from plugin_loader import PluginError
 from transmission_interface import TransmissionInfo
 
 from . import _compiled
+from .robot_hw_sim import RobotHWSim
 
 
 def make(library: str, type_name: str, label: str, clock: bool) -> "CompiledRobotHWSim":
@@ -19,7 +20,7 @@ def make(library: str, type_name: str, label: str, clock: bool) -> "CompiledRobo
         raise PluginError(str(error)) from error
 
 
-class CompiledRobotHWSim(CompiledRobotHW):
+class CompiledRobotHWSim(CompiledRobotHW, RobotHWSim):
     """Hardware in C++, as a :class:`RobotHWSim`; what it throws is a PluginError, which ends the control of its robot."""
 
     def __init__(self, sim: Any):

@@ -8,7 +8,7 @@ from typing import Dict, List, Optional, Tuple, Type
 import rospy
 from control_toolbox import PidParameterError, RosPid, load_pid
 from controller_interface import NodeHandle
-from hardware_interface import (EffortJointInterface, HardwareInterface, JointHandle, JointStateHandle,
+from hardware_interface import (EffortJointInterface, JointCommandInterface, JointHandle, JointStateHandle,
                                 JointStateInterface, PositionJointInterface, VelocityJointInterface)
 from joint_limits_interface import (DescriptionError, EffortJointSaturationHandle, EffortJointSoftLimitsHandle,
                                     JointDescription, JointLimits, PositionJointSaturationHandle,
@@ -23,7 +23,7 @@ from .wiring import Wiring
 
 _PREFIX = "hardware_interface/"
 
-_INTERFACES: Dict[str, Type[HardwareInterface]] = {
+_INTERFACES: Dict[str, Type[JointCommandInterface]] = {
     "EffortJointInterface": EffortJointInterface,
     "PositionJointInterface": PositionJointInterface,
     "VelocityJointInterface": VelocityJointInterface,
@@ -44,6 +44,8 @@ class DefaultRobotHWSim(RobotHWSim):
 
     def __init__(self) -> None:
         super().__init__()
+        self._states = JointStateInterface()
+        self._commands = {interface: interface() for interface in _INTERFACES.values()}
         self._joints: Dict[str, JointSim] = {}
         self._writers: Tuple[JointSim, ...] = ()
         self._wiring = Wiring(())
@@ -57,8 +59,8 @@ class DefaultRobotHWSim(RobotHWSim):
         except DescriptionError as error:
             rospy.logerr("model '%s': %s; the limits of its joints are not known", model.name, error)
             descriptions = {}
-        for interface in (JointStateInterface, *_INTERFACES.values()):
-            self.register_interface(interface())
+        for interface in (self._states, *self._commands.values()):
+            self.register_interface(interface)
         for transmission in transmissions:
             self._add(transmission, model_nh, model, descriptions)
         if self._without_gains:
@@ -94,7 +96,7 @@ class DefaultRobotHWSim(RobotHWSim):
                                descriptions.get(info.name, JointDescription(info.name, "")))
 
     @staticmethod
-    def _interface_of(written: str, where: str) -> Optional[Type[HardwareInterface]]:
+    def _interface_of(written: str, where: str) -> Optional[Type[JointCommandInterface]]:
         name = written[len(_PREFIX):] if written.startswith(_PREFIX) else written
         interface = _INTERFACES.get(name)
         if interface is None:
@@ -105,22 +107,22 @@ class DefaultRobotHWSim(RobotHWSim):
                           "<hardwareInterface> tag of %s.", written, where)
         return interface
 
-    def _add_mode(self, interface: Type[HardwareInterface], joint, where: str, nh: NodeHandle,
+    def _add_mode(self, interface: Type[JointCommandInterface], joint, where: str, nh: NodeHandle,
                   description: JointDescription) -> None:
         sim = self._joints.get(description.name)
         if sim is None:
             state = JointStateHandle(description.name, joint.position(), joint.velocity())
-            self.get(JointStateInterface).register_handle(state)
+            self._states.register_handle(state)
             sim = self._joints[description.name] = JointSim(joint, state)
         if interface.type_name in sim.modes:
             rospy.logwarn("%s: %s is there already from another transmission of this joint; one is enough", where,
                           interface.type_name)
             return
         handle = JointHandle(sim.state, 0.0)
-        self.get(interface).register_handle(handle)
+        self._commands[interface].register_handle(handle)
         sim.add(interface.type_name, self._make_mode(interface, joint, handle, nh, description))
 
-    def _make_mode(self, interface: Type[HardwareInterface], joint, handle: JointHandle, nh: NodeHandle,
+    def _make_mode(self, interface: Type[JointCommandInterface], joint, handle: JointHandle, nh: NodeHandle,
                    description: JointDescription) -> Mode:
         hard = limits_from_urdf(description)
         hard = limits_from_params(nh, description.name, hard or JointLimits()) or hard
@@ -175,7 +177,7 @@ class DefaultRobotHWSim(RobotHWSim):
         self._wiring.engage()
 
 
-def _limit_handle(interface: Type[HardwareInterface], handle: JointHandle, hard: Optional[JointLimits], soft):
+def _limit_handle(interface: Type[JointCommandInterface], handle: JointHandle, hard: Optional[JointLimits], soft):
     """The handle that enforces the limits of a joint; a joint without complete limits gets one that only stops NaN."""
     if hard is None:
         hard, soft = _UNLIMITED, None
@@ -192,7 +194,7 @@ def _limit_handle(interface: Type[HardwareInterface], handle: JointHandle, hard:
 
 
 def _warn_of_zero_limits(description: JointDescription, hard: Optional[JointLimits],
-                         interface: Type[HardwareInterface]) -> None:
+                         interface: Type[JointCommandInterface]) -> None:
     """A limit of 0 means just that, and is mostly a forgotten value."""
     if hard is None:
         return

@@ -5,7 +5,7 @@ These run in every step of the world, so they avoid look-ups and calls.
 from __future__ import annotations
 
 import math
-from typing import Dict, Optional
+from typing import Dict
 
 from control_toolbox import Pid
 from hardware_interface import JointHandle, JointStateHandle
@@ -113,8 +113,8 @@ class PositionMode(Mode):
         self.joint.drive_to(self.handle.command)
 
 
-class _ByPid:
-    """Mixed into a mode: its ``_pid`` gives the joint's effort, within ``effort_limit``.
+class _ByPid(Mode):
+    """Before another mode among the base classes: ``_pid`` gives the joint's effort, within ``effort_limit``.
 
     What the PID would give at other speeds goes with it: the simulation holds gains that are too high for its step.
     """
@@ -122,6 +122,7 @@ class _ByPid:
     __slots__ = ()
 
     bears = False
+    _pid: Pid
 
     def enter(self) -> None:
         super().enter()
@@ -200,17 +201,18 @@ class JointSim:
 
     __slots__ = ("name", "joint", "state", "modes", "mode")
 
+    mode: Mode  #: in force; there is none before the first :meth:`add`
+
     def __init__(self, joint, state: JointStateHandle):
         self.name = state.name
         self.joint = joint
         self.state = state
         self.modes: Dict[str, Mode] = {}        # by C++ name of the interface
-        self.mode: Optional[Mode] = None
 
     def add(self, interface: str, mode: Mode) -> None:
-        self.modes[interface] = mode
-        if self.mode is None:
+        if not self.modes:
             self.mode = mode
+        self.modes[interface] = mode
 
     def switch(self, interface: str) -> bool:
         """Controllers now command through ``interface``. :returns: whether they did not before."""

@@ -150,7 +150,9 @@ class GazeboRosControl(ModelPlugin):
         self._last_write_ns: Optional[int] = None
 
     def _step(self) -> None:
-        hw, now_ns = self._hw, self._world.time_ns
+        hw, manager, now_ns = self._hw, self._manager, self._world.time_ns
+        if hw is None or manager is None:
+            return
         now = now_ns * 1e-9
         e_stop = self._e_stop
         try:
@@ -163,7 +165,7 @@ class GazeboRosControl(ModelPlugin):
                 hw.read_sim(now, period)
                 restart = self._was_stopped and not e_stop
                 self._was_stopped = e_stop
-                self._manager.update(now, period, restart)
+                manager.update(now, period, restart)
             last = self._last_write_ns
             self._last_write_ns = now_ns
             hw.write_sim(now, self._world.dt if last is None else (now_ns - last) * 1e-9)
@@ -176,7 +178,8 @@ class GazeboRosControl(ModelPlugin):
         self._hw = self._manager = None
 
         def end() -> None:  # waits for requests under way, which the world need not
-            manager.shutdown()
+            if manager is not None:
+                manager.shutdown()
             self._nh.shutdown()
 
         threading.Thread(target=end, name="gazebo_ros_control end", daemon=True).start()

@@ -40,11 +40,11 @@ class Wiring:
 
     def engage(self) -> None:
         """Other modes may be in force; those that were not before have just entered."""
-        for number in self._numbers.values():
-            self._core.set_working(number, False)
+        for wired in self._numbers.values():
+            self._core.set_working(wired, False)
         by_hand = []
         for joint, sim in zip(self._joints, self._sims):
-            self._core.report_load(joint, sim.mode is not None and sim.mode.bears)
+            self._core.report_load(joint, sim.mode.bears)
             number = self._numbers.get(sim.mode)
             if number is None or self._stopped:
                 by_hand.append(sim)
