@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kFlat = 0.005;    // rad: a wheel that is tilted by less stands on its whole tread
 constexpr double kOneEdge = 1e-5;  // m along the axis, within which contacts are those of one edge
+constexpr double kFacet = 0.2;     // of the radius: half the side of a mesh with 16 corners, the coarsest that rolls as if it were round
 
 // ODE loses a cylinder that has come deeper into a box than the box is thick, as what falls on a floor of a centimetre does within
 // two steps. It is still on the side on which its middle is. Contacts of cylinder `g` and `box` through the box's thinnest side,
@@ -139,6 +140,16 @@ void lay_flat(const Shape& wheel, const Vec3& axis, Contact& c) {
   c.merged = std::max(c.merged, 2);  // both edges
 }
 
+// A mesh has corners where the wheel that it stands for is round. On a corner before or behind the axle the load would turn the
+// wheel to and fro, and two wheels on which a robot turns would drag each other sideways by as much as their corners differ.
+void stand_below_axle(const Shape& wheel, const Vec3& axis, Contact& c) {
+  const Vec3 to_axle = wheel.link->X_WL * (wheel.X_LC * wheel.tread) - c.pos, along = cross(axis, c.normal);
+  const double off = dot(along, to_axle);
+  const Shape& other = c.a == &wheel ? *c.b : *c.a;
+  const Vec3 below = c.pos + along * off;
+  if (std::abs(off) <= kFacet * std::abs(dot(c.normal, to_axle)) && depth_in(other.geom, below) > -kOneEdge) c.pos = below;
+}
+
 // A wheel touches with the middle of its tread. ODE gives a contact at either edge; a robot that turns would then pivot on
 // one of them (two rings under dry friction leave it open on which), and its effective track be off by the tread's width.
 // contacts: those from `first` on are the wheel's.
@@ -162,6 +173,7 @@ void merge_tread(const Shape& wheel, std::vector<Contact>& contacts, size_t firs
       c.pos += axis * ((low + high) / 2 - dot(axis, c.pos));
       if (wheel.mesh) c.merged = std::min(c.merged, 2);
       if (high - low < kOneEdge) lay_flat(wheel, axis, c);
+      if (wheel.mesh) stand_below_axle(wheel, axis, c);
     }
     contacts[kept++] = c;
   }

@@ -194,6 +194,31 @@ def test_a_wheel_that_is_a_mesh_turns_about_the_middle_of_its_tread(tmp_path):
     assert robot.twist().angular[2] == pytest.approx(2.0 * RADIUS / 0.2, rel=0.02)
 
 
+def test_corners_of_wheels_that_are_meshes_do_not_hold_a_turn_up(tmp_path):
+    """Corners before and behind the axles would drag the wheels sideways, at a friction of 10 with more than a drive of 0.4 N m gives."""
+    model = rover(BESIDE, ((-0.2, 0.0),), (-0.04, 0.0, 0.05))
+    shape, rough = round_mesh(tmp_path, 40), Surface(mu=10.0, mu2=10.0)
+    links = tuple(replace(link, collisions=tuple(replace(c, geometry=shape, surface=rough) for c in link.collisions))
+                  if link.name != "base" else replace(link, collisions=tuple(replace(c, surface=Surface(mu=0.01, mu2=0.01))
+                                                                             for c in link.collisions)) for link in model.links)
+    world = ode_sim.World()
+    world.spawn(ground())
+    robot = world.spawn(replace(model, links=links))
+    robot.joints["w0"].set_motor(-0.05, 0.4)  # by the slower of the two the corners come out of step
+    world.step(500)
+
+    def control(_):
+        for name, speed in (("w0", -2.0), ("w1", 2.0)):
+            joint = robot.joints[name]
+            joint.add_law(1.0 * (speed - joint.velocity()), 1.0, 0.4)
+
+    robot.joints["w0"].set_motor(0.0, 0.0)
+    world.before_step.append(control)
+    world.step(1000)
+    rate = np.mean([(world.step(10), robot.twist().angular[2])[1] for _ in range(200)])
+    assert rate == pytest.approx(2.0 * RADIUS / 0.2, rel=0.04)
+
+
 def steered_car(offset):
     """A car whose tyres stand `offset` outside of what they turn about when they are steered."""
     text = car_urdf(track=0.2, radius=0.05)
