@@ -342,6 +342,31 @@ def test_history_forgets_what_was_refused_and_what_is_old():
     assert undone == 50 and not log
 
 
+def test_what_is_typed_without_a_pause_is_one_step(monkeypatch):
+    history, value, clock = History(), [0.0], [100.0]
+    monkeypatch.setattr("ode_sim.viewer.selection.time.monotonic", lambda: clock[0])
+
+    def step(number, what="mass", typed=True):
+        before = value[0]
+        history.do(what, lambda: value.__setitem__(0, number), lambda: value.__setitem__(0, before), typed)
+        clock[0] += 0.3
+    for key in (1.0, 12.0, 12.5):  # of 12.5
+        step(key)
+    history.undo()
+    assert value == [0.0]
+    history.redo()
+    assert value == [12.5]
+    step(3.0)  # after an undo or redo it is a step of its own
+    clock[0] += 5.0
+    step(4.0)  # after a pause, too
+    step(5.0, "friction")
+    step(6.0, typed=False)
+    step(7.0)
+    for left in (6.0, 5.0, 4.0, 3.0, 12.5, 0.0):
+        history.undo()
+        assert value == [left]
+
+
 def test_a_redo_that_comes_at_once_waits_for_the_undo():
     history, begun, log = History(), threading.Event(), []
 

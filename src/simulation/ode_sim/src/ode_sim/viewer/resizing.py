@@ -86,9 +86,10 @@ class Resizing:
         if self._page.frame is not None:
             self.move(self._page.frame)
 
-    def apply(self, geometry: d.Geometry) -> None:
+    def apply(self, geometry: d.Geometry, typed: bool = False) -> None:
         """What is picked gets these measures; a step that can be undone.
 
+        :param typed: see :meth:`~ode_sim.viewer.selection.History.do`
         :raises Refused: it is no simple shape
         """
         record, frame = self._page.selection.record, self._page.frame
@@ -99,7 +100,7 @@ class Resizing:
             return
         after, name, pose = resized(before, geometry), record.name, record.pose(frame)
         self._page.selection.history.do(f"resize {name}", lambda: self._swap(name, after, pose),
-                                        lambda: self._swap(name, before, pose))
+                                        lambda: self._swap(name, before, pose), typed)
 
     def _swap(self, name: str, model: d.Model, usual: Pose) -> None:
         """:param usual: where it goes when the page does not know where it is: it comes from a step a moment ago."""

@@ -1,7 +1,9 @@
 """What is picked: its frame, gizmo, copy, delete; undo and redo of what was done to the world."""
 from __future__ import annotations
 
+import math
 import threading
+import time
 from dataclasses import replace
 from typing import Any, Callable, List, Optional, Tuple
 
@@ -13,6 +15,7 @@ from ode_sim.viewer.panels.base import free_name
 from ode_sim.viewer.simulation import Frame, ModelRecord, Refused, WorldRecord
 
 _MOST_STEPS = 50  # that can be undone
+_TYPING = 2.0  # wall s between two keys of one number
 
 
 def _on_grid(values: Tuple[float, float, float], step: float) -> Tuple[float, float, float]:
@@ -27,21 +30,27 @@ class History:
         self._lock = threading.RLock()
         self._done: List[Tuple[str, Callable[[], None], Callable[[], None]]] = []
         self._undone: List[Tuple[str, Callable[[], None], Callable[[], None]]] = []
+        self._typed = -math.inf  # wall s of the last key, if that was the last step
 
-    def do(self, what: str, forth: Callable[[], None], back: Callable[[], None]) -> None:
+    def do(self, what: str, forth: Callable[[], None], back: Callable[[], None], typed: bool = False) -> None:
         """Call ``forth()`` and remember ``back``.
 
+        :param typed: into a field, which tells of every key: what is typed without a pause is one step
         :raises Refused: as ``forth`` does; then nothing is remembered
         """
         with self._lock:
             forth()
+            if typed and self._done and self._done[-1][0] == what and time.monotonic() < self._typed + _TYPING:
+                back = self._done.pop()[2]
             self.note(what, forth, back)
+            self._typed = time.monotonic() if typed else -math.inf
 
     def note(self, what: str, forth: Callable[[], None], back: Callable[[], None]) -> None:
         """Remember a step that was taken already."""
         with self._lock:
             self._done = self._done[1 - _MOST_STEPS:] + [(what, forth, back)]
             self._undone.clear()
+            self._typed = -math.inf
 
     def undo(self) -> str:
         """What was undone."""
@@ -52,6 +61,7 @@ class History:
 
     def _turn(self, back: bool) -> str:
         with self._lock:
+            self._typed = -math.inf
             source, target = (self._done, self._undone) if back else (self._undone, self._done)
             if not source:
                 raise Refused(f"There is nothing to {'undo' if back else 'do again'}.")
@@ -206,15 +216,16 @@ class Selection:
         else:
             self._page.simulation.set_light(replace(light, pose=pose))
 
-    def move(self, pose: Pose) -> None:
+    def move(self, pose: Pose, typed: bool = False) -> None:
         """Put what is picked at ``pose``; a model as a whole.
 
+        :param typed: see :meth:`History.do`
         :raises Refused: nothing is picked
         """
         begin, name = self._whole(), self.model or self.light
         if begin is None:
             raise Refused("Pick a model or light first.")
-        self.history.do(f"move {name}", lambda: self._put_named(name, pose), lambda: self._put_named(name, begin))
+        self.history.do(f"move {name}", lambda: self._put_named(name, pose), lambda: self._put_named(name, begin), typed)
 
     def delete(self) -> None:
         """:raises Refused: nothing is picked."""

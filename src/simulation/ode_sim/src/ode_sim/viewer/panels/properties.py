@@ -52,7 +52,7 @@ class Properties:
 
     def _move(self) -> None:
         roll, pitch, yaw = (math.radians(float(v)) for v in self.angles.value)
-        self.page.selection.move(Pose(tuple(float(v) for v in self.position.value), quat_from_rpy(roll, pitch, yaw)))
+        self.page.selection.move(Pose(tuple(float(v) for v in self.position.value), quat_from_rpy(roll, pitch, yaw)), typed=True)
 
 
 class ModelProperties(Properties):
@@ -84,7 +84,7 @@ class ModelProperties(Properties):
         shape = shape_of(self.page.selection.record.description)[0]
         for axis, (before, now) in enumerate(zip(size_of(shape), sizes)):
             if abs(float(now) - before) > 1e-9:
-                self.page.resizing.apply(with_size(shape, axis, float(now)))
+                self.page.resizing.apply(with_size(shape, axis, float(now)), typed=True)
                 return
 
     def _mass_controls(self, now: LinkProperties) -> None:
@@ -130,8 +130,8 @@ class ModelProperties(Properties):
         mu, mu2 = (float(value) for value in self.friction.value)
         simulation, model, link = self.page.simulation, self._model, self._link
         before, now = simulation.surface(model, link), SurfaceProperties(mu, mu2, float(self.bounce.value))
-        self.page.selection.history.do(f"friction of {link}", lambda: simulation.set_surface(model, link, now),
-                                       lambda: simulation.set_surface(model, link, before))
+        self.page.selection.history.do(f"friction of {model}::{link}", lambda: simulation.set_surface(model, link, now),
+                                       lambda: simulation.set_surface(model, link, before), typed=True)
 
     def _set_mass(self) -> None:
         """A new mass keeps the shape: the inertia grows with it."""
@@ -142,8 +142,8 @@ class ModelProperties(Properties):
                       gravity=bool(self.gravity.value))
         self.diagonal.value = tuple(float(now.inertia[i]) for i in (0, 3, 5))
         self.products.value = tuple(float(now.inertia[i]) for i in (1, 2, 4))
-        self.page.selection.history.do(f"mass of {link}", lambda: simulation.set_link_properties(model, link, now),
-                                       lambda: simulation.set_link_properties(model, link, before))
+        self.page.selection.history.do(f"mass of {model}::{link}", lambda: simulation.set_link_properties(model, link, now),
+                                       lambda: simulation.set_link_properties(model, link, before), typed=True)
 
 
     def _set_inertia(self) -> None:
@@ -151,8 +151,8 @@ class ModelProperties(Properties):
         (ixx, iyy, izz), (ixy, ixz, iyz) = (tuple(map(float, part.value)) for part in (self.diagonal, self.products))
         before = simulation.link_properties(model, link)
         now = replace(before, com=tuple(map(float, self.com.value)), inertia=(ixx, ixy, ixz, iyy, iyz, izz))
-        self.page.selection.history.do(f"inertia of {link}", lambda: simulation.set_link_properties(model, link, now),
-                                       lambda: simulation.set_link_properties(model, link, before))
+        self.page.selection.history.do(f"inertia of {model}::{link}", lambda: simulation.set_link_properties(model, link, now),
+                                       lambda: simulation.set_link_properties(model, link, before), typed=True)
 
 
 class LightProperties(Properties):
@@ -188,4 +188,4 @@ class LightProperties(Properties):
         before, simulation = self.page.selection.light_record, self.page.simulation
         now = replace(before, **changes)
         self.page.selection.history.do(f"light {before.name}", lambda: simulation.set_light(now),
-                                       lambda: simulation.set_light(before))
+                                       lambda: simulation.set_light(before), typed=True)
