@@ -1,6 +1,7 @@
 """Keeps the octomap of the planning scene."""
 from __future__ import annotations
 
+import ctypes
 import threading
 import time
 from typing import Any, Callable, Dict, List, Optional, Tuple
@@ -84,6 +85,7 @@ class OccupancyMapMonitor:
         """Forget what was seen."""
         self._forget()
         self._scene.set_octomap(None, motion.Pose.identity())
+        _give_back()
 
     def _forget(self) -> None:
         with self._lock:
@@ -166,6 +168,13 @@ class OccupancyMapMonitor:
                     raise UpdaterError(f"what the sensor saw cannot be used: TF does not connect '{frame}' to '{target}' at "
                                        f"{stamp.to_sec():.3f} s ({' '.join(str(error).split())[:100]})") from None
             time.sleep(0.01)
+
+
+def _give_back() -> None:
+    """Give the system what was freed: glibc keeps the memory of a million small cells, and of clouds, for later."""
+    trim = getattr(ctypes.CDLL(None), "malloc_trim", None)
+    if trim is not None:
+        trim(0)
 
 
 def _number(parameter: str, default: float) -> float:

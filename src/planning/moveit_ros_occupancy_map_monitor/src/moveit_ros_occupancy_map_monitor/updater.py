@@ -93,6 +93,7 @@ class OccupancyMapUpdater(ABC):
                 message, self._newest = self._newest, None
             if self._due():
                 self._try(message)
+            del message
 
     def _due(self) -> bool:
         now = rospy.Time.now()
@@ -102,11 +103,22 @@ class OccupancyMapUpdater(ABC):
         return True
 
     def _try(self, message) -> None:
+        problem = self._problem(message)
+        if problem:
+            rospy.logerr_throttle(5, f"octomap from {self.topic}: {problem}")
+
+    def _problem(self, message) -> str:
+        """Work on a message; what is wrong with it.
+
+        Not logged here: rospy looks at the locals of whoever logs, and an exception among them would keep the message and all
+        that was computed from it until the next round of garbage collection.
+        """
         try:
             self.work(message)
         except (UpdaterError, motion.MotionError) as error:
-            rospy.logerr_throttle(5, f"octomap from {self.topic}: {error}")
+            return str(error)
         except rospy.ROSException:
-            return  # shutting down
+            return ""  # shutting down
         except Exception as error:  # whatever a sensor sends, the node lives on
-            rospy.logerr_throttle(5, f"octomap from {self.topic}: {type(error).__name__}: {' '.join(str(error).split())[:120]}")
+            return f"{type(error).__name__}: {' '.join(str(error).split())[:120]}"
+        return ""
