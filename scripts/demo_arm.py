@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import argparse
+import concurrent.futures
 import csv
 import math
 import os
@@ -172,15 +173,18 @@ def run(options: argparse.Namespace, out: Path, environment: dict, window: bool)
         say("rosrun arm_controller arm_controller_node " + " ".join(words))
         recorder.rows.clear()
         recorder.wait(launch, 20)
-        with running(["rosrun", "arm_controller", "arm_controller_node", *words], environment, out / "arm_controller_node.log"):
-            start, now = drive(recorder, launch, target)
-        rows = list(recorder.rows)
-        pictures += [(Path(p), f"RViz after: {' '.join('%.4f' % q for q in now[2:])}") for p in save_rviz(out, "rviz-after")]
-        if save_camera(out / "camera.png"):
-            pictures.append((out / "camera.png", "The arm's own camera, /camera/image_raw"))
+        with concurrent.futures.ThreadPoolExecutor(1) as desk:  # the plot's library loads while the arm moves
+            desk.submit(__import__, "matplotlib.pyplot")
+            with running(["rosrun", "arm_controller", "arm_controller_node", *words], environment, out / "arm_controller_node.log"):
+                start, now = drive(recorder, launch, target)
+            rows = list(recorder.rows)
+            table = desk.submit(save_joints, out / "joints.csv", rows)
+            plot = desk.submit(save_plot, out / "joints.png", rows, target)
+            pictures += [(Path(p), f"RViz after: {' '.join('%.4f' % q for q in now[2:])}") for p in save_rviz(out, "rviz-after")]
+            if save_camera(out / "camera.png"):
+                pictures.append((out / "camera.png", "The arm's own camera, /camera/image_raw"))
+            table.result(), plot.result()
 
-    save_joints(out / "joints.csv", rows)
-    save_plot(out / "joints.png", rows, target)
     figures = figures_of(rows, start, now, ready)
     save_report(out, figures, [(out / "joints.png", "The four joints over sim time"), *pictures], "The arm moves")
     for key, value in figures.items():
