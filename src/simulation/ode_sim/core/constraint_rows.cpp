@@ -197,7 +197,7 @@ class Rows {
     if (a == number_.end() || (second && b == number_.end())) return false;
     auto place = [](dBodyID body) { return body ? body_pose(body) : Pose{}; };
     pair_ = {a->second, second ? b->second : -1, place(first) * X_1J, place(second) * X_2J, vec(dBodyGetPosition(first)),
-             place(second).p, set_.erp / set_.dt, set_.cfm, fastest};
+             place(second).p, set_.erp / set_.dt, set_.like_gazebo ? set_.cfm : 0, fastest};
     return true;
   }
 

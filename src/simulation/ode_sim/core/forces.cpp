@@ -173,7 +173,9 @@ void apply_forces(Scene& scene, StepState& state) {
   const Settings& set = scene.settings;
   dWorldSetGravity(scene.ode, set.gravity.x, set.gravity.y, set.gravity.z);
   dWorldSetERP(scene.ode, set.erp);
-  dWorldSetCFM(scene.ode, std::max(set.cfm, 1e-10));
+  // Links are put back into their joints after each step, see projection.cpp. By a joint that gives way to its load, as a file's
+  // cfm has it, they would be carried along: a rover whose wheels stand glides over the floor.
+  dWorldSetCFM(scene.ode, std::max(set.like_gazebo ? set.cfm : 0.0, 1e-10));
   for (auto& m : scene.models) {
     apply_link_forces(*m);
     apply_uneven_gravity(*m, set.gravity);

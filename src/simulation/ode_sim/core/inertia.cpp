@@ -147,6 +147,7 @@ class CarryPass {
   void run(StepState& state) {
     hold_others();
     dWorldSetGravity(scene_.ode, 0, 0, 0);
+    softness_ = dWorldGetCFM(scene_.ode);
     dWorldSetCFM(scene_.ode, 1e-18);  // what the joints give way to huge inertias here would be a recoil in the main pass
     for (Cluster* c : scene_.carried) push(*c, state);
     drive(state, true);
@@ -176,6 +177,7 @@ class CarryPass {
   std::vector<Model*> models_;  // that it may touch
   std::vector<BodyState> start_;
   std::vector<std::pair<dBodyID, dMass>> held_;
+  double softness_ = 0;  // of joints, outside of this
 
   void hold_others() {
     for (Model* m : models_)
@@ -204,7 +206,7 @@ class CarryPass {
     for (auto& s : start_) dBodyDisable(s.body);
     const Settings& set = scene_.settings;
     dWorldSetGravity(scene_.ode, set.gravity.x, set.gravity.y, set.gravity.z);
-    dWorldSetCFM(scene_.ode, std::max(set.cfm, 1e-10));
+    dWorldSetCFM(scene_.ode, softness_);
   }
 
   // What the change of motion of the drives makes it feel.

@@ -102,6 +102,19 @@ def test_driven_turned_and_braked_nobody_holds_more_than_friction_allows(name):
     assert len(over) < 0.02 * count, over[:10]
 
 
+def test_joints_that_the_file_makes_soft_do_not_carry_a_robot_down_a_slope():
+    world = ode_sim.World()
+    world.physics.cfm = 1e-3  # as curio's world file has it
+    world.spawn(ground(pitch=0.1))
+    robot = world.spawn(rover(*LAYOUTS["four wheels"]))
+    for joint in robot.joints.values():
+        joint.set_motor(0.0, 50.0)
+    world.step(1000)
+    before = robot.pose.p
+    world.step(2000)
+    assert math.dist(robot.pose.p, before) < 1e-6
+
+
 def test_a_robot_whose_wheels_outpull_its_casters_drives_turns_and_drives_again():
     """Wheels with 2/3 of the load and 10 N m pull 100 N, the casters hold 82 N at most: 25 kg between two rigid balls."""
     balls = tuple(Collision(f"c{i}", Pose((x, 0, -0.05)), Sphere(0.05)) for i, x in enumerate((-0.15, 0.15)))
