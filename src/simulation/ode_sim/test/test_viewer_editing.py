@@ -8,6 +8,7 @@ import pytest
 pytest.importorskip("viser")
 
 from ode_sim.description import model as d  # noqa: E402
+from ode_sim.description.sdf_writer import model_text  # noqa: E402
 from ode_sim.math3 import Pose  # noqa: E402
 from ode_sim.viewer import Refused  # noqa: E402
 from ode_sim.viewer.resizing import resized, shape_of, size_of, with_size  # noqa: E402
@@ -109,3 +110,20 @@ def test_the_solver_is_set(page):
     assert (now.cfm, now.erp, now.max_contacts, now.contact_surface_layer) == (1e-5, 0.3, 7, 0.002)
     np.testing.assert_allclose(physics._soft.value, (1e-5, 0.3))
     assert not client.told
+
+
+def test_a_search_is_not_filled_up_by_the_links_of_what_is_picked(page):
+    tree, client = panel(page, "WorldPanel"), Client()
+    house = d.Model("house", static=True, links=tuple(d.Link(f"wall_{number}") for number in range(60)))
+    page.simulation.insert("house", model_text(house), Pose())
+    wait(page, lambda: page.world.model("house") is not None)
+    page.selection.select("house")
+
+    def listed(search):
+        use(tree._search, client, search)
+        page.turn()
+        return [label for (label, *_), button in tree._rows.items() if button.visible]
+    assert len(listed("")) == 30 and "sun" not in listed("")
+    assert listed("sun") == ["sun"]
+    assert listed("wall_12") == ["house", "· wall_12"]
+    assert listed("house")[:3] == ["house", "· wall_0", "· wall_1"]

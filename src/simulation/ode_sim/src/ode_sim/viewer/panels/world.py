@@ -95,8 +95,9 @@ class WorldPanel(Panel):
         wanted, picked = self._search.value.lower(), self.page.selection.model
         rows = []
         for model in self.page.world.models:
-            links = [name for name in model.links if wanted and wanted in name.lower() or model.name == picked]
-            if wanted in model.name.lower() or links:
+            fits = wanted in model.name.lower()
+            links = [name for name in model.links if wanted and wanted in name.lower() or fits and model.name == picked]
+            if fits or links:
                 rows.append((model.name, model.name, "", ""))
                 rows += [(f"· {name}", model.name, name, "") for name in links]
         rows += [(light.name, "", "", light.name) for light in self.page.world.lights if wanted in light.name.lower()]
