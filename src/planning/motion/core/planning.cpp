@@ -13,6 +13,7 @@
 
 #include "found_goals.hpp"
 #include "goal_sampler.hpp"
+#include "hybrid.hpp"
 #include "joint_space.hpp"
 #include "planner_table.hpp"
 #include "start_and_goals.hpp"
@@ -359,7 +360,7 @@ private:
     return one->solve(done);
   }
 
-  // Several planners, hybridised; side by side unless a seed asks for the same path each time.
+  // Several planners, side by side unless a seed asks for the same path each time; their paths are mixed.
   ob::PlannerStatus solveSeveral(const ob::PlannerTerminationCondition& done)
   {
     const int side_by_side = request_.seed ? 1 : request_.threads > 0 ? request_.threads : 4;
@@ -379,12 +380,14 @@ private:
       ompl::tools::ParallelPlan parallel(problem_);
       for (int i = 0; i < batch; ++i)
         parallel.addPlanner(planner());
-      status = parallel.solve(done, 1, batch, request_.hybridize);
+      status = parallel.solve(done, 1, batch, false);
       result_.attempts += batch;
     }
-    if (problem_->hasExactSolution())
-      return ob::PlannerStatus::EXACT_SOLUTION;
-    return status;
+    if (!problem_->hasExactSolution())
+      return status;
+    if (request_.hybridize && !stopped())
+      hybridize(si_, *problem_);
+    return ob::PlannerStatus::EXACT_SOLUTION;
   }
 
   // Is there a path?

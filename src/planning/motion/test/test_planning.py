@@ -119,6 +119,24 @@ def test_several_attempts_side_by_side(scene, model):
     assert result.attempts == 4
 
 
+def length(path):
+    return np.linalg.norm(np.diff(path, axis=0), axis=1).sum()
+
+
+def test_attempts_are_mixed_to_one_better_path(scene, model):
+    """Unsimplified paths of the same seeds, by a planner that wanders: the mixed one is never longer than the best of them."""
+    shorter = 0
+    for seed in range(1, 6):
+        fields = dict(seed=seed, attempts=4, simplify=False, planner="BKPIECE")
+        best, mixed = (motion.plan(scene, request(model, hybridize=mix, **fields)) for mix in (False, True))
+        sound(scene, mixed)
+        assert mixed.attempts == best.attempts == 4
+        assert length(mixed.path) <= length(best.path) + 1e-9
+        shorter += length(mixed.path) < 0.9 * length(best.path)
+    assert shorter >= 4
+    sound(scene, motion.plan(scene, request(model, seed=None, attempts=6, threads=3, simplify=False)))
+
+
 def test_orientation_kept_on_the_way(scene, model):
     state = scene.state
     keep = motion.Constraints(orientation=[motion.OrientationConstraint("tool", state.pose("tool").quaternion, (0.1, 0.1, 3.2))])
@@ -128,6 +146,28 @@ def test_orientation_kept_on_the_way(scene, model):
         scene, motion.MotionRequest("arm", goals=[motion.pose_goal("tool", target)], path_constraints=keep, seed=1, **FINE)
     )
     sound(scene, result, keep)
+
+
+def test_a_line_of_sight_stays_free_on_the_way(model):
+    """From a camera above the middle of the way down to the floor."""
+    scene = motion.PlanningScene(model)
+    state = scene.state
+    state.set_group("arm", HOME)
+    scene.set_state(state)
+    camera, spot = motion.Pose.from_rpy((0.42, -0.19, 1.6), (0, np.pi, 0)), motion.Pose.from_rpy((0.42, -0.19, 0.02), (0, 0, 0))
+    sight = motion.Constraints(visibility=[motion.VisibilityConstraint(spot, "base_link", 0.03, camera, "base_link")])
+
+    def hidden(path):
+        poses = [state.copy() for _ in path]
+        for pose, values in zip(poses, path):
+            pose.set_group("arm", values)
+        return [not motion.evaluate(scene, pose, sight)[0] for pose in poses]
+
+    straight = hidden(np.linspace(HOME, AWAY, 60))
+    assert any(straight) and not straight[0] and not straight[-1]
+    result = motion.plan(scene, request(model, path_constraints=sight))
+    sound(scene, result, sight)
+    assert not any(hidden(result.path))
 
 
 def test_position_kept_in_a_slab_and_a_joint_in_its_range(scene, model):
