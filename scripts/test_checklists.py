@@ -30,3 +30,14 @@ def test_what_is_not_said_fails(tmp_path):
     ended = subprocess.run([CHECKLISTS, "--setup", ROOT / "devel/setup.bash", "silent"], capture_output=True, text=True,
                            env={**os.environ, "TRANSCRIPTS": str(tmp_path)})
     assert ended.returncode == 1 and "silent.transcript:2: T1: 'two' was not said" in ended.stdout, ended.stdout
+
+
+def test_a_simulator_that_dies_is_told_at_once(tmp_path):
+    transcript = tmp_path / "dead.transcript"
+    transcript.write_text("T1& echo 'ImportError: no such symbol'; echo '[gazebo-2] process has died [pid 7]'; seq 5; sleep 500\n"
+                          "T1: started\n")
+    ended = subprocess.run([CHECKLISTS, "--setup", ROOT / "devel/setup.bash", "dead"], capture_output=True, text=True, timeout=200,
+                           env={**os.environ, "TRANSCRIPTS": str(tmp_path)})
+    assert ended.returncode == 1
+    assert "dead.transcript:2: T1: the simulator has died before 'started'" in ended.stdout, ended.stdout
+    assert "ImportError: no such symbol" in ended.stdout, ended.stdout
