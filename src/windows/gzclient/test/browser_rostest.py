@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """gzclient as a user starts it, and Debian's Chromium: real clicks, and what they did is asked by ROS."""
+import math
 import os
 import re
 import signal
@@ -14,6 +15,7 @@ import rospy
 import rostest
 from gazebo_msgs.srv import GetModelState, GetPhysicsProperties, GetWorldProperties, SpawnModel
 from geometry_msgs.msg import Pose, Twist, Vector3
+from ode_sim.math3 import quat_to_rpy
 from ode_sim.viewer.porter import entitled
 from std_msgs.msg import ColorRGBA
 from visualization_msgs.msg import Marker
@@ -40,6 +42,11 @@ def names():
 def position(name):
     p = call("get_model_state", GetModelState, name, "").pose.position
     return np.array((p.x, p.y, p.z))
+
+
+def yaw(name):
+    q = call("get_model_state", GetModelState, name, "").pose.orientation
+    return quat_to_rpy((q.x, q.y, q.z, q.w))[2]
 
 
 def sim_time():
@@ -159,6 +166,64 @@ class Clicks(unittest.TestCase):
             browser.cancelAnimationFrame(frames.length);
             turn();
             return told;""", script), ["a", "b", "c"])
+
+    def test_1d_a_hand_moves_and_turns_a_body_by_the_gizmo(self):
+        page, begin = self.page, position("box")
+        page.click("World")
+        page.click("box")
+        page.see("Mass (kg)")
+        page.check("Move and rotate by hand")
+        page.fill("Snap to (m)", 0.25)
+        page.fill("Snap to (deg)", 15)
+        before = page.scene()
+        page.click("Look at")
+        page.click("View")
+        page.click("Corner")
+        page.click("World")
+        page.settled(before)
+        shown = page.scene()
+        eye = begin + 2.5 * np.array((0.7, -0.7, 0.4))  # of Look at and Corner
+
+        def drag(*offsets):
+            page.mouse(*(page.pixel(begin + offset, eye, begin, FIELD) for offset in offsets), drag=True)
+        drag((0.0, 0.62, 0.0), (0.0, 0.3, 0.0), (0.0, -0.1, 0.0))  # the arrow behind the box, seen and gripped through it
+        wait(lambda: position("box")[1] < begin[1] - 0.1, "moved along y")
+        np.testing.assert_allclose(position("box"), begin - (0.0, 0.75, 0.0), atol=1e-3)
+        page.click("Undo")
+        wait(lambda: np.abs(position("box") - begin).max() < 1e-4, "undo")
+        page.click("Redo")
+        wait(lambda: np.abs(position("box") - begin).max() > 0.1, "redo")
+        page.settled(shown)
+        moved = page.scene()
+        page.click("Undo")
+        wait(lambda: np.abs(position("box") - begin).max() < 1e-4, "undo")
+        page.settled(moved)  # the handles are where they were, too
+        drag(*(0.455 * np.array((math.cos(turn), math.sin(turn), 0.0)) for turn in (0.8, 0.5, 0.2)))  # the arc about z
+        wait(lambda: abs(yaw("box")) > 0.1, "turned about z")
+        self.assertAlmostEqual(math.degrees(yaw("box")) / 15, round(math.degrees(yaw("box")) / 15), places=3)
+        page.click("Undo")
+        wait(lambda: abs(yaw("box")) < 1e-6, "undo of the turn")
+        page.check("Move and rotate by hand")
+        page.fill("Snap to (m)", 0)
+
+    def test_1e_a_button_that_is_pressed_at_once_does_not_lose_what_was_typed(self):
+        """The sender of the program that this page runs, with a clock of the test's."""
+        sent = self.page.driver.execute_script("""
+            const program = [...document.scripts].map(s => s.textContent).sort((a, b) => b.length - a.length)[0];
+            const end = program.search(/return\\{send:\\w,flush:\\w,cancel:\\w\\}\\}/), before = program.slice(end - 1500, end);
+            const begin = [...before.matchAll(/function [\\w$]+\\(\\w,\\w\\)\\{let \\w=!0,/g)].pop().index;
+            const text = before.slice(begin) + program.slice(end, program.indexOf("}}", end) + 2);
+            const sent = [], ends = [], turn = () => ends.splice(0).forEach(f => f());
+            const viewer = {mutable: {current: {sendMessage: message => sent.push(message.uuid + message.value)}}};
+            const make = new Function("setTimeout", "clearTimeout", `return ${text}`);
+            const sender = make(f => ends.push(f), () => ends.splice(0))(viewer, 50);
+            const say = (uuid, value) => sender.send({type: "GuiUpdateMessage", uuid, value});
+            say("mass", 2), say("mass", 20), say("mass", 200), say("step", true);
+            turn();
+            say("a", 1), say("a", 2), say("b", 3), say("b", 4), sender.flush();
+            turn(), turn();
+            return sent;""")
+        self.assertEqual(sent, ["mass2", "mass200", "steptrue", "a2", "b4"])
 
     def test_2_pick_copy_delete_undo(self):
         page = self.page
