@@ -74,6 +74,12 @@ def test_a_handle_that_is_drawn_through_a_body_is_hit_before_it():
     assert "!o.visible&&o.parent?.matrixAutoUpdate===!1" in order.group(3)
 
 
+def test_the_field_of_a_colour_takes_nothing_back_that_was_typed():
+    before, after = changed()
+    field = re.search(r"fixOnBlur:!1,onBlur:\(\)=>\{let (\w)=c\(d\);\1\?l\(\1,t\)\|\|u\(e,\1\):f\(s\(t\)\)\}", after)
+    assert field and "fixOnBlur:!1" not in before and "fixOnBlur:!0" in before  # of the library below, which takes back
+
+
 def test_another_page_is_left_as_it_is_but_for_its_title():
     assert entitled(b"<html>x</html>", "t") == b"<html>x</html>"
 

@@ -93,12 +93,18 @@ _NOTHING_LOST = (rb""".replace(/([\w$]+)\.sendMessage!==null&&\(([\w$]+)=([\w$]+
 _ON_TOP = (rb""".replace(/\.sort\(\(([\w$]+),([\w$]+)\)=>\{(?=let [\w$]+=[\w$]+\(\1\.object\),)/,"""
            rb"""".sort(($1,$2)=>{let grip=o=>o.material?.depthTest===!1||!o.visible&&o.parent?.matrixAutoUpdate===!1?1:0,"""
            rb"""first=grip($2.object)-grip($1.object);if(first)return first;")""")
+#: A colour that was typed as rgb(...) and left by Enter was taken back: the field puts in what was right a moment before, as if it had been
+#: typed. What is no colour gives way to the colour that is, and nothing else.
+_COLOUR_AS_TYPED = (rb""".replace(/&&([\w$]+\([\w$]+\([\w$]+\)\))\},\[([\w$]+)\]\),([^]{1,700}?)onBlur:\(\)=>"""
+                    rb"""\{let ([\w$]+)=([\w$]+\([\w$]+\));\4&&!([\w$]+\(\4,[\w$]+\))&&([\w$]+\([\w$]+,\4\))\}/,"""
+                    rb""""&&$1},[$2]),$3fixOnBlur:!1,onBlur:()=>{let $4=$5;$4?$6||$7:$1}")""")
 
 
 def entitled(page: bytes, title: str) -> bytes:
     """viser's page under another name than its own, sparing where it draws."""
     head = f"<title>{html.escape(title)}</title>".encode() + _SPARING
-    return page.replace(_UNPACKED, _UNPACKED + _UNLIT + _ASKED_LATER + _NOTHING_LOST + _ON_TOP, 1).replace(b"<title>Viser</title>", head, 1)
+    changes = _UNLIT + _ASKED_LATER + _NOTHING_LOST + _ON_TOP + _COLOUR_AS_TYPED
+    return page.replace(_UNPACKED, _UNPACKED + changes, 1).replace(b"<title>Viser</title>", head, 1)
 
 
 class Porter(threading.Thread):
