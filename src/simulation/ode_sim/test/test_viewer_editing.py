@@ -101,6 +101,71 @@ def test_lights_fade_shine_and_aim(page):
     assert client.told == ["A direction is not zero."]
 
 
+def test_two_changes_of_a_light_before_the_page_knows_of_the_first(page):
+    client, world = Client(), panel(page, "WorldPanel")
+    page.selection.select(light="sun")
+    use(world._properties.diffuse, client, (255, 0, 0))
+    use(world._properties.specular, client, (0, 255, 0))
+    use(world._properties.position, client, (0.0, 0.0, 7.0))
+    wait(page, lambda: page.world.lights[0].pose.p == (0.0, 0.0, 7.0))
+    assert (page.world.lights[0].diffuse, page.world.lights[0].specular) == ((1.0, 0.0, 0.0, 1.0), (0.0, 1.0, 0.0, 1.0))
+    for _ in range(2):
+        use(world._history, client, "Undo")
+    wait(page, lambda: page.world.lights[0].specular != (0.0, 1.0, 0.0, 1.0))
+    assert page.world.lights[0].diffuse == (1.0, 0.0, 0.0, 1.0) and not client.told
+
+
+def test_what_was_undone_is_seen_in_its_field_and_can_be_typed_again(page):
+    client, world = Client(), panel(page, "WorldPanel")
+    page.selection.select(light="sun")
+    usual = world._properties.diffuse.value
+    use(world._properties.diffuse, client, (255, 0, 0))
+    use(world._history, client, "Undo")
+    wait(page, lambda: world._properties.diffuse.value == usual != (255, 0, 0))
+    page.selection.select("box")
+    use(world._properties.mass, client, 7.0)
+    use(world._history, client, "Undo")
+    wait(page, lambda: world._properties.mass.value == 1.0)
+    use(world._history, client, "Redo")
+    wait(page, lambda: world._properties.mass.value == 7.0)
+    assert not client.told
+
+
+def test_a_colour_is_undone_to_what_each_visual_had(page):
+    client, world = Client(), panel(page, "WorldPanel")
+    looks = (None, d.Material("Gazebo/Bricks", texture="bricks.png"), d.Material(diffuse=(0.0, 0.0, 1.0, 1.0)))
+    visuals = tuple(d.Visual(f"v{number}", Pose(), d.Sphere(0.1), look, 0.1 * number) for number, look in enumerate(looks))
+    page.simulation.call(lambda other: other.spawn(d.Model("lamp", static=True, links=(
+        d.Link("a", visuals=visuals), d.Link("b", visuals=visuals[:1])))))
+    wait(page, lambda: page.world.model("lamp") is not None)
+    before = page.world.model("lamp").description
+    page.selection.select("lamp")
+    for green in (100, 200):  # a hand in the field of colours
+        use(world._properties.colour, client, (0, green, 0, 255))
+    wait(page, lambda: all(visual.material and visual.material.diffuse[1] == 200 / 255
+                           for link in page.world.model("lamp").description.links for visual in link.visuals))
+    use(world._history, client, "Undo")
+    wait(page, lambda: page.world.model("lamp").description == before)
+    use(world._history, client, "Redo")
+    wait(page, lambda: page.world.model("lamp").description.links[1].visuals[0].material.diffuse[1] == 200 / 255)
+    assert not client.told
+
+
+def test_what_is_made_anew_keeps_the_controls_that_somebody_types_into(page):
+    client, world = Client(), panel(page, "WorldPanel")
+    page.selection.select("box")
+    controls, text = world._properties, model_text(page.world.model("box").description)
+    page.simulation.delete("box")
+    wait(page, lambda: page.world.model("box") is None)
+    use(controls.size, client, (2.0, 1.0, 1.0))
+    page.simulation.insert("box", text, Pose())
+    wait(page, lambda: page.world.model("box") is not None)
+    assert world._properties is controls and page.selection.model == "box"
+    page.simulation.delete("box")
+    wait(page, lambda: page.world.model("box") is None and page.selection.model == "")
+    assert world._properties is None
+
+
 def test_the_solver_is_set(page):
     client, physics = Client(), panel(page, "PhysicsPanel")
     use(physics._soft, client, (1e-5, 0.3))

@@ -153,6 +153,10 @@ class Browser:
         element.send_keys(Keys.CONTROL, "a")
         element.send_keys(str(value), Keys.ENTER)
 
+    def value(self, label):
+        """What a field shows."""
+        return self._find(self._input(label), f"field {label}").get_attribute("value")
+
     def choose(self, label, value):
         """An entry of the list of that label."""
         self._press(self._input(label), f"list {label}")

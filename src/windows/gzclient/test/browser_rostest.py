@@ -14,8 +14,11 @@ import rosgraph
 import rospy
 import rostest
 from gazebo_msgs.srv import GetModelState, GetPhysicsProperties, GetWorldProperties, SpawnModel
+from gazebo_ros.srv import DescribeWorld
 from geometry_msgs.msg import Pose, Twist, Vector3
+from ode_sim.description.exchange import loads
 from ode_sim.math3 import quat_to_rpy
+from ode_sim.viewer import simulation  # noqa: F401  how a world is described
 from ode_sim.viewer.porter import entitled
 from std_msgs.msg import ColorRGBA
 from visualization_msgs.msg import Marker
@@ -51,6 +54,14 @@ def yaw(name):
 
 def sim_time():
     return call("get_world_properties", GetWorldProperties).sim_time
+
+
+def world():
+    return loads(call("describe_world", DescribeWorld).world)
+
+
+def material(name):
+    return world().model(name).description.links[0].visuals[0].material
 
 
 def paused():
@@ -241,6 +252,27 @@ class Clicks(unittest.TestCase):
         wait(lambda: "box_0" not in names(), "delete")
         page.click("Undo")
         wait(lambda: "box_0" in names(), "undo of delete")
+
+    def test_2b_colours_are_typed_and_undone(self):
+        page = self.page
+        page.click("sun")
+        page.see("Shines along")
+        usual = world().lights[0].diffuse
+        for text, wanted in (("rgb(10, 20, 30)", (10, 20, 30)), ("#fff000", (255, 240, 0))):
+            page.fill("Colour", text)
+            page.fill("Highlights", "#%02x4080" % wanted[0])  # at once, before the page knows of the first
+            wait(lambda: round(255 * world().lights[0].specular[0]) == wanted[0], "the other colour")
+            np.testing.assert_allclose(world().lights[0].diffuse[:3], np.array(wanted) / 255, atol=1e-6)
+        for _ in range(4):
+            page.click("Undo")
+        wait(lambda: np.allclose(world().lights[0].diffuse, usual), "undo of both colours")
+        page.click("box")
+        page.see("Mass (kg)")
+        page.fill("Colour", "rgba(0, 0, 255, 1)")
+        wait(lambda: material("box").diffuse == (0.0, 0.0, 1.0, 1.0), "a blue box")
+        page.click("Undo")
+        wait(lambda: material("box").name == "Gazebo/Red", "the look that it had")
+        wait(lambda: page.value("Colour").startswith("rgba(255, 0, 0"), "the field tells of it")
 
     def test_3_insert(self):
         page = self.page

@@ -180,14 +180,18 @@ class Stream(unittest.TestCase):
         wait(lambda: not streams("/gazebo/view_contacts"), "the end of the stream of contacts")
 
     def test_colour_and_friction(self):
-        before = self.simulation.describe().revision
+        known = self.simulation.describe()
+        look = known.model("box").description.links[0].visuals
         self.simulation.paint("box", "link", (0.0, 0.0, 1.0, 0.5))
-        self.frame(lambda frame: frame.revision != before)
+        self.frame(lambda frame: frame.revision != known.revision)
         visual = self.simulation.describe().model("box").description.links[0].visuals[0]
         self.assertEqual((visual.material.diffuse, visual.transparency), ((0.0, 0.0, 1.0, 1.0), 0.5))
+        self.simulation.set_looks("box", {"link": look, "gone": look})
+        self.assertEqual(self.simulation.describe().model("box").description.links[0].visuals, look)
         self.simulation.set_surface("box", "link", SurfaceProperties(0.3, 0.4, 0.1))
         self.assertEqual(self.simulation.surface("box", "link"), SurfaceProperties(0.3, 0.4, 0.1))
         for wrong in (lambda: self.simulation.paint("nobody", "", (1.0, 0.0, 0.0, 1.0)),
+                      lambda: self.simulation.set_looks("nobody", {}), lambda: self.simulation.set_looks("box", {"link": (1.0,)}),
                       lambda: self.simulation.set_surface("box", "link", SurfaceProperties(-1.0, 0.0, 0.0)),
                       lambda: self.simulation.set_surface("box", "link", SurfaceProperties(float("nan"), 0.0, 0.0)),
                       lambda: self.simulation.surface("door", "frame")):

@@ -20,10 +20,10 @@ from gazebo_ros.msg import WorldContacts, WorldView
 from gazebo_ros.srv import (CollisionSurface, CommandJoint, CommandJointRequest, DescribeWorld, SaveWorld, SetVisual,
                             StepWorld, Timeline, TimelineRequest)
 from ode_sim.description import model as d
-from ode_sim.description.exchange import loads
+from ode_sim.description.exchange import dumps, loads
 from ode_sim.description.sdf_writer import light_text
-from ode_sim.viewer.simulation import (Frame, KeptMoment, LinkProperties, Refused, Simulation, SurfaceProperties,
-                                       WorldRecord)
+from ode_sim.viewer.simulation import (Frame, KeptMoment, LinkProperties, Looks, Refused, Simulation,
+                                       SurfaceProperties, WorldRecord)
 
 _PATIENCE = 5.0  # wall s that a service may take to be there
 _STALE = 3.0  # wall s without a frame: the simulator has gone
@@ -163,7 +163,12 @@ class RosSimulation(Simulation):
             self._call("delete_model", DeleteModel, name)
 
     def set_light(self, light: d.Light) -> None:
-        known = next((other for other in self._known.lights if other.name == light.name), None) if self._known else None
+        lights = {other.name: other for other in self._known.lights} if self._known else {}
+        self._change_light(light, lights.get(light.name))
+        if light.name in lights:
+            self._known = replace(self._known, lights=tuple({**lights, light.name: light}.values()))
+
+    def _change_light(self, light: d.Light, known: Optional[d.Light]) -> None:
         if known is not None and (known.range, known.spot) != (light.range, light.spot):  # the service has no place for them
             self._call("delete_light", DeleteLight, light.name)
             self.insert(light.name, light_text(replace(light, pose=d.Pose())), light.pose)
@@ -229,7 +234,10 @@ class RosSimulation(Simulation):
                    surface.restitution)
 
     def paint(self, model: str, link: str, rgba: d.Rgba) -> None:
-        self._call("set_visual", SetVisual, f"{model}::{link}" if link else model, ColorRGBA(*rgba))
+        self._call("set_visual", SetVisual, f"{model}::{link}" if link else model, ColorRGBA(*rgba), "")
+
+    def set_looks(self, model: str, looks: Looks) -> None:
+        self._call("set_visual", SetVisual, model, ColorRGBA(), dumps(looks))
 
     # ------------------------------------------------------------------------------------------ timeline
 

@@ -4,7 +4,9 @@ from __future__ import annotations
 from typing import List
 
 from ode_sim import CollisionHandle, LinkHandle, ModelHandle
-from ode_sim.viewer.surfaces import paint
+from ode_sim.description import model as d
+from ode_sim.description.exchange import loads
+from ode_sim.viewer.surfaces import paint, set_looks
 
 from gazebo_ros.api.handlers import Refused, advertise, finite
 from gazebo_ros.server import Server
@@ -43,6 +45,8 @@ class SurfaceServices:
         return found
 
     def _paint(self, request, response) -> str:
+        if request.looks:
+            return self._set_looks(request.name, request.looks)
         c = request.color
         finite("the colour", c.r, c.g, c.b, c.a)
         entity, visual = self._world.find_entity(request.name), ""
@@ -57,3 +61,16 @@ class SurfaceServices:
             raise Refused(f"[{request.name}] has nothing to see" if not visual else
                           f"{links[0].scoped_name} has no visual '{visual}'")
         return f"SetVisual: {painted} visuals"
+
+    def _set_looks(self, name: str, text: str) -> str:
+        model = self._world.models.get(name)
+        if model is None:
+            raise Refused(f"there is no model [{name}]")
+        try:
+            looks = loads(text)
+        except ValueError as error:
+            raise Refused(str(error)) from error
+        if not isinstance(looks, dict) or not all(
+                isinstance(visuals, tuple) and all(isinstance(visual, d.Visual) for visual in visuals) for visuals in looks.values()):
+            raise Refused("looks are {link: [visual]}, as describe_world tells of visuals")
+        return f"SetVisual: {set_looks(model, looks)} visuals"

@@ -17,9 +17,9 @@ from ode_sim.rendering.watch import SceneWatch
 from ode_sim.timeline import Timeline
 from ode_sim.viewer.contacts import ContactWatch
 from ode_sim.viewer.saving import describe_now
-from ode_sim.viewer.simulation import (Frame, KeptMoment, LinkProperties, Refused, Simulation, SurfaceProperties,
-                                       WorldRecord, record_world)
-from ode_sim.viewer.surfaces import paint
+from ode_sim.viewer.simulation import (Frame, KeptMoment, LinkProperties, Looks, Refused, Simulation,
+                                       SurfaceProperties, WorldRecord, record_world)
+from ode_sim.viewer.surfaces import paint, set_looks
 
 _FRAME = 1.0 / 60.0  # wall s between two frames
 _LATE = 0.1  # s that may be made up for
@@ -258,6 +258,9 @@ class LocalSimulation(Simulation):
     def paint(self, model: str, link: str, rgba: d.Rgba) -> None:
         self.call(lambda world: [paint(other, rgba) for name, other in _model(world, model).links.items()
                                  if link in ("", name)])
+
+    def set_looks(self, model: str, looks: Looks) -> None:
+        self.call(lambda world: set_looks(_model(world, model), looks))
 
     def watch_contacts(self, on: bool) -> None:
         def do(world):

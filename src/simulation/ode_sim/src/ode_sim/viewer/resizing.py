@@ -75,6 +75,7 @@ class Resizing:
         self._page = page
         self._wanted = False
         self._snap = 0.0
+        self._place = Pose()  # X_W of what was resized last
         self._knobs: List[Any] = []
         self._drag: Optional[Tuple[int, d.Geometry]] = None  # axis, the shape as it would be
         self._events: List[Tuple[int, Any, str, Tuple]] = []
@@ -92,14 +93,18 @@ class Resizing:
         :param typed: see :meth:`~ode_sim.viewer.selection.History.do`
         :raises Refused: it is no simple shape
         """
-        record, frame = self._page.selection.record, self._page.frame
+        selection, frame = self._page.selection, self._page.frame
+        record = selection.latest
         if record is None or frame is None or shape_of(record.description) is None:
             raise Refused("Only a single box, sphere or cylinder has other sizes here; pick one.")
         before = replace(record.description, name=record.name, static=record.static, pose=Pose())
         if shape_of(before)[0] == geometry:
             return
-        after, name, pose = resized(before, geometry), record.name, record.pose(frame)
-        self._page.selection.history.do(f"resize {name}", lambda: self._swap(name, after, pose),
+        after, name = resized(before, geometry), record.name
+        if selection.record is not None:  # else it is just being made anew, where it was
+            self._place = record.pose(frame)
+        pose = self._place
+        selection.history.do(f"resize {name}", lambda: self._swap(name, after, pose),
                                         lambda: self._swap(name, before, pose), typed)
 
     def _swap(self, name: str, model: d.Model, usual: Pose) -> None:

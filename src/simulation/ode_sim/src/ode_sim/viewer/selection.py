@@ -5,7 +5,7 @@ import math
 import threading
 import time
 from dataclasses import replace
-from typing import Any, Callable, List, Optional, Tuple
+from typing import Any, Callable, Dict, List, Optional, Tuple
 
 from ode_sim.description import model as d
 from ode_sim.description.sdf_writer import light_text, model_text
@@ -16,6 +16,7 @@ from ode_sim.viewer.simulation import Frame, ModelRecord, Refused, WorldRecord
 
 _MOST_STEPS = 50  # that can be undone
 _TYPING = 2.0  # wall s between two keys of one number
+_AWAY = 0.5  # wall s that what is picked may be missing: another size or range makes it anew, and somebody types on
 
 
 def _on_grid(values: Tuple[float, float, float], step: float) -> Tuple[float, float, float]:
@@ -31,6 +32,10 @@ class History:
         self._done: List[Tuple[str, Callable[[], None], Callable[[], None]]] = []
         self._undone: List[Tuple[str, Callable[[], None], Callable[[], None]]] = []
         self._typed = -math.inf  # wall s of the last key, if that was the last step
+
+    def alone(self) -> Any:
+        """To be held over a look at what is there and the step that follows from it."""
+        return self._lock
 
     def do(self, what: str, forth: Callable[[], None], back: Callable[[], None], typed: bool = False) -> None:
         """Call ``forth()`` and remember ``back``.
@@ -91,6 +96,9 @@ class Selection:
         self._dragged: Optional[Pose] = None  # where the drag began
         self._updates: List[Tuple[Any, Pose, str]] = []  # of the drag, to be done
         self._lock = threading.Lock()
+        self._missing: Optional[float] = None  # wall s since when what is picked is not there
+        self._latest: Optional[ModelRecord] = None
+        self._lights: Dict[str, Tuple[d.Light, d.Light]] = {}  # name -> as the world told of it, as it was set since
         self._gizmo_wanted = False
         self._snap = self._snap_angle = 0.0
         scene = page.server.scene
@@ -105,8 +113,38 @@ class Selection:
         return self._page.world.model(self.model) if self.model else None
 
     @property
+    def latest(self) -> Optional[ModelRecord]:
+        """The same, or as it was before it went away for a moment."""
+        return self.record or (self._latest if self._missing is not None else None)
+
+    @property
     def light_record(self) -> Optional[d.Light]:
-        return next((light for light in self._page.world.lights if light.name == self.light), None)
+        return self._light(self.light)
+
+    def _light(self, name: str) -> Optional[d.Light]:
+        """As it was set here, until the world tells of it: the next change must not take this one back."""
+        told = next((light for light in self._page.world.lights if light.name == name), None)
+        before, since = self._lights.get(name, (None, None))
+        return since if told is not None and told == before else told
+
+    def _put_light(self, light: d.Light) -> None:
+        told = next((other for other in self._page.world.lights if other.name == light.name), None)
+        self._page.simulation.set_light(light)
+        if told is not None:
+            self._lights[light.name] = (told, light)
+
+    def change_light(self, **changes: Any) -> None:
+        """Of the light that is picked; a step that can be undone.
+
+        :raises Refused: none is picked
+        """
+        with self.history.alone():
+            before = self.light_record
+            if before is None:
+                raise Refused("That light is not there any more.")
+            now = replace(before, **changes)
+            self.history.do(f"{', '.join(changes)} of light {before.name}", lambda: self._put_light(now),
+                            lambda: self._put_light(before), typed=True)
 
     def select(self, model: str = "", link: str = "", light: str = "") -> None:
         """Drawing thread."""
@@ -114,9 +152,15 @@ class Selection:
         self._become(*self._present(self._page.world))
 
     def update(self, world: WorldRecord) -> None:
-        now = self._present(world)
-        if now != (self.model, self.link, self.light):
+        now, before = self._present(world), (self.model, self.link, self.light)
+        if now != before and any(before) and not any(now) and before == self._wanted:
+            self._missing = self._missing or time.monotonic()
+            if time.monotonic() < self._missing + _AWAY:
+                return
+        self._missing = None
+        if now != before:
             self._become(*now)
+        self._latest = self.record
 
     def _present(self, world: WorldRecord) -> Tuple[str, str, str]:
         """What is wanted, if it is there; else nothing."""
@@ -128,6 +172,7 @@ class Selection:
 
     def _become(self, model: str, link: str, light: str) -> None:
         self.model, self.link, self.light = model, link, light
+        self._latest, self._missing = self.record, None
         self._show()
         for f in self.on_change:
             f()
@@ -142,6 +187,8 @@ class Selection:
         return frame.pose(record.links[self.link]) if self.link in record.links else record.pose(frame)
 
     def on_frame(self, frame: Frame) -> None:
+        if self._missing is not None:
+            self.update(self._page.world)
         self._show()
 
     def gizmo(self, on: bool, snap: float = 0.0, snap_angle: float = 0.0) -> None:
@@ -210,11 +257,11 @@ class Selection:
         return record.pose(frame) if record is not None and frame is not None else None
 
     def _put_named(self, name: str, pose: Pose) -> None:
-        light = next((light for light in self._page.world.lights if light.name == name), None)
+        light = self._light(name)
         if self._page.world.model(name) is not None or light is None:
             self._page.simulation.set_pose(name, pose)
         else:
-            self._page.simulation.set_light(replace(light, pose=pose))
+            self._put_light(replace(light, pose=pose))
 
     def move(self, pose: Pose, typed: bool = False) -> None:
         """Put what is picked at ``pose``; a model as a whole.

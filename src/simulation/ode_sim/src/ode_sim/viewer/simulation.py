@@ -106,6 +106,8 @@ class KeptMoment:
     time: float
 
 
+#: Link name -> its visuals; of these only the material and the transparency count.
+Looks = Dict[str, Tuple[d.Visual, ...]]
 #: How a joint is commanded: nothing, a force (N m or N), a position (rad or m) or velocity held by a PID of effort.
 JOINT_MODES = ("none", "force", "position", "velocity")
 
@@ -203,6 +205,10 @@ class Simulation(ABC):
     @abstractmethod
     def paint(self, model: str, link: str, rgba: d.Rgba) -> None:
         """All visuals of a link ('' = of the model) in one colour, 0 to 1."""
+
+    @abstractmethod
+    def set_looks(self, model: str, looks: Looks) -> None:
+        """The visuals of these links look as they did."""
 
     @abstractmethod
     def watch_contacts(self, on: bool) -> None:

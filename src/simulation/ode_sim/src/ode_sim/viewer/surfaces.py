@@ -2,9 +2,10 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
+from typing import Any, Tuple
 
 from ode_sim.description import model as d
+from ode_sim.viewer.simulation import Looks
 
 
 def paint(link: Any, rgba: d.Rgba, visual: str = "") -> int:
@@ -23,9 +24,28 @@ def paint(link: Any, rgba: d.Rgba, visual: str = "") -> int:
             painted += 1
         visuals.append(old)
     if painted:
-        link.description = replace(link.description, visuals=tuple(visuals))
-        model = link.model
-        model.description = replace(model.description, links=tuple(
-            replace(other, visuals=tuple(visuals)) if other.name == link.name else other
-            for other in model.description.links))
+        _show(link, tuple(visuals))
     return painted
+
+
+def set_looks(model: Any, looks: Looks) -> int:
+    """Give visuals back what they looked like; how many there were. In the thread that steps the world.
+
+    :param model: :class:`ode_sim.ModelHandle`
+    """
+    count = 0
+    for name, visuals in looks.items():
+        link, wanted = model.links.get(name), {visual.name: visual for visual in visuals}
+        if link is None:
+            continue
+        count += sum(visual.name in wanted for visual in link.description.visuals)
+        _show(link, tuple(replace(visual, material=wanted[visual.name].material, transparency=wanted[visual.name].transparency)
+                          if visual.name in wanted else visual for visual in link.description.visuals))
+    return count
+
+
+def _show(link: Any, visuals: Tuple[d.Visual, ...]) -> None:
+    link.description = replace(link.description, visuals=visuals)
+    model = link.model
+    model.description = replace(model.description, links=tuple(
+        replace(other, visuals=visuals) if other.name == link.name else other for other in model.description.links))

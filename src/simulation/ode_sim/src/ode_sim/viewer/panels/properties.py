@@ -3,11 +3,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import Any, List
+from typing import Any, Dict, List, Tuple
 
+from ode_sim.description import model as d
 from ode_sim.math3 import Pose, quat_from_rpy, to_rpy
+from ode_sim.viewer.drawing import rgb255
 from ode_sim.viewer.resizing import shape_of, size_of, with_size
-from ode_sim.viewer.simulation import Frame, LinkProperties, ModelRecord, Refused, SurfaceProperties
+from ode_sim.viewer.simulation import Frame, LinkProperties, ModelRecord, Refused, SurfaceProperties, WorldRecord
 
 
 class Properties:
@@ -18,7 +20,6 @@ class Properties:
         self.page = panel.page
         self.gui = panel.gui
         self.handles: List[Any] = []
-        self._texts: dict = {}
 
     def build(self) -> None:
         """Add the controls; a refusal leaves those that are there already.
@@ -35,7 +36,16 @@ class Properties:
             handle.remove()
 
     def on_frame(self, frame: Frame) -> None:
-        """Show what is now."""
+        """Show what moves."""
+
+    def show(self, world: WorldRecord) -> None:
+        """Show what is now, after an undo; else a field has what was typed into it."""
+
+    def _put(self, values: Dict[str, Any]) -> None:
+        """:param values: attribute -> of that control, if there is one."""
+        for name, value in values.items():
+            if hasattr(self, name):
+                getattr(self, name).value = value
 
     def _pose_controls(self) -> None:
         self.position = self.add(self.gui.add_vector3("Position (m)", (0.0, 0.0, 0.0), step=0.01))
@@ -72,6 +82,20 @@ class ModelProperties(Properties):
     def on_frame(self, frame: Frame) -> None:
         self._show_pose()
 
+    def show(self, world: WorldRecord) -> None:
+        record, simulation = world.model(self._model), self.page.simulation
+        if record is None:
+            return
+        shape, visuals = shape_of(record.description), [visual for link in self._links(record) for visual in link.visuals]
+        if shape is not None:
+            self._put({"size": size_of(shape[0])})
+        if visuals:
+            self._put({"colour": _colour(visuals[0])})
+        if hasattr(self, "mass"):
+            self._put(_inertial(simulation.link_properties(self._model, self._link)))
+        if hasattr(self, "friction"):
+            self._put(_contact(simulation.surface(self._model, self._link)))
+
     def _size_controls(self, record: ModelRecord) -> None:
         shape = shape_of(record.description)
         if shape is not None:
@@ -80,22 +104,24 @@ class ModelProperties(Properties):
             self.panel.on_update(self.size, self._set_size)
 
     def _set_size(self, sizes: tuple) -> None:
-        """The side that was changed; of a round thing the others follow."""
-        shape = shape_of(self.page.selection.record.description)[0]
-        for axis, (before, now) in enumerate(zip(size_of(shape), sizes)):
-            if abs(float(now) - before) > 1e-9:
-                self.page.resizing.apply(with_size(shape, axis, float(now)), typed=True)
-                return
+        """The sides that were changed; of a round thing the others follow."""
+        record = self.page.selection.latest
+        if record is None:
+            return
+        shape = before = shape_of(record.description)[0]
+        for axis, (was, now) in enumerate(zip(size_of(before), sizes)):
+            if abs(float(now) - was) > 1e-9:
+                shape = with_size(shape, axis, float(now))
+        self.page.resizing.apply(shape, typed=True)
 
     def _mass_controls(self, now: LinkProperties) -> None:
-        self.mass = self.add(self.gui.add_number("Mass (kg)", float(now.mass), min=1e-6, step=0.1))
-        self.gravity = self.add(self.gui.add_checkbox("Gravity", now.gravity))
-        self.com = self.add(self.gui.add_vector3("Centre of mass (m)", tuple(map(float, now.com)), step=0.01,
-                                                 hint="in the frame of the link"))
-        self.diagonal = self.add(self.gui.add_vector3("Inertia xx yy zz", tuple(float(now.inertia[i]) for i in (0, 3, 5)),
-                                                      step=0.001, hint="kg m², about the centre of mass"))
-        self.products = self.add(self.gui.add_vector3("Inertia xy xz yz", tuple(float(now.inertia[i]) for i in (1, 2, 4)),
-                                                      step=0.001))
+        values = _inertial(now)
+        self.mass = self.add(self.gui.add_number("Mass (kg)", values["mass"], min=1e-6, step=0.1))
+        self.gravity = self.add(self.gui.add_checkbox("Gravity", values["gravity"]))
+        self.com = self.add(self.gui.add_vector3("Centre of mass (m)", values["com"], step=0.01, hint="in the frame of the link"))
+        self.diagonal = self.add(self.gui.add_vector3("Inertia xx yy zz", values["diagonal"], step=0.001,
+                                                      hint="kg m², about the centre of mass"))
+        self.products = self.add(self.gui.add_vector3("Inertia xy xz yz", values["products"], step=0.001))
         for control in (self.com, self.diagonal, self.products):
             self.panel.on_update(control, lambda _: self._set_inertia())
         self.force = self.add(self.gui.add_vector3("Force (N)", (0.0, 0.0, 10.0), step=1.0))
@@ -108,23 +134,29 @@ class ModelProperties(Properties):
             self._model, self._link, tuple(self.force.value), tuple(self.torque.value), float(self.duration.value)))
 
     def _look_controls(self, record: ModelRecord) -> None:
-        links = [link for link in record.description.links if link.name == self._link or not self._link]
+        links = self._links(record)
         visuals = [visual for link in links for visual in link.visuals]
         if visuals:
-            rgba = (visuals[0].material.diffuse if visuals[0].material else None) or (0.7, 0.7, 0.7, 1.0)
-            solid = 1.0 - visuals[0].transparency
-            self.colour = self.add(self.gui.add_rgba("Colour", tuple(
-                int(round(255 * min(1.0, max(0.0, part)))) for part in (*rgba[:3], rgba[3] * solid))))
-            self.panel.on_update(self.colour, lambda value: self.page.simulation.paint(
-                self._model, self._link, tuple(part / 255 for part in value)))
+            self.colour = self.add(self.gui.add_rgba("Colour", _colour(visuals[0])))
+            self.panel.on_update(self.colour, lambda value: self._paint(tuple(part / 255 for part in value)))
         if self._link and links and links[0].collisions:
-            now = self.page.simulation.surface(self._model, self._link)
-            self.friction = self.add(self.gui.add_vector2(
-                "Friction", (min(now.mu, 1e6), min(now.mu2, 1e6)), min=(0.0, 0.0), step=0.05,
-                hint="mu and mu2: of the two directions along the surface"))
-            self.bounce = self.add(self.gui.add_number("Bounce", float(now.restitution), min=0.0, max=1.0, step=0.05))
+            values = _contact(self.page.simulation.surface(self._model, self._link))
+            self.friction = self.add(self.gui.add_vector2("Friction", values["friction"], min=(0.0, 0.0), step=0.05,
+                                                          hint="mu and mu2: of the two directions along the surface"))
+            self.bounce = self.add(self.gui.add_number("Bounce", values["bounce"], min=0.0, max=1.0, step=0.05))
             for control in (self.friction, self.bounce):
                 self.panel.on_update(control, lambda _: self._set_surface())
+
+    def _links(self, record: ModelRecord) -> List[d.Link]:
+        return [link for link in record.description.links if self._link in ("", link.name)]
+
+    def _paint(self, rgba: d.Rgba) -> None:
+        simulation, model, link, record = self.page.simulation, self._model, self._link, self.page.world.model(self._model)
+        if record is None:
+            raise Refused(f"There is no {model} any more.")
+        before = {other.name: other.visuals for other in self._links(record) if other.visuals}
+        self.page.selection.history.do(f"colour of {model}::{link}", lambda: simulation.paint(model, link, rgba),
+                                       lambda: simulation.set_looks(model, before), typed=True)
 
     def _set_surface(self) -> None:
         mu, mu2 = (float(value) for value in self.friction.value)
@@ -140,11 +172,9 @@ class ModelProperties(Properties):
         factor = mass / before.mass if before.mass else 1.0
         now = replace(before, mass=mass, inertia=tuple(v * factor for v in before.inertia),
                       gravity=bool(self.gravity.value))
-        self.diagonal.value = tuple(float(now.inertia[i]) for i in (0, 3, 5))
-        self.products.value = tuple(float(now.inertia[i]) for i in (1, 2, 4))
+        self._put({name: value for name, value in _inertial(now).items() if name in ("diagonal", "products")})
         self.page.selection.history.do(f"mass of {model}::{link}", lambda: simulation.set_link_properties(model, link, now),
                                        lambda: simulation.set_link_properties(model, link, before), typed=True)
-
 
     def _set_inertia(self) -> None:
         simulation, model, link = self.page.simulation, self._model, self._link
@@ -155,28 +185,49 @@ class ModelProperties(Properties):
                                        lambda: simulation.set_link_properties(model, link, before), typed=True)
 
 
+def _inertial(now: LinkProperties) -> Dict[str, Any]:
+    diagonal, products = (tuple(float(now.inertia[i]) for i in part) for part in ((0, 3, 5), (1, 2, 4)))
+    return {"mass": float(now.mass), "gravity": now.gravity, "com": tuple(map(float, now.com)), "diagonal": diagonal,
+            "products": products}
+
+
+def _contact(now: SurfaceProperties) -> Dict[str, Any]:
+    return {"friction": (min(now.mu, 1e6), min(now.mu2, 1e6)), "bounce": float(now.restitution)}
+
+
+def _colour(visual: d.Visual) -> Tuple[int, ...]:
+    """0 to 255: red, green, blue and how solid it is."""
+    rgba = (visual.material.diffuse if visual.material else None) or (0.7, 0.7, 0.7, 1.0)
+    return (*rgb255(rgba), *rgb255((rgba[3] * (1.0 - visual.transparency),)))
+
+
 class LightProperties(Properties):
     def build(self) -> None:
         light = self.page.selection.light_record
+        self._name, values = light.name, _shine(light)
         self._pose_controls()
-        self.diffuse = self.add(self.gui.add_rgb("Colour", tuple(int(255 * min(1.0, c)) for c in light.diffuse[:3])))
-        self.shadows = self.add(self.gui.add_checkbox("Casts shadows", light.cast_shadows))
+        self.diffuse = self.add(self.gui.add_rgb("Colour", values["diffuse"]))
+        self.shadows = self.add(self.gui.add_checkbox("Casts shadows", values["shadows"]))
         self.panel.on_update(self.diffuse, lambda value: self._set(
             diffuse=tuple(c / 255 for c in value) + (1.0,)))
         self.panel.on_update(self.shadows, lambda value: self._set(cast_shadows=bool(value)))
-        self.specular = self.add(self.gui.add_rgb("Highlights", tuple(int(255 * min(1.0, c)) for c in light.specular[:3])))
+        self.specular = self.add(self.gui.add_rgb("Highlights", values["specular"]))
         self.panel.on_update(self.specular, lambda value: self._set(specular=tuple(c / 255 for c in value) + (1.0,)))
         if light.type != "point":
-            self.direction = self.add(self.gui.add_vector3("Shines along", tuple(map(float, light.direction)), step=0.05))
+            self.direction = self.add(self.gui.add_vector3("Shines along", values["direction"], step=0.05))
             self.panel.on_update(self.direction, lambda value: self._aim(tuple(map(float, value))))
         if light.type != "directional":
             self.fading = self.add(self.gui.add_vector3(
-                "Fading", (float(light.constant), float(light.linear), float(light.quadratic)), min=(0.0,) * 3, step=0.01,
-                hint="constant, linear, quadratic part"))
+                "Fading", values["fading"], min=(0.0,) * 3, step=0.01, hint="constant, linear, quadratic part"))
             self.panel.on_update(self.fading, lambda value: self._set(**dict(zip(
                 ("constant", "linear", "quadratic"), map(float, value)))))
-            self.range = self.add(self.gui.add_number("Range (m)", float(light.range), min=0.0, step=0.5))
+            self.range = self.add(self.gui.add_number("Range (m)", values["range"], min=0.0, step=0.5))
             self.panel.on_update(self.range, lambda value: self._set(range=float(value)))
+
+    def show(self, world: WorldRecord) -> None:
+        for light in world.lights:
+            if light.name == self._name:
+                self._put(_shine(light))
 
     def _aim(self, direction: tuple) -> None:
         if not any(direction):
@@ -184,8 +235,10 @@ class LightProperties(Properties):
         self._set(direction=direction)
 
     def _set(self, **changes: Any) -> None:
-        """A step that can be undone."""
-        before, simulation = self.page.selection.light_record, self.page.simulation
-        now = replace(before, **changes)
-        self.page.selection.history.do(f"light {before.name}", lambda: simulation.set_light(now),
-                                       lambda: simulation.set_light(before), typed=True)
+        self.page.selection.change_light(**changes)
+
+
+def _shine(light: d.Light) -> Dict[str, Any]:
+    return {"diffuse": rgb255(light.diffuse), "shadows": light.cast_shadows, "specular": rgb255(light.specular),
+            "direction": tuple(map(float, light.direction)), "range": float(light.range),
+            "fading": (float(light.constant), float(light.linear), float(light.quadratic))}

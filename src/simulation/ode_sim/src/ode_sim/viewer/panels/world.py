@@ -135,7 +135,17 @@ class WorldPanel(Panel):
 
     def _undo_redo(self, what: str) -> Callable[[], Any]:
         history = self.page.selection.history
-        return history.undo if what == "Undo" else history.redo
+
+        def turn() -> None:
+            try:
+                (history.undo if what == "Undo" else history.redo)()
+            finally:
+                self.page.later(self._show_anew)
+        return turn
+
+    def _show_anew(self) -> None:
+        if self._properties is not None:
+            self._properties.show(self.page.simulation.describe())
 
 
 def look_at(client: Any, pose: Pose, distance: float = 2.5) -> None:
