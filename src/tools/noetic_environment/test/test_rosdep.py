@@ -27,7 +27,7 @@ def rosdep(tmp_path_factory):
 def test_what_is_covered_resolves_and_what_is_not_is_named(rosdep, tmp_path):
     package = tmp_path / "src/p"
     package.mkdir(parents=True)
-    depends = "".join(f"<depend>{name}</depend>" for name in "roscpp gazebo_ros controller_manager rviz octovis eigen amcl".split())
+    depends = "".join(f"<depend>{name}</depend>" for name in "roscpp gazebo gazebo_ros hector_gazebo_plugins controller_manager rviz octovis eigen python-lxml amcl".split())
     (package / "package.xml").write_text(
         "<package format='2'><name>p</name><version>1.0.0</version><description>d</description>"
         f"<maintainer email='a@example.org'>m</maintainer><license>BSD</license>{depends}</package>")
@@ -38,7 +38,7 @@ def test_what_is_covered_resolves_and_what_is_not_is_named(rosdep, tmp_path):
     taken = rosdep(*install, "--skip-keys", "amcl", cwd=tmp_path)
     assert taken.returncode == 0, taken.stderr
     named = set(taken.stdout.split())
-    assert {"librviz-dev", "liboctovis-dev", "libeigen3-dev"} <= named and not any("gazebo" in word for word in named)
+    assert {"librviz-dev", "liboctovis-dev", "libeigen3-dev", "python3-lxml"} <= named and not any("gazebo" in word for word in named)
 
 
 def test_every_package_of_the_platform_resolves_to_nothing_to_install(rosdep):
