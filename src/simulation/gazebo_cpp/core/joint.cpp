@@ -5,6 +5,8 @@
 #include <limits>
 #include <map>
 #include <mutex>
+#include <tuple>
+#include <vector>
 
 #include <limits.hpp>
 
@@ -187,14 +189,27 @@ double Joint::CheckAndTruncateForce(unsigned int index, double effort)
   return axis ? axis->admitted(effort) : effort;
 }
 
-bool Joint::SetPosition(unsigned int index, double position, bool)
+// With their velocities kept, the links beyond go on as they went: who steers so in every step would else hold what falls or rolls.
+bool Joint::SetPosition(unsigned int index, double position, bool preserve_velocity)
 {
-  if (!axis_of(core_, index))
+  auto* axis = axis_of(core_, index);
+  if (!axis)
     return false;
   bool done = false;
   change(GetScopedName(), [&] {
-    if (ode_sim::World* core = world_of(core_->model))
-      done = core->set_joint_position(*core_, static_cast<int>(index), ode_sim::limited(position, ode_sim::kFarthest, "a position"));
+    ode_sim::World* core = world_of(core_->model);
+    if (!core)
+      return;
+    std::vector<std::tuple<ode_sim::Link*, ode_sim::Vec3, ode_sim::Vec3>> kept;
+    if (preserve_velocity)
+      for (ode_sim::Link* link : ode_sim::links_beyond(*core_))
+        kept.emplace_back(link, link->v, link->w);
+    const double rate = axis->qd;
+    done = core->set_joint_position(*core_, static_cast<int>(index), ode_sim::limited(position, ode_sim::kFarthest, "a position"));
+    for (const auto& [link, v, w] : kept)
+      core->set_link_twist(*link, v, w);
+    if (preserve_velocity)
+      axis->qd = rate;
   });
   return done;
 }

@@ -40,7 +40,7 @@ class CompiledTest(Case):
         self.sim.empty("reset_simulation")
 
     def tearDown(self):
-        self.sim.clear()
+        self.clear(self.subscribers[2:])
         for subscriber in self.subscribers:
             subscriber.unregister()
         self.orders.unregister()
@@ -70,6 +70,15 @@ class CompiledTest(Case):
         self.orders.publish("go 4")  # over Gazebo's transport, from the world's plugin
         self.step_until(lambda: self.sim.joint("elbow").rate[0] > 0.1)
         effort.unregister()
+
+    def test_a_joint_put_in_place_in_every_step_keeps_what_is_beyond_it_falling(self):
+        free = URDF.replace('<link name="world"/>', "").replace(URDF[URDF.index('<joint name="bolt"'):URDF.index('<joint name="elbow"')], "")
+        self.done(self.sim.spawn("arm", free.format(library="worker", more="<effort>0.25</effort><hold>true</hold>"), kind="urdf"))
+        self.sim.step(200)
+        twist = self.sim.model("arm").twist
+        self.assertAlmostEqual(twist.linear.z, -1.96, delta=0.01)
+        self.assertLess(abs(twist.angular.x) + abs(twist.angular.y), 1e-3)
+        self.assertAlmostEqual(self.sim.joint("elbow").position[0], 0.0, delta=1e-3)
 
     def test_private_parameters_are_those_of_the_simulator(self):
         rospy.set_param("/gazebo/worker_effort", 0.5)

@@ -145,6 +145,18 @@ class Case(test_support.TestCase):
             self.assertFalse(rospy.is_shutdown())
             rospy.rostime.wallsleep(0.01)
 
+    def clear(self, subscribers):
+        """The models are gone, and so are the topics of their plugins that ``subscribers`` hear.
+
+        rospy still asks for a topic that has gone meanwhile, and does not hear of one that comes under the same name and address then.
+        """
+        def published():
+            names = {name for name, _ in rospy.get_published_topics()}
+            return [subscriber for subscriber in subscribers if subscriber.resolved_name in names]
+        self.wait(lambda: all(subscriber.get_num_connections() for subscriber in published()))
+        self.sim.clear()
+        self.wait(lambda: not published())
+
     def near(self, a, b, places=9):
         for x, y in zip(a, b):
             self.assertAlmostEqual(x, y, places)

@@ -35,7 +35,7 @@ class TracksTest(Case):
         self.sim.empty("reset_simulation")
 
     def tearDown(self):
-        self.sim.clear()
+        self.clear(self.subscribers[1:])
         self.command.unregister()
         for subscriber in self.subscribers:
             subscriber.unregister()

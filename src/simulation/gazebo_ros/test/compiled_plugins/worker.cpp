@@ -26,6 +26,7 @@ public:
     effort_ = sdf->Get<double>("effort", 0.0).first;
     effort_ = ros::NodeHandle("~").param("worker_effort", effort_.load());
     force_ = sdf->Get<ignition::math::Vector3d>("force");
+    hold_ = sdf->Get<bool>("hold", false).first;
     ros::NodeHandle nh(sdf->Get<std::string>("robotNamespace", model->GetName()).first);
     seen_ = nh.advertise<geometry_msgs::PointStamped>("seen", 10);
     command_ = nh.subscribe<std_msgs::Float64>("effort", 1, [this](const std_msgs::Float64ConstPtr& m) { effort_ = m->data; });
@@ -46,6 +47,8 @@ private:
   {
     if (joint_)
       joint_->SetForce(0, effort_);
+    if (hold_)
+      joint_->SetPosition(0, 0.0, true);
     link_->AddForce(force_);
     geometry_msgs::PointStamped message;
     message.header.stamp = ros::Time(info.simTime.sec, info.simTime.nsec);
@@ -61,6 +64,7 @@ private:
   physics::LinkPtr link_;
   std::atomic<double> effort_{ 0 };
   ignition::math::Vector3d force_;
+  bool hold_ = false;
   ros::Publisher seen_;
   ros::Subscriber command_;
   ros::ServiceServer place_;
