@@ -121,7 +121,7 @@ class RayFan:
         h, v = self.horizontal, self.vertical
         if h.count == h.samples and v.count == v.samples:
             return values
-        grid = values.reshape(v.samples, h.samples)
+        grid: np.ndarray = values.reshape(v.samples, h.samples)
         for axis, scan in ((1, h), (0, v)):
             if scan.count == scan.samples:
                 continue

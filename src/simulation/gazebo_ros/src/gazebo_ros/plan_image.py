@@ -51,7 +51,7 @@ def _merged_runs(mask: np.ndarray) -> List[Tuple[int, int, int, int]]:
     for row in range(mask.shape[0] + 1):
         line = mask[row] if row < mask.shape[0] else np.zeros(mask.shape[1], bool)
         edges = np.flatnonzero(np.diff(np.concatenate(([0], line.astype(np.int8), [0]))))
-        runs = set(zip(edges[::2].tolist(), edges[1::2].tolist()))
+        runs = set(zip(map(int, edges[::2]), map(int, edges[1::2])))
         for run in [run for run in open_runs if run not in runs]:
             done.append((open_runs.pop(run), run[0], row, run[1]))
         for run in runs:

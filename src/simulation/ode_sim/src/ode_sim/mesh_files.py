@@ -104,7 +104,7 @@ def _read_stl(path: str, data: bytes) -> List[MeshPart]:
     if len(data) == 84 + 50 * count or (count > 0 and len(data) > 84 + 50 * count and not data[:5] == b"solid"):
         check_triangles(count, path)
         record = np.dtype([("normal", "<f4", 3), ("points", "<f4", (3, 3)), ("attribute", "<u2")])
-        points = np.frombuffer(data, record, count, 84)["points"].reshape(-1, 3).astype(float)
+        points: np.ndarray = np.frombuffer(data, record, count, 84)["points"].reshape(-1, 3).astype(float)
     elif data.lstrip()[:5].lower() == b"solid" or b"vertex" in data[:2000]:
         points = np.array([line.split()[1:4] for line in data.decode("latin-1").splitlines()
                            if line.split()[:1] == ["vertex"]], dtype=float)

@@ -7,6 +7,7 @@ from __future__ import annotations
 import ctypes
 import ctypes.util
 import os
+from typing import Any
 
 BACKENDS = ("auto", "egl", "osmesa")
 _GL_VERSION = 330
@@ -92,7 +93,8 @@ def create_context(backend: str = "auto"):
         try:
             if name == "osmesa":
                 return _create_osmesa(moderngl)
-            return moderngl.create_context(standalone=True, backend="egl", require=_GL_VERSION)
+            settings: Any = {"standalone": True, "backend": "egl", "require": _GL_VERSION}  # versions type them differently
+            return moderngl.create_context(**settings)
         except Exception as error:  # moderngl, glcontext and ctypes each raise types of their own
             reasons.append(
                 f"{name}: {str(error).strip().splitlines()[0] if str(error).strip() else type(error).__name__}")
