@@ -27,7 +27,8 @@ def rosdep(tmp_path_factory):
 def test_what_is_covered_resolves_and_what_is_not_is_named(rosdep, tmp_path):
     package = tmp_path / "src/p"
     package.mkdir(parents=True)
-    depends = "".join(f"<depend>{name}</depend>" for name in "roscpp gazebo gazebo_ros hector_gazebo_plugins controller_manager rviz octovis eigen python-lxml amcl".split())
+    names = "roscpp gazebo gazebo_ros hector_gazebo_plugins controller_manager rviz octovis eigen python-lxml amcl"
+    depends = "".join(f"<depend>{name}</depend>" for name in names.split())
     (package / "package.xml").write_text(
         "<package format='2'><name>p</name><version>1.0.0</version><description>d</description>"
         f"<maintainer email='a@example.org'>m</maintainer><license>BSD</license>{depends}</package>")
