@@ -45,5 +45,5 @@ timer = QTimer()
 timer.timeout.connect(look)
 timer.start(100)  # also lets Python see its signals
 for number in (signal.SIGINT, signal.SIGTERM):
-    signal.signal(number, lambda *_: app.quit())
+    signal.signal(number, lambda *_: app.exit())  # quit() asks windows first in Qt 6, and RViz whether to save
 sys.exit(app.exec_())
