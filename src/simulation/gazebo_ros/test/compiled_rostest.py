@@ -72,7 +72,8 @@ class CompiledTest(Case):
         effort.unregister()
 
     def test_a_joint_put_in_place_in_every_step_keeps_what_is_beyond_it_falling(self):
-        free = URDF.replace('<link name="world"/>', "").replace(URDF[URDF.index('<joint name="bolt"'):URDF.index('<joint name="elbow"')], "")
+        bolt = URDF[URDF.index('<joint name="bolt"'):URDF.index('<joint name="elbow"')]
+        free = URDF.replace('<link name="world"/>', "").replace(bolt, "")
         self.done(self.sim.spawn("arm", free.format(library="worker", more="<effort>0.25</effort><hold>true</hold>"), kind="urdf"))
         self.sim.step(200)
         twist = self.sim.model("arm").twist
