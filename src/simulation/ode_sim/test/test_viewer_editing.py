@@ -147,7 +147,7 @@ def test_a_colour_is_undone_to_what_each_visual_had(page):
     use(world._history, client, "Undo")
     wait(page, lambda: page.world.model("lamp").description == before)
     use(world._history, client, "Redo")
-    wait(page, lambda: page.world.model("lamp").description.links[1].visuals[0].material.diffuse[1] == 200 / 255)
+    wait(page, lambda: (look := page.world.model("lamp").description.links[1].visuals[0].material) and look.diffuse[1] == 200 / 255)
     assert not client.told
 
 
@@ -164,6 +164,15 @@ def test_what_is_made_anew_keeps_the_controls_that_somebody_types_into(page):
     page.simulation.delete("box")
     wait(page, lambda: page.world.model("box") is None and page.selection.model == "")
     assert world._properties is None
+
+
+def test_two_copies_before_the_page_knows_of_the_first(page):
+    client, world = Client(), panel(page, "WorldPanel")
+    page.selection.select("box")
+    for _ in range(2):
+        use(world._edit, client, "Copy")
+    wait(page, lambda: {"box_0", "box_1"} <= {model.name for model in page.world.models})
+    assert not client.told
 
 
 def test_the_solver_is_set(page):

@@ -58,7 +58,8 @@ def test_who_draws_is_asked_later_and_of_the_canvas_that_is_there():
 def test_a_button_does_not_take_the_place_of_a_value_that_waits_to_be_sent():
     before, after = changed()
     sender = re.search(r"let n=!0,r=!1,i=null,a=null;function o\(s\)\{.*?return\{send:o,flush:s,cancel:c\}\}", after).group()
-    assert ("(r&&i&&(i.type!==s.type||i.uuid!==s.uuid||i.name!==s.name)&&(c.sendMessage(i),r=!1),i=s,n?(c.sendMessage(s),r=!1,n=!1,"
+    assert ("(r&&i&&(i.type!==s.type||i.uuid!==s.uuid||i.name!==s.name||i!==s&&JSON.stringify(i)===JSON.stringify(s))&&"
+            "(c.sendMessage(i),r=!1),i=s,n?(c.sendMessage(s),r=!1,n=!1,"
             in sender)
     assert "(i=s,n?(c.sendMessage(s),r=!1,n=!1," in before
 

@@ -84,10 +84,11 @@ _ASKED_LATER = (rb""".replace(/let ([\w$]+)=([\w$]+)\(\);(console\.log\(`WebGL s
                 rb""".replace(/=document\.createElement\(`canvas`\)(?=,[\w$]+=!1,[\w$]+=`unknown`)/,"""
                 rb""""=document.querySelector('canvas[data-engine]')??document.createElement('canvas')")""")
 #: What is typed and pressed goes to the server at most every 50 ms, the last of it only: a button pressed right after a field was filled
-#: took the place of the field's value, which was lost. What concerns something else is sent first.
+#: took the place of the field's value, which was lost. What concerns something else is sent first, and so is a
+#: second press of the same button, which a page that is slow to draw hears together with the first.
 _NOTHING_LOST = (rb""".replace(/([\w$]+)\.sendMessage!==null&&\(([\w$]+)=([\w$]+),([\w$]+)\?\(\1\.sendMessage\(\3\),([\w$]+)=!1/,"""
-                 rb""""$1.sendMessage!==null&&($5&&$2&&($2.type!==$3.type||$2.uuid!==$3.uuid||$2.name!==$3.name)&&"""
-                 rb"""($1.sendMessage($2),$5=!1),$2=$3,$4?($1.sendMessage($3),$5=!1")""")
+                 rb""""$1.sendMessage!==null&&($5&&$2&&($2.type!==$3.type||$2.uuid!==$3.uuid||$2.name!==$3.name"""
+                 rb"""||$2!==$3&&JSON.stringify($2)===JSON.stringify($3))&&($1.sendMessage($2),$5=!1),$2=$3,$4?($1.sendMessage($3),$5=!1")""")
 #: Handles that are drawn through everything are gripped so, too: what is hit of them is hit first. Some are gripped by a part that is not
 #: drawn at all, in a group that stands where it is put.
 _ON_TOP = (rb""".replace(/\.sort\(\(([\w$]+),([\w$]+)\)=>\{(?=let [\w$]+=[\w$]+\(\1\.object\),)/,"""

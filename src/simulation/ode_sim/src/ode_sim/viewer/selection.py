@@ -5,7 +5,7 @@ import math
 import threading
 import time
 from dataclasses import replace
-from typing import Any, Callable, Dict, List, Optional, Tuple
+from typing import Any, Callable, Dict, List, Optional, Set, Tuple
 
 from ode_sim.description import model as d
 from ode_sim.description.sdf_writer import light_text, model_text
@@ -96,6 +96,7 @@ class Selection:
         self._dragged: Optional[Pose] = None  # where the drag began
         self._updates: List[Tuple[Any, Pose, str]] = []  # of the drag, to be done
         self._lock = threading.Lock()
+        self._given: Set[str] = set()  # names of what was inserted and the world has not told of yet
         self._missing: Optional[float] = None  # wall s since when what is picked is not there
         self._latest: Optional[ModelRecord] = None
         self._lights: Dict[str, Tuple[d.Light, d.Light]] = {}  # name -> as the world told of it, as it was set since
@@ -152,6 +153,7 @@ class Selection:
         self._become(*self._present(self._page.world))
 
     def update(self, world: WorldRecord) -> None:
+        self._given -= {model.name for model in world.models} | {light.name for light in world.lights}
         now, before = self._present(world), (self.model, self.link, self.light)
         if now != before and any(before) and not any(now) and before == self._wanted:
             self._missing = self._missing or time.monotonic()
@@ -292,8 +294,11 @@ class Selection:
     def insert(self, wanted: str, text: str, pose: Pose) -> str:
         """A model or light from text, under a free name; the name."""
         world, simulation = self._page.world, self._page.simulation
-        name = free_name(wanted, {model.name for model in world.models} | {light.name for light in world.lights})
-        self.history.do(f"insert {name}", lambda: simulation.insert(name, text, pose), lambda: simulation.delete(name))
+        with self.history.alone():
+            taken = {model.name for model in world.models} | {light.name for light in world.lights} | self._given
+            name = free_name(wanted, taken)
+            self.history.do(f"insert {name}", lambda: simulation.insert(name, text, pose), lambda: simulation.delete(name))
+            self._given.add(name)
         return name
 
     def _text(self) -> Tuple[str, str, Pose]:

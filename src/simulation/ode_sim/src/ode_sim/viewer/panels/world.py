@@ -21,6 +21,9 @@ class WorldPanel(Panel):
 
     def __init__(self, page: Any):
         super().__init__(page)
+        # above what grows and shrinks by what they do, else the next click of a quick hand lands on something else
+        self._edit = self.gui.add_button_group("Picked", ("Copy", "Delete", "Look at"))
+        self._history = self.gui.add_button_group("History", ("Undo", "Redo"))
         self._search = self.gui.add_text("Search", "", hint="of models, links and lights whose name has this in it")
         self._list = self.gui.add_folder("Models and lights")
         self._rows: Dict[Row, Any] = {}
@@ -29,14 +32,12 @@ class WorldPanel(Panel):
         self._listed: Optional[Tuple] = None
         self._folder = self.gui.add_folder("Nothing is picked")
         self._properties: Optional[Properties] = None
-        with self.gui.add_folder("Edit"):
+        with self.gui.add_folder("By hand"):
             self._gizmo = self.gui.add_checkbox("Move and rotate by hand", False)
             self._resize = self.gui.add_checkbox("Resize by hand", False, hint="the three knobs of a box, sphere or cylinder")
             self._snap = self.gui.add_number("Snap to (m)", 0.0, min=0.0, max=10.0, step=0.05)
             self._snap_angle = self.gui.add_number("Snap to (deg)", 0.0, min=0.0, max=180.0, step=5.0,
                                                    hint="of roll, pitch and yaw")
-            self._edit = self.gui.add_button_group("Picked", ("Copy", "Delete", "Look at"))
-            self._history = self.gui.add_button_group("History", ("Undo", "Redo"))
         self._search.on_update(lambda event: self.page.later(self._list_rows))
         self.on_update(self._gizmo, lambda _: self._set_gizmo())
         self.on_update(self._resize, lambda _: self._set_gizmo())
