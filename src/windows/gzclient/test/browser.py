@@ -153,6 +153,13 @@ class Browser:
         element.send_keys(Keys.CONTROL, "a")
         element.send_keys(str(value), Keys.ENTER)
 
+    def place(self, label):
+        """(x, y) in CSS pixels of the middle of a button, which is scrolled to."""
+        return self.driver.execute_script("""
+            arguments[0].scrollIntoView({block: "center"});
+            const r = arguments[0].getBoundingClientRect(); return [r.x + r.width / 2, r.y + r.height / 2];""",
+                                          self._find(f"//button[normalize-space(.)='{label}']", f"button {label}"))
+
     def value(self, label):
         """What a field shows."""
         return self._find(self._input(label), f"field {label}").get_attribute("value")

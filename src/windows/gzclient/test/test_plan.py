@@ -107,7 +107,7 @@ def test_saved_and_opened_again(tmp_path, monkeypatch):
     plan.add_level()
     target = files.save(plan.document)
     assert target == str(tmp_path / "building_editor_models" / "my room") and files.names() == ["my room"]
-    again = Plan(files.load("my room"))
+    again = Plan(files.load("my room")[0])
     assert again.building() == plan.building() == read_plan(os.path.join(target, "plan.yaml"))
     world = World.load(os.path.join(target, "my room.world"))
     assert "my room" in world.models and len(world.models["my room"].links) == 9  # 2 x 4 walls, a floor

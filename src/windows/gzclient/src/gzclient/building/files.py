@@ -3,17 +3,21 @@ from __future__ import annotations
 
 import os
 import re
-from typing import Any, Dict, List
+from typing import Any, Dict, List, Tuple
 
 import yaml
 from gazebo_ros import building_image, building_sdf
 from gazebo_ros.building import PlanError, building_of
 from gazebo_ros.plan_file import load_plan
+from ode_sim.description import read_sdf_model
 from ode_sim.viewer.simulation import Refused
+
+from gzclient.building.reopened import plan_of
 
 #: As upstream's editor names it, in the home folder.
 FOLDER = "building_editor_models"
 PLAN = "plan.yaml"
+MODEL = "model.sdf"
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_. -]{0,80}")
 
 
@@ -34,8 +38,8 @@ def checked_name(name: str) -> str:
 def names() -> List[str]:
     """Of the buildings that can be opened."""
     try:
-        return sorted(name for name in os.listdir(folder())
-                      if _NAME.fullmatch(name) and os.path.isfile(os.path.join(folder(), name, PLAN)))
+        return sorted(name for name in os.listdir(folder()) if _NAME.fullmatch(name) and any(
+            os.path.isfile(os.path.join(folder(), name, file)) for file in (PLAN, MODEL)))
     except OSError:
         return []
 
@@ -69,15 +73,32 @@ def text_of(document: Dict[str, Any]) -> str:
             + yaml.safe_dump(ordered, sort_keys=False, default_flow_style=None, width=110))
 
 
-def load(name: str) -> Dict[str, Any]:
-    """The plan of a building that was saved.
+def load(name: str) -> Tuple[Dict[str, Any], List[str]]:
+    """The plan of a building that was saved, and what of it was not understood: Gazebo's editor writes no plan, only a model.
 
     :raises Refused: it cannot be read
     """
+    file = os.path.join(folder(), checked_name(name), PLAN)
+    if not os.path.exists(file) and os.path.exists(os.path.join(folder(), name, MODEL)):
+        return _load_model(name, os.path.join(folder(), name, MODEL))
     try:
-        document = load_plan(os.path.join(folder(), checked_name(name), PLAN))
+        document = load_plan(file)
     except ValueError as error:
         raise Refused(str(error)) from error
     if not isinstance(document, dict):
         raise Refused(f"{name}/{PLAN} holds no plan")
-    return document
+    return document, []
+
+
+def _load_model(name: str, file: str) -> Tuple[Dict[str, Any], List[str]]:
+    try:
+        with open(file, encoding="utf-8") as stream:
+            model, _ = read_sdf_model(stream.read(), name=name, file=file)
+    except OSError as error:
+        raise Refused(f"{file}: {error.strerror}") from error
+    except ValueError as error:  # of its text, too
+        raise Refused(str(error)) from error
+    document, left = plan_of(model)
+    if not any(part.get("walls") or part.get("stairs") for part in (document, *document.get("levels", ()))):
+        raise Refused(f"{name}/{MODEL} has no link Wall_0, Wall_1 ... of boxes, as a building has")
+    return document, left

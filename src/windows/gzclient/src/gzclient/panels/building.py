@@ -3,12 +3,13 @@ from __future__ import annotations
 
 import io
 import math
-from typing import Any, Callable, Optional, Tuple
+from typing import Any, Callable, Optional, Sequence, Tuple
 
 import numpy as np
 from gazebo_ros import building_image, building_sdf
 from gazebo_ros.building import PlanError
 from ode_sim.description.materials import NAMES
+from ode_sim.description.model import one_line
 from ode_sim.math3 import Pose
 from ode_sim.viewer.eye import put_eye
 from ode_sim.viewer.panels.base import Panel, note
@@ -37,6 +38,7 @@ class BuildingPanel(Panel):
         self._plan = Plan()
         self._drawing: Optional[PlanDrawing] = None
         self._picked: Optional[Element] = None
+        self._left: Tuple[str, ...] = ()  # what a model has that this plan of it has not
         self._start: Optional[Point] = None  # of the wall that clicks are drawing
         self._drag: Optional[Tuple[Optional[Element], str, Point]] = None
         self._busy = False  # the controls are being set by the program
@@ -167,7 +169,10 @@ class BuildingPanel(Panel):
         self._level.value = str(plan.level)
         self._busy = False
         walls = sum(len(level.walls) for level in building.levels) if building is not None else 0
-        self._note.content = note(f"{_counted(walls, 'wall')} on {_counted(plan.levels, 'level')}" if walls else "nothing is drawn yet")
+        said = f"{_counted(walls, 'wall')} on {_counted(plan.levels, 'level')}" if walls else "nothing is drawn yet"
+        if self._left:
+            said += one_line(f"; not understood, and lost when it is saved under this name: {', '.join(self._left)}", 300)
+        self._note.content = note(said)
         self._paper.visible = building is not None
         if building is not None:
             self._show_sketch(np.asarray(building_image.draw(building, 400)))
@@ -356,25 +361,25 @@ class BuildingPanel(Panel):
 
     def _save_now(self) -> None:
         self._plan.document["name"] = files.checked_name(self._name.value.strip())
-        target = files.save(self._plan.document)
+        target, self._left = files.save(self._plan.document), ()
         self._saved.options = tuple(files.names()) or (_NONE,)
         self._note.content = note(f"saved in {target}")
 
     def _open_now(self) -> None:
         if self._saved.value == _NONE:
             raise Refused(f"No building is saved in ~/{files.FOLDER}.")
-        self._take(files.load(self._saved.value))
+        self._take(*files.load(self._saved.value))
 
     def _new(self) -> None:
         self._take(None)
 
-    def _take(self, document: Optional[dict]) -> None:
+    def _take(self, document: Optional[dict], left: Sequence[str] = ()) -> None:
         try:
             plan = Plan(document)
         except PlanError as error:
             raise Refused(str(error)) from error
         plan.snap, plan.snap_angle = self._plan.snap, self._plan.snap_angle
-        self._plan, self._picked = plan, None
+        self._plan, self._picked, self._left = plan, None, tuple(left)
         self._end_path()
         self._name.value = str(plan.document.get("name", "building"))
 
