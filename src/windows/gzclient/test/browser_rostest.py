@@ -257,6 +257,7 @@ class Clicks(unittest.TestCase):
         wait(lambda: "box_0" not in names(), "delete")
         page.click("Undo")
         wait(lambda: "box_0" in names(), "undo of delete")
+        wait(lambda: page.text().count("box_0") > 1, "the page knows of it")
         page.click("Copy")
         page.click("Copy")
         page.see("box_2")
