@@ -17,7 +17,7 @@ source in your workspace (ros-planning/navigation, branch noetic-devel)."
 _noetic_absent("It makes maps or places robots in them, and is not supplied here; build it from source in your workspace."
   cartographer_ros gmapping slam_gmapping hector_mapping hector_slam karto_slam slam_toolbox)
 _noetic_absent("It is made for Gazebo Classic, whose C++ API is supplied (find_package(gazebo)): build it from source in your \
-workspace." gazebo_ros_control_select_joints hector_gazebo_plugins)
+workspace." gazebo_ros_control_select_joints)
 _noetic_absent("It is no package of catkin: find it by itself, without COMPONENTS." gazebo sdformat)
 _noetic_absent("It belongs to the tutorials of desktop-full, is not supplied here, and builds from source in your workspace."
   actionlib_tutorials nodelet_tutorial_math pluginlib_tutorials roscpp_tutorials rospy_tutorials
