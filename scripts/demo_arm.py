@@ -107,6 +107,13 @@ def save_plot(path: Path, rows, target) -> None:
     figure.savefig(path, dpi=110)
 
 
+def wait_for_build() -> None:
+    """scripts/demo compiles the arm's node while the simulator starts, where the platform is installed."""
+    build = os.environ.get("DEMO_BUILD")
+    if build and os.waitpid(int(build), 0)[1]:
+        raise DemoError("the arm's node was not compiled; see build/demo/build.log")
+
+
 def drive(recorder: "Recorder", launch, target) -> tuple:
     """Tell how the arm moves until it is there. :return: rows of its start and of its arrival"""
     start = recorder.rows[0]
@@ -169,6 +176,7 @@ def run(options: argparse.Namespace, out: Path, environment: dict, window: bool)
         say(f"the arm stands in the simulator and reports its joints, {ready:.1f} s after the launch command")
         pictures = [(Path(p), f"RViz before: {' '.join('%.2f' % q for q in recorder.rows[-1][2:])}") for p in save_rviz(out, "rviz-before")]
 
+        wait_for_build()
         words = [f"{value:g}" for value in target]
         say("rosrun arm_controller arm_controller_node " + " ".join(words))
         recorder.rows.clear()
