@@ -12,6 +12,7 @@ from gazebo_ros.srv import StepWorld, TakePicture
 from std_srvs.srv import SetBool, Trigger
 
 from . import connections
+from .errors import LabError
 from .lockstep import Nodes
 
 CONNECTED = 0.12  # s of rest after something new: connections are made by threads that look every hundredth of a second
@@ -20,7 +21,7 @@ _LOOKS = 4  # at missing connections: who is asked for by a node that has ended 
 _ROUNDS = 20  # of news from the master that one moment can have
 
 
-class Gone(RuntimeError):
+class Gone(LabError, RuntimeError):
     """The simulator, the launch or a limit ended the session; a sentence for the student."""
 
 

@@ -10,13 +10,14 @@ from typing import Any, Callable, Dict, List, Tuple, Union
 
 from . import node, parcel
 from .engines import Engine, How, Pool, outcome
+from .errors import LabError
 from .outcome import Result
 from .spec import Spec
 
 _LOOK = 60.0  # s that a node has to answer
 
 
-class ClusterError(RuntimeError):
+class ClusterError(LabError, RuntimeError):
     """No cluster, or no node in it that can examine; one line with the cure."""
 
 

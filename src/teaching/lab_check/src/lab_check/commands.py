@@ -15,12 +15,13 @@ from rosservice import ROSServiceException, get_service_class_by_name
 
 from . import connections
 from .bench import CONNECTED, Bench
+from .errors import LabError
 from .supervise import Program
 
 _START = 15.0  # s of wall time that a program gets to become a node
 
 
-class CommandError(ValueError):
+class CommandError(LabError, ValueError):
     """A command could not be given; a sentence that says why."""
 
 

@@ -7,10 +7,11 @@ import pathlib
 import tarfile
 from typing import Tuple
 
+from .errors import LabError
 from .spec import Spec
 
 
-class TooLarge(ValueError):
+class TooLarge(LabError, ValueError):
     """More than a submission may hold; it is not sent anywhere."""
 
 

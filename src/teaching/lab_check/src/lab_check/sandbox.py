@@ -18,6 +18,8 @@ import subprocess
 from dataclasses import dataclass
 from typing import Dict, List
 
+from .errors import LabError
+
 HOME = "/home/student"
 UNSAFE, BUBBLEWRAP = "none (--unsafe)", "bubblewrap"
 
@@ -26,7 +28,7 @@ _CLONE_NEWNET = 0x40000000
 _CONNECTIONS = 512  # entries in the kernel's table of connections
 
 
-class SandboxError(RuntimeError):
+class SandboxError(LabError, RuntimeError):
     """This machine cannot shut a submission in; one sentence with the remedy."""
 
 

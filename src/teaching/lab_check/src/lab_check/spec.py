@@ -10,6 +10,8 @@ from typing import Any, Dict, List, Tuple
 import jsonschema
 import yaml
 
+from .errors import LabError
+
 SCHEMA = json.loads((pathlib.Path(__file__).parent / "spec_schema.json").read_text(encoding="utf-8"))
 EXTRAS = ("points", "say")  # of an expectation, beside its kind
 _UNITS = {"kB": 1e3, "MB": 1e6, "GB": 1e9}
@@ -18,7 +20,7 @@ LIMITS = {"memory": "3 GB", "disk": "1 GB", "log": "50 MB", "input": "200 MB", "
 UNNAMED = "it"
 
 
-class SpecError(ValueError):
+class SpecError(LabError, ValueError):
     """The spec cannot be used; ``problems`` has one line each: file:line: what is wrong and what to do."""
 
     def __init__(self, problems: List[str]):

@@ -12,12 +12,14 @@ import zipfile
 from dataclasses import dataclass, field
 from typing import Dict, Iterator, List, Tuple
 
+from .errors import LabError
+
 _LEFT_OUT = {".git", ".svn", ".hg", "build", "devel", "install", "logs", ".catkin_tools", ".catkin_workspace", "__pycache__", "__MACOSX"}
 _MOST_FILES = 20000
 _DEEP = 30
 
 
-class StagingError(ValueError):
+class StagingError(LabError, ValueError):
     """The submission cannot be taken; a sentence for the student."""
 
 

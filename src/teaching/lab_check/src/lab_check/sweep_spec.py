@@ -14,6 +14,7 @@ from typing import Any, Dict, List
 import numpy as np
 import yaml
 
+from .errors import LabError
 from .spec import SpecError, line_of, load, read
 
 SCHEMA = json.loads((pathlib.Path(__file__).parent / "sweep_schema.json").read_text(encoding="utf-8"))
@@ -21,7 +22,7 @@ _PLACES = ("spec", "launch", "yaml", "file")
 _MOST = 100000  # cases
 
 
-class PlaceError(ValueError):
+class PlaceError(LabError, ValueError):
     """A value cannot be put where it should go; the reason in one line."""
 
 
