@@ -3,7 +3,7 @@ import math
 from types import SimpleNamespace
 
 import pytest
-from launch_gallery import commands, hearing, measure, motion, row
+from launch_gallery import commands, hearing, measure, motion, row, simulator
 
 
 def circle(speed, rate, seconds, step=0.1):
@@ -46,7 +46,7 @@ def test_the_command_goes_to_an_input_of_a_multiplexer():
 @pytest.mark.parametrize("wanted, words", [("joy", "is of type sensor_msgs/Joy"), ("b", "has no subscriber"),
                                            ("", "nobody listens to speeds")])
 def test_a_topic_that_cannot_be_commanded_is_said(wanted, words):
-    with pytest.raises(commands.CommandError, match=words):
+    with pytest.raises(commands.MeasuringError, match=words):
         commands.choose([("/joy", "sensor_msgs/Joy")], [], wanted)
 
 
@@ -100,3 +100,11 @@ def test_errors_of_a_log_are_told_once(tmp_path):
 def test_the_longest_silence_between_commands():
     assert motion.longest_silence([0.0, 0.05, 0.35, 0.4]) == pytest.approx(0.3)
     assert motion.longest_silence([1.0]) == 0.0
+
+
+def test_a_simulator_may_run_within_a_group():
+    services = ["/rosout/get_loggers", "/car/gazebo/get_model_state", "/car/gazebo/spawn_urdf_model"]
+    found = simulator.find(services)
+    assert found.name("take_picture") == "/car/gazebo/take_picture"
+    assert simulator.find([*services, "/gazebo/get_model_state"]).name("pause") == "/gazebo/pause"
+    assert simulator.find(["/gazebo/spawn_urdf_model"]) is None

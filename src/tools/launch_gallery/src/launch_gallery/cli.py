@@ -13,7 +13,7 @@ import signal
 import sys
 from typing import Dict, List, Optional
 
-from rviz_offscreen.display import DisplayError
+from rviz_offscreen.errors import DisplayError
 
 from . import session
 from .launches import Launch, LaunchError, arguments, content, find

@@ -7,6 +7,8 @@ from xml.etree import ElementTree
 import rospy
 from roslib.message import get_message_class
 
+from .errors import MeasuringError
+
 
 def _twist(message, speed: float, turn: float, aside: float) -> None:
     message.linear.x, message.linear.y, message.angular.z = speed, aside, turn
@@ -23,10 +25,6 @@ KINDS: Dict[str, Tuple[str, Callable]] = {
 }
 
 
-class CommandError(RuntimeError):
-    """There is nothing to command; one line."""
-
-
 def choose(heard: Sequence[Tuple[str, str]], published: Sequence[str], wanted: str = "") -> Tuple[str, str]:
     """The topic to send commands to, and its message type.
 
@@ -34,18 +32,18 @@ def choose(heard: Sequence[Tuple[str, str]], published: Sequence[str], wanted: s
     not its output).
 
     :param heard: (topic, message type) that somebody subscribes to. :param published: topics that somebody publishes.
-    :raises CommandError: nobody listens to speeds, or not on the wanted topic.
+    :raises MeasuringError: nobody listens to speeds, or not on the wanted topic.
     """
     topics = dict(heard)
     if wanted:
         wanted = "/" + wanted.strip("/")
         if topics.get(wanted) not in KINDS:
             what = f"is of type {topics[wanted]}" if wanted in topics else "has no subscriber"
-            raise CommandError(f"topic {wanted} {what}; speeds go to {_listed(heard)}")
+            raise MeasuringError(f"topic {wanted} {what}; speeds go to {_listed(heard)}")
         return wanted, topics[wanted]
     candidates = [topic for topic, kind in heard if kind in KINDS]
     if not candidates:
-        raise CommandError(f"nobody listens to speeds ({', '.join(sorted(KINDS))})")
+        raise MeasuringError(f"nobody listens to speeds ({', '.join(sorted(KINDS))})")
     best = min(candidates, key=lambda topic: (not topic.endswith("cmd_vel"), topic in published, topic.count("/"),
                                               len(topic), topic))
     return best, topics[best]
@@ -63,7 +61,7 @@ class Wheel:
         self._field, self._fill = KINDS[kind]
         self._class = get_message_class(kind)
         if self._class is None:
-            raise CommandError(f"topic {topic}: messages of type {kind} are not built here")
+            raise MeasuringError(f"topic {topic}: messages of type {kind} are not built here")
         self._publisher = rospy.Publisher(topic, self._class, queue_size=1)
 
     def send(self, time: float, speed: float, turn: float, aside: float = 0.0) -> None:

@@ -11,6 +11,8 @@ import rospkg
 from roslaunch import arg_dump, core
 from roslaunch.config import load_config_default
 
+from .errors import LaunchError
+
 #: Arguments that would open a window, set only where a launch file declares them: the gallery brings its own RViz.
 WINDOWLESS = {"gui": "false", "rviz": "false", "use_rviz": "false", "open_rviz": "false"}
 
@@ -20,10 +22,6 @@ _SILENT = {("gazebo_ros", "gzclient")}  # no node of ROS before somebody looks
 
 #: What roslaunch raises about a file; catkin's RuntimeError: two packages of one name
 _UNREADABLE = (core.RLException, rospkg.ResourceNotFound, ElementTree.ParseError, OSError, RuntimeError)
-
-
-class LaunchError(RuntimeError):
-    """A launch file that cannot be shown; one line."""
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,7 @@ import signal
 import sys
 from typing import Dict, List, Optional
 
-from rviz_offscreen.display import DisplayError
+from rviz_offscreen.errors import DisplayError
 
 from . import row, session
 from .launches import Launch, LaunchError, arguments, content, find

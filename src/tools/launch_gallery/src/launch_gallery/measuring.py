@@ -18,11 +18,13 @@ from roslib.message import get_message_class
 from rosservice import ROSServiceException, get_service_class_by_name
 
 from . import scene, system
-from .commands import CommandError, Wheel, choose, joint_limits, nominal_rates
+from .commands import Wheel, choose, joint_limits, nominal_rates
 from .hearing import Ear, is_sensor
 from .motion import Motion, longest_silence, reachable
+from .simulator import find
 from .system import System
-from .truth import Truth, TruthError
+from .errors import MeasuringError
+from .truth import Truth
 
 _ANSWER = 60.0  # s of wall time for one message
 _LEAD = 2.0  # s a command is held before it counts: accelerations are not what is measured
@@ -50,25 +52,27 @@ class Measurement:
         """What goes wrong in one phase is noted, and the next one has its turn."""
         try:
             yield
-        except (TruthError, CommandError, rospy.ROSException, rospy.ServiceException, ROSServiceException) as error:
+        except (MeasuringError, rospy.ROSException, rospy.ServiceException, ROSServiceException) as error:
             self.note(f"{name}: {' '.join(str(error).split())}")
 
     def run(self) -> None:
         amiss = self.system.wait_until_settled(self.job["timeout"])
         if amiss:
             self.note(amiss)
-        if "/gazebo/get_model_state" not in self.system.services():
+        simulator = find(self.system.services())
+        if not simulator:
             self.note("no simulator came up: nobody offers /gazebo/get_model_state")
             return
-        if _service("/gazebo/get_physics_properties")().pause:
-            _service("/gazebo/unpause_physics")()
-        model = self.job["model"] or scene.subject(_ANSWER)
+        self.simulator = simulator
+        if simulator.service("get_physics_properties")().pause:
+            simulator.service("unpause_physics")()
+        model = self.job["model"] or scene.subject(simulator, _ANSWER)
         if not model:
             self.note("no robot: nothing in the world can move")
             return
         self.found["model"] = model
         with self.phase("robot"):
-            self.truth = Truth(model)
+            self.truth = Truth(simulator, model)
             for name in ("stand", "listen", "drive", "reach", "picture"):
                 if self.job[name]:
                     with self.phase(name):
@@ -103,7 +107,7 @@ class Measurement:
         self._compare_rates()
 
     def _compare_rates(self) -> None:
-        description = rospy.get_param("/robot_description", "")
+        description = self.simulator.parameter("robot_description", "")
         rates = [sensor["rate"] for sensor in self.found["sensors"] if sensor["rate"]]
         for name, wanted in nominal_rates(description) if description else []:
             if not any(abs(rate - wanted) <= 0.05 * wanted for rate in rates):
@@ -140,7 +144,7 @@ class Measurement:
 
     def reach(self) -> None:
         """Every joint of the running trajectory controllers goes a step further; the simulator says where they are."""
-        limits = joint_limits(rospy.get_param("/robot_description", "<robot/>"))
+        limits = joint_limits(self.simulator.parameter("robot_description", "<robot/>"))
         self.found["reach"] = {}
         tail = "controller_manager/list_controllers"
         for manager in [name for name in self.system.services() if name.endswith(tail)]:
@@ -153,9 +157,9 @@ class Measurement:
                     self.found["reach"][controller.name] = self._reach(topic, joints, limits)
 
     def _position(self, joint: str) -> float:
-        answer = _service("/gazebo/get_joint_properties")(joint)
+        answer = self.simulator.service("get_joint_properties")(joint)
         if not answer.success:
-            raise TruthError(answer.status_message)
+            raise MeasuringError(answer.status_message)
         return answer.position[0]
 
     def _reach(self, topic: str, joints: List[str], limits: dict) -> float:
@@ -171,7 +175,7 @@ class Measurement:
         return max(abs(self._position(joint) - target) for joint, target in zip(joints, targets))
 
     def picture(self) -> None:
-        answer = _service(scene.SERVICE)(self.found["model"], self.job["view"], *_PICTURE)
+        answer = self.simulator.service(scene.SERVICE)(self.found["model"], self.job["view"], *_PICTURE)
         if not answer.success:
             raise rospy.ServiceException(answer.status_message)
         image = cv2.imdecode(np.frombuffer(answer.png, np.uint8), cv2.IMREAD_COLOR)

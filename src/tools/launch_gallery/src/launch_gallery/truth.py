@@ -5,40 +5,33 @@ import time
 from typing import Callable, List, Optional
 
 import rospy
-from rosservice import get_service_class_by_name
 
+from .errors import MeasuringError
 from .motion import Sample, sample
+from .simulator import Simulator
 
 _STANDSTILL = 60.0  # s of wall time in which simulated time has to pass
-
-
-class TruthError(RuntimeError):
-    """The simulation cannot be followed; one line."""
-
-
-def _service(name: str, persistent: bool = False) -> rospy.ServiceProxy:
-    return rospy.ServiceProxy(f"/gazebo/{name}", get_service_class_by_name(f"/gazebo/{name}"), persistent=persistent)
 
 
 class Truth:
     """Follows ``model``. Simulated time comes with each pose: no clock can run ahead of it."""
 
-    def __init__(self, model: str):
+    def __init__(self, simulator: Simulator, model: str):
         self.model = model
-        self._state = _service("get_model_state", persistent=True)
-        self._physics = _service("get_physics_properties")
-        self._set_physics = _service("set_physics_properties")
+        self._state = simulator.service("get_model_state", persistent=True)
+        self._physics = simulator.service("get_physics_properties")
+        self._set_physics = simulator.service("set_physics_properties")
         self._own_rate = self._physics().max_update_rate
 
     def now(self) -> Sample:
-        """:raises TruthError: the robot is no longer there, or its pose is not a number."""
+        """:raises MeasuringError: the robot is no longer there, or its pose is not a number."""
         answer = self._state(self.model, "")
         if not answer.success:
-            raise TruthError(f"model {self.model}: {answer.status_message}")
+            raise MeasuringError(f"model {self.model}: {answer.status_message}")
         p, q = answer.pose.position, answer.pose.orientation
         found = sample(answer.header.stamp.to_sec(), (p.x, p.y, p.z), (q.x, q.y, q.z, q.w))
         if found.x != found.x:
-            raise TruthError(f"model {self.model}: its pose is not a number")
+            raise MeasuringError(f"model {self.model}: its pose is not a number")
         return found
 
     def pace(self, factor: Optional[float]) -> None:
@@ -51,7 +44,7 @@ class Truth:
         """Samples over ``seconds`` of simulation.
 
         :param meanwhile: called with the simulated time about every 0.05 s of it.
-        :raises TruthError: simulated time stands still.
+        :raises MeasuringError: simulated time stands still.
         """
         samples = [self.now()]
         called, moved = -1.0, time.monotonic()
@@ -65,5 +58,5 @@ class Truth:
                 samples.append(new)
                 moved = time.monotonic()
             elif time.monotonic() - moved > _STANDSTILL:
-                raise TruthError(f"simulated time stands still at {new.time:g} s")
+                raise MeasuringError(f"simulated time stands still at {new.time:g} s")
         return samples

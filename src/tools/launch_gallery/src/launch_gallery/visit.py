@@ -17,11 +17,12 @@ import rospy
 import yaml
 from geometry_msgs.msg import Twist
 from rosservice import ROSServiceException
-from rviz_offscreen.cli import ScreenshotError, missing_lines, take
-from rviz_offscreen.display import DisplayError
+from rviz_offscreen.cli import missing_lines, take
+from rviz_offscreen.errors import OffscreenError
 from sensor_msgs.msg import Image
 
 from . import automatic, images, scene, system
+from .simulator import find
 from .system import System
 
 _ANSWER = 40.0  # s of wall time for one message
@@ -37,10 +38,12 @@ class Visit:
         self.system = System(job["log"], job["nodes"], job["passing"])
 
     def take_scene(self) -> None:
-        if scene.SERVICE not in self.system.services():
+        services = self.system.services()
+        simulator = find(services)
+        if not simulator or simulator.name(scene.SERVICE) not in services:
             return
         try:
-            self.pictures += scene.pictures(self.job["folder"], self.job["stem"], _ANSWER)
+            self.pictures += scene.pictures(simulator, self.job["folder"], self.job["stem"], _ANSWER)
         except (rospy.ROSException, rospy.ServiceException, ROSServiceException) as error:
             self.notes.append(f"no picture of the scene: {error}")
 
@@ -58,7 +61,7 @@ class Visit:
             try:
                 result = take(config, [], os.path.join(self.job["folder"], name), size=self.job["size"], window=True,
                               timeout=self.job["timeout"], watch=drive[2] if drive else 0.0)
-            except (ScreenshotError, DisplayError) as error:
+            except OffscreenError as error:
                 self.notes.append(f"no RViz picture: {error}")
                 return
         self.pictures.append((name, f"RViz, {whose}"))
