@@ -4,7 +4,7 @@ import numpy as np
 import ode_sim
 import pytest
 from ode_sim.rendering import describe
-from ode_sim.rendering.portrait import VIEWS, Painter, Portrait, PortraitError, Studio, camera_for, extent
+from ode_sim.rendering.portrait import VIEWS, Painter, Portrait, Refused, Studio, camera_for, extent
 
 WORLD = """<sdf version="1.6"><world name="w"><scene><background>0 0 0 1</background><ambient>1 1 1 1</ambient></scene>
 <model name="ground"><static>true</static><link name="l"><visual name="v"><geometry><plane><normal>0 0 1</normal>
@@ -69,7 +69,7 @@ def test_what_is_drawn_is_the_model(world, painter):
 
 
 def test_nothing_to_see_is_said_in_one_line(world, painter):
-    with pytest.raises(PortraitError, match="^model 'bare' has nothing to see$"):
+    with pytest.raises(Refused, match="^model 'bare' has nothing to see$"):
         painter.take(portrait(world, "bare"))
 
 
@@ -95,7 +95,7 @@ def test_a_process_that_ended_is_replaced(world, painter):
 
 def test_what_takes_too_long_is_given_up(world):
     painter = Painter()
-    with pytest.raises(PortraitError, match="not drawn within 0.001 s"):
+    with pytest.raises(Refused, match="not drawn within 0.001 s"):
         painter.take(portrait(world, "red"), 0.001)
     assert painter.take(portrait(world, "red"))[0]
     painter.close()

@@ -1,13 +1,19 @@
-"""The options of gzserver."""
+"""The options of gzserver, and how commands end that cannot go on."""
 from __future__ import annotations
 
 import argparse
 import os
 from typing import List
 
+from ode_sim.errors import SimulationError
+
 VERSION = "noetic_labs simulator 0.1.0\nGazebo multi-robot simulator, version 11 (stand-in on ODE)"
 LOCKSTEP_VARIABLE = "ODE_SIM_LOCKSTEP"  # for launch files that do not pass options on
 ENGINES = ("ode", "bullet", "dart", "simbody")
+
+
+class Failure(SimulationError):
+    """A command cannot go on: this line for its user, and exit code 1."""
 
 
 def parse(arguments: List[str]) -> argparse.Namespace:

@@ -18,12 +18,8 @@ from ode_sim import math3
 from ode_sim.description import DescriptionError, load_world, read_model
 from std_srvs.srv import Empty
 
-from gazebo_ros.command_line import VERSION
+from gazebo_ros.command_line import VERSION, Failure
 from gazebo_ros.srv import StepWorld
-
-
-class Failure(Exception):
-    """One line for the user."""
 
 
 def call(name: str, service: type, *arguments: Any) -> Any:

@@ -8,7 +8,8 @@ from typing import List
 import node_signals
 import rosgraph
 
-from gazebo_ros.gz import Failure, call
+from gazebo_ros.command_line import Failure
+from gazebo_ros.gz import call
 from gazebo_ros.srv import TakePicture
 
 

@@ -4,18 +4,15 @@ from __future__ import annotations
 from typing import Any
 
 import yaml
-from ode_sim.description.model import one_line
+from ode_sim.errors import DescriptionError, one_line
 
 MOST_BYTES = 1_000_000
 _DEEPEST = 20
 _MOST_KEYS = 1000  # of a mapping; mappings that merge each other twice grow without end
 
 
-class PlanError(ValueError):
+class PlanError(DescriptionError):
     """The plan cannot be built. One line that names the entry."""
-
-    def __init__(self, message: object = "") -> None:
-        super().__init__(one_line(message))
 
 
 class _Loader(yaml.SafeLoader):

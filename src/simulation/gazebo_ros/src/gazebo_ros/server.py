@@ -10,6 +10,7 @@ from typing import Any, Callable, Dict, Iterable, List, Optional, Tuple, Type, U
 
 import rospy
 from ode_sim.description import model as d
+from ode_sim.errors import Unavailable
 from ode_sim.handles import ModelHandle
 
 from gazebo_ros import protocols
@@ -24,7 +25,7 @@ _SLEEPERS = rospy.rostime.get_rostime_cond()  # who sleeps in sim time in this p
 _WALL_PERIOD_NS = 1_000_000  # uncapped, subscribers get at most one message per wall millisecond
 
 
-class Stopped(RuntimeError):
+class Stopped(Unavailable):
     """The simulator is shutting down; the call was not made."""
 
 

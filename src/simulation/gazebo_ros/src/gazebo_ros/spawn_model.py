@@ -17,14 +17,11 @@ from geometry_msgs.msg import Point, Pose, Quaternion
 from std_srvs.srv import Empty
 
 from gazebo_ros import gazebo_interface
+from gazebo_ros.command_line import Failure
 
 _DATABASE = ('<sdf version="1.4"><world name="default"><include><uri>model://{}</uri></include></world></sdf>')
 _PACKAGE = re.compile(r"""(<mesh\b[^>]*?\bfilename\s*=\s*["'])package://""")
 _ANSWER = 20.0  # s, in which the simulator answers between two steps
-
-
-class Failure(Exception):
-    """One line for the user."""
 
 
 def parse(arguments: List[str]) -> argparse.Namespace:

@@ -5,6 +5,7 @@ import math
 from typing import Any, Callable, Dict, List, NamedTuple, Optional, Tuple
 
 import numpy as np
+from ode_sim.errors import SimulationError
 from ode_sim.math3 import Pose
 from ode_sim.rendering import geometry
 from ode_sim.viewer.drawing import rgb255, take_away, wxyz
@@ -17,7 +18,7 @@ _SHAPES = {Marker.CUBE: geometry.box, Marker.SPHERE: geometry.sphere, Marker.CYL
 _MESHES = ("package://", "model://")  # a topic cannot have other files shown
 
 
-class Unfit(ValueError):
+class Unfit(SimulationError, ValueError):
     """A marker that cannot be drawn; one line that says why."""
 
 

@@ -5,12 +5,9 @@ import math
 from typing import Any, Callable, Iterable, Optional
 
 import rospy
+from ode_sim.errors import Refused
 
 from gazebo_ros.server import Server, Stopped
-
-
-class Refused(ValueError):
-    """The request cannot be met; the text says why and what to do."""
 
 
 def advertise(server: Server, name: str, service: Any, f: Callable[[Any, Any], Optional[str]],

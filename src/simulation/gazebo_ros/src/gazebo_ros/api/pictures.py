@@ -25,7 +25,7 @@ class PictureServices:
         advertise(server, "take_picture", TakePicture, self._take, in_physics_thread=False)
 
     def _take(self, request, response) -> str:
-        from ode_sim.rendering.portrait import VIEWS, Painter, Portrait, PortraitError
+        from ode_sim.rendering.portrait import VIEWS, Painter, Portrait
         width, height = request.width or _SIZE[0], request.height or _SIZE[1]
         view = request.view or "iso"
         if view not in VIEWS:
@@ -36,10 +36,7 @@ class PictureServices:
         if request.model and request.model not in names:
             raise Refused(f"no model '{request.model}'; there are {listing(names)}")
         self._painter = self._painter or Painter()
-        try:
-            response.png, problems = self._painter.take(Portrait(scene, poses, request.model, view, width, height))
-        except PortraitError as error:
-            raise Refused(str(error)) from error
+        response.png, problems = self._painter.take(Portrait(scene, poses, request.model, view, width, height))
         for line in problems:
             rospy.logdebug("take_picture: %s", line)
         return "TakePicture: done"

@@ -5,7 +5,7 @@ from typing import Any, Callable
 
 from std_srvs.srv import Empty
 
-from gazebo_ros.api.handlers import Refused, advertise
+from gazebo_ros.api.handlers import advertise
 from gazebo_ros.server import Server
 from gazebo_ros.srv import StepWorld
 
@@ -25,10 +25,7 @@ class SteppingServices:
 
     def _step(self, request, response) -> str:
         """Answers when the last step is done."""
-        try:
-            self._server.call(lambda: self._server.request_steps(request.steps)).result()
-        except ValueError as error:
-            raise Refused(str(error)) from error
+        self._server.call(lambda: self._server.request_steps(request.steps)).result()
         response.sim_time, response.iterations = self._server.call(
             lambda: (self._server.now(), self._server.world.iterations))
         return f"Step: {request.steps} steps done"

@@ -11,7 +11,7 @@ from ode_sim.description.model import DescriptionError, Light, Model, Problem, W
 from ode_sim.description.sdf import SdfReader
 from ode_sim.description.sdf_document import ENTITIES, first_entity, parse_sdf, sdf_root
 from ode_sim.description.urdf import urdf_to_model
-from ode_sim.description.xmlsource import Element, parse_xml, read_bytes, source_of
+from ode_sim.description.xmlsource import Element, fault, parse_xml, read_bytes
 
 
 def load_world(path_or_text: str, finder: Optional[ResourceFinder] = None) -> Tuple[World, List[Problem]]:
@@ -34,7 +34,7 @@ def load_world(path_or_text: str, finder: Optional[ResourceFinder] = None) -> Tu
     root = parse_sdf(text, file)
     world = root.find("world")
     if world is None:
-        raise DescriptionError(f"{source_of(root)}: holds no <world>")
+        raise fault(root, "holds no <world>")
     reader = SdfReader(finder, os.path.dirname(file))
     return reader.world(world), reader.problems
 
@@ -55,7 +55,7 @@ class Entity:
             self._element: ET.Element = root
             return
         if root.tag not in ("sdf", "gazebo", "world") + ENTITIES:
-            raise DescriptionError(f"{source_of(root)}: neither URDF nor SDF; expected <robot> or <sdf> as the root element")
+            raise fault(root, "neither URDF nor SDF; expected <robot> or <sdf> as the root element")
         self._element = _entity(self._reader, root)
         self.kind = self._element.tag
 
@@ -66,13 +66,13 @@ class Entity:
         elif self.kind == "model":
             model = self._reader.model(self._element)
         else:
-            raise DescriptionError(f"{source_of(self._element)}: is no <model>")
+            raise fault(self._element, "is no <model>")
         return (replace(model, name=name) if name else model), self._reader.problems
 
     def light(self, name: Optional[str] = None) -> Tuple[Light, List[Problem]]:
         """The light, as :meth:`model`."""
         if self.kind != "light":
-            raise DescriptionError(f"{source_of(self._element)}: is no <light>")
+            raise fault(self._element, "is no <light>")
         light = self._reader.light(self._element)
         return (replace(light, name=name) if name else light), self._reader.problems
 

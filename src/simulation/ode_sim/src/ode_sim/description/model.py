@@ -11,40 +11,13 @@ import xml.etree.ElementTree as ET
 from dataclasses import dataclass, field
 from typing import Optional, Tuple, Union
 
+from ode_sim.errors import DescriptionError, Source, one_line, quoted  # noqa: F401  (part of the description)
 from ode_sim.math3 import Pose, Quat, Vec3  # noqa: F401  (part of the description)
 
 
 #: m. Nothing may lie farther from what it is placed in, or be larger: single precision is at its end there, and far
 #: beyond so is the collision space of ODE.
 FARTHEST = 1e7
-
-
-def one_line(text: object, most: int = 1000) -> str:
-    """``text`` for a message: on one line, printable, its middle left out where it is longer than ``most`` characters."""
-    text = str(text)
-    if len(text) > most:
-        text = f"{text[:most - most // 3]} ... {text[-(most // 3):]}"
-    return "".join(c if c.isprintable() else " " if c.isspace() else "?" for c in text)
-
-
-def quoted(text: object, most: int = 60) -> str:
-    """A value of an input for a message: :func:`one_line`, short, without the white space around and inside."""
-    return " ".join(one_line(text, most).split())
-
-
-@dataclass(frozen=True)
-class Source:
-    """Where an element was written."""
-
-    file: str = ""
-    line: int = 0
-    element: str = ""
-
-    def __str__(self) -> str:
-        place = self.file or "text"
-        if self.line:
-            place += f":{self.line}"
-        return f"{place} {self.element}".strip()
 
 
 @dataclass(frozen=True)
@@ -59,14 +32,7 @@ class Problem:
         object.__setattr__(self, "message", one_line(self.message))
 
     def __str__(self) -> str:
-        return f"{self.source}: {self.message}" if self.source.file or self.source.element else self.message
-
-
-class DescriptionError(ValueError):
-    """The text cannot be turned into a model or world at all. One line, for a student to read."""
-
-    def __init__(self, message: object = "") -> None:
-        super().__init__(one_line(message))
+        return self.source.before(self.message)
 
 
 # ---------------------------------------------------------------------------------------------- geometry

@@ -69,7 +69,7 @@ class _Contents:
         try:
             model = self._reader.model(source)
         except DescriptionError as error:
-            self._reader.warn(None, f"{error}; model '{quoted(source.get('name'))}' is left out", "error")
+            self._reader.warn(error.source, f"{error.message}; model '{quoted(source.get('name'))}' is left out", "error")
             return
         if model.name in self._taken:
             self._reader.warn(source, f"a model named '{quoted(model.name)}' is there already; this one is left out")
@@ -84,7 +84,7 @@ class _Contents:
         try:
             self.lights.append(self._reader.light(source))
         except DescriptionError as error:
-            self._reader.warn(None, f"{error}; light '{quoted(source.get('name'))}' is left out", "error")
+            self._reader.warn(error.source, f"{error.message}; light '{quoted(source.get('name'))}' is left out", "error")
 
 
 class SdfReader(SdfModels):

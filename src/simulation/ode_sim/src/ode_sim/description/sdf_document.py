@@ -3,8 +3,8 @@ from __future__ import annotations
 
 from typing import Tuple, Union, cast
 
-from ode_sim.description.model import DescriptionError, quoted
-from ode_sim.description.xmlsource import Element, child, parse_xml, source_of
+from ode_sim.description.model import quoted
+from ode_sim.description.xmlsource import Element, child, fault, parse_xml
 
 ENTITIES = ("model", "light", "actor")
 
@@ -25,7 +25,7 @@ def sdf_root(root: Element) -> Element:
         wrapper.append(root)
         return wrapper
     if root.tag not in ("sdf", "gazebo"):
-        raise DescriptionError(f"{source_of(root)}: not SDF; expected <sdf version='1.6'> as the root element")
+        raise fault(root, "not SDF; expected <sdf version='1.6'> as the root element")
     if _version(root) <= (1, 4):
         for axis in list(root.iter("axis")) + list(root.iter("axis2")):
             if axis.find("use_parent_model_frame") is None:
@@ -37,7 +37,7 @@ def _version(root: Element) -> Tuple[int, ...]:
     try:
         return tuple(int(part) for part in root.get("version", "1.6").split("."))
     except ValueError:
-        raise DescriptionError(f"{source_of(root)}: '{quoted(root.get('version'))}' is no SDF version; "
+        raise fault(root, f"'{quoted(root.get('version'))}' is no SDF version; "
                                "use 1.4 to 1.7") from None
 
 
@@ -50,4 +50,4 @@ def first_entity(root: Element) -> Element:
         for element in parent:
             if element.tag in ENTITIES:
                 return cast(Element, element)
-    raise DescriptionError(f"{source_of(root)}: holds no <model>, <light> or <actor>")
+    raise fault(root, "holds no <model>, <light> or <actor>")

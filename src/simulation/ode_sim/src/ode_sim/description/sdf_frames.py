@@ -5,8 +5,9 @@ import xml.etree.ElementTree as ET
 from typing import Dict, Optional, Sequence, Tuple
 
 from ode_sim import math3
-from ode_sim.description.model import DescriptionError, Pose, quoted
+from ode_sim.description.model import Pose
 from ode_sim.description.xmlsource import joint_end, source_of
+from ode_sim.errors import DescriptionError, Source, quoted
 
 Nested = Tuple[str, ET.Element, Dict[str, Pose]]  # name, element, X_S of its own frames
 
@@ -61,8 +62,8 @@ class _Solver:
         while (reference := self._entries[name][1]) in self._entries and reference not in self._solved:
             if reference in path:
                 element = self._entries[name][2]
-                raise DescriptionError(f"{source_of(element) if element is not None else quoted(name)}: the pose refers to "
-                                       f"itself ({quoted(' > '.join([*path, reference]), 200)})")
+                raise DescriptionError(f"the pose refers to itself ({quoted(' > '.join([*path, reference]), 200)})",
+                                       source_of(element) if element is not None else Source(quoted(name)))
             path[reference] = None
             name = reference
         for name in reversed(path):

@@ -14,7 +14,7 @@ from ode_sim.description.sdf_document import first_entity, parse_sdf
 from ode_sim.description.sdf_frames import model_frames, relative_to
 from ode_sim.description.sdf_shapes import SdfShapes
 from ode_sim.description.sdf_values import LONGEST
-from ode_sim.description.xmlsource import is_true, joint_end, read_bytes, source_of, text_of
+from ode_sim.description.xmlsource import fault, is_true, joint_end, read_bytes, source_of, text_of
 
 _JOINT_AXES = {"revolute": 1, "prismatic": 1, "fixed": 0, "ball": 0, "universal": 2, "revolute2": 2, "screw": 1,
                 "gearbox": 2, "piston": 1}
@@ -57,7 +57,7 @@ class SdfModels(SdfShapes):
     def model(self, element: ET.Element) -> Model:
         parts = self._parts(element)
         if not parts.links:
-            raise DescriptionError(f"{source_of(element)}: has no <link>; a model needs at least one")
+            raise fault(element, "has no <link>; a model needs at least one")
         static = self.boolean(element, "static", False) or len(parts.still) == len(parts.links)
         for i, link in enumerate(parts.links):
             parts.links[i] = self._with_checked_inertial(link, static or link.name in parts.still)
@@ -79,10 +79,10 @@ class SdfModels(SdfShapes):
             return link
         if static:
             return replace(link, inertial=Inertial())
-        raise DescriptionError(f"{link.source}: " + (
+        raise DescriptionError(
             "mass and inertia must be finite numbers" if not finite else
             f"a mass or inertia of {largest:g}; what is heavier than {_HEAVIEST:g} would spoil the motion of all it touches"
-            if largest > _HEAVIEST else f"mass {i.mass:g} kg; a link of a model that moves needs a positive mass"))
+            if largest > _HEAVIEST else f"mass {i.mass:g} kg; a link of a model that moves needs a positive mass", link.source)
 
     def _parts(self, element: ET.Element) -> _Parts:
         name = element.get("name") or "__default__"

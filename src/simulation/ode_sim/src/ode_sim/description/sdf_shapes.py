@@ -9,10 +9,10 @@ from typing import Optional
 from ode_sim import math3
 from ode_sim.description import materials
 from ode_sim.description.model import (
-    FARTHEST, Box, Capsule, Cylinder, DescriptionError, Geometry, Heightmap, Light, Material, Mesh, Plane, Polyline, Sphere,
+    FARTHEST, Box, Capsule, Cylinder, Geometry, Heightmap, Light, Material, Mesh, Plane, Polyline, Sphere,
     quoted)
 from ode_sim.description.sdf_values import LONGEST, Numbers, SdfValues
-from ode_sim.description.xmlsource import source_of, text_of
+from ode_sim.description.xmlsource import fault, source_of, text_of
 
 _MOST_CORNERS = 1000  # of a polyline; to cut one into triangles takes a time that grows with the square of their number
 _FAR_LIGHT = 1e16  # of numbers that graphics take, in single precision
@@ -56,7 +56,7 @@ class SdfShapes(SdfValues):
         :raises DescriptionError: negative, or larger than :data:`FARTHEST`.
         """
         if not all(0.0 <= size <= FARTHEST for size in sizes):
-            raise DescriptionError(f"{source_of(shape)}: size {' '.join(f'{s:g}' for s in sizes)}; "
+            raise fault(shape, f"size {' '.join(f'{s:g}' for s in sizes)}; "
                                    f"sizes must be positive and finite, and at most {FARTHEST:g} m")
         return sizes
 

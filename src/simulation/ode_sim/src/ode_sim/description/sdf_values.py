@@ -3,12 +3,12 @@ from __future__ import annotations
 
 import math
 import xml.etree.ElementTree as ET
-from typing import List, Optional, Set, Tuple, TypeVar, cast
+from typing import List, Optional, Set, Tuple, TypeVar, Union, cast
 
 from ode_sim import math3
 from ode_sim.description.finder import ResourceFinder
-from ode_sim.description.model import FARTHEST, DescriptionError, Pose, Problem, Source, quoted
-from ode_sim.description.xmlsource import is_true, leading_numbers, source_of, text_of
+from ode_sim.description.model import FARTHEST, Pose, Problem, Source, quoted
+from ode_sim.description.xmlsource import fault, is_true, leading_numbers, source_of, text_of
 
 Numbers = TypeVar("Numbers", bound=Tuple[float, ...])
 
@@ -29,8 +29,9 @@ class SdfValues:
 
     # ------------------------------------------------------------------ values
 
-    def warn(self, element: Optional[ET.Element], message: str, severity: str = "warning") -> None:
-        problem = Problem(severity, message, source_of(element) if element is not None else Source())
+    def warn(self, element: Union[ET.Element, Source, None], message: str, severity: str = "warning") -> None:
+        source = element if isinstance(element, Source) else source_of(element) if element is not None else Source()
+        problem = Problem(severity, message, source)
         if problem not in self._noticed:
             self._noticed.add(problem)
             self.problems.append(problem)
@@ -54,7 +55,7 @@ class SdfValues:
             return default
         values = leading_numbers(text, len(default))
         if not nan and any(math.isnan(value) for value in values):
-            raise DescriptionError(f"{source_of(element)}: '{quoted(text)}' is not a number; give finite values")
+            raise fault(element, f"'{quoted(text)}' is not a number; give finite values")
         if most < math.inf and any(abs(value) > most for value in values):
             problem, values = f"is beyond {most:g}", default
         elif len(values) < len(default):
@@ -110,12 +111,12 @@ class SdfValues:
         count = 7 if by_quaternion else 3 if len(text.split(None, 4)) == 3 else 6
         values: Tuple[float, ...] = self.numbers(element, ((0.0,) * 6 + (1.0,))[:count])
         if not all(math.isfinite(value) for value in values):
-            raise DescriptionError(f"{source_of(element)}: '{quoted(text)}' is not a pose; give finite values")
+            raise fault(element, f"'{quoted(text)}' is not a pose; give finite values")
         if max(abs(value) for value in values[:3]) > FARTHEST:
-            raise DescriptionError(f"{source_of(element)}: '{quoted(text)}' is farther away than {FARTHEST:g} m")
+            raise fault(element, f"'{quoted(text)}' is farther away than {FARTHEST:g} m")
         if by_quaternion:
             if max(abs(value) for value in values[3:]) > LONGEST:
-                raise DescriptionError(f"{source_of(element)}: '{quoted(text)}' is not a pose; give a unit quaternion")
+                raise fault(element, f"'{quoted(text)}' is not a pose; give a unit quaternion")
             return Pose((values[0], values[1], values[2]), math3.quat_normalize(values[3:]))
         if is_true(element.get("degrees") or ""):
             values = values[:3] + tuple(math.radians(v) for v in values[3:])

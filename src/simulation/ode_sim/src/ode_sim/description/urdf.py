@@ -13,9 +13,9 @@ from typing import Dict, Iterator, List, Optional, Tuple, cast
 
 from ode_sim import math3
 from ode_sim.description import urdf_extensions as extensions
-from ode_sim.description.model import FARTHEST, DescriptionError, Mimic, Model, Pose, Vec3, quoted
+from ode_sim.description.model import FARTHEST, Mimic, Model, Pose, Vec3, quoted
 from ode_sim.description.sdf_values import Numbers
-from ode_sim.description.xmlsource import Element, child, source_of
+from ode_sim.description.xmlsource import Element, child, fault
 
 _JOINT_TYPES = ("revolute", "continuous", "prismatic", "fixed", "floating", "planar")
 _LUMP = extensions.LUMP
@@ -84,14 +84,14 @@ def _tree_of(top: _UrdfLink, last_first: bool = False) -> Iterator[_UrdfLink]:
 def _attribute(element: ET.Element, key: str) -> str:
     value = (element.get(key) or "").strip()
     if not value:
-        raise DescriptionError(f"{source_of(element)}: attribute '{key}' is missing")
+        raise fault(element, f"attribute '{key}' is missing")
     return value
 
 
 def _number(element: ET.Element, key: str) -> float:
     """The number of an attribute that must be there."""
     if not (element.get(key) or "").strip():
-        raise DescriptionError(f"{source_of(element)}: attribute '{key}' is missing; it is a number")
+        raise fault(element, f"attribute '{key}' is missing; it is a number")
     return _floats(element, key, (0.0,))[0]
 
 
@@ -107,7 +107,7 @@ def _floats(element: ET.Element, key: str, default: Numbers) -> Numbers:
     except ValueError:
         values = ()
     if len(values) != count or any(math.isnan(value) for value in values):
-        raise DescriptionError(f"{source_of(element)}: {key}='{quoted(text)}' is not "
+        raise fault(element, f"{key}='{quoted(text)}' is not "
                                + ("a number" if count == 1 else f"{count} numbers")
                                + ("; this is xacro text, run it through 'rosrun xacro xacro FILE' first"
                                   if "${" in text or "$(" in text else ""))
@@ -120,9 +120,9 @@ def _origin(parent: ET.Element) -> Pose:
         return math3.IDENTITY
     xyz, rpy = _floats(origin, "xyz", (0.0, 0.0, 0.0)), _floats(origin, "rpy", (0.0, 0.0, 0.0))
     if not all(math.isfinite(value) for value in xyz + rpy):
-        raise DescriptionError(f"{source_of(origin)}: the pose must be finite")
+        raise fault(origin, "the pose must be finite")
     if max(map(abs, xyz)) > FARTHEST:
-        raise DescriptionError(f"{source_of(origin)}: xyz='{quoted(origin.get('xyz'))}' is farther away than {FARTHEST:g} m")
+        raise fault(origin, f"xyz='{quoted(origin.get('xyz'))}' is farther away than {FARTHEST:g} m")
     return math3.from_rpy(*xyz, *rpy)
 
 
@@ -157,8 +157,8 @@ class _Conversion:
             _write_pose(sdf, _origin(self.robot))
         if sdf.find("link") is None:
             mass = root.element.find("inertial/mass")
-            raise DescriptionError(
-                f"{source_of(root.element)}: robot '{quoted(name)}' has no link with a mass that could be simulated; give the "
+            raise fault(
+                root.element, f"robot '{quoted(name)}' has no link with a mass that could be simulated; give the "
                 "root link " + ("an <inertial>" if mass is None else f"a positive mass, not {quoted(mass.get('value'))} kg")
                 + ", or join one that has it by a fixed joint")
         model = self.reader.model(sdf)
@@ -176,16 +176,16 @@ class _Conversion:
         for element in self.robot.findall("link"):
             name = _attribute(element, "name")
             if name in self.links:
-                raise DescriptionError(f"{source_of(element)}: a link named '{quoted(name)}' is there already")
+                raise fault(element, f"a link named '{quoted(name)}' is there already")
             self.links[name] = self._link(name, element)
         if not self.links:
-            raise DescriptionError(f"{source_of(self.robot)}: has no <link>")
+            raise fault(self.robot, "has no <link>")
         for element in self.robot.findall("joint"):
             joint = self._joint(element)
             self.joints[joint.name] = joint
         for _, joint in sorted(self.joints.items()):
             if joint.child.parent_joint is not None:
-                raise DescriptionError(f"{source_of(joint.element)}: link '{quoted(joint.child.name)}' is the child of joint "
+                raise fault(joint.element, f"link '{quoted(joint.child.name)}' is the child of joint "
                                        f"'{quoted(joint.child.parent_joint.name)}' already; a robot must be a tree")
             joint.child.parent_joint = joint
             joint.parent.child_joints.append(joint)
@@ -194,11 +194,11 @@ class _Conversion:
         if len(roots) != 1:
             what = "no root link, its joints form a circle" if not roots else \
                 "several root links (" + quoted(", ".join(link.name for link in roots), 200) + "), join them"
-            raise DescriptionError(f"{source_of(self.robot)}: {what}; a robot must be a tree")
+            raise fault(self.robot, f"{what}; a robot must be a tree")
         reached = {link.name for link in _tree_of(roots[0])}
         astray = next((link for link in self.links.values() if link.name not in reached), None)
         if astray is not None:
-            raise DescriptionError(f"{source_of(astray.element)}: its joints form a circle, apart from the root "
+            raise fault(astray.element, f"its joints form a circle, apart from the root "
                                    f"link '{quoted(roots[0].name)}'; a robot must be a tree")
         return roots[0]
 
@@ -206,7 +206,7 @@ class _Conversion:
     def _part(inertial: ET.Element, tag: str, link: str) -> ET.Element:
         part = inertial.find(tag)
         if part is None:
-            raise DescriptionError(f"{source_of(inertial)} of link '{quoted(link)}': <{tag}> is missing")
+            raise fault(inertial, of=f"link '{quoted(link)}'", message=f"<{tag}> is missing")
         return part
 
     def _link(self, name: str, element: ET.Element) -> _UrdfLink:
@@ -217,7 +217,7 @@ class _Conversion:
             kilograms = _number(mass, "value")
             i = {key: _number(tensor, key) for key in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")}
             if not all(math.isfinite(value) for value in (kilograms, *i.values())):
-                raise DescriptionError(f"{source_of(inertial)} of link '{quoted(name)}': mass and inertia must be finite")
+                raise fault(inertial, of=f"link '{quoted(name)}'", message="mass and inertia must be finite")
             if kilograms > 0.0:
                 pose = _origin(inertial)
                 rows = ((i["ixx"], i["ixy"], i["ixz"]), (i["ixy"], i["iyy"], i["iyz"]), (i["ixz"], i["iyz"], i["izz"]))
@@ -243,20 +243,20 @@ class _Conversion:
     def _joint(self, element: ET.Element) -> _UrdfJoint:
         name, kind = _attribute(element, "name"), _attribute(element, "type")
         if name in self.joints:
-            raise DescriptionError(f"{source_of(element)}: a joint named '{quoted(name)}' is there already")
+            raise fault(element, f"a joint named '{quoted(name)}' is there already")
         if kind not in _JOINT_TYPES:
-            raise DescriptionError(f"{source_of(element)}: unknown type '{quoted(kind)}'; use one of {', '.join(_JOINT_TYPES)}")
+            raise fault(element, f"unknown type '{quoted(kind)}'; use one of {', '.join(_JOINT_TYPES)}")
         ends = []
         for tag in ("parent", "child"):
             end = element.find(tag)
             if end is None:
-                raise DescriptionError(f"{source_of(element)}: <{tag} link='...'/> is missing")
+                raise fault(element, f"<{tag} link='...'/> is missing")
             link = _attribute(end, "link")
             if link not in self.links:
-                raise DescriptionError(f"{source_of(element)}: {tag} link '{quoted(link)}' is not in the robot")
+                raise fault(element, f"{tag} link '{quoted(link)}' is not in the robot")
             ends.append(self.links[link])
         if kind in ("revolute", "prismatic") and element.find("limit") is None:
-            raise DescriptionError(f"{source_of(element)}: a {kind} joint needs <limit lower upper effort velocity/>"
+            raise fault(element, f"a {kind} joint needs <limit lower upper effort velocity/>"
                                    + ("; or make it continuous" if kind == "revolute" else ""))
         return _UrdfJoint(name, element, kind, ends[0], ends[1], _origin(element))
 
@@ -275,7 +275,7 @@ class _Conversion:
             self._lump(link, joint.parent, joint.pose)
             joint.parent.fixed_below = max(joint.parent.fixed_below, link.fixed_below + 1)
             if link.fixed_below > _MOST_FIXED:
-                raise DescriptionError(f"{source_of(joint.element)}: more than {_MOST_FIXED} fixed joints hang one behind "
+                raise fault(joint.element, f"more than {_MOST_FIXED} fixed joints hang one behind "
                                        "the other")
 
     def _lump(self, link: _UrdfLink, parent: _UrdfLink, x_pl: Pose) -> None:
@@ -364,7 +364,7 @@ class _Conversion:
             child(form, "uri", _attribute(given, "filename"))
             child(form, "scale", " ".join(repr(v) for v in _scale(given)))
         else:
-            raise DescriptionError(f"{source_of(given)} of link '{quoted(link.name)}': unknown shape; use box, cylinder, "
+            raise fault(given, of=f"link '{quoted(link.name)}'", message="unknown shape; use box, cylinder, "
                                    "sphere or mesh")
         if kind == "collision":
             self.extensions.insert_in_collision(element, link.name)
@@ -412,7 +412,7 @@ class _Conversion:
             child(limit, "upper", repr(upper))
         for key in ("effort", "velocity"):
             if not (limits.get(key) or "").strip():
-                raise DescriptionError(f"{source_of(limits)} of joint '{quoted(joint.name)}': attribute '{key}' is missing")
+                raise fault(limits, of=f"joint '{quoted(joint.name)}'", message=f"attribute '{key}' is missing")
             child(limit, key, repr(_number(limits, key)))
 
 

@@ -3,10 +3,11 @@ from __future__ import annotations
 
 import re
 import xml.etree.ElementTree as ET
+from dataclasses import replace
 from typing import List, Optional, Tuple, Union
 from xml.parsers import expat
 
-from ode_sim.description.model import DescriptionError, Source, one_line, quoted
+from ode_sim.errors import DescriptionError, Source, one_line, quoted
 
 #: What a text may hold at most. A robot of 20 000 links has 300 000 elements; what nests deeper than 100 was not written
 #: to be read, and every reader behind this one may go down the tree by recursion.
@@ -33,7 +34,7 @@ def parse_xml(text: Union[str, bytes], file: str = "") -> Element:
         own: these may hold other files, or gigabytes.
     """
     if len(text) > MOST_BYTES:
-        raise DescriptionError(f"{file or 'text'}: is longer than {MOST_BYTES // 1_000_000} MB; nothing that large is read")
+        raise DescriptionError(f"{Source(file)}: is longer than {MOST_BYTES // 1_000_000} MB; nothing that large is read")
     text = _without_comments(_decoded(text).lstrip("\ufeff"))
     body = text.lstrip()
     reader = _Reader(file, text.count("\n", 0, len(text) - len(body)))
@@ -43,11 +44,11 @@ def parse_xml(text: Union[str, bytes], file: str = "") -> Element:
         line = error.lineno + reader.skipped
         lines = text.split("\n")
         words = one_line(lines[line - 1].strip(), 80) if 0 < line <= len(lines) else ""
-        place = f"{file or 'text'}:{line}"
+        source = Source(file, line)
         if not body:
-            raise DescriptionError(f"{place}: the text is empty; expected XML with <sdf> or <robot>") from None
-        raise DescriptionError(f"{place}: not well-formed XML, {expat.ErrorString(error.code)}"
-                               + (f", at: {words}" if words else "")) from None
+            raise DescriptionError("the text is empty; expected XML with <sdf> or <robot>", source) from None
+        raise DescriptionError(f"not well-formed XML, {expat.ErrorString(error.code)}" + (f", at: {words}" if words else ""),
+                               source) from None
 
 
 def _decoded(text: Union[str, bytes]) -> str:
@@ -97,8 +98,8 @@ class _Reader:
         assert self._root is not None  # else the parser has raised
         return self._root
 
-    def _place(self) -> str:
-        return f"{self.file or 'text'}:{self._parser.CurrentLineNumber + self.skipped}"
+    def _place(self) -> Source:
+        return Source(self.file, self._parser.CurrentLineNumber + self.skipped)
 
     def _start(self, tag: str, attrib: dict) -> None:
         element = Element(tag, attrib)
@@ -111,9 +112,9 @@ class _Reader:
         self._stack.append(element)
         self._count += 1
         if len(self._stack) > DEEPEST:
-            raise DescriptionError(f"{self._place()}: <{quoted(tag)}> lies more than {DEEPEST} elements deep")
+            raise DescriptionError(f"<{quoted(tag)}> lies more than {DEEPEST} elements deep", self._place())
         if self._count > MOST_ELEMENTS:
-            raise DescriptionError(f"{self._place()}: more than {MOST_ELEMENTS} elements; split the description up")
+            raise DescriptionError(f"more than {MOST_ELEMENTS} elements; split the description up", self._place())
 
     def _characters(self, data: str) -> None:
         if not self._stack:
@@ -125,8 +126,8 @@ class _Reader:
             parent.text = (parent.text or "") + data
 
     def _entity(self, name: str, *_declaration) -> None:
-        raise DescriptionError(f"{self._place()}: declares the entity '{quoted(name)}'; entities are not read, write out "
-                               "what it stands for")
+        raise DescriptionError(f"declares the entity '{quoted(name)}'; entities are not read, write out what it stands for",
+                               self._place())
 
 
 def read_bytes(file: str) -> bytes:
@@ -162,6 +163,12 @@ def child(parent: ET.Element, tag: str, text: str = "", attrib: Optional[dict] =
     element.line, element.file = getattr(origin, "line", 0), getattr(origin, "file", "")
     parent.append(element)
     return element
+
+
+def fault(element: ET.Element, message: str, of: str = "") -> DescriptionError:
+    """The error of an element: file, line and element before the message, and ``of`` what it is where its name does not tell."""
+    source = source_of(element)
+    return DescriptionError(message, replace(source, element=f"{source.element} of {of}") if of else source)
 
 
 def source_of(element: ET.Element) -> Source:

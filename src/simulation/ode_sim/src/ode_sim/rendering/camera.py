@@ -8,8 +8,9 @@ from typing import Optional, Tuple
 
 import numpy as np
 
-from ode_sim.description.model import FARTHEST, Pose, Vec3, one_line, quoted
+from ode_sim.description.model import FARTHEST, Pose, Vec3, quoted
 from ode_sim.description.xmlsource import leading_numbers
+from ode_sim.errors import CameraError
 from ode_sim.math3 import compose, from_rpy
 
 MAX_SIZE = 8192  # pixels along a side; llvmpipe's largest texture is 16384, and a frame of 8192x8192 is 268 MB
@@ -22,13 +23,6 @@ ENCODINGS = {
     "B8G8R8": "bgr8", "BGR_INT8": "bgr8", "R16G16B16": "rgb16", "RGB_INT16": "rgb16", "BAYER_RGGB8": "bayer_rggb8",
     "BAYER_BGGR8": "bayer_bggr8", "BAYER_GBRG8": "bayer_gbrg8", "BAYER_GRBG8": "bayer_grbg8",
 }
-
-
-class CameraError(ValueError):
-    """A camera that cannot be made; one line naming the value and what is allowed."""
-
-    def __init__(self, message: object = "") -> None:
-        super().__init__(one_line(message))
 
 
 @dataclass(frozen=True)

@@ -9,12 +9,10 @@ import ctypes.util
 import os
 from typing import Any
 
+from ode_sim.errors import RenderingUnavailable
+
 BACKENDS = ("auto", "egl", "osmesa")
 _GL_VERSION = 330
-
-
-class RenderingUnavailable(RuntimeError):
-    """No OpenGL on this machine; one line saying what was tried and what to install."""
 
 
 class _OsmesaContext:

@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING, Dict, List, Optional, Tuple
 import numpy as np
 
 from ode_sim.description import model as d
+from ode_sim.errors import Refused
 from ode_sim.rendering.assets import Assets
 from ode_sim.rendering.camera import Camera, look_at
 from ode_sim.rendering.scene import SceneDescription
@@ -34,10 +35,6 @@ _HFOV = 0.9
 _FILLED = 0.88  # of the frame, along the side that is filled first
 _LEAST = 0.05  # m, of what is looked at
 _KEPT = 20.0  # s for which a process without work is kept
-
-
-class PortraitError(ValueError):
-    """There is nothing to draw, or it cannot be drawn; one line."""
 
 
 @dataclass(frozen=True)
@@ -122,7 +119,7 @@ class Studio:
     def draw(self, portrait: Portrait) -> Tuple[bytes, List[str]]:
         """The picture as a PNG file, and lines about what could not be drawn, each said once for a scene.
 
-        :raises PortraitError: nothing to draw
+        :raises Refused: nothing to draw
         """
         import cv2
 
@@ -133,7 +130,7 @@ class Studio:
         corners = extent(portrait, self._assets)
         if not len(corners):
             if portrait.model:
-                raise PortraitError(f"model '{portrait.model}' has nothing to see")
+                raise Refused(f"model '{portrait.model}' has nothing to see")
             corners = np.array([[-1.0, -1.0, 0.0], [1.0, 1.0, 0.5]])  # an empty world: the ground around the origin
         if self._renderer is None:
             self._renderer = Renderer(antialiasing="msaa", shadows="on", assets=self._assets)
@@ -164,7 +161,7 @@ class Painter:
     def take(self, portrait: Portrait, seconds: float = 60.0) -> Tuple[bytes, List[str]]:
         """As :meth:`Studio.draw`.
 
-        :raises PortraitError: nothing to draw, no OpenGL, or not done within ``seconds``
+        :raises Refused: nothing to draw, no OpenGL, or not done within ``seconds``
         """
         scene = pickle.dumps(portrait.scene)
         with self._lock:
@@ -175,10 +172,10 @@ class Painter:
                 self._start()
                 answer = self._ask(scene, portrait, seconds)
             if answer is None:
-                raise PortraitError(self._last_words())
+                raise Refused(self._last_words())
             self._scene = scene
         if isinstance(answer, str):
-            raise PortraitError(answer)
+            raise Refused(answer)
         return answer
 
     def close(self) -> None:
@@ -217,7 +214,7 @@ class Painter:
             process.kill()
             process.wait()
             if late.is_set():
-                raise PortraitError(f"the picture was not drawn within {seconds:g} s") from None
+                raise Refused(f"the picture was not drawn within {seconds:g} s") from None
             return None
         finally:
             timer.cancel()
@@ -243,7 +240,7 @@ def main() -> None:
         scene = pickle.loads(pickled) if pickled else scene
         try:
             answer: object = studio.draw(replace(portrait, scene=scene))
-        except PortraitError as error:
+        except Refused as error:
             answer = str(error)
         except Exception as error:  # one line, which the asking process passes on
             answer = f"{type(error).__name__}: {error}"

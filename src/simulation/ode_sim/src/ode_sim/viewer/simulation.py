@@ -9,11 +9,8 @@ import numpy as np
 
 from ode_sim.description import model as d
 from ode_sim.description.exchange import register
+from ode_sim.errors import Refused  # noqa: F401  (what a simulation answers)
 from ode_sim.math3 import Pose, compose, inverse
-
-
-class Refused(ValueError):
-    """The simulator does not do it; one line that says why and what to do."""
 
 
 @register

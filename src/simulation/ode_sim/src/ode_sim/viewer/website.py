@@ -21,6 +21,7 @@ from http.cookies import CookieError, SimpleCookie
 from typing import Any, Optional
 from urllib.parse import parse_qs, urlsplit
 
+from ode_sim.errors import Unavailable
 from ode_sim.viewer.porter import Porter, entitled
 
 #: Beside the 11345 of Gazebo's own master; the next free one is taken where it is in use.
@@ -29,10 +30,6 @@ _LOOPBACK = ("localhost", "127.0.0.1", "::1")
 _TRIES = 100
 _WAITING = 64  # connections that the system keeps until the server looks at them
 _starting = threading.Lock()
-
-
-class Unavailable(RuntimeError):
-    """The page cannot be served; one line that says what to do."""
 
 
 class Guard:
