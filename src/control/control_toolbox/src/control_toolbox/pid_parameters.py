@@ -1,13 +1,12 @@
 """A Pid with its gains on the parameter server, adjustable while it runs, and its state on a topic."""
 from __future__ import annotations
 
-import math
-import sys
 from typing import Any, Dict, Optional
 
 import rospy
 from control_msgs.msg import PidState
 from dynamic_parameters import Parameter, Server
+from node_signals.parameters import ParameterError, is_number
 from realtime_tools import RealtimePublisher
 
 from .pid import Gains, Pid
@@ -23,7 +22,7 @@ _TABLE = [
 ]
 
 
-class PidParameterError(Exception):
+class PidParameterError(ParameterError):
     """The gains in a namespace are missing or wrong."""
 
 
@@ -91,9 +90,9 @@ def load_pid(nh: Any, dynamic: bool = True) -> RosPid:
     if not isinstance(values, dict) or "p" not in values:
         raise PidParameterError(f"No p gain specified for pid.  Namespace: {namespace}")
 
-    def number(name: str, default: float, largest: float = sys.float_info.max) -> float:
+    def number(name: str, default: float, finite: bool = True) -> float:
         value = values.get(name, default)
-        if isinstance(value, bool) or not isinstance(value, (int, float)) or not abs(value) <= largest:
+        if not is_number(value, finite=finite):
             raise PidParameterError(f"parameter {namespace}/{name} must be a number, it is {value!r}")
         return float(value)
 
@@ -103,7 +102,7 @@ def load_pid(nh: Any, dynamic: bool = True) -> RosPid:
             rospy.logwarn("parameter %s/%s must be true or false, it is %r; false is taken", namespace, name, value)
         return value is True
 
-    clamp = abs(number("i_clamp", 0.0, math.inf))
-    gains = Gains(number("p", 0.0), number("i", 0.0), number("d", 0.0), abs(number("i_clamp_max", clamp, math.inf)),
-                  -abs(number("i_clamp_min", clamp, math.inf)), flag("antiwindup"))
+    clamp = abs(number("i_clamp", 0.0, finite=False))
+    gains = Gains(number("p", 0.0), number("i", 0.0), number("d", 0.0), abs(number("i_clamp_max", clamp, finite=False)),
+                  -abs(number("i_clamp_min", clamp, finite=False)), flag("antiwindup"))
     return RosPid(namespace, gains, nh, dynamic, flag("publish_state"))

@@ -6,12 +6,12 @@ from typing import Any, ClassVar, Optional, Sequence, Tuple, Type
 
 import rospy
 
-from hardware_interface import HardwareInterface, InterfaceResources, RobotHW
+from hardware_interface import ControlError, HardwareInterface, InterfaceResources, RobotHW
 
 from .node_handle import NodeHandle
 
 
-class InitError(Exception):
+class InitError(ControlError):
     """A controller cannot be initialised; one line saying why."""
 
 

@@ -6,13 +6,9 @@ from typing import Any, Callable, List, Optional
 import rosgraph
 import rospy
 from node_signals import offers
+from node_signals.parameters import REQUIRED, ParameterError, of_kind, texts
 
-_KINDS = {float: "a number", int: "a whole number", bool: "true or false", str: "a text", list: "a list", dict: "a map"}
-_REQUIRED = object()
-
-
-class ParameterError(Exception):
-    """A parameter is missing or of the wrong kind; the line says where it was looked up and what was there."""
+_KINDS = (float, int, bool, str, list, dict)
 
 
 def one_line(text: object, longest: int = 400) -> str:
@@ -69,30 +65,20 @@ class NodeHandle:
         :param kind: float (whole numbers accepted), int, bool, str, list or dict; None takes anything.
         :raises ParameterError: missing, or of another kind.
         """
-        return self._get(name, _REQUIRED, kind)
+        return self._get(name, REQUIRED, kind)
 
     def strings(self, name: str) -> List[str]:
         """A required non-empty list of texts (joint names).
 
         :raises ParameterError: missing, empty, or something else than texts in it.
         """
-        value = self.get_param(name, list)
-        if not value or not all(isinstance(entry, str) for entry in value):
-            raise ParameterError(f"parameter {self._join(name)} must be a non-empty list of names, it is {value!r}")
-        return value
+        return texts(f"parameter {self._join(name)}", self.get_param(name, list))
 
     def _get(self, name: str, default: Any, kind: Optional[type]) -> Any:
         value = rospy.get_param(self._join(name), default)
-        if value is _REQUIRED:
+        if value is REQUIRED:
             raise ParameterError(f"parameter {self._join(name)} is not set; {self.describe()}")
-        if kind is None or value is default:
-            return value
-        if kind is float and isinstance(value, int) and not isinstance(value, bool):
-            return float(value)
-        if not isinstance(value, kind) or (kind is int and isinstance(value, bool)) or value != value:  # NaN
-            raise ParameterError(f"parameter {self._join(name)} must be {_KINDS.get(kind, kind.__name__)}, "
-                                 f"it is {value!r}")
-        return value
+        return value if kind is None or value is default else of_kind(f"parameter {self._join(name)}", value, kind)
 
     def describe(self) -> str:
         """What the parameter server has in this namespace, for messages: '/a/b has: joint, type'."""

@@ -28,7 +28,7 @@ from plugin_loader import PluginError
 
 from .controller_types import ControllerTypes
 from .loaded import LoadedController
-from .switching import Patience, Refused, Switch, plan
+from .switching import Patience, SwitchRefused, Switch, plan
 
 STRICT = SwitchControllerRequest.STRICT
 BEST_EFFORT = SwitchControllerRequest.BEST_EFFORT
@@ -308,7 +308,7 @@ class ControllerManager:
                           "Defaulting to ::BEST_EFFORT.", STRICT, BEST_EFFORT)
         try:
             starting, stopping = plan(self._controllers, start, stop, strictness == STRICT)
-        except Refused as refusal:
+        except SwitchRefused as refusal:
             rospy.logerr("%s", one_line(refusal))
             return None
         running = [loaded.info for loaded in self._controllers

@@ -5,10 +5,12 @@ import threading
 import time as wall
 from typing import List, Optional, Sequence, Tuple
 
+from hardware_interface import ControlError
+
 from .loaded import LoadedController
 
 
-class Refused(Exception):
+class SwitchRefused(ControlError):
     """The switch cannot be done as asked; one line saying why."""
 
 
@@ -18,27 +20,27 @@ def plan(controllers: Sequence[LoadedController], start: Sequence[str], stop: Se
 
     :param controllers: all that are loaded, in load order.
     :param strict: refuse what cannot be done, instead of leaving it out.
-    :raises Refused: nothing may be changed.
+    :raises SwitchRefused: nothing may be changed.
     """
     by_name = {loaded.name: loaded for loaded in controllers}
     for names, verb in ((stop, "stop"), (start, "start")):
         for name in names:
             if strict and name not in by_name:
-                raise Refused(f"Could not {verb} controller with name '{name}' because no controller with this name "
+                raise SwitchRefused(f"Could not {verb} controller with name '{name}' because no controller with this name "
                               f"exists; loaded: {', '.join(by_name) or 'none'}")
     starting, stopping = dict.fromkeys(n for n in start if n in by_name), dict.fromkeys(n for n in stop if n in by_name)
     for name, loaded in by_name.items():
         if name in stopping and not loaded.running:
             if strict:
-                raise Refused(f"Could not stop controller '{name}' since it is not running "
+                raise SwitchRefused(f"Could not stop controller '{name}' since it is not running "
                               f"(it is {loaded.controller.state.value})")
             del stopping[name]
         if name in starting and loaded.running and name not in stopping:
             if strict:
-                raise Refused(f"Could not start controller '{name}' since it is already running")
+                raise SwitchRefused(f"Could not start controller '{name}' since it is already running")
             del starting[name]
         if name in starting and name in stopping:
-            raise Refused(f"Could not switch controllers: '{name}' is running and named in both lists; stop it first, "
+            raise SwitchRefused(f"Could not switch controllers: '{name}' is running and named in both lists; stop it first, "
                           f"then start it")
     return [by_name[name] for name in starting], [by_name[name] for name in stopping]
 

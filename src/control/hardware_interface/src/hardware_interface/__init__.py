@@ -8,6 +8,7 @@ reads commands, the controller does the opposite, both from the one control loop
 Units: rad or m, rad/s or m/s, Nm or N.
 """
 from .description import description_root
+from .errors import ControlError, ResourceError
 from .handles import (ActuatorHandle, ActuatorStateHandle, ForceTorqueSensorHandle, ImuSensorHandle, JointHandle,
                       JointMode, JointModeHandle, JointStateHandle, PositionVelocityTorqueGainsJointHandle,
                       PosVelAccJointHandle, PosVelJointHandle, addresses)
@@ -15,11 +16,11 @@ from .interfaces import (ActuatorStateInterface, EffortActuatorInterface, Effort
                          ForceTorqueSensorInterface, HardwareInterface, ImuSensorInterface, JointCommandInterface,
                          JointModeInterface, JointStateInterface, PositionActuatorInterface, PositionJointInterface,
                          PositionVelocityTorqueGainsJointInterface, PosVelAccJointInterface, PosVelJointInterface,
-                         ResourceError, VelocityActuatorInterface, VelocityJointInterface)
+                         VelocityActuatorInterface, VelocityJointInterface)
 from .robot_hw import ControllerInfo, InterfaceResources, RobotHW, SwitchState
 
 __all__ = [
-    "ActuatorHandle", "ActuatorStateHandle", "ActuatorStateInterface", "ControllerInfo", "EffortActuatorInterface",
+    "ActuatorHandle", "ActuatorStateHandle", "ActuatorStateInterface", "ControlError", "ControllerInfo", "EffortActuatorInterface",
     "EffortJointInterface", "ForceTorqueSensorHandle", "ForceTorqueSensorInterface", "HardwareInterface",
     "ImuSensorHandle", "ImuSensorInterface", "InterfaceResources", "JointCommandInterface", "JointHandle", "JointMode",
     "JointModeHandle", "JointModeInterface", "JointStateHandle", "JointStateInterface", "PosVelAccJointHandle",

@@ -8,9 +8,7 @@ from typing import Any, Dict, List, Set
 
 import rospy
 
-
-class ResourceError(Exception):
-    """A joint, actuator or sensor is not there; the line says which interface was asked and what it has."""
+from .errors import ResourceError
 
 
 class HardwareInterface:

@@ -10,7 +10,7 @@ from math import inf, nan
 from typing import Any, Dict
 
 import rospy
-from hardware_interface import JointHandle
+from hardware_interface import ControlError, JointHandle
 
 from .limits import JointLimits, SoftJointLimits
 
@@ -22,7 +22,7 @@ def _sat(value: float, low: float, high: float) -> float:
     return low if value < low else high if value > high else value
 
 
-class JointLimitsError(Exception):
+class JointLimitsError(ControlError):
     """A handle needs limits that the joint does not have."""
 
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from typing import Any, Dict, List, Optional
 
 import rospy
+from node_signals.parameters import is_number
 
 from .robot_description import JointDescription
 
@@ -100,15 +101,11 @@ def soft_limits_from_params(nh: Any, joint: str) -> Optional[SoftJointLimits]:
 
 def soft_limits_of(values: Dict[str, Any]) -> Optional[SoftJointLimits]:
     numbers: List[Any] = [values.get(name) for name in ("soft_lower_limit", "soft_upper_limit", "k_position", "k_velocity")]
-    if values.get("has_soft_limits") is not True or not all(map(_is_number, numbers)):
+    if values.get("has_soft_limits") is not True or not all(is_number(value, finite=False) for value in numbers):
         return None
     return SoftJointLimits(*map(float, numbers))
 
 
-def _is_number(value: Any) -> bool:
-    return isinstance(value, (int, float)) and not isinstance(value, bool) and value == value
-
-
 def _is_limit(name: str, value: Any) -> bool:
     """A number that something can be kept within: no upper limit is minus infinity, no lower one infinity."""
-    return _is_number(value) and (value < math.inf if name.startswith("min") else value > -math.inf)
+    return is_number(value, finite=False) and (value < math.inf if name.startswith("min") else value > -math.inf)

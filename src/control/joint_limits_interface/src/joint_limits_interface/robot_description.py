@@ -6,12 +6,12 @@ from math import inf
 from typing import Dict, Optional
 from xml.etree import ElementTree
 
-from hardware_interface import description_root
+from hardware_interface import ControlError, description_root
 
 from .angles import distance_within_limits, shortest_angular_distance
 
 
-class DescriptionError(Exception):
+class DescriptionError(ControlError):
     """The robot description cannot be used; one line saying why."""
 
 

@@ -5,6 +5,7 @@ import math
 from typing import Dict, List, Optional, Sequence
 
 from controller_interface import one_line
+from hardware_interface import ControlError
 
 from .segment import Segment, State, active_index, point_segments, wraparound_offset
 from .tolerances import JointTolerances
@@ -16,7 +17,7 @@ INVALID_JOINTS = -2
 LARGEST = 1e12
 
 
-class InvalidTrajectory(Exception):
+class InvalidTrajectory(ControlError):
     """A message that cannot be executed; the running motion stays as it is.
 
     :ivar code: error code of FollowJointTrajectoryResult

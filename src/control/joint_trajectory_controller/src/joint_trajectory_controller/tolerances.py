@@ -4,6 +4,8 @@ from __future__ import annotations
 import math
 from typing import Dict, List, NamedTuple, Optional, Sequence
 
+from node_signals.parameters import of_kind
+
 
 class StateTolerance(NamedTuple):
     """Largest allowed errors in rad or m and its derivatives; 0 or less is no limit."""
@@ -40,25 +42,18 @@ def from_parameters(joints: Sequence[str], constraints: Dict) -> List[JointToler
 
     :raises ValueError: a value that is not a number
     """
-    stopped = _number(constraints, "stopped_velocity_tolerance", 0.01, "constraints")
-    goal_time = _number(constraints, "goal_time", 0.0, "constraints")
+    stopped = of_kind("constraints/stopped_velocity_tolerance", constraints.get("stopped_velocity_tolerance", 0.01), float)
+    goal_time = of_kind("constraints/goal_time", constraints.get("goal_time", 0.0), float)
     result = []
     for joint in joints:
         values = constraints.get(joint, {})
         if not isinstance(values, dict):
             raise ValueError(f"constraints/{joint} must hold 'trajectory' and 'goal', it is {values!r}")
         result.append(JointTolerances(
-            StateTolerance(position=_number(values, "trajectory", 0.0, f"constraints/{joint}")),
-            StateTolerance(position=_number(values, "goal", 0.0, f"constraints/{joint}"), velocity=stopped),
+            StateTolerance(position=of_kind(f"constraints/{joint}/trajectory", values.get("trajectory", 0.0), float)),
+            StateTolerance(position=of_kind(f"constraints/{joint}/goal", values.get("goal", 0.0), float), velocity=stopped),
             goal_time))
     return result
-
-
-def _number(values: Dict, key: str, default: float, where: str) -> float:
-    value = values.get(key, default)
-    if isinstance(value, bool) or not isinstance(value, (int, float)) or math.isnan(value):
-        raise ValueError(f"{where}/{key} must be a number, it is {value!r}")
-    return float(value)
 
 
 def overridden(defaults: Sequence[JointTolerances], joints: Sequence[str], goal) -> List[JointTolerances]:

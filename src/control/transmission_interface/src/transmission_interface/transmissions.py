@@ -8,8 +8,10 @@ from __future__ import annotations
 from typing import List, Optional, Sequence, Tuple
 from xml.etree import ElementTree
 
+from hardware_interface import ControlError
 
-class TransmissionError(Exception):
+
+class TransmissionError(ControlError):
     """A transmission cannot be made; one line saying which and why."""
 
 

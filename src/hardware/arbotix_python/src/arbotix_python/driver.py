@@ -12,7 +12,7 @@ from .arbotix import ArbotiX, ArbotiXException
 from .diff_controller import DiffController
 from .follow_controller import FollowController
 from .linear_controller import LinearControllerAbsolute, LinearControllerIncremental, LinearJoint
-from .parameters import ConfigurationError, Every, number
+from .parameters import ParameterError, Every, number
 from .servo_controller import ServoController
 from .servos import DynamixelServo, HobbyServo
 
@@ -59,7 +59,7 @@ class Driver:
         """Makes what the parameters ~<kind>s name; what cannot be made is one error, and the rest goes on."""
         named = rospy.get_param("~%ss" % kind, {})
         if not isinstance(named, dict):
-            raise ConfigurationError("parameter %s must be a map of names" % rospy.resolve_name("~%ss" % kind))
+            raise ParameterError("parameter %s must be a map of names" % rospy.resolve_name("~%ss" % kind))
         for name, parameters in named.items():
             type_name = parameters.get("type", default) if isinstance(parameters, dict) else default
             if type_name not in types:
@@ -67,7 +67,7 @@ class Driver:
                 continue
             try:
                 made[name] = types[type_name](self, name)
-            except ConfigurationError as error:
+            except ParameterError as error:
                 rospy.logerr("%s %s left out: %s.", kind.capitalize(), name, error)
 
     def _wait_for_board(self):
@@ -88,7 +88,7 @@ class Driver:
                     pin, value, length = (int(number(prefix + key, default))
                                           for key, default in (("pin", 1), ("value", 0), ("length", 1)))
                     self._channels[name] = kind(self.board, name, pin, value, number(prefix + "rate", 10, above=0), length)
-                except ConfigurationError as error:
+                except ParameterError as error:
                     rospy.logerr("Pin %s left out: %s.", name, error)
 
     def _setup_channel(self, kind, request):
@@ -153,7 +153,7 @@ def main():
     node_signals.init_node("arbotix")
     try:
         driver = Driver()
-    except ConfigurationError as error:
+    except ParameterError as error:
         rospy.logfatal("arbotix cannot start: %s.", error)
         sys.exit(1)
     try:

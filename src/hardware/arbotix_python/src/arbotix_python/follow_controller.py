@@ -5,7 +5,7 @@ from control_msgs.msg import FollowJointTrajectoryAction
 from trajectory_msgs.msg import JointTrajectory
 
 from .controllers import Controller, status
-from .parameters import ConfigurationError, number, texts, usable
+from .parameters import ParameterError, names, number, usable
 
 SUCCEEDED, PREEMPTED = "succeeded", "preempted"
 
@@ -15,10 +15,10 @@ class FollowController(Controller):
         super().__init__(device, name)
         prefix = "~controllers/%s/" % name
         self._rate = number(prefix + "rate", 50.0, above=0)
-        self._joints = texts(prefix + "joints")
+        self._joints = names(prefix + "joints")
         for joint in self._joints:
             if joint not in device.joints:
-                raise ConfigurationError("joint %s of %s is not among the joints %s" % (
+                raise ParameterError("joint %s of %s is not among the joints %s" % (
                     joint, rospy.resolve_name(prefix + "joints"), sorted(device.joints)))
             device.joints[joint].controller = self
         self._executing = False

@@ -9,7 +9,7 @@ from std_srvs.srv import Empty, EmptyResponse
 
 from .arbotix import BOARD, word
 from .controllers import Controller, status
-from .parameters import ConfigurationError, Every, number, require
+from .parameters import Every, ParameterError, get, number
 
 NEAR = 0.01  # m, close enough to stop the motor
 
@@ -28,10 +28,10 @@ class LinearJoint:
         try:
             self._table = sorted((int(reading), float(position)) for reading, position in table.items())
         except (AttributeError, TypeError, ValueError):
-            raise ConfigurationError("%scalibration_data must map readings, whole numbers, to positions in m"
+            raise ParameterError("%scalibration_data must map readings, whole numbers, to positions in m"
                                      % rospy.resolve_name(prefix)) from None
         if len(self._table) < 2:
-            raise ConfigurationError("%scalibration_data needs two readings at least" % rospy.resolve_name(prefix))
+            raise ParameterError("%scalibration_data needs two readings at least" % rospy.resolve_name(prefix))
         self.position = self.velocity = 0.0
         self._desired = 0.0
         self.moving = False
@@ -83,9 +83,9 @@ class LinearControllerAbsolute(Controller):
                        for key, default in (("motor_a", 29), ("motor_b", 30), ("motor_pwm", 31))]
         self._analog = int(number(prefix + "feedback", 0))
         self._every = Every(number(prefix + "rate", 10.0, above=0))
-        joint = require(prefix + "joint")
+        joint = get(prefix + "joint")
         if joint not in device.joints or not isinstance(device.joints[joint], LinearJoint):
-            raise ConfigurationError("joint %s is not among the joints of type calibrated_linear" % joint)
+            raise ParameterError("joint %s is not among the joints of type calibrated_linear" % joint)
         self._joint = device.joints[joint]
         self._running = 0
         self._reading = 0

@@ -1,41 +1,26 @@
 """Small things that all parts of the driver use."""
-import math
 import reprlib
 
 import rospy
+from node_signals.parameters import ParameterError, get, is_number, texts
 
 
-class ConfigurationError(Exception):
-    """A parameter is missing or makes no sense; the text says which."""
-
-
-def require(name):
-    """A parameter that has no default."""
-    if not rospy.has_param(name):
-        raise ConfigurationError("parameter %s is not set" % rospy.resolve_name(name))
-    return rospy.get_param(name)
-
-
-def number(name, default=None, above=-math.inf):
+def number(name, default=None, above=None):
     """A finite number from a parameter; without a default it is required.
 
     :param above: it must be greater
-    :raises ConfigurationError: it is not there, or something else
+    :raises ParameterError: it is not there, or something else
     """
-    value = require(name) if default is None else rospy.get_param(name, default)
-    if isinstance(value, bool) or not isinstance(value, (int, float)) or not above < value < math.inf:
-        raise ConfigurationError("parameter %s must be a number%s, it is %s" % (
-            rospy.resolve_name(name), "" if above == -math.inf else " above %g" % above, reprlib.repr(value)))
+    value = get(name) if default is None else get(name, default)
+    if not is_number(value, above=above):
+        raise ParameterError("parameter %s must be a number%s, it is %s" % (
+            rospy.resolve_name(name), "" if above is None else " above %g" % above, reprlib.repr(value)))
     return value
 
 
-def texts(name):
-    """A required list of texts. :raises ConfigurationError: it is not there, or something else"""
-    value = require(name)
-    if not isinstance(value, list) or not all(isinstance(entry, str) for entry in value):
-        raise ConfigurationError("parameter %s must be a list of names, it is %s" % (rospy.resolve_name(name),
-                                                                                    reprlib.repr(value)))
-    return value
+def names(name):
+    """A required list of names. :raises ParameterError: it is not there, or something else"""
+    return texts("parameter " + rospy.resolve_name(name), get(name), empty=True, shown=reprlib.repr)
 
 
 #: m/s, rad/s or rad; what is beyond is no command

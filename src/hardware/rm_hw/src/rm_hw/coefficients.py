@@ -2,12 +2,13 @@
 from __future__ import annotations
 
 import reprlib
-import sys
 from dataclasses import MISSING, dataclass, fields
 from typing import Any, Mapping
 
+from node_signals.parameters import ParameterError, is_number
 
-class ConfigError(ValueError):
+
+class ConfigError(ParameterError):
     """Something in the configuration is wrong; one line: which parameter, what, and what to write instead."""
 
 
@@ -17,7 +18,7 @@ def number(value: Any, what: str) -> float:
     :param what: name of the parameter, for the message.
     :raises ConfigError: it is no number, or not finite.
     """
-    if isinstance(value, bool) or not isinstance(value, (int, float)) or not abs(value) <= sys.float_info.max:
+    if not is_number(value):
         raise ConfigError(f"{what} is {reprlib.repr(value)}: write a number")
     return float(value)
 

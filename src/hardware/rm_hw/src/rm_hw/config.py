@@ -3,9 +3,10 @@ from __future__ import annotations
 
 import os
 import reprlib
-import sys
 from dataclasses import dataclass, field
 from typing import Any, List, Mapping, Tuple
+
+from node_signals.parameters import is_number
 
 from rm_hw.actuator import SILENCE
 from rm_hw.can_bus import BITRATE
@@ -106,7 +107,7 @@ def parse(params: Mapping[str, Any], own_coefficients: Mapping[str, Any]) -> Con
 
 
 def _positive(value: Any, name: str) -> float:
-    if isinstance(value, bool) or not isinstance(value, (int, float)) or not 0 < value <= sys.float_info.max:
+    if not is_number(value, above=0):
         raise ConfigError(f"parameter '{name}' is {reprlib.repr(value)}: write a number above zero")
     return float(value)
 

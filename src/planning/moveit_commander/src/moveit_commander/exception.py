@@ -1,5 +1,6 @@
 """What the clients raise."""
+from moveit_core.errors import MoveItError
 
 
-class MoveItCommanderException(Exception):
+class MoveItCommanderException(MoveItError):
     """A target or setting that cannot be used; one line saying why."""

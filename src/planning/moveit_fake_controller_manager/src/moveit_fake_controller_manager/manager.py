@@ -10,6 +10,7 @@ from sensor_msgs.msg import JointState
 
 from moveit_core.controller_manager import Completion, ControllerHandle, ControllerManager, ExecutionStatus
 from moveit_simple_controller_manager.manager import read_controller_list
+from node_signals.parameters import number_or
 
 _LAST_POINT_TIME = 0.5
 
@@ -123,7 +124,8 @@ class FakeControllerManager(ControllerManager):
         super().__init__(model, namespace)
         self._publisher = rospy.Publisher(namespace + "fake_controller_joint_states", JointState, queue_size=100,
                                           latch=True)
-        rate = float(rospy.get_param(namespace + "fake_interpolating_controller_rate", 10.0))
+        name = namespace + "fake_interpolating_controller_rate"
+        rate = number_or(name, rospy.get_param(name, 10.0), 10.0)
         self._entries: Dict[str, Dict[str, Any]] = {}
         self._handles: Dict[str, FakeHandle] = {}
         for entry in read_controller_list(namespace):

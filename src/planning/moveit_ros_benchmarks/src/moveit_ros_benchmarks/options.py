@@ -7,9 +7,11 @@ from dataclasses import dataclass, field
 from typing import Any, Dict, List, Sequence, Tuple
 
 import yaml
+from moveit_core.errors import MoveItError
+from node_signals.parameters import is_number
 
 
-class OptionsError(Exception):
+class OptionsError(MoveItError):
     """The benchmark cannot be understood; one line."""
 
 
@@ -85,7 +87,7 @@ def _table(config: Dict[str, Any], key: str, where: str) -> Dict[str, Any]:
 
 def _number(table: Dict[str, Any], key: str, default: float, where: str, least: float = -1e9) -> float:
     value = table.get(key, default)
-    if isinstance(value, bool) or not isinstance(value, (int, float)) or not least <= value < 1e9:
+    if not is_number(value, least) or value >= 1e9:
         raise OptionsError(
             f"{where}: {key} is '{str(value)[:40]}', where a number" + (f" from {least:g}" if least > -1e9 else "") + " is expected"
         )

@@ -11,6 +11,7 @@ import numpy as np
 import rospy
 
 from moveit_core import convert
+from node_signals.parameters import is_number
 from plugin_loader import PluginError, find_plugins
 
 from .updater import OccupancyMapUpdater, UpdaterError
@@ -179,7 +180,7 @@ def _give_back() -> None:
 
 def _number(parameter: str, default: float) -> float:
     value = rospy.get_param(parameter, default)
-    if isinstance(value, bool) or not isinstance(value, (int, float)) or value != value:
+    if not is_number(value, finite=False):
         rospy.logerr("parameter %s is %r, not a number: it is ignored", rospy.resolve_name(parameter), str(value)[:40])
         return default
     return float(value)

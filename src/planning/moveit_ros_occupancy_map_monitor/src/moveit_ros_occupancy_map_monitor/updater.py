@@ -12,12 +12,14 @@ from typing import Any, Dict, Optional
 
 import motion
 import rospy
+from node_signals.parameters import is_number
+from moveit_core.errors import MoveItError
 
 #: points of one message that are looked at; of more, every second, third ... is taken
 MOST_POINTS = 60000
 
 
-class UpdaterError(Exception):
+class UpdaterError(MoveItError):
     """An updater cannot be made, or a message cannot be used; one line."""
 
 
@@ -69,7 +71,7 @@ class OccupancyMapUpdater(ABC):
         :raises UpdaterError: it is none.
         """
         value = self._settings.get(key, default)
-        if isinstance(value, bool) or not isinstance(value, (int, float)) or value != value:
+        if not is_number(value, finite=False):
             raise UpdaterError(f"{key} is {str(value)[:40]!r}, not a number")
         return float(value)
 

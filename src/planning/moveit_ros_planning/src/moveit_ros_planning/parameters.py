@@ -1,10 +1,10 @@
 """Parameters of a kind: what is of another kind is told in one line, and the default is used."""
 from __future__ import annotations
 
-import math
 from typing import Any, Dict
 
 import rospy
+from node_signals.parameters import is_number
 
 from moveit_core.errors import one_line
 
@@ -18,14 +18,6 @@ def table(name: str) -> Dict[str, Any]:
     return {}
 
 
-def number(where: str, value: Any, default: float) -> float:
-    """``value``, found at ``where``, as a finite number."""
-    if not isinstance(value, bool) and isinstance(value, (int, float)) and math.isfinite(value):
-        return float(value)
-    rospy.logerr("parameter %s is %s, where a number is expected: %g is used", where, one_line(repr(value), 40), default)
-    return default
-
-
 def joint_limits(name: str) -> Dict[str, Dict[str, Any]]:
     """The usable part of joint_limits.yaml: a table for each joint, numbers and has_... flags in it."""
     usable: Dict[str, Dict[str, Any]] = {}
@@ -37,7 +29,7 @@ def joint_limits(name: str) -> Dict[str, Dict[str, Any]]:
         usable[joint] = {}
         for key, value in entry.items():
             flag = key.startswith("has_")
-            if isinstance(value, bool) if flag else isinstance(value, (int, float)) and math.isfinite(value):
+            if isinstance(value, bool) if flag else is_number(value):
                 usable[joint][key] = value
             elif flag or key.startswith(("max_", "min_")):
                 rospy.logerr("parameter %s/%s/%s is %s, where %s is expected: it is ignored", name, joint, key,

@@ -11,7 +11,7 @@ from moveit_msgs.msg import Constraints, MotionPlanRequest, MoveItErrorCodes
 
 from dynamic_parameters import Parameter, Server
 from moveit_core import convert, states
-from moveit_core.errors import PlanningError, code_name, one_line
+from moveit_core.errors import MoveItError, PlanningError, code_name, one_line
 from moveit_core.scene_messages import attach_to_state
 
 from .compiled import CompiledPipeline, exported
@@ -33,7 +33,7 @@ _PARAMETERS = [
 ]
 
 
-class PipelineError(Exception):
+class PipelineError(MoveItError):
     """A pipeline cannot be made; one line."""
 
 

@@ -8,13 +8,14 @@ import motion
 import rospkg
 import rospy
 
-from moveit_core.errors import one_line
+from moveit_core.errors import MoveItError, one_line
+from node_signals.parameters import number_or
 
 from . import solvers
-from .parameters import joint_limits, number, table
+from .parameters import joint_limits, table
 
 
-class DescriptionError(Exception):
+class DescriptionError(MoveItError):
     """The robot cannot be loaded; one line saying which parameter, why and what to do."""
 
 
@@ -131,7 +132,7 @@ def _kinematics(where: str, model: motion.RobotModel, own_namespace: Optional[st
 
 def _group_kinematics(where: str, entry: Dict[str, Any]) -> Kinematics:
     def read(key: str, default: float) -> float:
-        return number(f"{where}/{key}", entry.get(key, default), default)
+        return number_or(f"{where}/{key}", entry.get(key, default), default)
 
     links = entry.get("kinematics_solver_ik_links", [])
     return Kinematics(solver=_words(entry["kinematics_solver"]), timeout=read("kinematics_solver_timeout", 0.5),
@@ -170,12 +171,12 @@ def _numbers(description: RobotDescription, key: str, model) -> Dict[str, float]
     values = description.planning(key, {})
     if not isinstance(values, dict):
         return {}
-    return {name: number(f"{description.name}_planning/{key}/{name}", value, 0.0 if "padding" in key else 1.0)
+    return {name: number_or(f"{description.name}_planning/{key}/{name}", value, 0.0 if "padding" in key else 1.0)
             for name, value in values.items() if model.has_link(name)}
 
 
 def _planning_number(description: RobotDescription, key: str, default: float) -> float:
-    return number(f"{description.name}_planning/{key}", description.planning(key, default), default)
+    return number_or(f"{description.name}_planning/{key}", description.planning(key, default), default)
 
 
 def _collision_operations(description: RobotDescription, scene) -> None:

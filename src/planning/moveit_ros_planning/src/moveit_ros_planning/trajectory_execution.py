@@ -16,6 +16,7 @@ from std_msgs.msg import String
 from dynamic_parameters import Parameter, Server
 from moveit_core import states
 from moveit_core.controller_manager import ControllerHandle, ControllerManager, ExecutionStatus
+from moveit_core.errors import MoveItError
 
 from .controllers import ControllerChoice, load_manager, share
 from .state_monitor import CurrentStateMonitor
@@ -43,7 +44,7 @@ _REPORT = 5.0
 _TOGETHER = 0.1
 
 
-class ExecutionError(Exception):
+class ExecutionError(MoveItError):
     """A trajectory cannot be executed; one line saying why and what to do."""
 
 

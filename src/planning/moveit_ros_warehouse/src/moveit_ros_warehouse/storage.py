@@ -12,11 +12,12 @@ from typing import Any, List, Optional
 import genpy
 from moveit_msgs.msg import (Constraints, MotionPlanRequest, PlanningScene, PlanningSceneWorld, RobotState,
                              RobotTrajectory, TrajectoryConstraints)
+from moveit_core.errors import MoveItError
 
 _PATIENCE = 10.0  # s that another node may hold the file
 
 
-class StorageError(Exception):
+class StorageError(MoveItError):
     """The file cannot be used, or what is asked for is not there; one line."""
 
 

@@ -10,6 +10,7 @@ import rospy
 import tf2_ros
 from dynamic_parameters import Parameter, Server
 from geometry_msgs.msg import Quaternion, TransformStamped, Vector3, Vector3Stamped
+from node_signals.parameters import ParameterError, number
 from sensor_msgs.msg import Imu, MagneticField
 from std_msgs.msg import Bool
 
@@ -26,7 +27,7 @@ def _numbers(vector) -> Tuple[float, float, float]:
 
 
 def _non_negative(name: str) -> float:
-    value = float(rospy.get_param(f"~{name}", 0.0))
+    value = number(f"~{name}", 0.0)
     if value < 0.0:
         rospy.logwarn("parameter ~%s is %g, which must not be negative; 0 is taken", name, value)
     return max(value, 0.0)
@@ -41,7 +42,7 @@ class Node:
     def __init__(self):
         use_mag = rospy.get_param("~use_mag", self.use_mag)
         self.fixed_frame = rospy.get_param("~fixed_frame", "odom")
-        self.stddev = float(rospy.get_param("~orientation_stddev", 0.0))
+        self.stddev = number("~orientation_stddev", 0.0)
         self._dt = _non_negative("constant_dt")
         self._jump = rospy.Duration(_non_negative("time_jump_threshold"))
         self._reverse = rospy.get_param("~reverse_tf", False)
@@ -118,7 +119,7 @@ class ComplementaryNode(Node):
 
     def prepare(self, name: str, debug: bool) -> None:
         bias = rospy.get_param("~do_bias_estimation", True)
-        gains = {key: float(rospy.get_param(f"~{key}", 0.01)) for key in ("gain_acc", "gain_mag", "bias_alpha")}
+        gains = {key: number(f"~{key}", 0.01) for key in ("gain_acc", "gain_mag", "bias_alpha")}
         for key, value in gains.items():
             if not 0.0 <= value <= 1.0:
                 rospy.logwarn("parameter ~%s is %g, and has to lie between 0 and 1; 0.01 is taken", key, value)
@@ -159,7 +160,7 @@ class MadgwickNode(Node):
             world = "enu"
         self._stateless = rospy.get_param("~stateless", False)
         self._bare = rospy.get_param("~remove_gravity_vector", False)
-        self._yaw = float(rospy.get_param("~yaw_offset", 0.0)) - float(rospy.get_param("~declination", 0.0))
+        self._yaw = number("~yaw_offset", 0.0) - number("~declination", 0.0)
         self._raw = rospy.Publisher(f"{name}/rpy/raw", Vector3Stamped, queue_size=_QUEUE) if debug else None
         self.filter = Madgwick(world)
         self._iron = 0.0, 0.0, 0.0
@@ -205,7 +206,11 @@ class MadgwickNode(Node):
 
 def main(name: str, kind) -> int:
     node_signals.init_node(name)
-    node = kind()
+    try:
+        node = kind()
+    except ParameterError as error:
+        rospy.logfatal("%s", error)
+        return 1
     node_signals.spin()
     del node
     return 0

@@ -1,6 +1,7 @@
 """From a drag to velocities. No ROS in it."""
-import math
 from typing import Dict, Sequence, Tuple
+
+from node_signals.parameters import is_number
 
 _KEYS = ("linear_scale", "max_positive_linear_velocity", "max_negative_linear_velocity")
 _DEFAULTS = (1.0, 1.0, -1.0)
@@ -43,6 +44,6 @@ def _number(parameters: dict, key: str, axis, default: float) -> float:
     value = parameters.get(key, default)
     if isinstance(value, dict) and axis is not None:
         value = value.get(axis, default)
-    if type(value) not in (int, float) or not math.isfinite(value):
+    if not is_number(value):
         raise ValueError(f"{key} must be a number{'' if axis is None else ' or a map of x, y, z'}, but is {value!r:.40}")
     return float(value)

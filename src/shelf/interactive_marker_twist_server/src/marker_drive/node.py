@@ -6,6 +6,7 @@ import node_signals
 import rospy
 from geometry_msgs.msg import Pose, Quaternion, Twist
 from interactive_markers.interactive_marker_server import InteractiveMarkerServer
+from node_signals.parameters import number
 from visualization_msgs.msg import InteractiveMarker, InteractiveMarkerControl
 
 from .drive import Drive
@@ -32,7 +33,7 @@ def main() -> int:
     node_signals.init_node("twist_marker_server")
     try:
         drive = Drive(rospy.get_param("~", {}))
-        size = float(rospy.get_param("~marker_size_scale", 1.0))
+        size = number("~marker_size_scale", 1.0)
     except (TypeError, ValueError) as error:
         print(f"twist_marker_server: parameters of {rospy.get_name()}: {error}", file=sys.stderr)
         return 1

@@ -1,11 +1,11 @@
 """What a filter is, and the table of their parameters."""
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from typing import Any, Callable, Dict, Optional, Sequence
 
 import numpy as np
+from node_signals.parameters import is_number
 
 BEYOND = 1.0  # m above range_max: how upstream writes "nothing here" where it does not write NaN
 
@@ -96,6 +96,6 @@ class Filter:
 
 
 def number(value: Any, what: str) -> float:
-    if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
+    if not is_number(value):
         raise FilterError(f"{what} has to be a number, not {value!r}")
     return float(value)

@@ -8,6 +8,7 @@ import numpy as np
 import rospy
 import tf2_ros
 from dynamic_parameters import Parameter, Server
+from node_signals.parameters import ParameterError, number
 from sensor_msgs.msg import LaserScan
 
 from .base import Filter, FilterError, Scan
@@ -38,7 +39,7 @@ class Node:
         self._filters = chain(entries or [], self._transformed)
         self._servers = [self._serve(one) for one in self._filters if any(setting.live for setting in one.settings)]
         self._target = rospy.get_param("~tf_message_filter_target_frame", "")
-        self._tolerance = rospy.Duration(float(rospy.get_param("~tf_message_filter_tolerance", 0.03)))
+        self._tolerance = rospy.Duration(number("~tf_message_filter_tolerance", 0.03))
         self._out = rospy.Publisher("scan_filtered", LaserScan, queue_size=10)
         self._scans = rospy.Subscriber("scan", LaserScan, self._take, queue_size=10)
 
@@ -79,7 +80,7 @@ def main() -> int:
     node_signals.init_node("scan_to_scan_filter_chain")
     try:
         node = Node()
-    except FilterError as error:
+    except (FilterError, ParameterError) as error:
         rospy.logerr("%s", error)
         return 1
     node_signals.spin()

@@ -8,6 +8,7 @@ from typing import Optional
 import node_signals
 import rospy
 import tf2_ros
+from node_signals.parameters import get, number
 from sensor_msgs.msg import LaserScan, PointCloud2, PointField
 
 from .projection import Fan, turned, xyz
@@ -21,11 +22,11 @@ class Node:
     """:raises ValueError: a parameter that makes no fan; one line."""
 
     def __init__(self):
-        self._fan = Fan(**{name: float(rospy.get_param(f"~{name}", value)) for name, value in _DEFAULTS.items()})
+        self._fan = Fan(**{name: get(f"~{name}", value, float) for name, value in _DEFAULTS.items()})
         self._frame = rospy.get_param("~target_frame", "")
-        self._patience = rospy.Duration(float(rospy.get_param("~transform_tolerance", 0.01)))
-        self._scan_time = float(rospy.get_param("~scan_time", 1 / 30))
-        beyond = self._fan.range_max + float(rospy.get_param("~inf_epsilon", 1.0))
+        self._patience = rospy.Duration(number("~transform_tolerance", 0.01))
+        self._scan_time = number("~scan_time", 1 / 30)
+        beyond = self._fan.range_max + get("~inf_epsilon", 1.0, float)
         self._empty = math.inf if rospy.get_param("~use_inf", True) else beyond
         self._buffer = tf2_ros.Buffer()
         self._listener = tf2_ros.TransformListener(self._buffer) if self._frame else None

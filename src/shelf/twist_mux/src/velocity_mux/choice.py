@@ -3,6 +3,8 @@ import math
 from dataclasses import dataclass
 from typing import Dict, List, Optional
 
+from node_signals.parameters import is_number
+
 
 @dataclass
 class Input:
@@ -82,7 +84,7 @@ def _read_input(entry, kind, place: str) -> Input:
     name, topic, timeout, priority = (entry[key] for key in ("name", "topic", "timeout", "priority"))
     if not isinstance(topic, str) or not topic:
         raise ValueError(f"{place}: topic must be a name, but is {topic!r:.60}")
-    if type(timeout) not in (int, float) or not 0 <= timeout < math.inf:
+    if not is_number(timeout, least=0):
         raise ValueError(f"{place}: timeout must be seconds, 0 or more, but is {timeout!r:.60}")
     if type(priority) is not int:
         raise ValueError(f"{place}: priority must be a whole number from 0 to 255, but is {priority!r:.60}")

@@ -10,6 +10,7 @@ import rosgraph
 import rospy
 from geometry_msgs.msg import Twist
 from node_signals.display import missing_display
+from node_signals.parameters import is_number
 from std_srvs.srv import Empty, EmptyResponse
 
 from .msg import Color, Pose
@@ -142,7 +143,7 @@ class TurtleNode:
                 value = rospy.get_param("~" + name, BACKGROUND[name])
             except (OSError, rosgraph.MasterException):  # the master is gone; the turtles stay
                 value = None
-            return int(value) if type(value) in (int, float) and abs(value) < 2**31 else BACKGROUND[name]
+            return int(value) if is_number(value) and abs(value) < 2**31 else BACKGROUND[name]
 
         self.window.clear(*map(number, BACKGROUND))
 

@@ -8,6 +8,7 @@ from typing import Callable, Deque, Dict, List, Optional, Tuple
 
 from rm_hw.bench.motor import SPECS, TUTORIAL_ARM, Load, Motor
 from rm_hw.bench.slcan import Frame, SlcanPort
+from rm_hw.coefficients import ConfigError
 from rm_hw.frames import RM_COMMAND_IDS, command_slot, pack_feedback, unpack_command
 
 TICK = 0.001
@@ -30,7 +31,7 @@ _USAGE = {
 }
 
 
-class BenchError(ValueError):
+class BenchError(ConfigError):
     """A command or a configuration the bench cannot follow; one line with the remedy."""
 
 

@@ -9,8 +9,11 @@ import tf2_ros
 from geometry_msgs.msg import TransformStamped
 
 from moveit_core import convert
+from node_signals.parameters import number_or
 
 from ..capability import Capability
+
+_RATE = "~planning_scene_frame_publishing_rate"
 
 
 class TfPublisher(Capability):
@@ -20,7 +23,7 @@ class TfPublisher(Capability):
 
     def __init__(self, context):
         super().__init__(context)
-        self._rate = float(rospy.get_param("~planning_scene_frame_publishing_rate", 10))
+        self._rate = number_or(_RATE, rospy.get_param(_RATE, 10.0), 10.0)
         self._prefix = str(rospy.get_param("~planning_scene_tf_prefix", rospy.get_namespace())).strip("/")
         self._prefix += "/" if self._prefix else ""
         self._broadcaster = tf2_ros.TransformBroadcaster()
