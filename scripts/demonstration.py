@@ -66,7 +66,8 @@ def _run(name: str, options: argparse.Namespace, run: Callable[[argparse.Namespa
     out = Path(options.out).resolve()
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
     from launch_gallery.session import free_port
-    from rviz_offscreen.display import DisplayError, private_display
+    from rviz_offscreen.display import private_display
+    from rviz_offscreen.errors import DisplayError
     environment = dict(os.environ, ROS_MASTER_URI=f"http://localhost:{free_port()}", ROS_HOME=str(out / "ros_home"))
     try:
         with contextlib.ExitStack() as stack:

@@ -1,5 +1,6 @@
 """The house rules that a machine can check: import directions, launch arguments, node script sizes, manifests."""
 import ast
+import builtins
 import importlib.util
 import subprocess
 import xml.etree.ElementTree as ET
@@ -73,6 +74,27 @@ def test_manifest_is_complete(package):
     assert root.get("format") in ("2", "3") and root.findtext("name") == package
     assert len(root.findtext("description").strip()) > 15 and "TODO" not in ET.tostring(root, "unicode")
     assert root.findtext("license") == "BSD-3-Clause"
+
+
+#: Roots of the trees of errors (ode_sim.errors, hardware_interface.errors, moveit_core.errors, qt_gui.errors ... draw them), and
+#: packages small enough to have one error of their own.
+ROOTS = {"ode_sim": "SimulationError", "hardware_interface": "ControlError", "node_signals": "ParameterError",
+         "plugin_loader": "PluginError", "moveit_core": "MoveItError", "qt_gui": "WindowError", "lab_check": "LabError",
+         "launch_gallery": "GalleryError", "rviz_offscreen": "OffscreenError", "rosmon_core": "RosmonError",
+         "arbotix_python": "ArbotiXException", "srdfdom": "ParseError", "qt_dotgraph": "LayoutError", "turtlesim": "WorldError",
+         "moveit_setup_assistant": "AssistantError", "laser_filters": "FilterError", "topic_tools": "ExpressionError",
+         "robot_localization": "FrameMissing", "turtle_actionlib": "PolygonError", "xacro": "PackageNotFoundError"}
+
+
+@pytest.mark.parametrize("package", sorted(PACKAGES))
+def test_errors_grow_on_one_tree(package):
+    """Who catches a root catches all that a wing can say to a student. Names with an underscore are the steering of one module."""
+    builtin = {name for name, kind in vars(builtins).items() if isinstance(kind, type) and issubclass(kind, BaseException)}
+    for path in python_files(package):
+        for node in ast.walk(ast.parse(path.read_text(), str(path))):
+            if isinstance(node, ast.ClassDef) and not node.name.startswith("_") and node.bases:
+                alone = all(isinstance(base, ast.Name) and base.id in builtin for base in node.bases)
+                assert not alone or ROOTS.get(package) == node.name, f"{path}:{node.lineno}: {node.name} hangs on no tree of errors"
 
 
 def test_node_scripts_are_short():

@@ -17,16 +17,9 @@ import rospkg
 import rospy
 import yaml
 
-from .display import DisplayError, die_with_parent, private_display
-from .views import View, ViewError, parse_view
-
-
-class ScreenshotError(RuntimeError):
-    """No picture; one line saying why and what to do."""
-
-
-class RvizCrashed(ScreenshotError):
-    """A signal ended RViz before it had taken the pictures."""
+from .display import die_with_parent, private_display
+from .errors import OffscreenError, RvizCrashed, ScreenshotError
+from .views import View, parse_view
 
 
 def parser() -> argparse.ArgumentParser:
@@ -178,7 +171,7 @@ def main(argv: Optional[List[str]] = None) -> int:
         result = take(options.config, [parse_view(text) for text in options.view], options.output, size=options.size,
                       window=options.window, fixed_frame=options.fixed_frame, timeout=options.timeout, grace=options.grace,
                       watch=options.watch, backend_name=options.backend, anti_aliasing=options.anti_aliasing)
-    except (ScreenshotError, DisplayError, ViewError) as error:
+    except OffscreenError as error:
         print(f"screenshot: {error}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:

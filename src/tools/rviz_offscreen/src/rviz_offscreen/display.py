@@ -10,12 +10,10 @@ import signal
 import subprocess
 from typing import Dict, Iterator
 
+from .errors import DisplayError
+
 _PR_SET_PDEATHSIG = 1
 _libc = ctypes.CDLL(None)  # loaded here: after fork() only async-safe work should be left
-
-
-class DisplayError(RuntimeError):
-    """No display to be had; one line saying why and what to do."""
 
 
 def die_with_parent() -> None:

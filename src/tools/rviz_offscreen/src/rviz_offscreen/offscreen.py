@@ -11,7 +11,8 @@ import subprocess
 import sys
 from typing import List
 
-from rviz_offscreen.display import DisplayError, private_display
+from rviz_offscreen.display import private_display
+from rviz_offscreen.errors import DisplayError
 
 
 def _run(command: List[str]) -> int:

@@ -5,6 +5,8 @@ import math
 from dataclasses import dataclass, field
 from typing import Dict, Tuple
 
+from .errors import ViewError
+
 #: Orbit views by name: yaw and pitch in radians. What RViz calls yaw is where the eye stands, seen from the focal point.
 NAMED: Dict[str, Dict[str, float]] = {
     "front": {"yaw": 0.0, "pitch": 0.1},
@@ -15,10 +17,6 @@ NAMED: Dict[str, Dict[str, float]] = {
     "iso": {"yaw": math.pi / 4, "pitch": 0.5},
 }
 _KEYS = ("yaw", "pitch", "distance", "x", "y", "z")
-
-
-class ViewError(ValueError):
-    """A --view that cannot be understood; one line."""
 
 
 @dataclass(frozen=True)

@@ -8,11 +8,12 @@ from typing import Dict, Iterator, List, NamedTuple, Optional, Sequence, Tuple, 
 import genpy
 import numpy as np
 import rosbag
+from qt_gui.errors import WindowError
 
 Topics = Union[None, str, Sequence[str]]
 
 
-class BagError(ValueError):
+class BagError(WindowError, ValueError):
     """A file that is not shown; one line that says why and what to do."""
 
 

@@ -3,12 +3,14 @@ import csv
 import re
 from typing import Iterable, List
 
+from qt_gui.errors import WindowError
+
 from .message import Message
 
 HEADER = ["message", "severity", "node", "stamp", "topics", "location"]
 
 
-class SavedMessagesError(ValueError):
+class SavedMessagesError(WindowError, ValueError):
     """A file that holds no messages; one line says why."""
 
 

@@ -2,6 +2,7 @@
 from typing import List, NamedTuple, Tuple
 
 import rospy
+from qt_gui.errors import WindowError
 from controller_manager_msgs.srv import (ListControllers, LoadController, SwitchController, SwitchControllerRequest,
                                          UnloadController)
 from controller_manager_msgs.utils import ControllerManagerLister, get_rosparam_controller_names
@@ -18,7 +19,7 @@ class ControllerRow(NamedTuple):
     resources: Tuple[Tuple[str, Tuple[str, ...]], ...] = ()
 
 
-class CallError(RuntimeError):
+class CallError(WindowError, RuntimeError):
     """A request that the manager refused; one line says which."""
 
 

@@ -10,6 +10,7 @@ from http.client import HTTPException
 from typing import Dict, List, Set, Tuple
 
 import rosgraph
+from qt_gui.errors import WindowError
 from rosgraph.names import canonicalize_name
 
 DEAD, WONKY = "DEAD", "WONKY"
@@ -18,7 +19,7 @@ _AT_ONCE = 16  # nodes asked at a time
 _TROUBLE = (OSError, xmlrpc.client.Error, HTTPException, ValueError)
 
 
-class NoMaster(Exception):
+class NoMaster(WindowError):
     """The master does not answer; one line."""
 
 

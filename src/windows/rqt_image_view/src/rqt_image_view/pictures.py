@@ -7,9 +7,10 @@ from typing import Optional
 
 import cv2
 import numpy as np
+from qt_gui.errors import WindowError
 
 
-class PictureError(ValueError):
+class PictureError(WindowError, ValueError):
     """Data that is no picture; one line that says why."""
 
 

@@ -3,6 +3,8 @@ import math
 import xml.etree.ElementTree as ET
 from typing import Dict, NamedTuple
 
+from qt_gui.errors import WindowError
+
 
 class JointLimits(NamedTuple):
     """rad or m; rad/s or m/s."""
@@ -12,7 +14,7 @@ class JointLimits(NamedTuple):
     velocity: float
 
 
-class DescriptionError(ValueError):
+class DescriptionError(WindowError, ValueError):
     """A text that is no robot description; one line says why."""
 
 

@@ -12,6 +12,7 @@ import roslaunch.nodeprocess
 import roslaunch.pmon
 import roslaunch.substitution_args
 import rospkg
+from qt_gui.errors import WindowError
 from roslaunch import RLException
 from roslaunch.core import Node
 from rqt_py_common.rqt_roscomm_util import RqtRoscommUtil
@@ -20,7 +21,7 @@ roslaunch.pmon._sig_initialized = True  # a process must not take over the signa
 PATIENCE = 5.0, 2.0  # s after SIGINT, after SIGTERM
 
 
-class LaunchError(RuntimeError):
+class LaunchError(WindowError, RuntimeError):
     """A file that cannot be loaded or a node that cannot be started; one line says why."""
 
 

@@ -5,10 +5,11 @@ from typing import List, Tuple
 import roslib.message
 import rosmsg
 import rospkg
+from qt_gui.errors import WindowError
 from rqt_py_common import rosaction
 
 
-class DefinitionError(ValueError):
+class DefinitionError(WindowError, ValueError):
     """A type without a definition; one line says why."""
 
 

@@ -15,10 +15,12 @@ from enum import IntEnum
 from typing import List, Optional, Tuple
 from xml.sax.saxutils import escape
 
+from qt_gui.errors import WindowError
+
 MOST_PLOTS = 100  #: of a table: more cannot be seen, and a broken file must not bring down the window
 
 
-class ConfigError(ValueError):
+class ConfigError(WindowError, ValueError):
     """A file that is no configuration; one line that names it and says why."""
 
 

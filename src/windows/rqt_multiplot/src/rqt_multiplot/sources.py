@@ -7,11 +7,12 @@ from typing import Callable, Dict, Iterable, List, Tuple
 import rosbag
 import roslib.message
 import rospy
+from qt_gui.errors import WindowError
 
 from rqt_multiplot.sampling import Sampler
 
 
-class BagError(ValueError):
+class BagError(WindowError, ValueError):
     """A bag that gives nothing; one line that says why."""
 
 

@@ -6,9 +6,10 @@ from pathlib import Path
 from urllib.parse import unquote
 
 import rospkg
+from qt_gui.errors import WindowError
 
 
-class UrlError(ValueError):
+class UrlError(WindowError, ValueError):
     """A URL that leads nowhere; one line that says why."""
 
 

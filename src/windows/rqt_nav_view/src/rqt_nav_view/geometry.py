@@ -5,9 +5,10 @@ import math
 from typing import Tuple
 
 import numpy as np
+from qt_gui.errors import WindowError
 
 
-class MapError(ValueError):
+class MapError(WindowError, ValueError):
     """A map that cannot be shown; one line that says why."""
 
 

@@ -10,6 +10,7 @@ from typing import Callable, Dict, Iterable, List, NamedTuple, Optional, Tuple, 
 import genpy
 import roslib.message
 import roslib.msgs
+from qt_gui.errors import WindowError
 
 Step = Union[str, int]
 
@@ -19,7 +20,7 @@ _TIMES = ("time", "duration")
 _STEP = re.compile(r"([A-Za-z]\w*)((?:\[\d+\])*)$")
 
 
-class FieldError(ValueError):
+class FieldError(WindowError, ValueError):
     """A path that leads to no number; the text says why, in one line."""
 
 

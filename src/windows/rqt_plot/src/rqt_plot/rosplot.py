@@ -10,12 +10,13 @@ from typing import Dict, List, Optional, Tuple
 import rosgraph
 import roslib.message
 import rospy
+from qt_gui.errors import WindowError
 
 from rqt_plot.fields import FieldError, expand, getter, split_topic
 from rqt_plot.series import CAPACITY
 
 
-class RosPlotException(Exception):
+class RosPlotException(WindowError):
     """A topic that cannot be plotted, or a master that does not answer."""
 
 

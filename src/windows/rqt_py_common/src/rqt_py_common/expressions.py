@@ -13,6 +13,7 @@ from typing import Any, Dict, Optional
 
 import genpy
 from genmsg.msgs import parse_type
+from qt_gui.errors import WindowError
 
 _LONGEST = 100000  # elements of a list or text that an expression may make
 _LARGEST_BITS = 4096  # of a whole number
@@ -21,7 +22,7 @@ _INTEGERS = {f"{sign}int{bits}": ((0, 2**bits - 1) if sign else (-2**(bits - 1),
 _INTEGERS.update(byte=_INTEGERS["int8"], char=_INTEGERS["uint8"])
 
 
-class ExpressionError(ValueError):
+class ExpressionError(WindowError, ValueError):
     """An expression that has no value of the type that is wanted; one line says why."""
 
 

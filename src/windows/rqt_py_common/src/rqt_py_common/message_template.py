@@ -3,6 +3,7 @@ import re
 from typing import Any, Dict, List, Optional
 
 from genmsg.msgs import is_valid_constant_type, parse_type
+from qt_gui.errors import WindowError
 
 from .expressions import ExpressionError, field_value
 from .topic_helpers import get_type_class
@@ -12,7 +13,7 @@ _DEFAULTS = {"string": "''", "bool": "False", "float32": "0.0", "float64": "0.0"
              "duration": "genpy.Duration()"}
 
 
-class TemplateError(ValueError):
+class TemplateError(WindowError, ValueError):
     """A field without a value; ``path`` says which."""
 
     def __init__(self, path: str, text: str):

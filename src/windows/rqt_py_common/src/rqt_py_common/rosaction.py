@@ -3,12 +3,13 @@ import importlib
 import os
 
 import rospkg
+from qt_gui.errors import WindowError
 from genmsg import package_resource_name, resource_name
 
 MODE_ACTION = ".action"
 
 
-class ROSActionException(Exception):
+class ROSActionException(WindowError):
     """A mode that is none, or an action that is none."""
 
 

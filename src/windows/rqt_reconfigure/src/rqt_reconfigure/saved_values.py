@@ -1,12 +1,13 @@
 """Values of a server's parameters in YAML files, as dynparam and rqt_reconfigure have always written them."""
 import yaml
+from qt_gui.errors import WindowError
 
 from .dynamic import Config
 
 _TAG = "tag:yaml.org,2002:python/object/new:dynamic_reconfigure.encoding.Config"
 
 
-class SavedValuesError(ValueError):
+class SavedValuesError(WindowError, ValueError):
     """A file without values; one line says why."""
 
 

@@ -8,13 +8,14 @@ import time as clock
 from typing import Any, Dict
 
 import yaml
+from qt_gui.errors import WindowError
 from rqt_graph.dotcode import quoted
 
 _FIELDS = (("Broadcaster", "broadcaster"), ("Average rate", "rate"), ("Buffer length", "buffer_length"),
            ("Most recent transform", "most_recent_transform"), ("Oldest transform", "oldest_transform"))
 
 
-class FramesError(Exception):
+class FramesError(WindowError):
     """What the buffer says of its frames cannot be read; one line."""
 
 

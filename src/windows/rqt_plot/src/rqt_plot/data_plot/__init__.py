@@ -8,6 +8,7 @@ from python_qt_binding.QtGui import QColor
 from python_qt_binding.QtWidgets import QHBoxLayout, QWidget
 from qt_gui_py_common.simple_settings_dialog import SimpleSettingsDialog
 from rqt_py_common.ini_helper import pack, unpack
+from qt_gui.errors import WindowError
 
 from rqt_plot.data_plot.backends import BACKENDS
 from rqt_plot.series import CAPACITY, Series, decimate, limits, visible
@@ -16,7 +17,7 @@ from rqt_plot.series import CAPACITY, Series, decimate, limits, visible
 COLORS = [QColor(name) for name in ("blue", "red", "cyan", "magenta", "green", "#808000", "black", "darkcyan", "darkred", "gray")]
 
 
-class DataPlotException(Exception):
+class DataPlotException(WindowError):
     """No way of drawing is installed, or a curve is not there."""
 
 
