@@ -86,6 +86,7 @@ void bind_world(py::module_& m) {
   py::class_<Counters>(m, "Counters")
       .def_readonly("direct", &Counters::direct)
       .def_readonly("trees", &Counters::trees)
+      .def_readonly("piles", &Counters::piles)
       .def_readonly("quick", &Counters::quick)
       .def_readonly("fallbacks", &Counters::fallbacks)
       .def_readonly("promotions", &Counters::promotions)

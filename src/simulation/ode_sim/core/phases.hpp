@@ -1,5 +1,6 @@
 // The phases of a step, and what else works on a Scene, by the file that has them. world.hpp is what Python sees.
 #pragma once
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -66,12 +67,14 @@ double borne_by_contact(const Scene& scene, const StepState& state, const Contac
 void remember_loads(Scene& scene, const StepState& state);
 void forget_loads(Scene& scene, const Model& model);
 
-// islands.cpp, solve.cpp, gazebo_step.cpp, tree_step.cpp: what moves together, what is at rest, and the solvers
+// islands.cpp, solve.cpp, gazebo_step.cpp, own_step.cpp: what moves together, what is at rest, and the solvers
 void find_islands(Scene& scene, StepState& state);
 void rest(const Scene& scene, Island& island);
 void solve(Scene& scene, StepState& state);
 void solver_pass(Scene& scene, bool direct, int iterations);
 void run_like_gazebo(Scene& scene, StepState& state, const Pass& pass);
+uint64_t order_seed(const Scene& scene);
+void run_pile(Scene& scene, StepState& state, const Island& island);
 bool run_trees(Scene& scene, StepState& state, const Island& island);  // false: nothing was done, too much is left to iterations
 void guard_numbers(Scene& scene, StepState& state);
 

@@ -28,7 +28,7 @@ struct Settings {
 };
 
 struct Counters {
-  uint64_t direct = 0, trees = 0, quick = 0, fallbacks = 0, promotions = 0, contacts = 0;
+  uint64_t direct = 0, trees = 0, piles = 0, quick = 0, fallbacks = 0, promotions = 0, contacts = 0;
 };
 
 // What the user is to be told, each line once.

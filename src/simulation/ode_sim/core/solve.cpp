@@ -55,7 +55,7 @@ void run_iterative(Scene& scene, const Pass& pass, int times, std::vector<std::s
   pass.enable(true);
   {
     std::lock_guard<std::mutex> lock(ode_mutex);
-    dRandSetSeed(static_cast<unsigned long>(mix(scene.settings.seed ^ mix(scene.iterations)) & 0xffffffffu));
+    dRandSetSeed(static_cast<unsigned long>(order_seed(scene) & 0xffffffffu));
     solver_pass(scene, false, times);
   }
   pass.enable(false);
@@ -104,17 +104,17 @@ void drop_absurd_forces(Scene& scene, const StepState& state) {
 }
 
 // Joints alone exactly, small islands with contacts exactly if the direct solver finds its way, trees of joints in larger ones exactly
-// and their contacts by iterations, all others by iterations.
+// and their contacts by iterations, piles by iterations.
 void choose_solvers(const Settings& set, StepState& state) {
   for (Pass* pass : {&state.exact, &state.touching, &state.iterative}) pass->clear();
-  state.trees.clear();
+  state.trees.clear(), state.piles.clear();
   for (auto& island : state.islands) {
     if (!island.awake) continue;
     const bool alone = island.contact_rows == 0 && island.rows <= kMostExactRows;
     const bool small = island.rows + island.contact_rows <= (island.joints ? set.direct_rows : set.heap_rows);
     Pass& pass = set.like_gazebo ? state.iterative : alone ? state.exact : small ? state.touching : state.iterative;
-    const bool trees = &pass == &state.iterative && island.joints && !set.like_gazebo;
-    if (trees) state.trees.push_back(&island);
+    const bool own = &pass == &state.iterative && !set.like_gazebo;
+    if (own) (island.joints ? state.trees : state.piles).push_back(&island);
     else pass.add(island);
     for (Cluster* c : island.clusters) state.of(*c).iterative = &pass == &state.iterative;
   }
@@ -134,6 +134,9 @@ void stop(BodyState at) {
 }
 
 }  // namespace
+
+// Of the order in which iterations go over the rows of this step.
+uint64_t order_seed(const Scene& scene) { return mix(scene.settings.seed ^ mix(scene.iterations)); }
 
 void solver_pass(Scene& scene, bool direct, int iterations) {
   const Settings& set = scene.settings;
@@ -164,6 +167,7 @@ void solve(Scene& scene, StepState& state) {
   run_direct(scene, state.exact, said);
   tell(scene, state.exact, said);
   run_touching(scene, state, said);
+  for (const Island* island : state.piles) run_pile(scene, state, *island);
   for (const Island* island : state.trees)
     if (!run_trees(scene, state, *island)) state.iterative.add(*island);
   if (scene.settings.like_gazebo) run_like_gazebo(scene, state, state.iterative);

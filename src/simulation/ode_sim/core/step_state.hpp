@@ -87,7 +87,7 @@ struct StepState {
   std::vector<Island> islands;
   std::vector<BodyState> before;  // the bodies of the nodes before the solver
   Pass exact, touching, iterative;
-  std::vector<const Island*> trees;
+  std::vector<const Island*> trees, piles;  // for solvers of our own
 
   void forget();                       // the step before
   void number(Scene& scene);           // gives everything its place in the lists above

@@ -6,6 +6,7 @@
 #include "../core/contact_rules.hpp"
 #include "../core/forces.hpp"
 #include "../core/groups.hpp"
+#include "../core/pile_solver.hpp"
 
 using namespace ode_sim;
 
@@ -236,4 +237,75 @@ TEST(SpeedByLaw, ALimitOfSpeedIsPassedByWhatOneStepGives) {
   Axis axis;
   axis.slope = 10, axis.law = 100, axis.law_bound = 8, axis.velocity = 3;
   EXPECT_NEAR(speed_by_law(axis, kDt, 100), 3 + kDt * 100 * 8, 1e-12);
+}
+
+// ------------------------------------------------------------------------------------------------ piles
+
+namespace {
+
+constexpr double kG = 9.8;  // m/s^2
+
+// Balls of 2 kg in a column, each at rest on the one below, the lowest on the floor; pushed along x by `pushed` N at the top.
+struct Column {
+  std::vector<piles::Body> bodies;
+  std::vector<piles::Row> rows;  // of each contact: normal, friction along x
+
+  Column(int count, double mu, double pushed) {
+    for (int i = 0; i < count; ++i) {
+      piles::Body b;
+      b.inverse_mass = 0.5, b.inverse_inertia = {5, 5, 5};
+      b.force = {i == count - 1 ? pushed : 0.0, 0, -2 * kG};
+      bodies.push_back(b);
+      piles::Row normal;
+      normal.first = i, normal.second = i - 1;
+      normal.l1 = {0, 0, 1}, normal.l2 = i ? Vec3{0, 0, -1} : Vec3{};
+      normal.lo = 0, normal.kind = gazebo_like::kNormal;
+      piles::Row friction = normal;
+      friction.l1 = {1, 0, 0}, friction.l2 = i ? Vec3{-1, 0, 0} : Vec3{};
+      friction.hi = mu, friction.kind = static_cast<int>(rows.size());
+      rows.push_back(normal);
+      rows.push_back(friction);
+    }
+  }
+
+  void solve(int iterations, uint64_t seed = 1) {
+    piles::Settings settings;
+    settings.iterations = iterations, settings.seed = seed;
+    piles::solve(rows, bodies, settings);
+  }
+};
+
+}  // namespace
+
+TEST(Pile, EachContactBearsAllThatLiesOnIt) {
+  Column column(5, 0, 0);
+  column.solve(400);
+  for (int i = 0; i < 5; ++i) {
+    EXPECT_NEAR(column.rows[2 * i].lambda, (5 - i) * 2 * kG, 1e-6);
+    EXPECT_NEAR(column.bodies[i].push.z, kG, 1e-6);  // less gravity nothing is left
+    EXPECT_EQ(column.bodies[i].push_fully.z, column.bodies[i].push.z);
+  }
+}
+
+TEST(Pile, FrictionHoldsUpToItsShareOfTheNormalForce) {
+  Column held(1, 0.5, 9.0), slides(1, 0.5, 12.0);
+  held.solve(400), slides.solve(400);
+  EXPECT_NEAR(held.rows[1].lambda, -9.0, 1e-9);
+  EXPECT_NEAR(slides.rows[1].lambda, -0.5 * 2 * kG, 1e-9);
+  EXPECT_NEAR(slides.bodies[0].push.x, -0.5 * kG, 1e-9);
+}
+
+TEST(Pile, AContactDoesNotPull) {
+  Column lifted(1, 0.5, 0);
+  lifted.bodies[0].force.z = 5;
+  lifted.solve(50);
+  EXPECT_EQ(lifted.rows[0].lambda, 0);
+  EXPECT_EQ(lifted.bodies[0].push.z, 0);
+}
+
+TEST(Pile, TheSeedAloneDecidesTheOrder) {
+  Column one(6, 0.5, 3), same(6, 0.5, 3), other(6, 0.5, 3);
+  one.solve(20, 7), same.solve(20, 7), other.solve(20, 8);
+  for (size_t i = 0; i < one.rows.size(); ++i) EXPECT_EQ(one.rows[i].lambda, same.rows[i].lambda);
+  EXPECT_NE(one.rows[0].lambda, other.rows[0].lambda);
 }

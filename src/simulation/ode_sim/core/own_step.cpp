@@ -1,5 +1,6 @@
-// Islands of many joints: their trees exactly, see tree_solver.hpp.
+// Islands that solvers of our own take: trees of joints, and piles. See tree_solver.hpp, pile_solver.hpp.
 #include "constraint_rows.hpp"
+#include "pile_solver.hpp"
 #include "tree_solver.hpp"
 
 namespace ode_sim {
@@ -22,13 +23,29 @@ void turn_implicitly(gazebo_like::Body& b, double dt) {
   b.torque += gyro + I * dw * (1 / dt);
 }
 
-}  // namespace
-
-bool run_trees(Scene& scene, StepState& state, const Island& island) {
+PassRows rows_of(Scene& scene, StepState& state, const Island& island) {
   Pass pass;
   pass.add(island);
   PassRows all(scene, state, pass);
   for (gazebo_like::Body& b : all.bodies) turn_implicitly(b, scene.settings.dt);
+  return all;
+}
+
+}  // namespace
+
+void run_pile(Scene& scene, StepState& state, const Island& island) {
+  PassRows all = rows_of(scene, state, island);
+  piles::Settings settings;
+  settings.dt = scene.settings.dt, settings.sor = scene.settings.sor, settings.iterations = scene.settings.iters;
+  settings.seed = order_seed(scene);
+  piles::solve(all.rows, all.bodies, settings);
+  all.tell();
+  all.move(settings.dt);
+  ++scene.counters.piles;
+}
+
+bool run_trees(Scene& scene, StepState& state, const Island& island) {
+  PassRows all = rows_of(scene, state, island);
   std::vector<trees::Branch> joints;
   for (size_t i = 0; i < all.joints; ++i) joints.push_back({all.owners[i].from, all.owners[i].to});
   trees::Settings settings;
