@@ -2,19 +2,20 @@ import xml.etree.ElementTree as ET
 from types import SimpleNamespace
 
 import pytest
+from node_signals.rates import LatenessKept
 from ode_sim.description.model import Pose, Sensor as Description
 
-from gazebo_ros.sensors import Sensor, UpdateRate
+from gazebo_ros.sensors import Sensor
 
 STEP = 1_000_000
 
 
 def updates(rate, steps, step=STEP, start=0):
-    clock = UpdateRate(rate)
+    clock = LatenessKept(rate)
     taken = []
     for i in range(1, steps + 1):
         now = start + i * step
-        if clock.due(now):
+        if clock.ready(now):
             clock.take(now)
             taken.append(now)
     return taken
@@ -36,18 +37,18 @@ def test_zero_is_every_step_and_too_fast_too():
 
 
 def test_a_delay_of_a_period_is_forgotten():
-    clock = UpdateRate(10)
+    clock = LatenessKept(10)
     clock.take(100 * STEP)
-    assert clock.due(1000 * STEP)
+    assert clock.ready(1000 * STEP)
     clock.take(1000 * STEP)
-    assert not clock.due(1099 * STEP) and clock.due(1100 * STEP)
+    assert not clock.ready(1099 * STEP) and clock.ready(1100 * STEP)
 
 
 def test_time_going_back_starts_anew():
-    clock = UpdateRate(10)
+    clock = LatenessKept(10)
     clock.take(5000 * STEP)
-    assert not clock.due(1 * STEP)
-    assert clock.due(100 * STEP)
+    assert not clock.ready(1 * STEP)
+    assert clock.ready(100 * STEP)
 
 
 def sensor(rate=10.0, report=None):

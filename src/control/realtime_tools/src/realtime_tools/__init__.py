@@ -1,5 +1,7 @@
 """Publishing from a control loop without blocking it."""
 from .prompt import make_prompt
-from .publisher import RateGate, RealtimePublisher
+from node_signals.rates import RateGate
+
+from .publisher import RealtimePublisher
 
 __all__ = ["RateGate", "RealtimePublisher", "make_prompt"]

@@ -1,4 +1,4 @@
-"""A publisher for control loops, and the gate that makes it publish at a rate."""
+"""A publisher for control loops."""
 from __future__ import annotations
 
 from typing import Any
@@ -36,54 +36,3 @@ class RealtimePublisher:
             rospy.logdebug("publisher of %s is gone", self._publisher.name)
         except Exception as error:  # a wrong field type must not abort the controller
             rospy.logerr_throttle(5.0, f"message on {self._publisher.name} cannot be published: {error}")
-
-
-class RateGate:
-    """Opens ``rate`` times a second, as every ros_control controller gates its topics.
-
-    The next opening is counted from the last one that was due, so the mean rate is exact; after a stall the gate stays
-    open every cycle until it has caught up. Like upstream's it opens strictly after the due time.
-
-    :param rate: Hz; 0 or less never opens.
-    """
-
-    __slots__ = ("_period", "_start", "_count", "_next", "_jumped")
-
-    #: s; keeps rounding of float times from deciding whether a cycle at the due time itself is late
-    _TOLERANCE = 1e-6
-
-    def __init__(self, rate: float, time: float = 0.0):
-        self._period = 1.0 / rate if rate > 0.0 else float("inf")
-        self.restart(time)
-
-    def restart(self, time: float) -> None:
-        """Count from ``time`` (s)."""
-        self._start = time
-        self._count = 0
-        self._schedule()
-
-    def resume(self, time: float) -> None:
-        """Go on at ``time`` (s) after a pause: the openings missed meanwhile are lost, the next one is in the first cycle.
-
-        A pause shorter than a period changes nothing, so that the rate holds through a stop and a start.
-        """
-        if time > self._next:
-            self.restart(max(time - 1.001 * self._period, 0.0))
-
-    def _schedule(self) -> None:
-        last = self._start + self._count * self._period if self._count else self._start
-        self._next = last + self._period + self._TOLERANCE
-        self._jumped = last - self._TOLERANCE
-
-    def due(self, time: float) -> bool:
-        """True, once per opening, if ``time`` (s) is past the next one.
-
-        Time that goes backwards (a simulation was reset) starts the count anew.
-        """
-        if time > self._next:
-            self._count += 1
-            self._schedule()
-            return True
-        if time < self._jumped:
-            self.restart(time)
-        return False

@@ -2,7 +2,7 @@
 import rospy
 from arbotix_msgs.msg import Analog, Digital
 
-from .parameters import Every
+from .parameters import every
 
 
 class DigitalOutput:
@@ -12,14 +12,14 @@ class DigitalOutput:
         self._board = board
         self._pin = pin
         self._value, self._direction = value, 0
-        self._every = Every(rate)
+        self._every = every(rate)
         rospy.Subscriber("~" + name, Digital, self._command)
 
     def _command(self, message):
         self._value, self._direction = message.value, message.direction
 
     def update(self, now):
-        if self._every.due(now):
+        if self._every.due(now.to_nsec()):
             self._board.setDigital(self._pin, self._value, self._direction)
 
 
@@ -32,7 +32,7 @@ class DigitalInput:
         self._board = board
         self._pin = pin
         self._length = length
-        self._every = Every(rate)
+        self._every = every(rate)
         self._publisher = rospy.Publisher("~" + name, self.TYPE, queue_size=5)
         board.setDigital(pin, value, 0)
 
@@ -40,7 +40,7 @@ class DigitalInput:
         return self._board.getDigital(self._pin)
 
     def update(self, now):
-        if not self._every.due(now):
+        if not self._every.due(now.to_nsec()):
             return
         value = self.read()
         if value >= 0:

@@ -7,7 +7,7 @@ from geometry_msgs.msg import Quaternion, TransformStamped, Twist
 from nav_msgs.msg import Odometry
 
 from .controllers import Controller, status
-from .parameters import Every, number, usable
+from .parameters import every, number, usable
 
 FRAMES = 30.0  # 1/s, rate of the board's own speed loop
 
@@ -29,7 +29,7 @@ class DiffController(Controller):
         super().__init__(device, name)
         prefix = "~controllers/%s/" % name
         rate = number(prefix + "rate", 10.0, above=0)
-        self._every = Every(rate)
+        self._every = every(rate)
         self._timeout = rospy.Duration(number(prefix + "timeout", 1.0))
         self._ticks_meter = float(number(prefix + "ticks_meter", above=0))
         self._base_width = float(number(prefix + "base_width", above=0))
@@ -74,7 +74,7 @@ class DiffController(Controller):
                             for speed in (twist.linear.x - half, twist.linear.x + half)]
 
     def update(self, now):
-        if not self._every.due(now):
+        if not self._every.due(now.to_nsec()):
             return
         elapsed = (now - self._last_update).to_sec()
         self._last_update = now

@@ -12,7 +12,7 @@ from .arbotix import ArbotiX, ArbotiXException
 from .diff_controller import DiffController
 from .follow_controller import FollowController
 from .linear_controller import LinearControllerAbsolute, LinearControllerIncremental, LinearJoint
-from .parameters import ParameterError, Every, number
+from .parameters import ParameterError, every, number
 from .servo_controller import ServoController
 from .servos import DynamixelServo, HobbyServo
 
@@ -33,9 +33,9 @@ class Driver:
             self._connect()
         self._rate = number("~rate", 100.0, above=0)
         self._joint_states = rospy.Publisher("joint_states", JointState, queue_size=5)
-        self._joint_states_every = Every(number("~read_rate", 10.0, above=0))
+        self._joint_states_every = every(number("~read_rate", 10.0, above=0))
         self._diagnostics = rospy.Publisher("diagnostics", DiagnosticArray, queue_size=5)
-        self._diagnostics_every = Every(number("~diagnostic_rate", 1.0, above=0))
+        self._diagnostics_every = every(number("~diagnostic_rate", 1.0, above=0))
         self.joints = {}
         self._make(self.joints, "joint", JOINT_TYPES, "dynamixel")
         self.controllers = {"servos": ServoController(self, "servos")}
@@ -118,9 +118,9 @@ class Driver:
             controller.update(now)
         for channel in list(self._channels.values()):
             channel.update(now)
-        if self._joint_states_every.due(now):
+        if self._joint_states_every.due(now.to_nsec()):
             self._publish_joint_states(now)
-        if self._diagnostics_every.due(now):
+        if self._diagnostics_every.due(now.to_nsec()):
             reports = [part.diagnostics() for part in [*self.controllers.values(), *self.joints.values()]]
             message = DiagnosticArray(status=[report for report in reports if report])
             message.header.stamp = now

@@ -9,7 +9,7 @@ from std_srvs.srv import Empty, EmptyResponse
 
 from .arbotix import BOARD, word
 from .controllers import Controller, status
-from .parameters import Every, ParameterError, get, number
+from .parameters import ParameterError, every, get, number
 
 NEAR = 0.01  # m, close enough to stop the motor
 
@@ -82,7 +82,7 @@ class LinearControllerAbsolute(Controller):
         self._motor = [int(number(prefix + key, default))
                        for key, default in (("motor_a", 29), ("motor_b", 30), ("motor_pwm", 31))]
         self._analog = int(number(prefix + "feedback", 0))
-        self._every = Every(number(prefix + "rate", 10.0, above=0))
+        self._every = every(number(prefix + "rate", 10.0, above=0))
         joint = get(prefix + "joint")
         if joint not in device.joints or not isinstance(device.joints[joint], LinearJoint):
             raise ParameterError("joint %s is not among the joints of type calibrated_linear" % joint)
@@ -96,7 +96,7 @@ class LinearControllerAbsolute(Controller):
             self._joint.measured(self.read_position())
 
     def update(self, now):
-        if self.device.fake or not self._every.due(now) or not self._joint.moving:
+        if self.device.fake or not self._every.due(now.to_nsec()) or not self._joint.moving:
             return
         self._reading = self.read_position()
         self._joint.measured(self._reading)

@@ -3,6 +3,7 @@ import reprlib
 
 import rospy
 from node_signals.parameters import ParameterError, get, is_number, texts
+from node_signals.rates import Spaced
 
 
 def number(name, default=None, above=None):
@@ -32,15 +33,6 @@ def usable(*values):
     return all(abs(value) <= _LARGEST for value in values)
 
 
-class Every:
-    """True once per period when asked often. The next time counts from the call that was due."""
-
-    def __init__(self, rate):
-        self._period = rospy.Duration(1.0 / rate)
-        self._next = rospy.Time.now() + self._period
-
-    def due(self, now):
-        if now <= self._next:
-            return False
-        self._next = now + self._period
-        return True
+def every(rate):
+    """A gate that opens once per period when asked often; the next time counts from the question that found it open."""
+    return Spaced(rate, strict=True, last_ns=rospy.Time.now().to_nsec())

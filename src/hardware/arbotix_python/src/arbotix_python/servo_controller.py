@@ -5,7 +5,7 @@ from arbotix_msgs.srv import Enable, EnableResponse, Relax, RelaxResponse
 from .arbotix import word
 from .ax12 import P_GOAL_POSITION_L, P_PRESENT_POSITION_L, P_PRESENT_VOLTAGE
 from .controllers import Controller
-from .parameters import Every, number
+from .parameters import every, number
 from .servos import DynamixelServo, HobbyServo
 
 HEALTH_EVERY = 5  # diagnostics between two readings of voltage and temperature
@@ -20,17 +20,17 @@ class ServoController(Controller):
         self._sync_write = rospy.get_param("~sync_write", True)
         write_rate = number("~write_rate", 10.0, above=0)
         self._write_period = 1.0 / write_rate
-        self._write = Every(write_rate)
-        self._read = Every(number("~read_rate", 10.0, above=0))
+        self._write = every(write_rate)
+        self._read = every(number("~read_rate", 10.0, above=0))
         self._reports = 0
         rospy.Service(name + "/relax_all", Relax, self._relax_all)
         rospy.Service(name + "/enable_all", Enable, self._enable_all)
 
     def update(self, now):
-        if not self.device.fake and self._read.due(now):
+        if not self.device.fake and self._read.due(now.to_nsec()):
             for servo, (low, high) in self._registers(P_PRESENT_POSITION_L):
                 servo.measured(low + (high << 8))
-        if self._write.due(now):
+        if self._write.due(now.to_nsec()):
             self._send([(servo, servo.next_ticks(self._write_period)) for servo in self._dynamixels])
             for servo in self._hobby:
                 ticks = servo.next_ticks(self._write_period)

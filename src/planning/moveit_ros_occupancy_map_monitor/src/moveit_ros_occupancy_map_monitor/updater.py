@@ -8,11 +8,12 @@ from __future__ import annotations
 
 import threading
 from abc import ABC, abstractmethod
-from typing import Any, Dict, Optional
+from typing import Any, Dict
 
 import motion
 import rospy
 from node_signals.parameters import is_number
+from node_signals.rates import Spaced
 from moveit_core.errors import MoveItError
 
 #: points of one message that are looked at; of more, every second, third ... is taken
@@ -35,8 +36,7 @@ class OccupancyMapUpdater(ABC):
     def __init__(self, monitor, settings: Dict[str, Any]):
         self.monitor = monitor
         self._settings = settings
-        self.period = 1.0 / rate if (rate := self.number("max_update_rate", 0.0)) > 0 else 0.0
-        self._last: Optional[rospy.Time] = None
+        self._gate = Spaced(self.number("max_update_rate", 0.0), strict=True)
         self._newest = None
         self._news = threading.Condition()
         self._stopped = False
@@ -93,16 +93,9 @@ class OccupancyMapUpdater(ABC):
                 if self._stopped:
                     return
                 message, self._newest = self._newest, None
-            if self._due():
+            if self._gate.due(rospy.Time.now().to_nsec()):
                 self._try(message)
             del message
-
-    def _due(self) -> bool:
-        now = rospy.Time.now()
-        if self.period > 0 and self._last is not None and 0 <= (now - self._last).to_sec() <= self.period:
-            return False
-        self._last = now
-        return True
 
     def _try(self, message) -> None:
         problem = self._problem(message)

@@ -5,7 +5,7 @@ import math
 
 import rospy
 from gazebo_plugins.imu import Differentiator
-from gazebo_plugins.ros_side import RateGate, TfBroadcaster, Topics, diagonal, find_joint, pose_msg
+from gazebo_plugins.ros_side import TfBroadcaster, Topics, diagonal, find_joint, pose_msg
 from gazebo_plugins.wheels import Command
 from gazebo_ros.plugin import ModelPlugin, PluginError
 from geometry_msgs.msg import Quaternion, Vector3
@@ -16,6 +16,7 @@ from sensor_msgs.msg import Imu, JointState
 from std_msgs.msg import Empty
 
 from .senses import SIDES, Bumper, Cliffs, OnFloor, named_sensor, reading
+from node_signals.rates import PeriodAdded
 
 _RATE = 50.0  # Hz, of the real base
 _UNKNOWN = 1e6  # variance of what is not measured
@@ -47,7 +48,7 @@ class Kobuki(ModelPlugin):
                              sdf.get("cliff_detection_threshold", 0.04))
         self.on_floor = {side: OnFloor(self.world, wheel.child) for side, wheel in zip(("left", "right"), self.wheels)}
         self.publish_tf = sdf.get("publish_tf", False)
-        self.gate = RateGate(sdf.get("update_rate", _RATE) or _RATE)
+        self.gate = PeriodAdded(sdf.get("update_rate", _RATE) or _RATE)
         self._connect(sdf)
         self.reset()
         server.before_step(self.drive)
@@ -100,7 +101,7 @@ class Kobuki(ModelPlugin):
         self.place[1] += speed * math.sin(heading) * self.world.dt
         self.place[2] += rates[2] * self.world.dt
         now = self.server.now()
-        if not self.gate.open(now):
+        if not self.gate.due(now.to_nsec()):
             return
         self._publish_joints(now)
         self._publish_odometry(now, speed, rates[2])

@@ -18,7 +18,7 @@ class Camera(SensorPlugin):
         return self.camera.wanted()
 
     def measure(self, sensor) -> None:
-        if self.camera.gate.passes(sensor.measurement_ns):
+        if self.camera.gate.due(sensor.measurement_ns):
             self.camera.take()
 
     def reset(self) -> None:

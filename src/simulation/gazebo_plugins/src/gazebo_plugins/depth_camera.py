@@ -52,7 +52,7 @@ class DepthCamera(SensorPlugin):
 
     def measure(self, sensor) -> None:
         """Images and cloud come at the sensor's rate; ``<updateRate>`` holds back camera_info only, as upstream."""
-        with_info = self.camera.gate.passes(sensor.measurement_ns)
+        with_info = self.camera.gate.due(sensor.measurement_ns)
         header, outputs = self.camera.header(), self.outputs()
 
         def arrived(header: Header, frame: Frame) -> None:

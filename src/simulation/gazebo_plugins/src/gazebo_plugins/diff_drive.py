@@ -5,10 +5,11 @@ from typing import List
 
 import rospy
 from gazebo_ros.plugin import ModelPlugin
+from node_signals.rates import PeriodAdded
 from ode_sim import math3
 from sensor_msgs.msg import JointState
 
-from gazebo_plugins.ros_side import RateGate, TfBroadcaster, Topics, find_joint
+from gazebo_plugins.ros_side import TfBroadcaster, Topics, find_joint
 from gazebo_plugins.wheels import Command, EncoderOdometry, OdometryPublisher, from_encoders, ground_truth
 
 _AT_TARGET = 0.01  # m/s: a wheel this close to its target is no longer ramped
@@ -30,7 +31,7 @@ class DiffDrive(ModelPlugin):
             if from_encoders(sdf) else None
         self.publish_odometry_tf = sdf.get("publishOdomTF", True)
         self.publish_wheel_tf = sdf.get("publishWheelTF", False)
-        self.gate = RateGate(sdf.get("updateRate", 100.0))
+        self.gate = PeriodAdded(sdf.get("updateRate", 100.0))
         self.command = Command(self.topics, sdf.text_or("commandTopic", "cmd_vel"))
         self.odometry = OdometryPublisher(self.topics, sdf, "base_footprint") if sdf.get("publishTf", True) else None
         self.joint_states = self.topics.publisher("joint_states", JointState, 1000) \
@@ -42,10 +43,9 @@ class DiffDrive(ModelPlugin):
     def step(self) -> None:
         if self.encoders:
             self.encoders.integrate(self.server.world.dt)
-        elapsed = self.gate.open(self.server.now())
-        if elapsed:
+        if self.gate.due(self.server.now().to_nsec()):
             self._publish(self.server.now())
-            self._ramp(elapsed)
+            self._ramp(self.gate.elapsed)
             self._drive()
 
     def _ramp(self, elapsed: float) -> None:

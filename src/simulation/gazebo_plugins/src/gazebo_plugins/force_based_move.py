@@ -7,10 +7,11 @@ from typing import Tuple
 
 import rospy
 from gazebo_ros.plugin import ModelPlugin, PluginError
+from node_signals.rates import PeriodAdded
 from ode_sim import math3
 from ode_sim.math3 import Pose
 
-from gazebo_plugins.ros_side import RateGate, Topics
+from gazebo_plugins.ros_side import Topics
 from gazebo_plugins.wheels import Command, OdometryPublisher, ground_truth, yaw_of
 
 _POSE_VARIANCES = 0.001, 0.001, 1e12, 1e12, 1e12, 100.0
@@ -35,7 +36,7 @@ class ForceBasedMove(ModelPlugin):
     def load(self, server, model, sdf) -> None:
         self.server, self.model = server, model
         self.topics = Topics(sdf, model.name, "C")
-        self.gate = RateGate(sdf.get("odometryRate", 20.0))
+        self.gate = PeriodAdded(sdf.get("odometryRate", 20.0))
         self.link = self._base(sdf.text_or("robotBaseFrame", "base_footprint"))
         self.gains = (sdf.get("x_velocity_p_gain", self.gain), sdf.get("y_velocity_p_gain", self.gain),
                       sdf.get("yaw_velocity_p_gain", self.turn_gain))
@@ -74,7 +75,7 @@ class ForceBasedMove(ModelPlugin):
         elapsed = (now - self.last_time).to_sec()
         self.last_time = now
         self._travel(velocity, elapsed)
-        if self.gate.open(now):
+        if self.gate.due(now.to_nsec()):
             self.odometry.publish(now, self.place, velocity)
             if self.sends_tf:
                 self.odometry.send_tf(now, self.place)

@@ -6,6 +6,7 @@ import math
 from typing import Dict, Optional
 
 from gazebo_ros.plugin import ModelPlugin, PluginError
+from node_signals.rates import Spaced
 from ode_sim import Attachment, math3
 from std_msgs.msg import Bool
 from std_srvs.srv import Empty, EmptyResponse
@@ -90,14 +91,13 @@ class GraspFix(ModelPlugin):
                 self.collisions[collision.id] = name
                 server.world.watch_contacts(collision)
         self.angle = math.radians(sdf.get("forces_angle_tolerance", 120.0))
-        self.period_ns = round(1e9 / max(sdf.get("update_rate", 5.0), 1e-3))
+        self.gate = Spaced(max(sdf.get("update_rate", 5.0), 1e-3))
         self.threshold = sdf.get("grip_count_threshold", 2)
         self.most = sdf.get("max_grip_count", 8)
         self.release = sdf.get("release_tolerance", 0.005)
         self.counts: Dict[str, int] = {}
         self.attachment: Optional[Attachment] = None
         self.finger_gap = 0.0
-        self.next_ns = 0
         self.fingers = [model.links[name] for name in fingers]
         server.after_step(self.step)
 
@@ -107,9 +107,8 @@ class GraspFix(ModelPlugin):
         return sum(math3.norm(math3.sub(a, b)) for a, b in itertools.combinations(points, 2))
 
     def step(self) -> None:
-        if self.server.world.time_ns < self.next_ns:
+        if not self.gate.due(self.server.world.time_ns):
             return
-        self.next_ns = self.server.world.time_ns + self.period_ns
         if self.attachment is not None:
             if not self.attachment.active or self._gap() > self.finger_gap + self.release:
                 self._let_go()
@@ -152,6 +151,6 @@ class GraspFix(ModelPlugin):
     def reset(self) -> None:
         self._let_go()
         self.counts.clear()
-        self.next_ns = 0
+        self.gate.reset()
 
     shutdown = _let_go

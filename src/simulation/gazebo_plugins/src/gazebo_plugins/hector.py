@@ -7,6 +7,7 @@ from typing import Tuple
 import numpy as np
 from geometry_msgs.msg import Quaternion, Vector3, Vector3Stamped
 from gazebo_ros.plugin import ModelPlugin, SensorPlugin
+from node_signals.rates import PeriodAdded
 from ode_sim import math3
 from ode_sim.description.xmlsource import leading_numbers
 from sensor_msgs.msg import Imu, MagneticField, NavSatFix, NavSatStatus, Range as RangeMsg
@@ -14,7 +15,7 @@ from std_srvs.srv import Empty, EmptyResponse
 
 from gazebo_plugins.imu import Differentiator
 from gazebo_plugins.laser import RayFan
-from gazebo_plugins.ros_side import RateGate, Topics, diagonal, find_link, subscribed
+from gazebo_plugins.ros_side import Topics, diagonal, find_link, subscribed
 
 _EQUATOR, _ECCENTRICITY_SQUARED = 6378137.0, 6.69437999014e-3  # WGS 84, m
 
@@ -52,7 +53,7 @@ class _BodyPlugin(ModelPlugin):
         self.server = server
         self.topics = Topics(sdf, model.name, "C")
         self.link = find_link(model, server.world, sdf) if sdf.get("bodyName", "") else next(iter(model.links.values()))
-        self.gate = RateGate(sdf.get("updateRate", rate))
+        self.gate = PeriodAdded(sdf.get("updateRate", rate))
         server.after_step(self.step)
 
     def step(self) -> None:
@@ -92,9 +93,9 @@ class HectorImu(_BodyPlugin):
         now = self.server.now()
         if not self.publisher.get_num_connections():
             return
-        dt = self.gate.open(now)
-        if not dt:
+        if not self.gate.due(now.to_nsec()):
             return
+        dt = self.gate.elapsed
         q_WB = math3.quat_multiply(self.link.pose.q, self.offset)
         q_BW = math3.quat_inverse(q_WB)
         acceleration_W = self.acceleration(now.to_nsec()) - np.asarray(self.server.world.gravity)
@@ -138,9 +139,9 @@ class HectorGps(_BodyPlugin):
 
     def step(self) -> None:
         now = self.server.now()
-        dt = self.gate.open(now)
-        if not dt or not (self.fix.get_num_connections() or self.velocity.get_num_connections()):
+        if not self.gate.due(now.to_nsec()) or not (self.fix.get_num_connections() or self.velocity.get_num_connections()):
             return
+        dt = self.gate.elapsed
         x, y, z = np.array(self.link.pose.p) + self.position_error(dt)
         north, west = self._north_west(x, y)
         message = NavSatFix()
@@ -179,9 +180,9 @@ class HectorMagnetic(_BodyPlugin):
 
     def step(self) -> None:
         now = self.server.now()
-        dt = self.gate.open(now)
-        if not dt or not self.publisher.get_num_connections():
+        if not self.gate.due(now.to_nsec()) or not self.publisher.get_num_connections():
             return
+        dt = self.gate.elapsed
         field = np.array(math3.quat_rotate(math3.quat_inverse(self.link.pose.q), self.field_W)) + self.error(dt)
         message = self.kind()
         message.header.stamp, message.header.frame_id = now, self.frame

@@ -12,11 +12,12 @@ import numpy as np
 from geometry_msgs.msg import Quaternion, Vector3
 from gazebo_ros import SdfElement
 from gazebo_ros.plugin import ModelPlugin, SensorPlugin
+from node_signals.rates import Spaced
 from ode_sim import math3
 from sensor_msgs.msg import Imu
 from std_srvs.srv import Empty, EmptyResponse
 
-from gazebo_plugins.ros_side import Noise, SensorGate, Topics, diagonal, find_link, required, subscribed
+from gazebo_plugins.ros_side import Noise, Topics, diagonal, find_link, required, subscribed
 
 
 class Differentiator:
@@ -57,12 +58,12 @@ class ImuPlugin(ModelPlugin):
         service = sdf.get("serviceName", "/default_imu")
         if service:
             self.topics.service(service, Empty, lambda _: EmptyResponse())
-        self.gate = SensorGate(sdf.get("updateRate", 0.0))
+        self.gate = Spaced(sdf.get("updateRate", 0.0))
         server.after_step(self.step)
 
     def step(self) -> None:
         now = self.server.now()
-        if not self.publisher.get_num_connections() or not self.gate.passes(now.to_nsec()):
+        if not self.publisher.get_num_connections() or not self.gate.due(now.to_nsec()):
             return
         q_WL = math3.quat_multiply(self.offset, self.link.pose.q)
         q_LW = math3.quat_inverse(q_WL)
@@ -129,7 +130,7 @@ class ImuSensor(SensorPlugin):
             if sdf.get("initialOrientationAsReference", False) else None
         self.acceleration = Differentiator(sensor.link, sensor.description.pose.p)
         self.last_ns = 0
-        self.gate = SensorGate(sdf.get("updateRateHZ", 1.0))
+        self.gate = Spaced(sdf.get("updateRateHZ", 1.0))
         self.publisher = self.topics.publisher(sdf.text_or("topicName", "imu_data"), Imu)
         sensor.connect(self.measure, subscribed(self.publisher))
 
@@ -139,7 +140,7 @@ class ImuSensor(SensorPlugin):
     def measure(self, sensor) -> None:
         now_ns = sensor.measurement_ns
         acceleration_W = self.acceleration(now_ns) - np.asarray(self.world.gravity)
-        if not self.gate.passes(now_ns):
+        if not self.gate.due(now_ns):
             return
         dt, self.last_ns = (now_ns - self.last_ns) * 1e-9, now_ns
         q_WS = self._orientation()

@@ -2,9 +2,10 @@
 from __future__ import annotations
 
 from gazebo_ros.plugin import ModelPlugin, PluginError
+from node_signals.rates import PeriodAdded
 from sensor_msgs.msg import JointState
 
-from gazebo_plugins.ros_side import RateGate, Topics, joint_named
+from gazebo_plugins.ros_side import Topics, joint_named
 
 
 class JointStatePublisher(ModelPlugin):
@@ -18,12 +19,12 @@ class JointStatePublisher(ModelPlugin):
             raise PluginError("<jointName> is missing: a comma-separated list of joints")
         self.joints = [joint_named(model, name, "jointName") for name in names.split(",") if name]
         self.publisher = self.topics.publisher("joint_states", JointState, 1000)
-        self.gate = RateGate(sdf.get("updateRate", 100.0))
+        self.gate = PeriodAdded(sdf.get("updateRate", 100.0))
         server.before_step(self.step)
 
     def step(self) -> None:
         now = self.server.now()
-        if self.gate.open(now):
+        if self.gate.due(now.to_nsec()):
             message = JointState()
             message.header.stamp = now
             message.name = [joint.name for joint in self.joints]

@@ -11,10 +11,11 @@ import rospy
 from geometry_msgs.msg import Point32
 from gazebo_ros import SdfElement, names
 from gazebo_ros.plugin import PluginError, SensorPlugin
+from node_signals.rates import Spaced
 from ode_sim import math3
 from sensor_msgs.msg import ChannelFloat32, LaserScan, PointCloud, Range as RangeMsg
 
-from gazebo_plugins.ros_side import SensorGate, Topics, subscribed, told_namespace
+from gazebo_plugins.ros_side import Topics, subscribed, told_namespace
 
 _MOST_RAYS = 1_000_000
 
@@ -209,12 +210,12 @@ class Range(SensorPlugin):
         message.min_range, message.max_range = self.fan.min, self.fan.max
         self.sigma = sdf.get("gaussianNoise", 0.0)
         self.rng = server.world.rng(sensor.scoped_name + "/range")
-        self.gate = SensorGate(sdf.get("updateRate", 0.0))
+        self.gate = Spaced(sdf.get("updateRate", 0.0))
         self.publisher = self.topics.publisher(sdf.text_or("topicName", "/range"), RangeMsg)
         sensor.connect(self.measure, subscribed(self.publisher))
 
     def measure(self, sensor) -> None:
-        if not self.gate.passes(sensor.measurement_ns):
+        if not self.gate.due(sensor.measurement_ns):
             return
         ranges, _ = self.fan.cast()
         nearest = float(np.min(ranges))

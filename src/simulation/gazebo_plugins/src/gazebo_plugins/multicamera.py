@@ -37,7 +37,7 @@ class Multicamera(SensorPlugin):
         return any(camera.wanted() for camera in self.cameras)
 
     def measure(self, sensor) -> None:
-        if self.cameras[0].gate.passes(sensor.measurement_ns):
+        if self.cameras[0].gate.due(sensor.measurement_ns):
             for camera in self.cameras:
                 camera.take()
 

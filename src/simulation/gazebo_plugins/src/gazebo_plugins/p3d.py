@@ -4,10 +4,11 @@ from __future__ import annotations
 from geometry_msgs.msg import Twist, Vector3
 from gazebo_ros.plugin import ModelPlugin, PluginError
 from nav_msgs.msg import Odometry
+from node_signals.rates import Spaced
 from ode_sim import math3
 from ode_sim.description.model import Pose
 
-from gazebo_plugins.ros_side import Noise, SensorGate, Topics, diagonal, find_link, pose_msg, required
+from gazebo_plugins.ros_side import Noise, Topics, diagonal, find_link, pose_msg, required
 
 _WORLD = ("world", "/world", "map", "/map")
 
@@ -34,13 +35,13 @@ class P3D(ModelPlugin):
         message.header.frame_id = self.topics.frame(frame)
         message.child_frame_id = self.link.name
         message.pose.covariance = message.twist.covariance = diagonal((sigma * sigma,) * 6)
-        self.gate = SensorGate(sdf.get("updateRate", 0.0))
+        self.gate = Spaced(sdf.get("updateRate", 0.0))
         self.publisher = self.topics.publisher(required(sdf, "topicName"), Odometry)
         server.after_step(self.step)
 
     def step(self) -> None:
         now = self.server.now()
-        if not self.publisher.get_num_connections() or not self.gate.passes(now.to_nsec()):
+        if not self.publisher.get_num_connections() or not self.gate.due(now.to_nsec()):
             return
         pose = self.link.pose
         linear, angular = self.link.linear_velocity(), self.link.angular_velocity()

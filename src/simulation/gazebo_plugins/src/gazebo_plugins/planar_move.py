@@ -4,9 +4,10 @@ from __future__ import annotations
 import math
 
 from gazebo_ros.plugin import ModelPlugin
+from node_signals.rates import PeriodAdded
 from ode_sim import math3
 
-from gazebo_plugins.ros_side import RateGate, Topics
+from gazebo_plugins.ros_side import Topics
 from gazebo_plugins.wheels import Command, OdometryPublisher, yaw_of
 
 
@@ -16,7 +17,7 @@ class PlanarMove(ModelPlugin):
     def load(self, server, model, sdf) -> None:
         self.server, self.model = server, model
         self.topics = Topics(sdf, model.name, "C")
-        self.gate = RateGate(sdf.get("odometryRate", 20.0))
+        self.gate = PeriodAdded(sdf.get("odometryRate", 20.0))
         self.timeout = sdf.get("cmdTimeout", -1.0)
         self.command = Command(self.topics, sdf.text_or("commandTopic", "cmd_vel"))
         self.odometry = OdometryPublisher(self.topics, sdf, "base_footprint")
@@ -32,7 +33,7 @@ class PlanarMove(ModelPlugin):
         cos, sin = math.cos(yaw), math.sin(yaw)
         x, y = self.command.x, self.command.y
         self._glide((cos * x - sin * y, sin * x + cos * y, 0.0), (0.0, 0.0, self.command.yaw_rate), pose.p)
-        if self.gate.open(now):
+        if self.gate.due(now.to_nsec()):
             elapsed = (now - self.last_time).to_sec()
             dx, dy = ((pose.p[i] - self.last_pose.p[i]) / elapsed for i in range(2))
             turned = math.remainder(yaw - yaw_of(self.last_pose), 2 * math.pi) / elapsed

@@ -10,6 +10,7 @@ import rospy
 from dynamic_parameters import Parameter, Server as ParameterServer
 from gazebo_ros.names import join, resolve_frame, robot_namespace, tf_prefix
 from gazebo_ros.plugin import PluginError
+from node_signals.rates import Spaced
 from ode_sim.rendering import ENCODINGS, Camera, CameraError, Frame, read_camera
 from sensor_msgs.msg import CameraInfo
 from std_msgs.msg import Header
@@ -17,7 +18,7 @@ from std_msgs.msg import Header
 from gazebo_plugins.camera_info import CameraInfoService, camera_info, read_calibration
 from gazebo_plugins.image_topics import ImageTopics
 from gazebo_plugins.rate_watch import RateWatch
-from gazebo_plugins.ros_side import SensorGate, told_namespace
+from gazebo_plugins.ros_side import told_namespace
 from gazebo_plugins.studio import Shooting
 
 _RATE = (Parameter("imager_rate", float, 2.0, 1.0, 50.0, "Frame rate of the sensor, Hz of sim time"),)
@@ -72,7 +73,7 @@ class RosCamera:
         self.frame_id = resolve_frame(prefix, sdf.get("frameName", ""))
         #: the plugin's own ``<updateRate>``
         self._plugin_rate = sdf.get("updateRate", 0.0)
-        self.gate = SensorGate(self._plugin_rate)
+        self.gate = Spaced(self._plugin_rate)
         self._watch = RateWatch()
         self._world = server.world
         self._closed = False

@@ -79,52 +79,6 @@ def told_namespace(sdf, model_name: str, kind: str) -> str:
     return given or ""
 
 
-class RateGate:
-    """``updateRate`` of a plugin: open when strictly more than a period has passed, and the period is then added, not
-    the present time (Gazebo's drive plugins). 0 or less = open in every step.
-
-    :param rate: Hz of sim time
-    """
-
-    def __init__(self, rate: float):
-        self._period_ns = round(_NS / rate) if rate > 0.0 else 0
-        self._last_ns: Optional[int] = None
-
-    def open(self, now: rospy.Time) -> float:
-        """Seconds of sim time since the gate was last open, or 0.0 when it stays shut."""
-        now_ns = now.to_nsec()
-        if self._last_ns is None or now_ns < self._last_ns:
-            self._last_ns = now_ns
-            return 0.0
-        elapsed = now_ns - self._last_ns
-        if elapsed <= self._period_ns and (self._period_ns or not elapsed):
-            return 0.0
-        late = elapsed > 2 * self._period_ns  # a long pause of the gate must not be followed by a burst
-        self._last_ns = now_ns if late or not self._period_ns else self._last_ns + self._period_ns
-        return elapsed / _NS
-
-
-class SensorGate:
-    """``updateRate`` of a sensor's plugin: of the sensor's measurements, those that are a period or more apart.
-
-    :param rate: Hz of sim time; 0 or less = all
-    """
-
-    def __init__(self, rate: float):
-        self._period_ns = round(_NS / rate) if rate > 0.0 else 0
-        self._last_ns: Optional[int] = None
-
-    def passes(self, now_ns: int) -> bool:
-        if self._last_ns is not None and 0 <= now_ns - self._last_ns < self._period_ns:
-            return False
-        self._last_ns = now_ns
-        return True
-
-    def reset(self) -> None:
-        """Time starts anew: the next measurement passes."""
-        self._last_ns = None
-
-
 class Noise:
     """Zero-mean Gaussian noise, the same in every run of the same world and seed.
 

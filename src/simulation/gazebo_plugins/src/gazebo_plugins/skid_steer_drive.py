@@ -2,8 +2,9 @@
 from __future__ import annotations
 
 from gazebo_ros.plugin import ModelPlugin
+from node_signals.rates import PeriodAdded
 
-from gazebo_plugins.ros_side import RateGate, Topics, find_joint
+from gazebo_plugins.ros_side import Topics, find_joint
 from gazebo_plugins.wheels import UNKNOWN, Command, OdometryPublisher, ground_truth
 
 _WHEELS = (("leftFrontJoint", "left_front_joint", -1), ("rightFrontJoint", "right_front_joint", 1),
@@ -19,7 +20,7 @@ class SkidSteerDrive(ModelPlugin):
         self.radius = sdf.get("wheelDiameter", 0.15) / 2
         self.torque = sdf.get("torque", 5.0)
         self.broadcast_tf = sdf.get("broadcastTF", False)
-        self.gate = RateGate(sdf.get("updateRate", 100.0))
+        self.gate = PeriodAdded(sdf.get("updateRate", 100.0))
         covariance = (sdf.get("covariance_x", 1e-4), sdf.get("covariance_y", 1e-4), UNKNOWN, UNKNOWN, UNKNOWN,
                       sdf.get("covariance_yaw", 1e-2))
         self.command = Command(self.topics, sdf.text_or("commandTopic", "cmd_vel"))
@@ -29,7 +30,7 @@ class SkidSteerDrive(ModelPlugin):
 
     def step(self) -> None:
         now = self.server.now()
-        if self.gate.open(now):
+        if self.gate.due(now.to_nsec()):
             pose, velocity = ground_truth(self.model)
             self.odometry.publish(now, pose, velocity, flat=True)
             if self.broadcast_tf:

@@ -5,10 +5,11 @@ import math
 
 import rospy
 from gazebo_ros.plugin import ModelPlugin
+from node_signals.rates import PeriodAdded
 from ode_sim import math3
 from sensor_msgs.msg import JointState
 
-from gazebo_plugins.ros_side import RateGate, TfBroadcaster, Topics, find_joint
+from gazebo_plugins.ros_side import TfBroadcaster, Topics, find_joint
 from gazebo_plugins.wheels import Command, EncoderOdometry, OdometryPublisher, from_encoders, ground_truth
 
 _FASTEST, _HOLDING = 20.0, 10.0  # steering without <steeringSpeed>: rad/s, and its torque in units of <wheelTorque>
@@ -38,7 +39,7 @@ class TricycleDrive(ModelPlugin):
         self.encoders = EncoderOdometry(self.left, self.right, self.encoder_radius, self.encoder_separation) \
             if from_encoders(sdf) else None
         self.publish_wheel_tf = sdf.get("publishWheelTF", False)
-        self.gate = RateGate(sdf.get("updateRate", 100.0))
+        self.gate = PeriodAdded(sdf.get("updateRate", 100.0))
         self.command = Command(self.topics, sdf.text_or("commandTopic", "cmd_vel"))
         self.odometry = OdometryPublisher(self.topics, sdf, "base_link")
         self.joint_states = self.topics.publisher("joint_states", JointState, 1000) \
@@ -51,10 +52,9 @@ class TricycleDrive(ModelPlugin):
         if self.encoders:
             self.encoders.integrate(self.server.world.dt)
         self._steer()
-        elapsed = self.gate.open(now)
-        if elapsed:
+        if self.gate.due(now.to_nsec()):
             self._publish(now)
-            self._drive(elapsed)
+            self._drive(self.gate.elapsed)
 
     def _drive(self, elapsed: float) -> None:
         target = self.command.x

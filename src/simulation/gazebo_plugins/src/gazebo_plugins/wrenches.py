@@ -6,9 +6,10 @@ import math
 import rospy
 from geometry_msgs.msg import Vector3, Wrench, WrenchStamped
 from gazebo_ros.plugin import ModelPlugin
+from node_signals.rates import Spaced
 from ode_sim import math3
 
-from gazebo_plugins.ros_side import Noise, SensorGate, Topics, find_joint, find_link, required
+from gazebo_plugins.ros_side import Noise, Topics, find_joint, find_link, required
 
 
 class FTSensor(ModelPlugin):
@@ -22,14 +23,14 @@ class FTSensor(ModelPlugin):
         self.noise = Noise(server.world.rng(f"{model.name}/ft/{self.joint.name}"), sdf.get("gaussianNoise", 0.0))
         self.message = WrenchStamped()
         self.message.header.frame_id = self.topics.frame(self.joint.child.name)
-        self.gate = SensorGate(sdf.get("updateRate", 0.0))
+        self.gate = Spaced(sdf.get("updateRate", 0.0))
         self.publisher = self.topics.publisher(required(sdf, "topicName"), WrenchStamped)
         self.joint.feedback()  # asks the engine to compute it from now on
         server.after_step(self.step)
 
     def step(self) -> None:
         now = self.server.now()
-        if not self.publisher.get_num_connections() or not self.gate.passes(now.to_nsec()):
+        if not self.publisher.get_num_connections() or not self.gate.due(now.to_nsec()):
             return
         feedback = self.joint.feedback()
         q_CW = math3.quat_inverse(self.joint.child.pose.q)

@@ -18,55 +18,13 @@ from dataclasses import dataclass
 from typing import Any, Callable, List
 
 import rospy
+from node_signals.rates import LatenessKept
 
 _NS = 1_000_000_000
 
 
 def _always() -> bool:
     return True
-
-
-class UpdateRate:
-    """Gazebo's rate rule, in integer nanoseconds of sim time.
-
-    A sensor is due when the time since its last update plus the delay carried over reaches the period. What is late is
-    carried over, so that 30 Hz on a 1 ms step gives 30 updates a second; a delay of a period or more is forgotten.
-
-    :param rate: Hz; 0 or less = every step
-    """
-
-    def __init__(self, rate: float):
-        self.rate = rate
-        self.last_ns = 0
-        self._delay_ns = 0
-
-    @property
-    def rate(self) -> float:
-        """Hz of sim time, 0 = every step."""
-        return self._rate
-
-    @rate.setter
-    def rate(self, rate: float) -> None:
-        self._rate = max(rate, 0.0)
-        self.period_ns = round(_NS / rate) if rate > 0 else 0
-
-    def due(self, now_ns: int) -> bool:
-        """Whether an update is due at ``now_ns``; does not take it."""
-        if now_ns <= self.last_ns:
-            if now_ns < self.last_ns:  # time went back: a reset
-                self.reset()
-            return False
-        return now_ns - self.last_ns + self._delay_ns >= self.period_ns
-
-    def take(self, now_ns: int) -> None:
-        """The update at ``now_ns`` happens."""
-        delay = max(0, now_ns - self.last_ns + self._delay_ns - self.period_ns)
-        self._delay_ns = delay if delay < self.period_ns else 0
-        self.last_ns = now_ns
-
-    def reset(self) -> None:
-        self.last_ns = 0
-        self._delay_ns = 0
 
 
 @dataclass
@@ -91,7 +49,7 @@ class Sensor:
         self.description = description
         self.link = link
         self.model = link.model
-        self.update_rate = UpdateRate(description.update_rate)
+        self.update_rate = LatenessKept(description.update_rate)
         self.measurement_ns = 0
         self.update_count = 0
         self.owner: Any = None  # the plugin being loaded: what it connects is its own
@@ -130,7 +88,7 @@ class Sensor:
 
         An exception of a consumer disconnects its plugin and is reported; the others go on.
         """
-        if not self._consumers or not self.update_rate.due(now_ns):
+        if not self._consumers or not self.update_rate.ready(now_ns):
             return
         # taken whether anybody wants it or not: the times of measurements must not depend on when somebody subscribed
         self.update_rate.take(now_ns)

@@ -14,6 +14,7 @@ from ode_sim.errors import Unavailable
 from ode_sim.handles import ModelHandle
 
 from gazebo_ros import protocols
+from node_signals.rates import Spaced
 from gazebo_ros.callbacks import CallbackList, Connection
 from gazebo_ros.plugin import ModelPlugin, PluginError, SensorPlugin, WorldPlugin
 from gazebo_ros.plugin_host import PluginHost, PluginInstance, ResolvedPlugin, plugin_sdf
@@ -22,7 +23,7 @@ from gazebo_ros.throttle import Throttle
 
 _NS = 1_000_000_000
 _SLEEPERS = rospy.rostime.get_rostime_cond()  # who sleeps in sim time in this process waits on it
-_WALL_PERIOD_NS = 1_000_000  # uncapped, subscribers get at most one message per wall millisecond
+_WALL_RATE = 1000.0  # wall Hz; uncapped, subscribers get at most one message per wall millisecond
 
 
 class Stopped(Unavailable):
@@ -37,16 +38,10 @@ class WallLimit:
 
     def __init__(self, server: Server):
         self._server = server
-        self._last_ns = 0
+        self._gate = Spaced(_WALL_RATE)
 
-    def passes(self) -> bool:
-        if self._server.throttled:
-            return True
-        now = time.monotonic_ns()
-        if now - self._last_ns < _WALL_PERIOD_NS:
-            return False
-        self._last_ns = now
-        return True
+    def due(self) -> bool:
+        return self._server.throttled or self._gate.due(time.monotonic_ns())
 
 
 class ResolvedModel:
@@ -228,7 +223,7 @@ class Server:
         self._now = now
         if self._ros_time:  # what rospy does with a message of /clock
             rospy.rostime._rostime_current = now
-            if _SLEEPERS._waiters and self._wake_limit.passes():
+            if _SLEEPERS._waiters and self._wake_limit.due():
                 self._wake_sleepers()
 
     @staticmethod

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import rospy
+from node_signals.rates import Spaced
 from realtime_tools import make_prompt
 from rosgraph_msgs.msg import Clock
 
@@ -18,7 +19,7 @@ class ClockPublisher:
 
     def __init__(self, server: Server, frequency: int = 0):
         self._server = server
-        self._period_ns = round(1e9 / frequency) if frequency > 0 else 0
+        self._gate = Spaced(frequency)
         self._limit = WallLimit(server)
         self._message = Clock()
         self._published_ns = -1
@@ -27,15 +28,13 @@ class ClockPublisher:
         server.stepped.connect(self._publish)
 
     def _on_step(self) -> None:
-        elapsed = self._server.world.time_ns - self._published_ns
-        if self._period_ns and self._published_ns >= 0 and 0 <= elapsed < self._period_ns:
-            return
-        if self._limit.passes():
+        if self._gate.ready(self._server.world.time_ns) and self._limit.due():
             self._publish()
 
     def _publish(self) -> None:
         now_ns = self._server.world.time_ns
         if now_ns != self._published_ns:
             self._published_ns = now_ns
+            self._gate.take(now_ns)
             self._message.clock = self._server.now()
             self._publisher.publish(self._message)

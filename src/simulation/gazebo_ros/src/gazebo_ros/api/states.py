@@ -55,7 +55,7 @@ class StatePublishers:
         server.stepped.connect(self._publish)
 
     def _on_step(self) -> None:
-        if (self._links.impl.connections or self._models.impl.connections) and self._limit.passes():
+        if (self._links.impl.connections or self._models.impl.connections) and self._limit.due():
             self._publish()
 
     def _publish(self) -> None:
