@@ -1,0 +1,67 @@
+"""Small formulas over the axes and buttons of a joystick: ``max(axes[2], 0.0) * -1.0``."""
+from __future__ import annotations
+
+import ast
+import operator
+from typing import Callable, Dict, Sequence
+
+_OPERATORS: Dict[type, Callable] = {
+    ast.Add: operator.add, ast.Sub: operator.sub, ast.Mult: operator.mul, ast.Div: operator.truediv,
+    ast.BitXor: operator.xor, ast.USub: operator.neg}
+_FUNCTIONS: Dict[str, Callable] = {"abs": abs, "max": max, "min": min}
+_LISTS = ("axes", "buttons")
+_LONGEST = 1000  # characters
+
+
+class Formula:
+    """One formula. :raises ValueError: it uses something else than numbers, ``axes[i]``, ``buttons[i]``, ``+ - * / ^``,
+    ``abs``, ``max`` and ``min``; one line."""
+
+    def __init__(self, text: object):
+        self.text = str(text)
+        if len(self.text) > _LONGEST:
+            raise ValueError(f"a formula of {len(self.text)} characters is too long, {_LONGEST} are possible")
+        try:
+            self._body = ast.parse(self.text.strip(), mode="eval").body
+            self._check(self._body)
+        except (SyntaxError, RecursionError):
+            raise ValueError(f"'{self.text}' is no formula") from None
+
+    def value(self, axes: Sequence[float], buttons: Sequence[int]) -> float:
+        """:raises IndexError: the joystick has no such axis or button. :raises ArithmeticError: a division by zero.
+        :raises TypeError: ``^`` of numbers that are not whole."""
+        return self._value(self._body, {"axes": axes, "buttons": buttons})
+
+    def _check(self, node: ast.expr) -> None:
+        if isinstance(node, ast.Constant) and type(node.value) in (int, float):
+            return
+        if isinstance(node, ast.BinOp) and type(node.op) in _OPERATORS:
+            self._check(node.left)
+            self._check(node.right)
+        elif isinstance(node, ast.UnaryOp) and type(node.op) in _OPERATORS:
+            self._check(node.operand)
+        elif isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id in _FUNCTIONS and node.args:
+            for argument in node.args:
+                self._check(argument)
+        elif not self._is_item(node):
+            raise ValueError(f"'{ast.unparse(node)}' in '{self.text}' is not understood: numbers, axes[i], buttons[i], "
+                             "+ - * / ^, abs, max and min are")
+
+    @staticmethod
+    def _is_item(node: ast.expr) -> bool:
+        return (isinstance(node, ast.Subscript) and isinstance(node.value, ast.Name) and node.value.id in _LISTS
+                and isinstance(node.slice, ast.Constant) and type(node.slice.value) is int)
+
+    def _value(self, node: ast.expr, lists: Dict[str, Sequence[float]]) -> float:
+        if isinstance(node, ast.Constant):
+            return node.value
+        if isinstance(node, ast.BinOp):
+            return _OPERATORS[type(node.op)](self._value(node.left, lists), self._value(node.right, lists))
+        if isinstance(node, ast.UnaryOp):
+            return _OPERATORS[type(node.op)](self._value(node.operand, lists))
+        if isinstance(node, ast.Call):
+            return _FUNCTIONS[node.func.id](*(self._value(argument, lists) for argument in node.args))
+        values, index = lists[node.value.id], node.slice.value
+        if index >= len(values):
+            raise IndexError(f"'{self.text}' asks for {node.value.id}[{index}], the joystick has {len(values)} {node.value.id}")
+        return values[index]
