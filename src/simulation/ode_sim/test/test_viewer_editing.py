@@ -70,7 +70,11 @@ def test_a_knob_is_dragged_with_snapping(page):
     for phase, x in (("start", 0.62), ("update", 0.9), ("end", 1.21)):
         asyncio.run(callback(types.SimpleNamespace(client=client, client_id=1, phase=phase, end_position=(x, 0.3, 0.0))))
         page._do_jobs()
+        if phase == "update":
+            assert world._properties.size.value == (1.5, 1.0, 1.0)  # 2 x (0.9 - 0.12) = 1.56
     wait(page, lambda: page.world.model("box") is not None and size(page) == (2.0, 1.0, 1.0))  # 2 x (1.21 - 0.12) = 2.18
+    assert world._properties.size.value == (2.0, 1.0, 1.0)
+    assert world._properties.diagonal.value == pytest.approx((1 / 6, 5 / 12, 5 / 12), rel=1e-3)  # of a box of 1 kg
     page.selection.select()
     wait(page, lambda: not knobs(page))
     assert not client.told

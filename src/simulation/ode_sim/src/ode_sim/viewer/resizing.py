@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import threading
 from dataclasses import replace
-from typing import Any, List, Optional, Tuple
+from typing import Any, Callable, List, Optional, Tuple
 
 import numpy as np
 
@@ -79,6 +79,7 @@ class Resizing:
         self._knobs: List[Any] = []
         self._drag: Optional[Tuple[int, d.Geometry]] = None  # axis, the shape as it would be
         self._events: List[Tuple[int, Any, str, Tuple]] = []
+        self.on_pull: Callable[[d.Geometry, bool], None] = lambda geometry, done: None  # a hand makes it so, or has made it so
         self._lock = threading.Lock()
 
     def show(self, on: bool, snap: float = 0.0) -> None:
@@ -180,8 +181,11 @@ class Resizing:
         self._drag = (axis, geometry) if phase != "end" else None
         self._stretch(record, geometry)
         self.move(frame)
-        if phase == "end":
-            self.apply(geometry)
+        try:
+            if phase == "end":
+                self.apply(geometry)
+        finally:
+            self.on_pull(geometry, phase == "end")
 
     def _stretch(self, record: ModelRecord, geometry: d.Geometry) -> None:
         """What is seen already follows the hand."""

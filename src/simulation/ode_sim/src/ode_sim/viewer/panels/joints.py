@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any, Dict, List
+from typing import Any, Dict, List, Tuple
 
 from ode_sim.description import model as d
 from ode_sim.viewer.panels.base import Panel
@@ -68,23 +68,11 @@ class JointsPanel(Panel):
         mode = self._mode.value
         with self._folder:
             for joint in movable[:_MOST]:
-                low, high = self._range(joint, mode)
+                low, high = range_of(joint, mode, float(self._force.value))
                 slider = self.gui.add_slider(joint.name, low, high, (high - low) / 1000, max(low, min(high, 0.0)))
                 self.on_update(slider, lambda value, name=joint.name: self._command(name, float(value)))
                 self._sliders[joint.name] = slider
                 self._made.append(slider)
-
-    def _range(self, joint: d.Joint, mode: str) -> tuple:
-        axis = joint.axes[0]
-        if mode == "force":
-            most = axis.effort if 0.0 < axis.effort < 1e6 else float(self._force.value)
-            return -min(most, float(self._force.value)), min(most, float(self._force.value))
-        if mode == "velocity":
-            most = axis.velocity if 0.0 < axis.velocity < 100.0 else 2.0
-            return -most, most
-        low = axis.lower if axis.lower > -1e3 else -math.pi if joint.type != "prismatic" else -1.0
-        high = axis.upper if axis.upper < 1e3 else math.pi if joint.type != "prismatic" else 1.0
-        return (float(low), float(high)) if high > low else (float(low), float(low) + 1e-3)
 
     def _command(self, joint: str, value: float) -> None:
         mode = self._mode.value
@@ -92,3 +80,20 @@ class JointsPanel(Panel):
             self.simulation.set_joint_position(self._model, joint, value)
         else:
             self.simulation.command_joint(self._model, joint, mode, value, self._typed())
+
+
+def range_of(joint: d.Joint, mode: str, largest_force: float = 10.0) -> Tuple[float, float]:
+    """What a slider of this joint goes through: its limits, or what is usual where it has none.
+
+    :param mode: ``force`` (N m, N), ``velocity`` (rad/s, m/s), else a position (rad, m). :param largest_force: whatever the joint bears
+    """
+    axis = joint.axes[0]
+    if mode == "force":
+        most = min(axis.effort if 0.0 < axis.effort < 1e6 else largest_force, largest_force)
+        return -most, most
+    if mode == "velocity":
+        most = axis.velocity if 0.0 < axis.velocity < 100.0 else 2.0
+        return -most, most
+    low = axis.lower if axis.lower > -1e3 else -math.pi if joint.type != "prismatic" else -1.0
+    high = axis.upper if axis.upper < 1e3 else math.pi if joint.type != "prismatic" else 1.0
+    return (float(low), float(high)) if high > low else (float(low), float(low) + 1e-3)

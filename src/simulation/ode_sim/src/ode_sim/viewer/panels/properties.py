@@ -41,6 +41,10 @@ class Properties:
     def show(self, world: WorldRecord) -> None:
         """Show what is now, after an undo; else a field has what was typed into it."""
 
+    def show_size(self, geometry: d.Geometry) -> None:
+        """While a hand makes it so."""
+        self._put({"size": size_of(geometry)})
+
     def _put(self, values: Dict[str, Any]) -> None:
         """:param values: attribute -> of that control, if there is one."""
         for name, value in values.items():

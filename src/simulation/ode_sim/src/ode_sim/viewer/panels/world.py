@@ -5,6 +5,7 @@ import math
 import time
 from typing import Any, Callable, Dict, Optional, Tuple
 
+from ode_sim.description import model as d
 from ode_sim.math3 import Pose
 from ode_sim.viewer.eye import put_eye
 from ode_sim.viewer.panels.base import Panel, note
@@ -46,6 +47,7 @@ class WorldPanel(Panel):
         self._edit.on_click(self._on_edit)
         self._history.on_click(lambda event: page.attempt(event, self._undo_redo(event.target.value)))
         page.selection.on_change.append(self._on_select)
+        page.resizing.on_pull = self._on_pull
 
     def on_world(self, world: WorldRecord) -> None:
         self._list_rows()
@@ -143,6 +145,12 @@ class WorldPanel(Panel):
             finally:
                 self.page.later(self._show_anew)
         return turn
+
+    def _on_pull(self, geometry: d.Geometry, done: bool) -> None:
+        if done:
+            self._show_anew()  # the inertia, too
+        elif self._properties is not None:
+            self._properties.show_size(geometry)
 
     def _show_anew(self) -> None:
         if self._properties is not None:
