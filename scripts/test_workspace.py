@@ -97,6 +97,46 @@ def test_errors_grow_on_one_tree(package):
                 assert not alone or ROOTS.get(package) == node.name, f"{path}:{node.lineno}: {node.name} hangs on no tree of errors"
 
 
+def _modules():
+    """Dotted name -> file of each Python module in a package's src/."""
+    return {".".join(path.relative_to(home / "src").with_suffix("").parts).removesuffix(".__init__"): path
+            for home in PACKAGES.values() if (home / "src").is_dir() for path in tracked(f"{home.relative_to(ROOT)}/src/*.py")}
+
+
+def _imported_at_once(path, name):
+    """Dotted names that a module imports while it is imported itself: not in functions, not for type checkers alone."""
+    home = name if path.name == "__init__.py" else name.rpartition(".")[0]
+    todo = list(ast.parse(path.read_text(), str(path)).body)
+    while todo:
+        node = todo.pop()
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            above = home.split(".")[:len(home.split(".")) - node.level + 1] if node.level else []
+            base = ".".join([*above, *filter(None, [node.module])])
+            yield from (f"{base}.{alias.name}" for alias in node.names)
+        elif isinstance(node, ast.Try) or isinstance(node, ast.If) and "TYPE_CHECKING" not in ast.dump(node.test):
+            todo += node.body
+
+
+def test_no_import_goes_round_in_a_circle():
+    """A module that is imported before what it needs works by luck, and only in one order."""
+    modules = _modules()
+    needs = {}
+    for name, path in modules.items():
+        found = set()
+        for wanted in _imported_at_once(path, name):
+            while wanted and wanted not in modules:
+                wanted = wanted.rpartition(".")[0]
+            found.add(wanted)
+        needs[name] = {wanted for wanted in found if wanted and wanted != name and not name.startswith(wanted + ".")}
+    left = dict(needs)
+    while free := [name for name, wanted in left.items() if not wanted & left.keys()]:
+        for name in free:
+            del left[name]
+    assert not left, "these import each other, or what does: " + ", ".join(sorted(left))
+
+
 def test_node_scripts_are_short():
     for path in tracked("src/*/scripts/*"):
         if path.read_bytes()[:2] == b"#!" and b"python" in path.read_bytes().split(b"\n", 1)[0]:

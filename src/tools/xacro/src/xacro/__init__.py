@@ -23,6 +23,6 @@ __path__[:] = [*_spec.submodule_search_locations]
 __version__ = "1.14.20"
 exec(compile(_spec.loader.get_source("xacro"), _spec.origin, "exec"))
 
-from noetic_xacro import cli as _cli  # noqa: E402  needs the functions above
+from noetic_xacro import reading as _reading  # noqa: E402  needs the functions above
 
-_cli.install()
+_reading.install(_sys.modules[__name__])

@@ -1,0 +1,138 @@
+"""What replaces functions of PyPI's xacro: a parser that notes file and line on each element, clones that keep them, words
+and macros without prefix. Does not import ``xacro``, which imports this and hands itself over.
+"""
+from __future__ import annotations
+
+import os
+import sys
+import xml.dom.expatbuilder
+import xml.dom.minidom
+from typing import Any, Optional
+
+from noetic_xacro.expressions import bound_symbols, safe_eval
+from noetic_xacro.reserved import RESERVED
+
+PLACE = "xacro_place"  # attribute set on DOM elements: "file:line"
+xacro: Any = None  # the module ``xacro`` whose functions are replaced; it imports this one
+
+
+class _PlacedBuilder(xml.dom.expatbuilder.ExpatBuilderNS):
+    """minidom's builder, noting on every element where its start tag stands."""
+
+    def __init__(self, file_name: str):
+        super().__init__()
+        self._file_name = file_name
+
+    def install(self, parser):
+        super().install(parser)
+        parser.EntityDeclHandler = self._refuse_entity
+
+    def start_doctype_decl_handler(self, *declaration):
+        super().start_doctype_decl_handler(*declaration)
+        self.getParser().EntityDeclHandler = self._refuse_entity  # which minidom has just replaced
+
+    def _refuse_entity(self, name, *_declaration):
+        """An entity may hold another file, or gigabytes; robots have properties."""
+        raise xacro.XacroException(f"{self._file_name}:{self.getParser().CurrentLineNumber}: declares the entity "
+                                   f"'{shortened(name, 60)}'; entities are not read, use a property")
+
+    def start_element_handler(self, name, attributes):
+        super().start_element_handler(name, attributes)
+        setattr(self.curNode, PLACE, f"{self._file_name}:{self.getParser().CurrentLineNumber}")
+
+
+def _parse(inp, filename: Optional[str] = None) -> xml.dom.minidom.Document:
+    """Replacement of ``xacro.parse``: same contract, with places."""
+    if inp is None:
+        path = os.path.join(xacro.root_dir, filename)
+        try:
+            with open(path, "rb") as file:
+                data = file.read()
+        except OSError as error:
+            xacro.filestack.pop()
+            raise xacro.XacroException(f"{error.strerror}: {path}", exc=error) from error
+    elif isinstance(inp, (str, bytes)):
+        path, data = filename or "text", inp
+    elif hasattr(inp, "read"):
+        path, data = filename or getattr(inp, "name", "text"), inp.read()
+    else:
+        return inp
+    document = _PlacedBuilder(path).parseString(data)
+    _prefix_words(document.documentElement, path)
+    return document
+
+
+# Words of xacro that robots from before Noetic write without prefix, and the attribute by which they are told from others.
+_WORDS = {"property": "name", "macro": "name", "arg": "default", "include": "filename", "insert_block": "name", "if": "value",
+          "unless": "value"}
+
+
+def _prefix_words(root: xml.dom.minidom.Element, path: str) -> None:
+    """``<property .../>`` becomes ``<xacro:property .../>``, with one warning a file; what stands in a plugin is not xacro's."""
+    found = []
+    todo = [root]
+    while todo:
+        for child in todo.pop().childNodes:
+            if child.nodeType != child.ELEMENT_NODE or child.tagName == "plugin":
+                continue
+            if child.hasAttribute(_WORDS.get(child.tagName, "")):
+                found.append((child.tagName, getattr(child, PLACE)))
+                child.tagName = child.nodeName = f"xacro:{child.tagName}"
+            todo.append(child)
+    if found and xacro.verbosity > 0:
+        word, place = min(found, key=lambda entry: int(entry[1].rsplit(":", 1)[1]))
+        print(f"xacro: warning: {place}: <{word}> is written without prefix; write <xacro:{word}> (Noetic ignores the old form, "
+              f"here it is understood; {len(found)} such in {os.path.basename(path)})", file=sys.stderr)
+
+
+def _keep_place_in_clones() -> None:
+    original = xml.dom.minidom._clone_node
+
+    def clone_node(node, deep, new_owner_document):
+        clone = original(node, deep, new_owner_document)
+        if hasattr(node, PLACE):
+            setattr(clone, PLACE, getattr(node, PLACE))
+        return clone
+
+    xml.dom.minidom._clone_node = clone_node
+
+
+def _accept_macros_without_prefix() -> None:
+    """``<wheel .../>`` for ``<xacro:wheel .../>``, as in packages from before Noetic: expanded, with one warning a name.
+
+    Without it the element stays in the URDF, is ignored there, and a robot without wheels or inertias is spawned. Names
+    that URDF and SDF use themselves (``<camera>`` in a sensor) are never taken for a macro.
+    """
+    original = xacro.handle_macro_call
+    warned = set()
+
+    def handle_macro_call(node, macros, symbols):
+        name = node.tagName
+        if ":" not in name and name not in RESERVED:
+            try:
+                xacro.resolve_macro(name, macros, symbols)
+            except KeyError:
+                return False
+            if name not in warned and xacro.verbosity > 0:
+                warned.add(name)
+                print(f"xacro: warning: {getattr(node, PLACE, '')}: macro '{name}' is called without prefix; write "
+                      f"<xacro:{name}> (Noetic ignores the old form, here it is expanded)", file=sys.stderr)
+            node.tagName = node.nodeName = f"xacro:{name}"
+        return original(node, macros, symbols)
+
+    xacro.handle_macro_call = handle_macro_call
+
+
+def shortened(text: str, most: int = 300) -> str:
+    return text if len(text) <= most else f"{text[:most - most // 3]} ... {text[-(most // 3):]}"
+
+
+def install(module: Any) -> None:
+    """Put this module's functions into ``module``, which is ``xacro``; done once, by its import."""
+    global xacro
+    xacro = module
+    xacro.parse = _parse
+    xacro.safe_eval = safe_eval
+    bound_symbols(xacro._global_symbols)
+    _keep_place_in_clones()
+    _accept_macros_without_prefix()
