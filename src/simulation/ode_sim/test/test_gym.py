@@ -122,9 +122,10 @@ def test_without_gymnasium_the_remedy_is_named():
 
 def test_the_example_learns(tmp_path):
     pytest.importorskip("cma", reason="cma is not installed: scripts/setup --teaching")
-    words = [sys.executable, str(pathlib.Path(CARTPOLE).with_name("balance.py")), "--generations", "12", "--film", str(tmp_path / "pole.mp4")]
+    example, film = pathlib.Path(CARTPOLE).with_name("balance.py"), tmp_path / "pole.mp4"
+    words = [sys.executable, str(example), "--generations", "12", "--film", str(film)]
     run = subprocess.run(words, capture_output=True, text=True, timeout=200)
     assert run.returncode == 0, run.stderr
     lasted = [float(line.split(" up for ")[1].split()[0]) for line in run.stdout.splitlines()]
     assert lasted[-1] > 3 * lasted[0], run.stdout  # what was found, on new starts, against the first draw
-    assert (tmp_path / "pole.mp4").read_bytes()[4:8] == b"ftyp"
+    assert film.read_bytes()[4:8] == b"ftyp"

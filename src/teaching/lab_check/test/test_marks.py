@@ -4,12 +4,13 @@ import io
 import json
 import os
 import pathlib
+import subprocess
 import tarfile
 import xml.etree.ElementTree as ET
 import zipfile
 
 import pytest
-from lab_check import explain, faults, gradebook, grade, report, similar, spec, staging, store
+from lab_check import explain, faults, gradebook, grade, report, similar, spec, staging, store, supervise
 from lab_check.checks.files import complain, insane
 from lab_check.outcome import Result, TaskResult, Verdict, failed_task, share
 
@@ -140,6 +141,18 @@ def test_the_first_cause_comes_first():
     assert explain.error_lines("[ERROR] [1]: No p gain specified for pid.") == []
 
 
+def test_what_was_said_since_a_mark():
+    said = supervise.Output()
+    said.add(b"before\n")
+    mark = said.total
+    said.add(b"after\n")
+    assert said.text() == "before\nafter\n" and said.text(mark) == "after\n"
+    said.add(b"x" * 2_000_000)
+    late = said.total
+    said.add(b"the end")
+    assert said.text(late) == "the end" and said.text(mark).startswith("after\n") and "bytes left out" in said.text(mark)
+
+
 # ---------------------------------------------------------------------------------------------- descriptions
 
 
@@ -233,3 +246,22 @@ def test_reasons_hold_no_wall_time():
     first, second = ("[ERROR] [1795390434.547, 3.25]: x", "[ERROR] [1795390999.1, 3.25]: x")
     assert explain.timeless(first) == explain.timeless(second) == "[ERROR] [3.25]: x"
     assert explain.timeless("[ERROR] [1795390434.547]: y") == "[ERROR] y"
+
+
+def test_a_full_disk_is_one_line_and_the_same_command_goes_on(tmp_path):
+    """In a mount namespace of its own, with a disk of 120 kB for the class."""
+    (tmp_path / "spec.yaml").write_text("title: t\ntasks: [{name: a, points: 1, launch: '', expect: [{file: {path: '*/x'}}]}]\n")
+    for number in range(3):
+        package(tmp_path / "class" / f"s{number}")
+        (tmp_path / "class" / f"s{number}" / "x").write_text("x")
+    grade_it = f"rosrun lab_check grade {tmp_path}/spec.yaml {tmp_path}/class/* --workers 1 --out {tmp_path}/out"
+    script = (f"mkdir {tmp_path}/out; mount -t tmpfs -o size=120k full {tmp_path}/out && head -c 60000 /dev/zero > {tmp_path}/out/fills; "
+              f"{grade_it}; echo first $?; rm -f {tmp_path}/out/fills; mount -o remount,size=5M {tmp_path}/out; {grade_it}; echo then $?; "
+              f"cat {tmp_path}/out/gradebook.csv")
+    done = subprocess.run(["unshare", "--user", "--map-root-user", "--mount", "bash", "-c", script], capture_output=True, text=True)
+    if "Operation not permitted" in done.stderr:
+        pytest.skip(done.stderr)
+    assert "Traceback" not in done.stderr, done.stderr
+    assert "first 4" in done.stdout or "first 5" in done.stdout, done.stdout + done.stderr
+    assert "No space left" in done.stdout + done.stderr or "is full" in done.stdout + done.stderr
+    assert "then 0" in done.stdout and done.stdout.count(",1.0,1.0,") == 3, done.stdout + done.stderr

@@ -14,10 +14,12 @@ from std_srvs.srv import SetBool, Trigger
 from . import connections
 from .errors import LabError
 from .lockstep import Nodes
+from .supervise import Program
 
 CONNECTED = 0.12  # s of rest after something new: connections are made by threads that look every hundredth of a second
 _UNCONNECTED = 0.3  # s of rest after which a connection that is missing is looked for again
 _LOOKS = 4  # at missing connections: who is asked for by a node that has ended never comes
+_LEAVING = 3.0  # s of wall time that a program gets for its end
 _ROUNDS = 20  # of news from the master that one moment can have
 
 
@@ -63,6 +65,7 @@ class Bench:
         self._state = rospy.ServiceProxy("/gazebo/lab_check_state", Trigger, persistent=True)
         self._contacts = rospy.ServiceProxy("/gazebo/lab_check_contacts", SetBool)
         self._picture = rospy.ServiceProxy("/gazebo/take_picture", TakePicture)
+        self._seen = rospy.ServiceProxy("/gazebo/lab_check_seen", TakePicture)
         self.now = self._read()
         self.dt = self._dt
         self.count = max(1, round(quantum / self.dt))
@@ -143,8 +146,19 @@ class Bench:
             self.tick()
         return True
 
+    def leave(self, program: Program) -> None:
+        """A program that has done its work takes wall time to end: simulated time stands still for it."""
+        end = time.monotonic() + _LEAVING
+        while program.running and time.monotonic() < end:
+            time.sleep(0.02)
+
     def watch_contacts(self, on: bool) -> None:
         self._ask(self._contacts, on)
+
+    def seen(self, topic: str) -> "Dict[str, float] | str":
+        """``model::link::visual`` -> its share of the picture that the camera of this topic would take now; or a sentence."""
+        answer = self._ask(self._seen, "", topic, 0, 0)
+        return json.loads(answer.status_message) if answer.success else answer.status_message
 
     def picture(self, model: str = "", width: int = 640, height: int = 400) -> bytes:
         """A PNG, b'' where the simulator cannot draw."""

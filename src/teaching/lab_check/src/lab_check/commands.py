@@ -37,6 +37,7 @@ class Actor:
         self.answers: Dict[str, Any] = {}  # name -> dict of the response, or a refusal's text
         self.refusals: Dict[str, str] = {}
         self.by_hand: List[str] = []
+        self._typed: Dict[str, str] = {}  # name of a run -> what started it
         self._publishers: List[rospy.Publisher] = []
 
     def give(self, command: Dict[str, Any]) -> None:
@@ -55,6 +56,7 @@ class Actor:
             publisher.unregister()
 
     def _wait(self, seconds: float) -> None:
+        self.by_hand.append(f"sleep {seconds:g}")
         self._bench.pass_time(seconds)
 
     def _publish(self, wanted: Dict[str, Any]) -> None:
@@ -67,10 +69,9 @@ class Actor:
             genpy.message.fill_message_args(message, [wanted.get("message", {})])
         except (genpy.MessageException, TypeError, ValueError) as error:
             raise CommandError(f"the spec's message does not fit {wanted['type']}: {error}") from error
-        rate = wanted.get("rate")
-        self.by_hand.append(
-            f"rostopic pub {'-r %g' % rate if rate else '-1'} {name} {wanted['type']} {shlex.quote(json.dumps(wanted.get('message', {})))}"
-        )
+        rate, seconds = wanted.get("rate"), wanted.get("for", 1.0)
+        how = f"timeout {seconds:g} rostopic pub -r {rate:g}" if rate else "rostopic pub -1"
+        self.by_hand.append(f"{how} {name} {wanted['type']} {shlex.quote(json.dumps(wanted.get('message', {})))}")
         publisher = rospy.Publisher(name, kind, queue_size=10, latch=not rate)
         self._publishers.append(publisher)
         self._bench.connect()
@@ -78,7 +79,7 @@ class Actor:
             raise CommandError(f"nobody listens to {name}" + _near(name, "subscribe to"))
         publisher.publish(message)
         if rate:
-            end, due = self._bench.now.time + wanted.get("for", 1.0), self._bench.now.time
+            end, due = self._bench.now.time + seconds, self._bench.now.time
             while self._bench.now.time < end - 1e-9:
                 if self._bench.now.time >= due - 1e-9:
                     publisher.publish(message)
@@ -142,7 +143,8 @@ class Actor:
 
     def _run(self, wanted: Dict[str, Any]) -> None:
         key = wanted.get("name", "it")
-        self.by_hand.append(f"rosrun {wanted['command']}")
+        self._typed[key] = f"rosrun {wanted['command']}"
+        self.by_hand.append(self._typed[key] + (f"   # then type {json.dumps(wanted['keys'])}" if "keys" in wanted else ""))
         before = connections.nodes()
         program = self.runs[key] = self._start(f"exec rosrun {wanted['command']}", "keys" in wanted)
         self._wait_for_node(program, before)
@@ -165,6 +167,7 @@ class Actor:
         program = self.runs.get(name)
         if program is None:
             raise CommandError(f"no run is named '{name}'")
+        self.by_hand.append(f"# Ctrl-C in the terminal of {self._typed[name]}")
         program.interrupt()
         self._bench.settle(CONNECTED)
 

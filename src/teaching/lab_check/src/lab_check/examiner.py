@@ -69,8 +69,8 @@ class Examiner:
         except StagingError as error:
             self._nothing(str(error))
         else:
-            built = self._build()
-            self._tasks(built)
+            needed = self.job.spec["packages"] or any(task["launch"] for task in self.job.spec["tasks"])
+            self._tasks(self._build() if needed else Built())
             self._look_through_logs()
         self.result.seconds = time.monotonic() - start
         return self.result

@@ -4,6 +4,7 @@ from __future__ import annotations
 import argparse
 import os
 import pathlib
+import sqlite3
 import sys
 import time
 from typing import Callable, Dict, List, Optional
@@ -86,28 +87,42 @@ def main(arguments: Optional[List[str]] = None) -> int:
     if not options.address:
         allowed(options.unsafe)
     out = options.out.resolve()
-    out.mkdir(parents=True, exist_ok=True)
-    store = Store(out / "class.sqlite")
-    text = spec.path.read_text(encoding="utf-8") + (str(time.time()) if options.again else "")
-    for name, path in named([path for path in options.submissions if path.name != "faults.json"]).items():
-        store.enlist(name, path.absolute(), fingerprint(path, text))
-    store.begin_again()
     try:
+        out.mkdir(parents=True, exist_ok=True)
+        store = Store(out / "class.sqlite")
+        enlist(store, spec, options)
         engine = engine_for(spec, out, options)
-    except ClusterError as error:
-        print(f"lab_check: {error}", file=sys.stderr)
-        return 3
-    try:
-        run(store, engine, lambda line: print(line, flush=True))
+        try:
+            run(store, engine, lambda line: print(line, flush=True))
+        finally:
+            engine.end()
+            gradebook.write(spec, store, out)
     except KeyboardInterrupt:
         print("\nlab_check: interrupted; the same command goes on from here", file=sys.stderr)
         return 130
     except ClusterError as error:
         print(f"lab_check: {error}", file=sys.stderr)
         return 3
-    finally:
-        engine.end()
-        gradebook.write(spec, store, out)
+    except (OSError, sqlite3.Error) as error:  # a full disk, a folder that may not be written to
+        print(f"lab_check: {out}: {getattr(error, 'strerror', None) or error}; when that is mended, the same command goes on from here",
+              file=sys.stderr)
+        return 5
     failed = store.counts().get("failed", 0)
     print(f"{out / 'gradebook.html'}, {out / 'gradebook.csv'}" + (f"; {failed} could not be examined" if failed else ""))
     return 4 if failed else 0
+
+
+def examined_by(spec: Spec) -> str:
+    """The spec with what it names beside itself: when that is another, all are examined again."""
+    folder = spec.path.parent
+    functions = {folder / e["python"]["file"] for task in spec.data["tasks"] for e in task["expect"] if "python" in e}
+    texts = [path.read_text(encoding="utf-8") for path in (spec.path, *sorted(functions))]
+    return "".join(texts + [fingerprint(folder / name, "") for name in spec.data["also"]])
+
+
+def enlist(store: Store, spec: Spec, options: argparse.Namespace) -> None:
+    """The submissions of the command line, and what an earlier run left undone, wait."""
+    text = examined_by(spec) + (str(time.time()) if options.again else "")
+    for name, path in named([path for path in options.submissions if path.name != "faults.json"]).items():
+        store.enlist(name, path.absolute(), fingerprint(path, text))
+    store.begin_again()

@@ -163,9 +163,11 @@ class Nodes:
             try:
                 with open(f"/proc/{pid}/cmdline", "rb") as file:
                     words = file.read().decode("utf-8", "replace").split("\0")
+                with open(f"/proc/{pid}/comm", encoding="utf-8", errors="replace") as file:
+                    short = file.read().strip()
             except OSError:
                 continue
-            name = next((w.rsplit("/", 1)[-1] for w in words if w and not w.rsplit("/", 1)[-1].startswith("python")), "a process")
+            name = next((w.rsplit("/", 1)[-1] for w in words if w and not w.rsplit("/", 1)[-1].startswith("python")), short)
             if name not in self.restless_names:
                 self.restless_names.append(name)
 

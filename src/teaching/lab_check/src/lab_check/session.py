@@ -11,7 +11,8 @@ import sys
 import time
 import uuid
 from dataclasses import asdict
-from typing import Any, Dict, List, Optional
+from itertools import zip_longest
+from typing import Any, Dict, List, Optional, Sequence
 
 import rosgraph
 import rospy
@@ -75,10 +76,10 @@ class Session:
         try:
             self._get_ready(self.tasks[0]["ready"])
         except Gone as error:
-            return [self._with_log(failed_task(task, f"'roslaunch {launch}': {error}"), 0) for task in self.tasks]
+            return [self._with_log(failed_task(task, f"'roslaunch {launch}': {error}"), ()) for task in self.tasks]
         results = []
         for index, task in enumerate(self.tasks):
-            mark = len(self._log())
+            mark = self._said()
             print(
                 f"task '{task['name']}' begins at {self.bench.now.time:.3f} s of simulation, "
                 f"{time.monotonic() - self._begin:.1f} s of wall time",
@@ -110,8 +111,12 @@ class Session:
     def _launch(self, words: str) -> None:
         self.launches.append(self.start(f"exec python3 -m lab_check.held_launch {self.job.spec['seed']} {words}"))
 
-    def _log(self) -> str:
-        return "".join(program.output.text() for program in self.programs)
+    def _log(self, since: Sequence[int] = ()) -> str:
+        """What all programs said, each after as many bytes of it as ``since`` says; :meth:`_said` makes such a mark."""
+        return "".join(program.output.text(mark) for program, mark in zip_longest(self.programs, since, fillvalue=0))
+
+    def _said(self) -> List[int]:
+        return [program.output.total for program in self.programs]
 
     def _alive(self) -> None:
         """
@@ -208,14 +213,14 @@ class Session:
     # ------------------------------------------------------------------------------------------ tasks
 
     def _task(self, task: Dict[str, Any]) -> TaskResult:
-        mark = len(self._log())
+        mark = self._said()
         job, bench = self.job, self.bench
         actor = Actor(bench, self.start)
         context = Context(
             pathlib.Path(job.spec_folder),
             pathlib.Path(job.home, "catkin_ws", "src"),
             {name: pathlib.Path(job.home, folder) for name, folder in job.packages.items()},
-            log=lambda: self._log()[mark:] if task["do"] else self._log(),
+            log=lambda: self._log(mark) if task["do"] else self._log(),
             bench=bench,
             actor=actor,
             model=task.get("model", ""),
@@ -282,9 +287,8 @@ class Session:
             reason = f"{expectation['say']} ({reason})"
         return Verdict(kind, bool(passed), reason, figures=figures)
 
-    def _with_log(self, result: TaskResult, mark: int) -> TaskResult:
-        text = self._log()
-        result.log = excerpt(text[mark:] or text)
+    def _with_log(self, result: TaskResult, mark: Sequence[int]) -> TaskResult:
+        result.log = excerpt(self._log(mark) or self._log())
         result.commands = result.commands or _typed(self.tasks[0]["launch"])
         return result
 

@@ -183,7 +183,7 @@ def _fill(data: Dict[str, Any]) -> None:
         task.setdefault("launch", data["launch"])
         task["ready"] = {"timeout": 60.0, **data["ready"], **task.get("ready", {})}
         task.setdefault("do", [])
-        task.setdefault("film", False)
+        task.setdefault("film", True)
         task.setdefault("all", False)
 
 

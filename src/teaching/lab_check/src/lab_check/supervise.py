@@ -32,11 +32,13 @@ class Output:
             if len(self._tail) > 2 * _TAIL:
                 del self._tail[:-_TAIL]
 
-    def text(self) -> str:
+    def text(self, since: int = 0) -> str:
+        """:param since: how many bytes had been said before what is wanted."""
         with self._lock:
-            left_out = self.total - len(self._head) - len(self._tail)
-            gap = f"\n... {left_out} bytes left out ...\n".encode() if left_out else b""
-            return (bytes(self._head) + gap + bytes(self._tail)).decode("utf-8", "replace")
+            begin = self.total - len(self._tail)  # of the tail
+            left_out = begin - max(len(self._head), since)
+            gap = f"\n... {left_out} bytes left out ...\n".encode() if left_out > 0 else b""
+            return (bytes(self._head[since:]) + gap + bytes(self._tail[max(since - begin, 0):])).decode("utf-8", "replace")
 
 
 class Program:
@@ -154,12 +156,12 @@ def _parents() -> Dict[int, int]:
     return found
 
 
-def descendants(pid: int) -> List[int]:
-    """``pid`` and all that it started and that still has a parent there."""
+def descendants(*pids: int) -> List[int]:
+    """``pids`` and all that they started and that still has a parent there."""
     children: Dict[int, List[int]] = {}
     for child, parent in _parents().items():
         children.setdefault(parent, []).append(child)
-    found, waiting = [], [pid]
+    found, waiting = [], list(pids)
     while waiting:
         found.append(waiting.pop())
         waiting += children.get(found[-1], [])
@@ -187,7 +189,7 @@ class Guard(threading.Thread):
         begin = last = time.monotonic()
         while not self._over.wait(_LOOK):
             programs = [p for p in self._programs() if p.running]
-            pids = [pid for program in programs for pid in descendants(program.process.pid)]
+            pids = descendants(*(program.process.pid for program in programs))
             now = time.monotonic()
             self.spent = max(self.spent + self._worth(pids, now - last), (now - begin) / STRETCH)
             last = now

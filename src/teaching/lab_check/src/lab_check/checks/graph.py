@@ -218,6 +218,8 @@ class ExitCheck(Check):
         program = self.context.actor.runs.get(self.wanted["run"])
         if program is None:
             return False, "the program was not started", {}
+        if "code" in self.wanted or self.wanted.get("refused"):
+            self.context.bench.leave(program)
         said = program.output.text()
         last = timeless(next((line for line in reversed(said.splitlines()) if line.strip()), "nothing"))[:160]
         if program.broke:

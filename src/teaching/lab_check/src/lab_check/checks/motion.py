@@ -10,9 +10,11 @@ import rospy
 
 from ..bench import Sample
 from ..commands import CommandError, find_topic
+from ..seen import share_of
 from .base import Check, names
 
 _EVERY = 0.05  # s between two points of a plot
+_SHARE = [0.005, 1.0]  # of a picture, where the spec says none
 
 
 class Timed(Check):
@@ -256,7 +258,7 @@ class _Listening(Timed):
         try:
             import rosgraph
 
-            name = find_topic(self.wanted["topic"])
+            name = self._topic = find_topic(self.wanted["topic"])
             kind = dict(rosgraph.Master("/lab_check").getTopicTypes()).get(name)
         except CommandError as error:
             self.problem = str(error)
@@ -336,7 +338,7 @@ class EnergyCheck(_Listening):
 
 
 class ImageCheck(_Listening):
-    """A camera's newest picture: its size, and how much of it has a colour."""
+    """A camera's newest picture: its size, and how much of it has a colour, or shows a model as the simulator knows it."""
 
     def __init__(self, wanted, context):
         super().__init__(wanted, context)
@@ -356,6 +358,8 @@ class ImageCheck(_Listening):
             return False, f"a picture in the encoding '{message.encoding}' cannot be looked at", {}
         if "size" in self.wanted and [message.width, message.height] != self.wanted["size"]:
             return False, f"the picture has {message.width}x{message.height} pixels, not {'x'.join(map(str, self.wanted['size']))}", {}
+        if "object" in self.wanted:
+            return self._object(self.wanted["object"])
         if "colour" not in self.wanted:
             lively = float(pixels.std())
             return (
@@ -365,8 +369,18 @@ class ImageCheck(_Listening):
             )
         off = np.abs(pixels.astype(int) - np.array(self.wanted["colour"])).max(axis=2)
         part = float((off <= self.wanted.get("tolerance", 40)).mean())
-        low, high = self.wanted.get("share", [0.005, 1.0])
+        low, high = self.wanted.get("share", _SHARE)
         return low <= part <= high, f"{part:.2%} of the picture has that colour; {low:.2%} to {high:.2%} are asked for", {"share": part}
+
+    def _object(self, name: str) -> Tuple[bool, str, Dict[str, Any]]:
+        if self.context.bench.now.place(name) is None:
+            return False, f"there is no '{name}' in the simulator (there are: {names(self.context.bench.now.models)})", {}
+        found = self.context.bench.seen(self._topic)
+        if isinstance(found, str):
+            return False, found, {}
+        part = share_of(name, found)
+        low, high = self.wanted.get("share", _SHARE)
+        return low <= part <= high, f"{name} fills {part:.2%} of the picture; {low:.2%} to {high:.2%} are asked for", {"share": part}
 
 
 def to_rgb(message) -> Optional[np.ndarray]:

@@ -69,7 +69,10 @@ def _task(number: int, task: TaskResult, result: Result, out: pathlib.Path) -> s
     if not good and task.log:
         parts.append(f"<details open><summary>From the log, first cause first</summary><pre>{_e(chr(10).join(task.log))}</pre></details>")
     if not good and task.commands:
-        parts.append(f"<details open><summary>To see it yourself</summary><pre>{_e(chr(10).join(task.commands))}</pre></details>")
+        parts.append(
+            "<details open><summary>To see it yourself, each line in a terminal where devel/setup.bash is sourced</summary>"
+            f"<pre>{_e(chr(10).join(task.commands))}</pre></details>"
+        )
     figures = [
         f'<figure><img src="{_e(os.path.relpath(p, out))}" alt="The end of this task"></figure>'
         for p in task.pictures
