@@ -171,7 +171,7 @@ class Browser:
 
     @staticmethod
     def _input(label, kind=""):
-        only = f"[@type='{kind}']" if kind else ""
+        only = f"[@type='{kind}']" if kind else "[not(@type='hidden')]"  # a slider has one that is not seen
         return f"//label[normalize-space(.)='{label}']/following::input{only}[1]"
 
     # ------------------------------------------------------------------------------------------ the scene

@@ -13,6 +13,8 @@ import numpy as np
 import rosgraph
 import rospy
 import rostest
+from controller_manager_msgs.msg import ControllerState, HardwareInterfaceResources
+from controller_manager_msgs.srv import ListControllers, SwitchController, SwitchControllerResponse
 from gazebo_msgs.srv import GetModelState, GetPhysicsProperties, GetWorldProperties, SpawnModel
 from gazebo_ros.srv import DescribeWorld
 from geometry_msgs.msg import Pose, Twist, Vector3
@@ -20,7 +22,7 @@ from ode_sim.description.exchange import loads
 from ode_sim.math3 import quat_to_rpy
 from ode_sim.viewer import simulation  # noqa: F401  how a world is described
 from ode_sim.viewer.porter import entitled
-from std_msgs.msg import ColorRGBA
+from std_msgs.msg import ColorRGBA, Float64
 from visualization_msgs.msg import Marker
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
@@ -65,6 +67,12 @@ def world():
 
 def material(name):
     return world().model(name).description.links[0].visuals[0].material
+
+
+def sides(name):
+    """Of a box, m."""
+    model = world().model(name)
+    return model and tuple(round(side, 6) for side in model.description.links[0].collisions[0].geometry.size)
 
 
 def paused():
@@ -241,6 +249,26 @@ class Clicks(unittest.TestCase):
             return sent;""")
         self.assertEqual(sent, ["mass2", "mass200", "steptrue", "a2", "b4", *3 * ["undotrue"]])
 
+    def test_1f_a_hand_resizes_a_body_by_its_knobs(self):
+        page, begin = self.page, position("box")
+        eye = begin + 2.5 * np.array((0.7, -0.7, 0.4))  # as test_1d left it
+
+        def drag(*offsets):
+            page.mouse(*(page.pixel(begin + offset, eye, begin, FIELD) for offset in offsets), drag=True)
+        page.fill("Snap to (m)", 0.25)
+        before = page.scene()
+        page.check("Resize by hand")
+        page.settled(before)
+        drag((0.62, 0.0, 0.0), (0.8, 0.0, 0.0), (1.03, 0.0, 0.0))
+        wait(lambda: sides("box") == (1.75, 1.0, 1.0), "2 x (1.03 - 0.12) m on a grid of 0.25 m")
+        wait(lambda: page.value("Size (m)") == "1.75", "the field tells of it")
+        np.testing.assert_allclose(position("box"), begin, atol=1e-6)
+        page.click("Undo")
+        wait(lambda: sides("box") == (1.0, 1.0, 1.0), "undo")
+        wait(lambda: page.value("Size (m)") == "1", "the field tells of it")
+        page.check("Resize by hand")
+        page.fill("Snap to (m)", 0)
+
     def test_2_pick_copy_delete_undo(self):
         page = self.page
         page.click("box")
@@ -339,6 +367,36 @@ class Clicks(unittest.TestCase):
         wait(lambda: markers.get_num_connections(), "the page listens")
         page.check("/test_marker")
         wait(lambda: not markers.get_num_connections(), "the page does not listen any more")
+
+    def test_5b_controllers_are_listed_stopped_and_commanded(self):
+        """The controller manager is the test's; so are the names."""
+        asked, told = [], []
+        state = ControllerState(name="door_controller", type="position_controllers/JointPositionController", state="running",
+                                claimed_resources=[HardwareInterfaceResources("position", ["hinge"])])
+        other = ControllerState(name=EVIL, type="x/Y", state="stopped")
+
+        def switch(request):
+            asked.append((request.start_controllers, request.stop_controllers))
+            state.state = "running" if request.start_controllers else "stopped"
+            return SwitchControllerResponse(ok=True)
+        services = [rospy.Service("/lab/controller_manager/list_controllers", ListControllers, lambda _: [[state, other]]),
+                    rospy.Service("/lab/controller_manager/switch_controller", SwitchController, switch)]
+        rospy.Subscriber("/lab/door_controller/command", Float64, lambda message: told.append(message.data))
+        page = self.page
+        page.click("Controllers")
+        page.click("Look for controllers")
+        page.see("/lab/door_controller", f"/lab/{EVIL}", "door_controller hinge")
+        page.fill("door_controller hinge", 1.2)
+        wait(lambda: told and abs(told[-1] - 1.2) < 0.003, "the command")
+        page.check("/lab/door_controller")
+        wait(lambda: asked == [([], ["door_controller"])], "a stop")
+        wait(lambda: "door_controller hinge" not in page.text(), "no slider of a controller that is stopped")
+        page.check("/lab/door_controller")
+        page.see("door_controller hinge")
+        self.assertEqual(asked[1:], [(["door_controller"], [])])
+        self.assertNotEqual(page.driver.title, "owned")
+        for service in services:
+            service.shutdown()
 
     def test_6_the_room_of_the_mobile_robot_course_is_drawn_saved_and_put_into_the_world(self):
         page = self.page
