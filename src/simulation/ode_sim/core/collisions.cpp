@@ -129,14 +129,15 @@ double depth_in(dGeomID g, const Vec3& p) {
   }
 }
 
-// A description that says 3.14 or 1.57 tilts its wheels by a milliradian: no tyre stands on one edge for that.
-void lay_flat(const Shape& wheel, const Vec3& axis, Contact& c) {
+// A description that says 3.14 or 1.57 tilts its wheels by a milliradian: no tyre stands on one edge for that. And which rings of a
+// mesh touch depends on the corners that happen to be lowest: the round wheel that it stands for touches with its whole tread.
+void lay_flat(const Shape& wheel, const Vec3& axis, bool on_one_edge, Contact& c) {
   const double off = dot(axis, wheel.link->X_WL * (wheel.X_LC * wheel.tread) - c.pos), tilt = std::abs(dot(axis, c.normal));
   const Shape& other = c.a == &wheel ? *c.b : *c.a;
   const Vec3 middle = c.pos + axis * off;
   if (tilt >= kFlat || depth_in(other.geom, middle) < -2 * tilt * std::abs(off) - kOneEdge) return;
   c.pos = middle;
-  c.depth = std::max(c.depth - tilt * std::abs(off), 0.0);
+  if (on_one_edge) c.depth = std::max(c.depth - tilt * std::abs(off), 0.0);
   c.merged = std::max(c.merged, 2);  // both edges
 }
 
@@ -172,7 +173,8 @@ void merge_tread(const Shape& wheel, std::vector<Contact>& contacts, size_t firs
       }
       c.pos += axis * ((low + high) / 2 - dot(axis, c.pos));
       if (wheel.mesh) c.merged = std::min(c.merged, 2);
-      if (high - low < kOneEdge) lay_flat(wheel, axis, c);
+      const bool on_one_edge = high - low < kOneEdge;
+      if (on_one_edge || wheel.mesh) lay_flat(wheel, axis, on_one_edge, c);
       if (wheel.mesh) stand_below_axle(wheel, axis, c);
     }
     contacts[kept++] = c;

@@ -207,6 +207,32 @@ def test_a_wheel_that_is_a_mesh_turns_about_the_middle_of_its_tread(tmp_path):
     assert robot.twist().angular[2] == pytest.approx(2.0 * RADIUS / 0.2, rel=0.02)
 
 
+def test_which_corners_of_a_mesh_are_lowest_does_not_move_what_a_wheel_stands_on(tmp_path):
+    """Of three rings of corners, one of them half a corner further, two touch or one does: a robot turned about the middle of those."""
+    corners = 40
+    rings = [[(RADIUS * math.cos(a), RADIUS * math.sin(a), z) for a in (2 * math.pi * (i + shift) / corners for i in range(corners))]
+             for z, shift in ((-0.025, 0.5), (0.0, 0.0), (0.025, 0.0))]
+    faces = []
+    for first in (0, corners):
+        for i, k in zip(range(corners), [*range(1, corners), 0]):
+            faces += [(first + i, first + k, first + corners + i), (first + k, first + corners + k, first + corners + i)]
+    trimesh.Trimesh(np.concatenate(rings), faces, process=False).export(tmp_path / "wheel.stl")
+    shape = Mesh(str(tmp_path / "wheel.stl"), "wheel.stl")
+    model = rover(BESIDE, ((-0.2, 0.0),), (-0.04, 0.0, 0.05))
+    links = tuple(link if link.name == "base" else
+                  replace(link, collisions=tuple(replace(c, geometry=shape) for c in link.collisions)) for link in model.links)
+    world = ode_sim.World()
+    world.spawn(ground())
+    robot = world.spawn(replace(model, links=links))
+    for turn in range(8):
+        for name in ("w0", "w1"):
+            robot.joints[name].set_position(turn * 2 * math.pi / corners / 8)
+            robot.joints[name].set_motor(0.0, 10.0)
+        world.step(300)
+        sides = [contact["position"][1] for contact in world.contacts() if abs(contact["position"][1]) > 0.1]
+        assert sorted(sides) == pytest.approx([-0.2, 0.2], abs=1e-4), turn
+
+
 def test_corners_of_wheels_that_are_meshes_do_not_hold_a_turn_up(tmp_path):
     """Corners before and behind the axles would drag the wheels sideways, at a friction of 10 with more than a drive of 0.4 N m gives."""
     model = rover(BESIDE, ((-0.2, 0.0),), (-0.04, 0.0, 0.05))
