@@ -18,15 +18,33 @@ SPEC = ROOT / "src" / "teaching" / "lab_check" / "specs" / "arm_homework.yaml"
 
 
 def grade(folder, out, workers):
-    """(wall seconds, marks by submission) of a class."""
+    """(wall seconds, processor seconds, marks by submission) of a class."""
     submissions = sorted(path for path in folder.iterdir() if path.is_dir())
-    begin = time.monotonic()
+    begin, before = time.monotonic(), processor_seconds()
     done = subprocess.run(["rosrun", "lab_check", "grade", str(SPEC), *map(str, submissions), "--workers", str(workers), "--no-films",
                            "--out", str(out)], capture_output=True, text=True)
     if done.returncode:
         raise SystemExit(f"grading.py: {done.stdout[-300:]}{done.stderr[-300:]}")
-    took = time.monotonic() - begin
-    return took, {path.name: marks(Result.from_data(json.loads((out / path.name / "report.json").read_text()))) for path in submissions}
+    took, used = time.monotonic() - begin, processor_seconds() - before
+    results = {path.name: Result.from_data(json.loads((out / path.name / "report.json").read_text())) for path in submissions}
+    return took, used, {name: marks(result) for name, result in results.items()}
+
+
+def processor_seconds():
+    """Of all ended programs that this one started."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
+def plain_throughput():
+    """Of two programs that only count, against one: the most that a second worker can bring on this machine."""
+    words, took = [sys.executable, "-c", "sum(i * i for i in range(30_000_000))"], {}
+    for number in (1, 2):
+        begin = time.monotonic()
+        for one in [subprocess.Popen(words) for _ in range(number)]:
+            one.wait()
+        took[number] = time.monotonic() - begin
+    return 2 * took[1] / took[2]
 
 
 def sandbox_cost(scratch, runs=10):
@@ -102,13 +120,21 @@ def main():
         figures["class: driver's memory for a queue of 10000, MB"], figures["class: driver's memory for a queue of 10, MB"] = \
             queue_memory(10000, scratch)
         faults.make(ARM, scratch / "class", options.count)
-        two, first = grade(scratch / "class", scratch / "two", 2)
+        two, _, first = grade(scratch / "class", scratch / "two", 2)
         figures[f"{options.count} arm homeworks, 2 workers: seconds"] = two
         part = max(options.count // 4, 2)
         faults.make(ARM, scratch / "part", part)
-        one_part, alone = grade(scratch / "part", scratch / "one", 1)
-        two_part, _ = grade(scratch / "part", scratch / "again", 2)
+        _, _, alone = grade(scratch / "part", scratch / "alone", 1)
+        # Copies that take equally long: of others, one worker would wait for the other's last.
+        equal = 2 * max(part // 3, 1)
+        faults.make(ARM, scratch / "equal", equal, faults=[fault for fault in faults.FAULTS if fault.name == "none"])
+        one_part, one_used, _ = grade(scratch / "equal", scratch / "one", 1)
+        two_part, two_used, _ = grade(scratch / "equal", scratch / "again", 2)
         figures["class: throughput of 2 workers / 1"] = one_part / two_part
+        figures["class: throughput of 2 programs that only count / 1"] = plain_throughput()
+        for name, wall, used in (("1 worker", one_part, one_used), ("2 workers", two_part, two_used)):
+            figures[f"class: wall seconds of a submission, {name}"] = wall / equal
+            figures[f"class: processor seconds of a submission, {name}"] = used / equal
         figures["class: share of submissions with the same marks by 1 and 2 workers"] = sum(
             alone[name] == first[name] for name in alone) / len(alone)
     with open(options.json, "w", encoding="utf-8") as out:

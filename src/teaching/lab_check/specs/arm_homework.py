@@ -6,7 +6,7 @@ def arm_moved(context, joints, by):
     def places(sample):
         return {name: state[0] for model in sample.models.values() for name, state in model.get("joints", {}).items()}
     if not context.samples:
-        return False, "no time passed"
+        return False, "the program ended before any time had passed"
     first, last = places(context.samples[0]), places(context.samples[-1])
     moved = sorted(name for name in first if abs(last.get(name, first[name]) - first[name]) >= by)
     return len(moved) >= joints, f"{len(moved)} joints moved by {by:g} rad or more: {', '.join(moved) or 'none'}"

@@ -81,6 +81,19 @@ def test_nobody_at_an_address_is_one_line_at_once(address):
     assert "\n" not in str(caught.value)
 
 
+def test_a_cluster_that_does_not_start_is_one_line(monkeypatch):
+    """Ray says so by a bare Exception."""
+    ray = pytest.importorskip("ray", reason="ray is not installed: scripts/setup --teaching")
+
+    def init(**_):
+        raise Exception("The current node timed out during startup.\nIts raylet ...")
+
+    monkeypatch.setattr(ray, "init", init)
+    with pytest.raises(cluster.ClusterError, match="timed out during startup") as caught:
+        cluster.connect("local")
+    assert "\n" not in str(caught.value)
+
+
 @pytest.fixture
 def engine(course, monkeypatch):
     pytest.importorskip("ray", reason="ray is not installed: scripts/setup --teaching")

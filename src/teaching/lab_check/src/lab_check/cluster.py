@@ -200,7 +200,7 @@ def connect(address: str):
                 address = address if ":" in address else f"{address}:6379"
                 _knock(address)  # Ray itself would go on asking for minutes
             ray.init(address=address, **quiet)
-    except (ConnectionError, RuntimeError, ValueError, OSError) as error:
+    except Exception as error:  # Ray raises bare ones, too, such as of a node that does not start within 30 s
         raise ClusterError(f"no Ray cluster answers at '{address}' ({_first_line(error)}); start one: rosrun lab_check ray start --head, "
                            "and on each other machine rosrun lab_check ray start --address HOST:6379") from None
     return ray

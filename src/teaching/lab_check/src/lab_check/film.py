@@ -19,11 +19,11 @@ class Film:
             self._frames.append(self._bench.picture(self._model, 480, 320))
 
     def write(self, path: str) -> str:
-        """The film's path, '' when there is none: nothing could be drawn."""
+        """The film's path, '' when there is none: nothing could be drawn, or no time passed."""
         import cv2
         import numpy as np
         frames = [cv2.imdecode(np.frombuffer(png, np.uint8), cv2.IMREAD_COLOR) for png in self._frames if png]
-        if not frames:
+        if len(frames) < 2:  # nothing passed that the picture does not show
             return ""
         os.makedirs(os.path.dirname(path), exist_ok=True)
         writer = cv2.VideoWriter(path, cv2.VideoWriter_fourcc(*"avc1"), _RATE, frames[0].shape[1::-1])

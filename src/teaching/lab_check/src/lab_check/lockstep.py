@@ -12,16 +12,17 @@ import time
 from collections import Counter, deque
 from typing import Deque, Dict, Iterable, List, Optional, Set, Tuple
 
-from .supervise import descendants
+from .supervise import STRETCH, descendants, processor_time
 
 _REST = 0.0016  # s of rest, longer than roscpp's look at the clock
 _STEP = 0.0004  # s between two looks
 _LONG_STEP = 0.01  # the same where rest is long: starts of programs
 _LOOKS = 4  # looks that rest takes at least
 _PART = 0.5  # part of the looks that a rest of that length would have on an idle machine: on a busy one, rest takes longer
+_LONG = 0.5  # s without rest from which on it is looked at who works, and how much
 _FLICKER = 0.008  # s after which those who are seldom at work are taken to rest
 _SELDOM = 0.35  # part of the looks
-_PATIENCE = 2.0  # s until a process that never rests is waited for no more
+_PATIENCE = 5.0  # s of work without rest after which a process is waited for no more: planners work for seconds
 
 
 class Nodes:
@@ -123,6 +124,8 @@ class Nodes:
     def settle(self, rest: float = _REST, patience: float = _PATIENCE) -> bool:
         """Waits until all rest, for ``rest`` seconds on end. False when somebody never did, who is waited for no more.
 
+        :param patience: s of processor time that one may take without rest; of wall time ``STRETCH`` times as much
+
         A thread that only looks at the clock, and sleeps again, is seen at work now and then for ever: it rests when most looks of
         a longer time see it asleep.
         """
@@ -132,6 +135,7 @@ class Nodes:
         looks: Deque[Set[Tuple[int, int]]] = deque(maxlen=max(2 * _LOOKS, needed))
         enough = max(_LOOKS, int(_PART * rest / pause))
         quiet_since, dry_since, quiet_looks = None, None, 0
+        worked: Dict[int, float] = {}  # process -> s of processor time, when it was first seen to be long at work
         self._look_for_threads()
         while True:
             time.sleep(pause)
@@ -151,9 +155,13 @@ class Nodes:
                 seen = Counter(key for look in looks for key in look)
                 if all(count <= _SELDOM * len(looks) for count in seen.values()):
                     return True
-            if now - start > patience:
-                self._give_up({pid for pid, _ in busy})
-                return False
+            if now - start > _LONG:
+                for pid in {pid for pid, _ in busy} - set(worked) - self._own - self._simulators:
+                    worked[pid] = processor_time(pid)[0]
+                tireless = {pid for pid, before in worked.items() if processor_time(pid)[0] - before > patience}
+                if tireless or now - start > STRETCH * patience:
+                    self._give_up(tireless or {pid for pid, _ in busy})
+                    return False
 
     def _give_up(self, busy: Set[int]) -> None:
         for pid in busy:
@@ -167,7 +175,8 @@ class Nodes:
                     short = file.read().strip()
             except OSError:
                 continue
-            name = next((w.rsplit("/", 1)[-1] for w in words if w and not w.rsplit("/", 1)[-1].startswith("python")), short)
+            names = [word.rsplit("/", 1)[-1] for word in words if word[:1] not in ("", "-")]
+            name = next((name[:60] for name in names if not name.startswith("python")), short)
             if name not in self.restless_names:
                 self.restless_names.append(name)
 

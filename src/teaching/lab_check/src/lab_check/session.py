@@ -29,6 +29,7 @@ from .spec import kind_of
 from .supervise import Guard, Program
 
 _READY_REST = 0.35  # s of rest that show a start-up to be over: spawners look for services every few tenths
+_READY_PATIENCE = 10.0  # s of work without rest after which a node of the launch is waited for no more
 _READY_STEP = 0.1  # s of simulated time between two looks at what has come
 
 
@@ -151,12 +152,12 @@ class Session:
             )
         self._make_bench()
         for part in self.tasks[0]["launch"].split(" + ")[1:]:  # as in a second shell, when the first has come up
-            self.bench.settle(_READY_REST, patience=max(left(), 1.0))
+            self.bench.settle(_READY_REST, patience=min(max(left(), 1.0), _READY_PATIENCE))
             self.bench.pass_time(_READY_STEP)
             self._launch(part)
         missing = ["everything"]
         while missing:
-            self.bench.settle(_READY_REST, patience=max(left(), 1.0))
+            self.bench.settle(_READY_REST, patience=min(max(left(), 1.0), _READY_PATIENCE))
             missing = self._missing(ready)
             if missing and not left():
                 raise Gone(f"not ready after {ready['timeout']:g} s: still missing {', '.join(missing)}")

@@ -210,7 +210,7 @@ class Guard(threading.Thread):
 
     def _worth(self, pids: List[int], wall: float) -> float:
         """What ``wall`` s would have been on a machine of their own: processor time, where they wanted a processor."""
-        uses = {pid: _processor_time(pid) for pid in pids}
+        uses = {pid: processor_time(pid) for pid in pids}
         took = sum(max(seconds - self._used.get(pid, 0.0), 0.0) for pid, (seconds, _) in uses.items())
         self._used = {pid: seconds for pid, (seconds, _) in uses.items()}
         return min(wall, took) if any(waits for _, waits in uses.values()) else wall
@@ -220,7 +220,7 @@ class Guard(threading.Thread):
         self.join(5.0)
 
 
-def _processor_time(pid: int) -> Tuple[float, bool]:
+def processor_time(pid: int) -> Tuple[float, bool]:
     """(s of processor time so far, whether it wants a processor now)."""
     try:
         with open(f"/proc/{pid}/stat", "rb") as file:
