@@ -265,3 +265,19 @@ def test_a_full_disk_is_one_line_and_the_same_command_goes_on(tmp_path):
     assert "first 4" in done.stdout or "first 5" in done.stdout, done.stdout + done.stderr
     assert "No space left" in done.stdout + done.stderr or "is full" in done.stdout + done.stderr
     assert "then 0" in done.stdout and done.stdout.count(",1.0,1.0,") == 3, done.stdout + done.stderr
+
+
+def test_a_name_that_is_no_utf8_does_not_stop_the_class(tmp_path):
+    name = os.fsdecode(b"\xff\xfename")
+    package(tmp_path / name)
+    (found, path), = grade.named([tmp_path / name]).items()
+    book = store.Store(tmp_path / "class.sqlite")
+    book.enlist(found, path, store.fingerprint(path, ""))
+    assert found == "\ufffd\ufffdname" and book.path_of(found) == path
+    result = a_result()
+    result.submission = str(path)
+    book.done(found, result)
+    (tmp_path / "spec.yaml").write_text("title: t\ntasks: [{name: a, launch: '', expect: [{file: {path: x}}]}]\n")
+    report.write(result, spec.load(tmp_path / "spec.yaml"), tmp_path)
+    gradebook.write(spec.load(tmp_path / "spec.yaml"), book, tmp_path)
+    assert found in (tmp_path / "gradebook.csv").read_text() and found in (tmp_path / "report.html").read_text()

@@ -50,6 +50,7 @@ def sandbox_options(parser: argparse.ArgumentParser) -> None:
 def check(arguments: Optional[List[str]] = None) -> int:
     """Exit code 0 full marks, 1 less, 2 the spec is faulty, 3 no sandbox, 4 the checker itself failed."""
     from .check import check as examine
+    from .outcome import readable
 
     parser = parser_for("check", "Mark one submission; reports in --out.")
     parser.add_argument(
@@ -77,7 +78,7 @@ def check(arguments: Optional[List[str]] = None) -> int:
         print(f"note: {note}")
     if result.fault:
         print(f"lab_check: the checker itself failed: {result.fault}", file=sys.stderr)
-    print(f"{result.points:g} of {result.of:g} points in {result.seconds:.1f} s; {out / 'report.html'}")
+    print(f"{result.points:g} of {result.of:g} points in {result.seconds:.1f} s; {readable(str(out / 'report.html'))}")
     return 4 if result.fault else int(result.points < result.of)
 
 

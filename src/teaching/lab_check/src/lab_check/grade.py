@@ -12,7 +12,7 @@ from typing import Callable, Dict, List, Optional
 from . import gradebook
 from .cluster import Cluster, ClusterError
 from .engines import Engine, How, Pool
-from .outcome import Result
+from .outcome import Result, readable
 from .spec import Spec
 from .store import Store, fingerprint
 
@@ -20,11 +20,11 @@ TRIES = 2  # for a submission whose worker died
 
 
 def named(paths: List[pathlib.Path]) -> Dict[str, pathlib.Path]:
-    """Submissions by the last part of their path; where two have the same, the folder before it goes in front."""
+    """Submissions by the last part of their path, without what is no UTF-8; where two have the same, the folder before it goes in front."""
     found: Dict[str, pathlib.Path] = {}
     last = [path.name for path in paths]
     for path in paths:
-        name = path.name if last.count(path.name) == 1 else f"{path.parent.name}_{path.name}"
+        name = readable(path.name if last.count(path.name) == 1 else f"{path.parent.name}_{path.name}")
         while name in found:
             name += "_"
         found[name] = path

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import html
+import os
 import pathlib
 from collections import Counter
 from typing import Dict, List, Optional
@@ -21,7 +22,7 @@ def write(spec: Spec, store: Store, out: pathlib.Path) -> None:
     rows = store.rows()
     results: Dict[str, Optional[Result]] = {row["name"]: result_of(row) for row in rows}
     tasks = (["Build"] if spec.data["packages"] else []) + [task["name"] for task in spec.data["tasks"]]
-    near = pairs({row["name"]: pathlib.Path(row["path"]) for row in rows if row["state"] == "done"})
+    near = pairs({row["name"]: pathlib.Path(os.fsdecode(row["path"])) for row in rows if row["state"] == "done"})
     with open(out / "gradebook.csv", "w", newline="", encoding="utf-8", errors="backslashreplace") as file:
         writer = csv.writer(file)
         writer.writerow(["submission", "points", "of", *tasks, "remark"])

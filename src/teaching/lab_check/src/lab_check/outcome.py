@@ -63,6 +63,11 @@ def task_from(data: Dict[str, Any]) -> TaskResult:
     return TaskResult(**{**data, "verdicts": [Verdict(**verdict) for verdict in data["verdicts"]]})
 
 
+def readable(name: str) -> str:
+    """A file's name as it can be shown and stored: bytes that are no UTF-8 become the sign for that."""
+    return name.encode("utf-8", "surrogateescape").decode("utf-8", "replace")
+
+
 def rounded(points: float) -> float:
     """Marks to a millionth: sums of thirds come out the same in any order."""
     return round(points + 0.0, 6)

@@ -31,7 +31,7 @@ class Store:
         row = self._db.execute("SELECT fingerprint FROM submissions WHERE name = ?", (name,)).fetchone()
         if row is None or row["fingerprint"] != fingerprint:
             self._db.execute(
-                "INSERT OR REPLACE INTO submissions (name, path, fingerprint) VALUES (?, ?, ?)", (name, str(path), fingerprint)
+                "INSERT OR REPLACE INTO submissions (name, path, fingerprint) VALUES (?, ?, ?)", (name, os.fsencode(path), fingerprint)
             )
 
     def begin_again(self, names: Optional[Collection[str]] = None) -> None:
@@ -51,7 +51,7 @@ class Store:
         return self._db.execute(f"SELECT {column} FROM submissions WHERE name = ?", (name,)).fetchone()[column]
 
     def path_of(self, name: str) -> pathlib.Path:
-        return pathlib.Path(self._one(name, "path"))
+        return pathlib.Path(os.fsdecode(self._one(name, "path")))
 
     def tries(self, name: str) -> int:
         return self._one(name, "tries")

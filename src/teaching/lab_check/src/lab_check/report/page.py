@@ -9,7 +9,7 @@ import os
 import pathlib
 from typing import Dict, List
 
-from ..outcome import Result, TaskResult
+from ..outcome import Result, TaskResult, readable
 from ..spec import Spec
 
 STYLE = """body {font: 16px/1.45 sans-serif; max-width: 60em; margin: 2em auto; padding: 0 1em; color: #222}
@@ -52,7 +52,7 @@ def page(result: Result, spec: Spec, out: pathlib.Path) -> str:
 
 
 def _e(text: str) -> str:
-    return html.escape(str(text))
+    return html.escape(readable(str(text)))
 
 
 def _task(number: int, task: TaskResult, result: Result, out: pathlib.Path) -> str:
