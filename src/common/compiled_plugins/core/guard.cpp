@@ -98,12 +98,18 @@ const char* name_of(int signal)
 {
   switch (signal)
   {
-    case SIGSEGV: return "segmentation fault";
-    case SIGBUS: return "bus error";
-    case SIGFPE: return "arithmetic error, such as a whole number divided by 0";
-    case SIGILL: return "illegal instruction";
-    case SIGABRT: return "aborted: a failed assertion, or an exception that nobody caught";
-    default: return "signal";
+    case SIGSEGV:
+      return "segmentation fault";
+    case SIGBUS:
+      return "bus error";
+    case SIGFPE:
+      return "arithmetic error, such as a whole number divided by 0";
+    case SIGILL:
+      return "illegal instruction";
+    case SIGABRT:
+      return "aborted: a failed assertion, or an exception that nobody caught";
+    default:
+      return "signal";
   }
 }
 

@@ -26,8 +26,8 @@ PYBIND11_MODULE(_core, module)
 {
   module.doc() = "roscpp beside rospy, and guards round compiled plugins.";
   show_to_all();
-  module.def("start", &compiled_plugins::start, py::call_guard<py::gil_scoped_release>(), py::arg("name"), py::arg("remappings"),
-             py::arg("time"));
+  module.def("start", &compiled_plugins::start, py::call_guard<py::gil_scoped_release>(), py::arg("name"),
+             py::arg("remappings"), py::arg("time"));
   module.def("stop", &compiled_plugins::stop, py::call_guard<py::gil_scoped_release>());
   module.def("set_time", &compiled_plugins::set_time);
   module.def("watch", &compiled_plugins::watch);

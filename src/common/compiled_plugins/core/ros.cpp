@@ -50,15 +50,9 @@ std::string start(const std::string& name, const std::map<std::string, std::stri
   return ros::this_node::getName();
 }
 
-bool started()
-{
-  return own;
-}
+bool started() { return own; }
 
-void set_time(double time)
-{
-  ros::Time::setNow(ros::Time().fromNSec(std::llround(time * 1e9)));
-}
+void set_time(double time) { ros::Time::setNow(ros::Time().fromNSec(std::llround(time * 1e9))); }
 
 void stop()
 {

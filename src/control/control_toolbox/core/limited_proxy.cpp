@@ -8,10 +8,7 @@ namespace control_toolbox
 namespace
 {
 
-double bounded(double value, double bound)
-{
-  return std::min(std::max(value, -bound), bound);
-}
+double bounded(double value, double bound) { return std::min(std::max(value, -bound), bound); }
 
 /// Velocity with which the proxy closes an error: linear nearby, that of a constant deceleration far away.
 double approach(double error, double acceleration, double lambda)

@@ -13,10 +13,7 @@ namespace
 
 const char* const default_namespace = "pid";
 
-double clamp(double value, double low, double high)
-{
-  return std::min(std::max(value, low), high);
-}
+double clamp(double value, double low, double high) { return std::min(std::max(value, low), high); }
 
 double attribute(const TiXmlElement& element, const char* name)
 {
@@ -63,10 +60,7 @@ void Pid::initPid(double p, double i, double d, double i_max, double i_min, bool
   initDynamicReconfig(nh);
 }
 
-bool Pid::initParam(const std::string& prefix, const bool quiet)
-{
-  return init(ros::NodeHandle(prefix), quiet);
-}
+bool Pid::initParam(const std::string& prefix, const bool quiet) { return init(ros::NodeHandle(prefix), quiet); }
 
 bool Pid::init(const ros::NodeHandle& n, const bool quiet)
 {
@@ -141,10 +135,7 @@ void Pid::getGains(double& p, double& i, double& d, double& i_max, double& i_min
   antiwindup = gains.antiwindup_;
 }
 
-Pid::Gains Pid::getGains()
-{
-  return *gains_.readFromRT();
-}
+Pid::Gains Pid::getGains() { return *gains_.readFromRT(); }
 
 void Pid::setGains(double p, double i, double d, double i_max, double i_min, bool antiwindup)
 {
@@ -246,25 +237,13 @@ void Pid::publish(const Gains& gains, double error_dot, double i_term, ros::Dura
   publisher_->unlockAndPublish();
 }
 
-double Pid::updatePid(double error, ros::Duration dt)
-{
-  return -computeCommand(error, dt);
-}
+double Pid::updatePid(double error, ros::Duration dt) { return -computeCommand(error, dt); }
 
-double Pid::updatePid(double error, double error_dot, ros::Duration dt)
-{
-  return -computeCommand(error, error_dot, dt);
-}
+double Pid::updatePid(double error, double error_dot, ros::Duration dt) { return -computeCommand(error, error_dot, dt); }
 
-void Pid::setCurrentCmd(double cmd)
-{
-  cmd_ = cmd;
-}
+void Pid::setCurrentCmd(double cmd) { cmd_ = cmd; }
 
-double Pid::getCurrentCmd()
-{
-  return cmd_;
-}
+double Pid::getCurrentCmd() { return cmd_; }
 
 void Pid::getCurrentPIDErrors(double* pe, double* ie, double* de)
 {
@@ -276,8 +255,9 @@ void Pid::getCurrentPIDErrors(double* pe, double* ie, double* de)
 void Pid::printValues()
 {
   const Gains gains = getGains();
-  ROS_INFO("PID: p %g, i %g, d %g, i_max %g, i_min %g, antiwindup %d; errors p %g, i %g, d %g, last p %g; command %g", gains.p_gain_,
-           gains.i_gain_, gains.d_gain_, gains.i_max_, gains.i_min_, gains.antiwindup_, p_error_, i_error_, d_error_, last_error_, cmd_);
+  ROS_INFO("PID: p %g, i %g, d %g, i_max %g, i_min %g, antiwindup %d; errors p %g, i %g, d %g, last p %g; command %g",
+           gains.p_gain_, gains.i_gain_, gains.d_gain_, gains.i_max_, gains.i_min_, gains.antiwindup_, p_error_, i_error_,
+           d_error_, last_error_, cmd_);
 }
 
 }  // namespace control_toolbox

@@ -55,14 +55,12 @@ auto guarded(const std::string& who, const char* what, F call) -> decltype(call(
   catch (...)
   {
     const std::type_info* type = abi::__cxa_current_exception_type();
-    throw Failed(type ? "an exception of type " + hardware_interface::internal::demangleSymbol(type->name()) : "something unknown");
+    throw Failed(type ? "an exception of type " + hardware_interface::internal::demangleSymbol(type->name())
+                      : "something unknown");
   }
 }
 
-ros::Time stamp(double time)
-{
-  return ros::Time().fromNSec(static_cast<std::uint64_t>(std::llround(time * 1e9)));
-}
+ros::Time stamp(double time) { return ros::Time().fromNSec(static_cast<std::uint64_t>(std::llround(time * 1e9))); }
 
 bool pythonEnds()
 {
@@ -122,13 +120,28 @@ public:
       throw Left("it is not running any more");
   }
 
-  bool start(double time) { return guarded(label_, "starting()", [&] { return there().startRequest(stamp(time)); }); }
-  bool stop(double time) { return guarded(label_, "stopping()", [&] { return there().stopRequest(stamp(time)); }); }
-  bool wait(double time) { return guarded(label_, "waiting()", [&] { return there().waitRequest(stamp(time)); }); }
-  bool abort(double time) { return guarded(label_, "aborting()", [&] { return there().abortRequest(stamp(time)); }); }
+  bool start(double time)
+  {
+    return guarded(label_, "starting()", [&] { return there().startRequest(stamp(time)); });
+  }
+  bool stop(double time)
+  {
+    return guarded(label_, "stopping()", [&] { return there().stopRequest(stamp(time)); });
+  }
+  bool wait(double time)
+  {
+    return guarded(label_, "waiting()", [&] { return there().waitRequest(stamp(time)); });
+  }
+  bool abort(double time)
+  {
+    return guarded(label_, "aborting()", [&] { return there().abortRequest(stamp(time)); });
+  }
 
   /// Its stopping() alone: it has failed, and is to brake.
-  void brake(double time) { guarded(label_, "stopping()", [&] { there().stopping(stamp(time)); }); }
+  void brake(double time)
+  {
+    guarded(label_, "stopping()", [&] { there().stopping(stamp(time)); });
+  }
 
   int state() const { return base_ ? static_cast<int>(base_->state_) : 0; }
   void set_state(int state) { there().state_ = static_cast<ControllerBase::ControllerState>(state); }
@@ -185,7 +198,8 @@ public:
   std::unique_ptr<Controller> create(const std::string& name, const std::string& label)
   {
     compiled_plugins::remember(library(name));
-    return std::make_unique<Controller>(guarded(label, "constructor", [&] { return loader_->createSharedInstance(name); }), label);
+    return std::make_unique<Controller>(guarded(label, "constructor", [&] { return loader_->createSharedInstance(name); }),
+                                        label);
   }
 
 private:
@@ -213,19 +227,19 @@ PYBIND11_MODULE(_compiled, module)
   using released = py::call_guard<py::gil_scoped_release>;
   // Calls of the control loop keep Python's lock: giving it up would cost the loop whole milliseconds when other threads want it.
   py::class_<Controller>(module, "Controller")
-    .def("init", &Controller::init, py::arg("robot"), py::arg("root_namespace"), py::arg("name"), released())
-    .def("update", &Controller::update)
-    .def("start", &Controller::start)
-    .def("stop", &Controller::stop)
-    .def("wait", &Controller::wait)
-    .def("abort", &Controller::abort)
-    .def("brake", &Controller::brake)
-    .def("destroy", &Controller::destroy, released())
-    .def_property("state", &Controller::state, &Controller::set_state)
-    .def_property_readonly("address", &Controller::address);
+      .def("init", &Controller::init, py::arg("robot"), py::arg("root_namespace"), py::arg("name"), released())
+      .def("update", &Controller::update)
+      .def("start", &Controller::start)
+      .def("stop", &Controller::stop)
+      .def("wait", &Controller::wait)
+      .def("abort", &Controller::abort)
+      .def("brake", &Controller::brake)
+      .def("destroy", &Controller::destroy, released())
+      .def_property("state", &Controller::state, &Controller::set_state)
+      .def_property_readonly("address", &Controller::address);
   py::class_<Classes>(module, "Classes")
-    .def(py::init<std::vector<std::string>>(), py::arg("descriptions"))
-    .def("library", &Classes::library, py::arg("name"))
-    .def("unload", &Classes::unload, released())
-    .def("create", &Classes::create, py::arg("name"), py::arg("label"), released());
+      .def(py::init<std::vector<std::string>>(), py::arg("descriptions"))
+      .def("library", &Classes::library, py::arg("name"))
+      .def("unload", &Classes::unload, released())
+      .def("create", &Classes::create, py::arg("name"), py::arg("label"), released());
 }

@@ -99,18 +99,19 @@ bool ControllerManager::unloadController(const std::string& name)
 }
 
 bool ControllerManager::switchController(const std::vector<std::string>& start_controllers,
-                                         const std::vector<std::string>& stop_controllers, const int strictness, bool start_asap,
-                                         double timeout)
+                                         const std::vector<std::string>& stop_controllers, const int strictness,
+                                         bool start_asap, double timeout)
 {
   const py::gil_scoped_acquire lock;
-  return python_->manager.attr("switch_controller")(start_controllers, stop_controllers, strictness, start_asap, timeout).cast<bool>();
+  return python_->manager.attr("switch_controller")(start_controllers, stop_controllers, strictness, start_asap, timeout)
+      .cast<bool>();
 }
 
 controller_interface::ControllerBase* ControllerManager::getControllerByName(const std::string& name)
 {
   const py::gil_scoped_acquire lock;
   return reinterpret_cast<controller_interface::ControllerBase*>(
-    python_->module.attr("address_of")(python_->manager, name).cast<std::uintptr_t>());
+      python_->module.attr("address_of")(python_->manager, name).cast<std::uintptr_t>());
 }
 
 void ControllerManager::registerControllerLoader(ControllerLoaderInterfaceSharedPtr controller_loader)
@@ -120,7 +121,7 @@ void ControllerManager::registerControllerLoader(ControllerLoaderInterfaceShared
   const py::cpp_function names([controller_loader] { return controller_loader->getDeclaredClasses(); });
   const py::cpp_function create([controller_loader](const std::string& type) {
     return reinterpret_cast<std::uintptr_t>(
-      new controller_interface::ControllerBaseSharedPtr(controller_loader->createInstance(type)));
+        new controller_interface::ControllerBaseSharedPtr(controller_loader->createInstance(type)));
   });
   python_->module.attr("add_loader")(python_->manager, controller_loader->getName(), names, create);
 }

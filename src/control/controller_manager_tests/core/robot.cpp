@@ -48,7 +48,8 @@ public:
   bool prepareSwitch(const std::list<hardware_interface::ControllerInfo>& start,
                      const std::list<hardware_interface::ControllerInfo>&) override
   {
-    return std::none_of(start.begin(), start.end(), [](const hardware_interface::ControllerInfo& one) { return one.name == "unwanted"; });
+    return std::none_of(start.begin(), start.end(),
+                        [](const hardware_interface::ControllerInfo& one) { return one.name == "unwanted"; });
   }
 
 private:

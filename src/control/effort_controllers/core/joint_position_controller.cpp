@@ -7,10 +7,7 @@
 namespace effort_controllers
 {
 
-JointPositionController::~JointPositionController()
-{
-  sub_command_.shutdown();
-}
+JointPositionController::~JointPositionController() { sub_command_.shutdown(); }
 
 bool JointPositionController::init(hardware_interface::EffortJointInterface* robot, ros::NodeHandle& n)
 {
@@ -46,12 +43,13 @@ void JointPositionController::update(const ros::Time& time, const ros::Duration&
   const double target = limited(command_struct_.position_), position = joint_.getPosition(), velocity = joint_.getVelocity();
   double error = target - position;
   if (joint_urdf_->type == urdf::Joint::REVOLUTE && joint_urdf_->limits)
-    angles::shortest_angular_distance_with_large_limits(position, target, joint_urdf_->limits->lower, joint_urdf_->limits->upper, error);
+    angles::shortest_angular_distance_with_large_limits(position, target, joint_urdf_->limits->lower,
+                                                        joint_urdf_->limits->upper, error);
   else if (joint_urdf_->type == urdf::Joint::CONTINUOUS)
     error = angles::shortest_angular_distance(position, target);
-  const double effort = command_struct_.has_velocity_ ?
-                          pid_controller_.computeCommand(error, command_struct_.velocity_ - velocity, period) :
-                          pid_controller_.computeCommand(error, period);
+  const double effort = command_struct_.has_velocity_
+                            ? pid_controller_.computeCommand(error, command_struct_.velocity_ - velocity, period)
+                            : pid_controller_.computeCommand(error, period);
   joint_.setCommand(effort);
   publishState(time, period, target, position, velocity, error, effort);
 }
@@ -72,15 +70,9 @@ void JointPositionController::setCommand(double pos_target, double vel_target)
   command_.writeFromNonRT(commands);
 }
 
-double JointPositionController::getPosition()
-{
-  return joint_.getPosition();
-}
+double JointPositionController::getPosition() { return joint_.getPosition(); }
 
-void JointPositionController::setCommandCB(const std_msgs::Float64ConstPtr& msg)
-{
-  setCommand(msg->data);
-}
+void JointPositionController::setCommandCB(const std_msgs::Float64ConstPtr& msg) { setCommand(msg->data); }
 
 double JointPositionController::limited(double position) const
 {

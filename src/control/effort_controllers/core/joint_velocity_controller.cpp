@@ -3,10 +3,7 @@
 namespace effort_controllers
 {
 
-JointVelocityController::~JointVelocityController()
-{
-  sub_command_.shutdown();
-}
+JointVelocityController::~JointVelocityController() { sub_command_.shutdown(); }
 
 bool JointVelocityController::init(hardware_interface::EffortJointInterface* robot, ros::NodeHandle& n)
 {
@@ -38,19 +35,10 @@ void JointVelocityController::update(const ros::Time& time, const ros::Duration&
   publishState(time, period, target, velocity, 0.0, error, effort);
 }
 
-void JointVelocityController::setCommand(double cmd)
-{
-  command_ = cmd;
-}
+void JointVelocityController::setCommand(double cmd) { command_ = cmd; }
 
-void JointVelocityController::getCommand(double& cmd)
-{
-  cmd = command_;
-}
+void JointVelocityController::getCommand(double& cmd) { cmd = command_; }
 
-void JointVelocityController::setCommandCB(const std_msgs::Float64ConstPtr& msg)
-{
-  command_ = msg->data;
-}
+void JointVelocityController::setCommandCB(const std_msgs::Float64ConstPtr& msg) { command_ = msg->data; }
 
 }  // namespace effort_controllers

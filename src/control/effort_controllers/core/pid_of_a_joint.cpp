@@ -19,15 +19,9 @@ void PidOfAJoint::setGains(const double& p, const double& i, const double& d, co
   pid_controller_.setGains(p, i, d, i_max, i_min, antiwindup);
 }
 
-void PidOfAJoint::printDebug()
-{
-  pid_controller_.printValues();
-}
+void PidOfAJoint::printDebug() { pid_controller_.printValues(); }
 
-std::string PidOfAJoint::getJointName()
-{
-  return joint_.getName();
-}
+std::string PidOfAJoint::getJointName() { return joint_.getName(); }
 
 bool PidOfAJoint::initJoint(hardware_interface::EffortJointInterface* robot, ros::NodeHandle& n)
 {
@@ -44,8 +38,8 @@ bool PidOfAJoint::initJoint(hardware_interface::EffortJointInterface* robot, ros
   return true;
 }
 
-void PidOfAJoint::publishState(const ros::Time& time, const ros::Duration& period, double set_point, double value, double value_dot,
-                               double error, double command)
+void PidOfAJoint::publishState(const ros::Time& time, const ros::Duration& period, double set_point, double value,
+                               double value_dot, double error, double command)
 {
   if (loop_count_++ % 10 != 0 || !controller_state_publisher_ || !controller_state_publisher_->trylock())
     return;

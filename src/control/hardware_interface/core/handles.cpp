@@ -79,15 +79,9 @@ int set_optional(PyObject* self, PyObject* value, void* closure)
   return 0;
 }
 
-PyObject* get_name(PyObject* self, void*)
-{
-  return object_or_none(state_of(self)->name);
-}
+PyObject* get_name(PyObject* self, void*) { return object_or_none(state_of(self)->name); }
 
-PyObject* get_state(PyObject* self, void*)
-{
-  return object_or_none(reinterpret_cast<Handle*>(self)->state);
-}
+PyObject* get_state(PyObject* self, void*) { return object_or_none(reinterpret_cast<Handle*>(self)->state); }
 
 /// Addresses of the numbers, 0 for what is not there. They are good as long as the handle lives.
 PyObject* get_addresses(PyObject* self, void*)
@@ -167,8 +161,8 @@ int init_command(PyObject* self, PyObject* args, PyObject* kwargs, const char* c
 {
   PyObject* state = nullptr;
   PyObject* given[numbers] = {};
-  if (!PyArg_ParseTupleAndKeywords(args, kwargs, format, const_cast<char**>(words), &state, &given[0], &given[1], &given[2], &given[3],
-                                   &given[4]))
+  if (!PyArg_ParseTupleAndKeywords(args, kwargs, format, const_cast<char**>(words), &state, &given[0], &given[1], &given[2],
+                                   &given[3], &given[4]))
     return -1;
   if (!PyObject_TypeCheck(state, &state_type))
   {
@@ -234,14 +228,29 @@ PyObject* show(PyObject* self)
 PyMethodDef view_methods[] = { { "_look_at", look_at, METH_VARARGS, "Show the doubles at these addresses from now on." },
                                { nullptr, nullptr, 0, nullptr } };
 
-#define NAME { "name", get_name, nullptr, nullptr, nullptr }
-#define ADDRESSES { "_addresses", get_addresses, nullptr, nullptr, nullptr }
-#define NUMBER(word, index) { word, get_number, set_number, nullptr, index_of(index) }
-#define OF_STATE(word, index) { word, get_state_number, nullptr, nullptr, index_of(index) }
-#define STATE                                                                                                              \
-  NAME, ADDRESSES, { "state", get_state, nullptr, nullptr, nullptr }, OF_STATE("position", 0), OF_STATE("velocity", 1),    \
-    OF_STATE("effort", 2), OF_STATE("absolute_position", 3), OF_STATE("torque_sensor", 4)
-#define END { nullptr, nullptr, nullptr, nullptr, nullptr }
+#define NAME                                    \
+  {                                             \
+    "name", get_name, nullptr, nullptr, nullptr \
+  }
+#define ADDRESSES                                          \
+  {                                                        \
+    "_addresses", get_addresses, nullptr, nullptr, nullptr \
+  }
+#define NUMBER(word, index)                                \
+  {                                                        \
+    word, get_number, set_number, nullptr, index_of(index) \
+  }
+#define OF_STATE(word, index)                                 \
+  {                                                           \
+    word, get_state_number, nullptr, nullptr, index_of(index) \
+  }
+#define STATE                                                                                                           \
+  NAME, ADDRESSES, { "state", get_state, nullptr, nullptr, nullptr }, OF_STATE("position", 0), OF_STATE("velocity", 1), \
+      OF_STATE("effort", 2), OF_STATE("absolute_position", 3), OF_STATE("torque_sensor", 4)
+#define END                                     \
+  {                                             \
+    nullptr, nullptr, nullptr, nullptr, nullptr \
+  }
 
 PyGetSetDef state_attributes[] = { NAME,
                                    ADDRESSES,
@@ -321,11 +330,13 @@ bool ready(PyObject* module, PyTypeObject& type, const char* name, Py_ssize_t si
   type.tp_methods = methods;
   type.tp_repr = show;
   type.tp_base = base;
-  return PyType_Ready(&type) == 0 && PyModule_AddObjectRef(module, std::strrchr(name, '.') + 1, reinterpret_cast<PyObject*>(&type)) == 0;
+  return PyType_Ready(&type) == 0 &&
+         PyModule_AddObjectRef(module, std::strrchr(name, '.') + 1, reinterpret_cast<PyObject*>(&type)) == 0;
 }
 
-PyModuleDef definition = { PyModuleDef_HEAD_INIT, "_handles", "Handles whose numbers C++ can point at.", -1,
-                           nullptr, nullptr, nullptr, nullptr, nullptr };
+PyModuleDef definition = {
+  PyModuleDef_HEAD_INIT, "_handles", "Handles whose numbers C++ can point at.", -1, nullptr, nullptr, nullptr, nullptr, nullptr
+};
 
 }  // namespace handles
 
@@ -344,9 +355,11 @@ PyMODINIT_FUNC PyInit__handles()
   state_type.tp_setattro = set_of_state;
   joint_type.tp_getattro = get_of_joint;
   joint_type.tp_setattro = set_of_joint;
-  if (module && ready(module, state_type, "hardware_interface.JointStateHandle", size, init_state, state_attributes, view_methods) &&
+  if (module &&
+      ready(module, state_type, "hardware_interface.JointStateHandle", size, init_state, state_attributes, view_methods) &&
       ready(module, joint_type, "hardware_interface.JointHandle", size, init_joint, joint_attributes, view_methods) &&
-      ready(module, pos_vel_type, "hardware_interface.PosVelJointHandle", size, init_pos_vel, pos_vel_attributes, view_methods) &&
+      ready(module, pos_vel_type, "hardware_interface.PosVelJointHandle", size, init_pos_vel, pos_vel_attributes,
+            view_methods) &&
       ready(module, pos_vel_acc_type, "hardware_interface.PosVelAccJointHandle", size, init_pos_vel_acc, pos_vel_acc_attributes,
             nullptr, &pos_vel_type) &&
       ready(module, gains_type, "hardware_interface.PositionVelocityTorqueGainsJointHandle", size, init_gains, gains_attributes,

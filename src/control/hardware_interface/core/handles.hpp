@@ -15,22 +15,15 @@ constexpr int numbers = 6;  // at most, of one handle
 /// of ``keeper``.
 struct Handle
 {
-  PyObject_HEAD
-  PyObject* name;     // of command handles: null
-  PyObject* state;    // of command handles: the state handle, else null
-  PyObject* keeper;   // keeps alive what data points to; may be null
+  PyObject_HEAD PyObject* name;  // of command handles: null
+  PyObject* state;               // of command handles: the state handle, else null
+  PyObject* keeper;              // keeps alive what data points to; may be null
   double* data[numbers];
 };
 
-inline void* index_of(int index)
-{
-  return reinterpret_cast<void*>(static_cast<intptr_t>(index));
-}
+inline void* index_of(int index) { return reinterpret_cast<void*>(static_cast<intptr_t>(index)); }
 
-inline int index_in(void* closure)
-{
-  return static_cast<int>(reinterpret_cast<intptr_t>(closure));
-}
+inline int index_in(void* closure) { return static_cast<int>(reinterpret_cast<intptr_t>(closure)); }
 
 // Attributes and methods that several kinds have.
 

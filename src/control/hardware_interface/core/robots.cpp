@@ -68,7 +68,8 @@ StateHandle state_handle(const Record& record)
 template <class StateHandle>
 Record state_record(const StateHandle& handle)
 {
-  return { handle.getName(), "",
+  return { handle.getName(),
+           "",
            addresses(handle.getPositionPtr(), handle.getVelocityPtr(), handle.getEffortPtr(), handle.getAbsolutePositionPtr(),
                      handle.getTorqueSensorPtr()),
            {} };
@@ -149,8 +150,8 @@ struct Kind<hwi::PosVelAccJointHandle>
   static Record show(const hwi::PosVelAccJointHandle& handle)
   {
     return with<hwi::PosVelAccJointHandle>(
-      state_record<hwi::JointStateHandle>(handle),
-      addresses(handle.getCommandPositionPtr(), handle.getCommandVelocityPtr(), handle.getCommandAccelerationPtr()));
+        state_record<hwi::JointStateHandle>(handle),
+        addresses(handle.getCommandPositionPtr(), handle.getCommandVelocityPtr(), handle.getCommandAccelerationPtr()));
   }
 };
 
@@ -181,7 +182,9 @@ struct Kind<hwi::ImuSensorHandle>
   }
   static Record show(const hwi::ImuSensorHandle& handle)
   {
-    return { handle.getName(), handle.getFrameId(), {},
+    return { handle.getName(),
+             handle.getFrameId(),
+             {},
              addresses(handle.getOrientation(), handle.getOrientationCovariance(), handle.getAngularVelocity(),
                        handle.getAngularVelocityCovariance(), handle.getLinearAcceleration(),
                        handle.getLinearAccelerationCovariance()) };
@@ -208,7 +211,10 @@ struct Kind<hwi::JointModeHandle>
   {
     return hwi::JointModeHandle(record.name, reinterpret_cast<hwi::JointCommandModes*>(record.data.at(0)));
   }
-  static Record show(const hwi::JointModeHandle& handle) { return { handle.getName(), "", {}, addresses(handle.getModePtr()) }; }
+  static Record show(const hwi::JointModeHandle& handle)
+  {
+    return { handle.getName(), "", {}, addresses(handle.getModePtr()) };
+  }
 };
 
 // -- interfaces by name --------------------------------------------------------------------------------------------------------------
@@ -326,7 +332,10 @@ public:
   {
     return hw_->prepareSwitch(to_infos(start), to_infos(stop));
   }
-  void do_switch(const std::vector<Info>& start, const std::vector<Info>& stop) { hw_->doSwitch(to_infos(start), to_infos(stop)); }
+  void do_switch(const std::vector<Info>& start, const std::vector<Info>& stop)
+  {
+    hw_->doSwitch(to_infos(start), to_infos(stop));
+  }
   int switch_result(const Info* info) const
   {
     return static_cast<int>(info ? hw_->switchResult(to_info(*info)) : hw_->switchResult());
@@ -348,30 +357,33 @@ PYBIND11_MODULE(_robots, module)
   module.doc() = "Robots in both languages.";
   using released = py::call_guard<py::gil_scoped_release>;
   py::class_<Record>(module, "Record")
-    .def(py::init<std::string, std::string, Addresses, Addresses>(), py::arg("name"), py::arg("frame_id"), py::arg("state"),
-         py::arg("data"))
-    .def_readonly("name", &Record::name)
-    .def_readonly("frame_id", &Record::frame_id)
-    .def_readonly("state", &Record::state)
-    .def_readonly("data", &Record::data);
+      .def(py::init<std::string, std::string, Addresses, Addresses>(), py::arg("name"), py::arg("frame_id"), py::arg("state"),
+           py::arg("data"))
+      .def_readonly("name", &Record::name)
+      .def_readonly("frame_id", &Record::frame_id)
+      .def_readonly("state", &Record::state)
+      .def_readonly("data", &Record::data);
   py::class_<Robot>(module, "Robot")
-    .def(py::init<>())
-    .def(py::init<std::uintptr_t, py::object>(), py::arg("address"), py::arg("keeper"))
-    .def_property_readonly("address", &Robot::address)
-    .def("names", &Robot::names)
-    .def_static("knows", &Robot::knows, py::arg("type"))
-    .def("fill", &Robot::fill, py::arg("type"), py::arg("records"), py::arg("keeper"))
-    .def("add_manager", &Robot::add_manager, py::arg("part"), py::arg("keeper"))
-    .def("handles", &Robot::handles, py::arg("type"))
-    .def("read", &Robot::read, py::arg("time"), py::arg("period"), released())
-    .def("write", &Robot::write, py::arg("time"), py::arg("period"), released())
-    .def("check_for_conflict", &Robot::check_for_conflict, py::arg("infos"), released())
-    .def("prepare_switch", &Robot::prepare_switch, py::arg("start"), py::arg("stop"), released())
-    .def("do_switch", &Robot::do_switch, py::arg("start"), py::arg("stop"))
-    .def("switch_result", [](const Robot& robot, const py::object& info) {
-      if (info.is_none())
-        return robot.switch_result(nullptr);
-      const Info converted = info.cast<Info>();
-      return robot.switch_result(&converted);
-    }, py::arg("info"));
+      .def(py::init<>())
+      .def(py::init<std::uintptr_t, py::object>(), py::arg("address"), py::arg("keeper"))
+      .def_property_readonly("address", &Robot::address)
+      .def("names", &Robot::names)
+      .def_static("knows", &Robot::knows, py::arg("type"))
+      .def("fill", &Robot::fill, py::arg("type"), py::arg("records"), py::arg("keeper"))
+      .def("add_manager", &Robot::add_manager, py::arg("part"), py::arg("keeper"))
+      .def("handles", &Robot::handles, py::arg("type"))
+      .def("read", &Robot::read, py::arg("time"), py::arg("period"), released())
+      .def("write", &Robot::write, py::arg("time"), py::arg("period"), released())
+      .def("check_for_conflict", &Robot::check_for_conflict, py::arg("infos"), released())
+      .def("prepare_switch", &Robot::prepare_switch, py::arg("start"), py::arg("stop"), released())
+      .def("do_switch", &Robot::do_switch, py::arg("start"), py::arg("stop"))
+      .def(
+          "switch_result",
+          [](const Robot& robot, const py::object& info) {
+            if (info.is_none())
+              return robot.switch_result(nullptr);
+            const Info converted = info.cast<Info>();
+            return robot.switch_result(&converted);
+          },
+          py::arg("info"));
 }

@@ -22,10 +22,7 @@ struct ModeHandle : Handle
   int own;
 };
 
-PyObject* get_frame_id(PyObject* self, void*)
-{
-  return object_or_none(reinterpret_cast<ArraysHandle*>(self)->frame_id);
-}
+PyObject* get_frame_id(PyObject* self, void*) { return object_or_none(reinterpret_cast<ArraysHandle*>(self)->frame_id); }
 
 void release_arrays(PyObject* self)
 {
@@ -94,8 +91,8 @@ int init_sensor(PyObject* self, PyObject* args, PyObject* kwargs, const char* co
 {
   ArraysHandle* handle = reinterpret_cast<ArraysHandle*>(self);
   PyObject *name = nullptr, *frame_id = nullptr, *given[numbers] = {};
-  if (!PyArg_ParseTupleAndKeywords(args, kwargs, format, const_cast<char**>(words), &name, &frame_id, &given[0], &given[1], &given[2],
-                                   &given[3], &given[4], &given[5]) ||
+  if (!PyArg_ParseTupleAndKeywords(args, kwargs, format, const_cast<char**>(words), &name, &frame_id, &given[0], &given[1],
+                                   &given[2], &given[3], &given[4], &given[5]) ||
       !named(name))
     return -1;
   if (frame_id && !named(frame_id))
@@ -118,8 +115,15 @@ int init_sensor(PyObject* self, PyObject* args, PyObject* kwargs, const char* co
 
 int init_imu(PyObject* self, PyObject* args, PyObject* kwargs)
 {
-  static const char* words[] = { "name", "frame_id", "orientation", "orientation_covariance", "angular_velocity",
-                                 "angular_velocity_covariance", "linear_acceleration", "linear_acceleration_covariance", nullptr };
+  static const char* words[] = { "name",
+                                 "frame_id",
+                                 "orientation",
+                                 "orientation_covariance",
+                                 "angular_velocity",
+                                 "angular_velocity_covariance",
+                                 "linear_acceleration",
+                                 "linear_acceleration_covariance",
+                                 nullptr };
   return init_sensor(self, args, kwargs, words, "O|OOOOOOO", imu_fields, 6);
 }
 
@@ -144,10 +148,7 @@ int init_mode(PyObject* self, PyObject* args, PyObject* kwargs)
   return 0;
 }
 
-PyObject* get_mode(PyObject* self, void*)
-{
-  return PyLong_FromLong(*reinterpret_cast<ModeHandle*>(self)->mode);
-}
+PyObject* get_mode(PyObject* self, void*) { return PyLong_FromLong(*reinterpret_cast<ModeHandle*>(self)->mode); }
 
 int set_mode(PyObject* self, PyObject* value, void*)
 {
@@ -158,10 +159,7 @@ int set_mode(PyObject* self, PyObject* value, void*)
   return 0;
 }
 
-PyObject* get_mode_address(PyObject* self, void*)
-{
-  return PyLong_FromVoidPtr(reinterpret_cast<ModeHandle*>(self)->mode);
-}
+PyObject* get_mode_address(PyObject* self, void*) { return PyLong_FromVoidPtr(reinterpret_cast<ModeHandle*>(self)->mode); }
 
 PyObject* look_at_mode(PyObject* self, PyObject* args)
 {
@@ -176,19 +174,43 @@ PyObject* look_at_mode(PyObject* self, PyObject* args)
   Py_RETURN_NONE;
 }
 
-#define NAME { "name", get_name, nullptr, nullptr, nullptr }
-#define ADDRESSES { "_addresses", get_addresses, nullptr, nullptr, nullptr }
-#define ARRAY(field) { field.name, get_array, set_array, nullptr, &field }
-#define FRAME { "frame_id", get_frame_id, nullptr, nullptr, nullptr }
-#define END { nullptr, nullptr, nullptr, nullptr, nullptr }
+#define NAME                                    \
+  {                                             \
+    "name", get_name, nullptr, nullptr, nullptr \
+  }
+#define ADDRESSES                                          \
+  {                                                        \
+    "_addresses", get_addresses, nullptr, nullptr, nullptr \
+  }
+#define ARRAY(field)                                  \
+  {                                                   \
+    field.name, get_array, set_array, nullptr, &field \
+  }
+#define FRAME                                           \
+  {                                                     \
+    "frame_id", get_frame_id, nullptr, nullptr, nullptr \
+  }
+#define END                                     \
+  {                                             \
+    nullptr, nullptr, nullptr, nullptr, nullptr \
+  }
 
 PyMethodDef mode_methods[] = { { "_look_at", look_at_mode, METH_VARARGS, "Show the mode at this address from now on." },
                                { nullptr, nullptr, 0, nullptr } };
-PyGetSetDef imu_attributes[] = { NAME, FRAME, ADDRESSES, ARRAY(imu_fields[0]), ARRAY(imu_fields[1]), ARRAY(imu_fields[2]),
-                                 ARRAY(imu_fields[3]), ARRAY(imu_fields[4]), ARRAY(imu_fields[5]), END };
+PyGetSetDef imu_attributes[] = { NAME,
+                                 FRAME,
+                                 ADDRESSES,
+                                 ARRAY(imu_fields[0]),
+                                 ARRAY(imu_fields[1]),
+                                 ARRAY(imu_fields[2]),
+                                 ARRAY(imu_fields[3]),
+                                 ARRAY(imu_fields[4]),
+                                 ARRAY(imu_fields[5]),
+                                 END };
 PyGetSetDef wrench_attributes[] = { NAME, FRAME, ADDRESSES, ARRAY(wrench_fields[0]), ARRAY(wrench_fields[1]), END };
-PyGetSetDef mode_attributes[] = { NAME, { "_address", get_mode_address, nullptr, nullptr, nullptr },
-                                  { "_mode", get_mode, set_mode, nullptr, nullptr }, END };
+PyGetSetDef mode_attributes[] = {
+  NAME, { "_address", get_mode_address, nullptr, nullptr, nullptr }, { "_mode", get_mode, set_mode, nullptr, nullptr }, END
+};
 
 PyTypeObject imu_type = { PyVarObject_HEAD_INIT(nullptr, 0) };
 PyTypeObject wrench_type = { PyVarObject_HEAD_INIT(nullptr, 0) };
@@ -207,8 +229,8 @@ PyObject* new_mode(PyTypeObject* type, PyObject*, PyObject*)
 bool add_sensors(PyObject* module)
 {
   mode_type.tp_new = new_mode;
-  return ready(module, imu_type, "hardware_interface.ImuSensorHandle", sizeof(ArraysHandle), init_imu, imu_attributes, view_methods,
-               nullptr, release_arrays) &&
+  return ready(module, imu_type, "hardware_interface.ImuSensorHandle", sizeof(ArraysHandle), init_imu, imu_attributes,
+               view_methods, nullptr, release_arrays) &&
          ready(module, wrench_type, "hardware_interface.ForceTorqueSensorHandle", sizeof(ArraysHandle), init_wrench,
                wrench_attributes, view_methods, nullptr, release_arrays) &&
          ready(module, mode_type, "hardware_interface._handles.JointModeHandle", sizeof(ModeHandle), init_mode, mode_attributes,

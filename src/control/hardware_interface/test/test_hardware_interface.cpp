@@ -147,7 +147,8 @@ TEST(Interfaces, AMissingHandleNamesWhatThereIs)
   interface.registerHandle(n.joint("a"));
   EXPECT_THROW(interface.getHandle("x"), HardwareInterfaceException);
   const std::string message = message_of([&] { interface.getHandle("x"); });
-  EXPECT_NE(std::string::npos, message.find("Could not find resource 'x' in 'hardware_interface::PositionJointInterface'")) << message;
+  EXPECT_NE(std::string::npos, message.find("Could not find resource 'x' in 'hardware_interface::PositionJointInterface'"))
+      << message;
   EXPECT_NE(std::string::npos, message.find("it has: a")) << message;
 }
 

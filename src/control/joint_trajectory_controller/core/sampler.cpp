@@ -15,12 +15,12 @@ struct Joint
 {
   const double* position = nullptr;  // measured, rad or m
   const double* velocity = nullptr;
-  double* command = nullptr;         // where its position goes, or nobody takes it here
+  double* command = nullptr;  // where its position goes, or nobody takes it here
   bool angular = false;
   double start = 0, end = 0, next_start = 0;  // s; of the segment and of the one after it
   std::array<double, 6> c{};
   double end_position = 0;
-  bool watched = false;                            // the segment belongs to the goal
+  bool watched = false;                                   // the segment belongs to the goal
   double position_tolerance = 0, velocity_tolerance = 0;  // 0 or less: none
 };
 
@@ -42,10 +42,7 @@ Point sample(const Joint& joint, double time)
            2.0 * c[2] + t * (6.0 * c[3] + t * (12.0 * c[4] + t * 20.0 * c[5])) };
 }
 
-bool broken(double error, double tolerance)
-{
-  return tolerance > 0.0 && !(std::abs(error) <= tolerance);
-}
+bool broken(double error, double tolerance) { return tolerance > 0.0 && !(std::abs(error) <= tolerance); }
 
 class Sampler
 {

@@ -14,7 +14,6 @@ namespace
 
 namespace hwi = hardware_interface;
 
-
 struct Loader : TransmissionLoader
 {
   /// The three types of this package; in the order of the roles.
@@ -29,9 +28,10 @@ struct Loader : TransmissionLoader
   {
     double reduction = 1.0, offset = 0.0;
     if (!checkActuatorDimension(info, 1) || !checkJointDimension(info, 1) ||
-        getActuatorReduction(loadXmlElement(info.actuators_[0].xml_element_), info.actuators_[0].name_, info.name_, true, reduction) !=
-          SUCCESS ||
-        getJointOffset(loadXmlElement(info.joints_[0].xml_element_), info.joints_[0].name_, info.name_, false, offset) == BAD_TYPE)
+        getActuatorReduction(loadXmlElement(info.actuators_[0].xml_element_), info.actuators_[0].name_, info.name_, true,
+                             reduction) != SUCCESS ||
+        getJointOffset(loadXmlElement(info.joints_[0].xml_element_), info.joints_[0].name_, info.name_, false, offset) ==
+            BAD_TYPE)
       return nullptr;
     return std::make_shared<SimpleTransmission>(reduction, offset);
   }
@@ -138,7 +138,8 @@ void connect(TransmissionLoaderData& data, const TransmissionInfo& info, Transmi
   for (const JointInfo& joint : joints)
   {
     RawJointData& raw = data.raw_joint_data_map[joint.name_];
-    add(interface, hwi::JointHandle(data.joint_interfaces.joint_state_interface.getHandle(joint.name_), &(raw.*command.number)));
+    add(interface,
+        hwi::JointHandle(data.joint_interfaces.joint_state_interface.getHandle(joint.name_), &(raw.*command.number)));
     (at_joints.*command.joint).push_back(&(raw.*command.number));
   }
   offer(*data.robot_hw, interface);
@@ -181,8 +182,9 @@ bool asks_for(const std::string& written, const char* kind)
 }
 
 /// \param both: commands also go from actuators to joints
-void offer_commands(TransmissionLoaderData& data, const TransmissionInfo& info, Transmission& transmission, const std::string& written,
-                    const std::vector<ActuatorInfo>& actuators, const std::vector<JointInfo>& joints, bool both)
+void offer_commands(TransmissionLoaderData& data, const TransmissionInfo& info, Transmission& transmission,
+                    const std::string& written, const std::vector<ActuatorInfo>& actuators,
+                    const std::vector<JointInfo>& joints, bool both)
 {
   ForwardTransmissionInterfaces& forward = data.transmission_interfaces;
   InverseTransmissionInterfaces& inverse = data.inverse_transmission_interfaces;
@@ -199,8 +201,9 @@ void offer_commands(TransmissionLoaderData& data, const TransmissionInfo& info, 
                                             interfaces.velocity_joint_interface, forward.jnt_to_act_vel_cmd,
                                             inverse.act_to_jnt_vel_cmd, both);
   else if (asks_for(written, "Effort"))
-    connect<hwi::EffortActuatorInterface>(data, info, transmission, effort, actuators, joints, interfaces.effort_joint_interface,
-                                          forward.jnt_to_act_eff_cmd, inverse.act_to_jnt_eff_cmd, both);
+    connect<hwi::EffortActuatorInterface>(data, info, transmission, effort, actuators, joints,
+                                          interfaces.effort_joint_interface, forward.jnt_to_act_eff_cmd,
+                                          inverse.act_to_jnt_eff_cmd, both);
   else if (!asks_for(written, "State"))
     ROS_WARN("transmission '%s': hardware interface '%s' is unknown and left out", info.name_.c_str(), written.c_str());
 }
@@ -237,7 +240,7 @@ TransmissionSharedPtr TransmissionInterfaceLoader::make(const TransmissionInfo& 
     return Loader().load(info);
   if (!types_)
     types_ = std::make_shared<pluginlib::ClassLoader<TransmissionLoader>>("transmission_interface",
-                                                                           "transmission_interface::TransmissionLoader");
+                                                                          "transmission_interface::TransmissionLoader");
   return std::shared_ptr<TransmissionLoader>(types_->createUnmanagedInstance(info.type_))->load(info);
 }
 
@@ -250,7 +253,8 @@ bool TransmissionInterfaceLoader::load(const TransmissionInfo& info)
     if (!transmission)
       return false;
     const auto actuators = is_ours(info.type_) ? ordered(info.actuators_, role_of) : info.actuators_;
-    const auto joints = is_ours(info.type_) ? ordered(info.joints_, [](const JointInfo& joint) { return joint.role_; }) : info.joints_;
+    const auto joints =
+        is_ours(info.type_) ? ordered(info.joints_, [](const JointInfo& joint) { return joint.role_; }) : info.joints_;
     const ActuatorData measured = measurements(*data.robot_hw, info, actuators);
     JointData states;
     for (const JointInfo& one : joints)
@@ -305,7 +309,8 @@ RawJointData& TransmissionInterfaceLoader::joint(const std::string& name, const 
     add(loader_data_.joint_interfaces.joint_state_interface,
         hwi::JointStateHandle(name, &raw.position, &raw.velocity, &raw.effort, &raw.torque_sensor, true));
   else
-    add(loader_data_.joint_interfaces.joint_state_interface, hwi::JointStateHandle(name, &raw.position, &raw.velocity, &raw.effort));
+    add(loader_data_.joint_interfaces.joint_state_interface,
+        hwi::JointStateHandle(name, &raw.position, &raw.velocity, &raw.effort));
   return raw;
 }
 

@@ -20,15 +20,13 @@ std::string text_of(TiXmlElement* parent, const char* tag)
   return element ? trimmed(element->GetText()) : "";
 }
 
-std::string name_of(TiXmlElement* element)
-{
-  return trimmed(element->Attribute("name"));
-}
+std::string name_of(TiXmlElement* element) { return trimmed(element->Attribute("name")); }
 
 std::vector<std::string> interfaces_of(TiXmlElement* element)
 {
   std::vector<std::string> interfaces;
-  for (TiXmlElement* one = element->FirstChildElement("hardwareInterface"); one; one = one->NextSiblingElement("hardwareInterface"))
+  for (TiXmlElement* one = element->FirstChildElement("hardwareInterface"); one;
+       one = one->NextSiblingElement("hardwareInterface"))
   {
     const std::string text = trimmed(one->GetText());
     if (!text.empty())
@@ -82,7 +80,8 @@ bool TransmissionParser::parse(const std::string& urdf, std::vector<Transmission
 
 bool TransmissionParser::parseJoints(TiXmlElement* transmission, std::vector<JointInfo>& joints)
 {
-  for (TiXmlElement* element = transmission->FirstChildElement("joint"); element; element = element->NextSiblingElement("joint"))
+  for (TiXmlElement* element = transmission->FirstChildElement("joint"); element;
+       element = element->NextSiblingElement("joint"))
   {
     JointInfo joint;
     joint.name_ = name_of(element);
@@ -90,8 +89,9 @@ bool TransmissionParser::parseJoints(TiXmlElement* transmission, std::vector<Joi
     joint.role_ = text_of(element, "role");
     joint.xml_element_ = written(element);
     if (joint.name_.empty() || joint.hardware_interfaces_.empty())
-      ROS_ERROR("joint '%s' of a transmission is left out: it needs a name and a <hardwareInterface>, which belongs into <joint>",
-                joint.name_.c_str());
+      ROS_ERROR(
+          "joint '%s' of a transmission is left out: it needs a name and a <hardwareInterface>, which belongs into <joint>",
+          joint.name_.c_str());
     else
       joints.push_back(joint);
   }
@@ -100,7 +100,8 @@ bool TransmissionParser::parseJoints(TiXmlElement* transmission, std::vector<Joi
 
 bool TransmissionParser::parseActuators(TiXmlElement* transmission, std::vector<ActuatorInfo>& actuators)
 {
-  for (TiXmlElement* element = transmission->FirstChildElement("actuator"); element; element = element->NextSiblingElement("actuator"))
+  for (TiXmlElement* element = transmission->FirstChildElement("actuator"); element;
+       element = element->NextSiblingElement("actuator"))
   {
     ActuatorInfo actuator;
     actuator.name_ = name_of(element);

@@ -24,9 +24,7 @@ void fill(const Transform& e, KDL::Frame& k) {
 
 }  // namespace
 
-void quaternionKDLToEigen(const KDL::Rotation& k, Eigen::Quaterniond& e) {
-  k.GetQuaternion(e.x(), e.y(), e.z(), e.w());
-}
+void quaternionKDLToEigen(const KDL::Rotation& k, Eigen::Quaterniond& e) { k.GetQuaternion(e.x(), e.y(), e.z(), e.w()); }
 
 void quaternionEigenToKDL(const Eigen::Quaterniond& e, KDL::Rotation& k) {
   k = KDL::Rotation::Quaternion(e.x(), e.y(), e.z(), e.w());

@@ -26,8 +26,7 @@ void decompose(const Transform& e, Triple& p, geometry_msgs::Quaternion& q) {
   fill(e.translation(), p);
   Eigen::Quaterniond rotation(e.linear());
   // One of the two quaternions of a rotation: the one that upstream sends.
-  if (rotation.w() < 0)
-    rotation.coeffs() *= -1;
+  if (rotation.w() < 0) rotation.coeffs() *= -1;
   quaternionEigenToMsg(rotation, q);
 }
 
@@ -53,15 +52,9 @@ void poseEigenToMsg(const Eigen::Affine3d& e, geometry_msgs::Pose& m) { decompos
 void poseEigenToMsg(const Eigen::Isometry3d& e, geometry_msgs::Pose& m) { decompose(e, m.position, m.orientation); }
 
 void transformMsgToEigen(const geometry_msgs::Transform& m, Eigen::Affine3d& e) { compose(m.translation, m.rotation, e); }
-void transformMsgToEigen(const geometry_msgs::Transform& m, Eigen::Isometry3d& e) {
-  compose(m.translation, m.rotation, e);
-}
-void transformEigenToMsg(const Eigen::Affine3d& e, geometry_msgs::Transform& m) {
-  decompose(e, m.translation, m.rotation);
-}
-void transformEigenToMsg(const Eigen::Isometry3d& e, geometry_msgs::Transform& m) {
-  decompose(e, m.translation, m.rotation);
-}
+void transformMsgToEigen(const geometry_msgs::Transform& m, Eigen::Isometry3d& e) { compose(m.translation, m.rotation, e); }
+void transformEigenToMsg(const Eigen::Affine3d& e, geometry_msgs::Transform& m) { decompose(e, m.translation, m.rotation); }
+void transformEigenToMsg(const Eigen::Isometry3d& e, geometry_msgs::Transform& m) { decompose(e, m.translation, m.rotation); }
 
 void twistMsgToEigen(const geometry_msgs::Twist& m, Eigen::Matrix<double, 6, 1>& e) {
   e << vector(m.linear), vector(m.angular);

@@ -34,8 +34,9 @@ inline py::array_t<double> toArray(const std::vector<std::vector<double>>& rows,
 inline std::vector<double> fromArray(const Array& array, std::size_t size, const std::string& what)
 {
   if (array.ndim() != 1 || static_cast<std::size_t>(array.shape(0)) != size)
-    throw InvalidInput(what + ": " + std::to_string(size) + " numbers are needed, not " +
-                       (array.ndim() == 1 ? std::to_string(array.shape(0)) : "an array of " + std::to_string(array.ndim()) + " dimensions"));
+    throw InvalidInput(
+        what + ": " + std::to_string(size) + " numbers are needed, not " +
+        (array.ndim() == 1 ? std::to_string(array.shape(0)) : "an array of " + std::to_string(array.ndim()) + " dimensions"));
   std::vector<double> out(array.data(), array.data() + size);
   for (std::size_t i = 0; i < size; ++i)
     if (!std::isfinite(out[i]))

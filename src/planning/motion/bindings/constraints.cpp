@@ -36,7 +36,8 @@ Region region(const PositionConstraint& c)
 void setParameterization(OrientationConstraint& c, const std::string& name)
 {
   if (name != "euler" && name != "rotation_vector")
-    throw InvalidInput("orientation constraint: parameterization '" + name.substr(0, 40) + "' is neither 'euler' nor 'rotation_vector'");
+    throw InvalidInput("orientation constraint: parameterization '" + name.substr(0, 40) +
+                       "' is neither 'euler' nor 'rotation_vector'");
   c.rotation_vector = name == "rotation_vector";
 }
 
@@ -64,7 +65,8 @@ void bindJoint(py::module_& m)
 void bindPosition(py::module_& m)
 {
   py::class_<PositionConstraint>(m, "PositionConstraint", "A point of a link inside one of the shapes of a region.")
-      .def(py::init([](const std::string& link, const Region& shapes, const Vector3& offset, const std::string& frame, double weight) {
+      .def(py::init([](const std::string& link, const Region& shapes, const Vector3& offset, const std::string& frame,
+                       double weight) {
              PositionConstraint c;
              c.link = link;
              c.frame = frame;
@@ -73,7 +75,8 @@ void bindPosition(py::module_& m)
              setRegion(c, shapes);
              return c;
            }),
-           py::arg("link"), py::arg("region"), py::arg("offset") = Vector3(0, 0, 0), py::arg("frame") = "", py::arg("weight") = 1.0)
+           py::arg("link"), py::arg("region"), py::arg("offset") = Vector3(0, 0, 0), py::arg("frame") = "",
+           py::arg("weight") = 1.0)
       .def_readwrite("link", &PositionConstraint::link)
       .def_readwrite("frame", &PositionConstraint::frame)
       .def_readwrite("offset", &PositionConstraint::offset)
@@ -99,11 +102,13 @@ void bindOrientation(py::module_& m)
            py::arg("frame") = "", py::arg("weight") = 1.0)
       .def_readwrite("link", &OrientationConstraint::link)
       .def_readwrite("frame", &OrientationConstraint::frame)
-      .def_property("quaternion", [](const OrientationConstraint& c) { return Eigen::Vector4d(c.orientation.coeffs()); },
-                    [](OrientationConstraint& c, const Array& q) { c.orientation = quaternion(q); })
+      .def_property(
+          "quaternion", [](const OrientationConstraint& c) { return Eigen::Vector4d(c.orientation.coeffs()); },
+          [](OrientationConstraint& c, const Array& q) { c.orientation = quaternion(q); })
       .def_readwrite("tolerance", &OrientationConstraint::tolerance)
-      .def_property("parameterization", [](const OrientationConstraint& c) { return c.rotation_vector ? "rotation_vector" : "euler"; },
-                    &setParameterization)
+      .def_property(
+          "parameterization", [](const OrientationConstraint& c) { return c.rotation_vector ? "rotation_vector" : "euler"; },
+          &setParameterization)
       .def_readwrite("weight", &OrientationConstraint::weight);
 }
 
@@ -111,9 +116,9 @@ void bindVisibility(py::module_& m)
 {
   using C = VisibilityConstraint;
   py::class_<C>(m, "VisibilityConstraint", "The robot keeps out of the cone from a sensor to a disc.")
-      .def(py::init([](const Transform& target_pose, const std::string& target_frame, double target_radius, const Transform& sensor_pose,
-                       const std::string& sensor_frame, int cone_sides, double max_view_angle, double max_range_angle,
-                       const std::string& sensor_view, double weight) {
+      .def(py::init([](const Transform& target_pose, const std::string& target_frame, double target_radius,
+                       const Transform& sensor_pose, const std::string& sensor_frame, int cone_sides, double max_view_angle,
+                       double max_range_angle, const std::string& sensor_view, double weight) {
              C c;
              c.target_pose = target_pose, c.target_frame = target_frame, c.target_radius = target_radius;
              c.sensor_pose = sensor_pose, c.sensor_frame = sensor_frame, c.cone_sides = cone_sides;
@@ -121,9 +126,9 @@ void bindVisibility(py::module_& m)
              setView(c, sensor_view);
              return c;
            }),
-           py::arg("target_pose"), py::arg("target_frame"), py::arg("target_radius"), py::arg("sensor_pose"), py::arg("sensor_frame"),
-           py::arg("cone_sides") = 4, py::arg("max_view_angle") = 0.0, py::arg("max_range_angle") = 0.0,
-           py::arg("sensor_view") = "z", py::arg("weight") = 1.0)
+           py::arg("target_pose"), py::arg("target_frame"), py::arg("target_radius"), py::arg("sensor_pose"),
+           py::arg("sensor_frame"), py::arg("cone_sides") = 4, py::arg("max_view_angle") = 0.0,
+           py::arg("max_range_angle") = 0.0, py::arg("sensor_view") = "z", py::arg("weight") = 1.0)
       .def_readwrite("target_pose", &C::target_pose)
       .def_readwrite("target_frame", &C::target_frame)
       .def_readwrite("target_radius", &C::target_radius)
@@ -132,7 +137,8 @@ void bindVisibility(py::module_& m)
       .def_readwrite("cone_sides", &C::cone_sides)
       .def_readwrite("max_view_angle", &C::max_view_angle)
       .def_readwrite("max_range_angle", &C::max_range_angle)
-      .def_property("sensor_view", [](const C& c) { return std::string(1, c.sensor_view); }, &setView)
+      .def_property(
+          "sensor_view", [](const C& c) { return std::string(1, c.sensor_view); }, &setView)
       .def_readwrite("weight", &C::weight);
 }
 }  // namespace
@@ -145,12 +151,13 @@ void bindConstraints(py::module_& m)
   bindVisibility(m);
   py::class_<Constraints>(m, "Constraints", "All of them have to hold.")
       .def(py::init([](std::vector<JointConstraint> joint, std::vector<PositionConstraint> position,
-                       std::vector<OrientationConstraint> orientation, std::vector<VisibilityConstraint> visibility, const std::string& name) {
+                       std::vector<OrientationConstraint> orientation, std::vector<VisibilityConstraint> visibility,
+                       const std::string& name) {
              return Constraints{name, joint, position, orientation, visibility};
            }),
            py::arg("joint") = std::vector<JointConstraint>(), py::arg("position") = std::vector<PositionConstraint>(),
-           py::arg("orientation") = std::vector<OrientationConstraint>(), py::arg("visibility") = std::vector<VisibilityConstraint>(),
-           py::arg("name") = "")
+           py::arg("orientation") = std::vector<OrientationConstraint>(),
+           py::arg("visibility") = std::vector<VisibilityConstraint>(), py::arg("name") = "")
       .def_readwrite("name", &Constraints::name)
       .def_readwrite("joint", &Constraints::joint)
       .def_readwrite("position", &Constraints::position)
@@ -170,14 +177,16 @@ void bindConstraints(py::module_& m)
       .def_readonly("distance", &ConstraintResult::distance)
       .def_readonly("description", &ConstraintResult::description)
       .def("__bool__", [](const ConstraintResult& r) { return r.satisfied; });
-  m.def("evaluate",
-        [](const PlanningScene& scene, const RobotState& state, const Constraints& constraints) {
-          return ConstraintSet(scene, constraints).evaluate(state);
-        },
-        py::arg("scene"), py::arg("state"), py::arg("constraints"),
-        "One ConstraintResult for each: joint, position, orientation, visibility.");
-  m.def("_project", [](const PlanningScene& scene, RobotState& state, const std::string& group, const Constraints& constraints) {
-    return ConstraintSet(scene, constraints).project(state, scene.model()->group(group));
-  });
+  m.def(
+      "evaluate",
+      [](const PlanningScene& scene, const RobotState& state, const Constraints& constraints) {
+        return ConstraintSet(scene, constraints).evaluate(state);
+      },
+      py::arg("scene"), py::arg("state"), py::arg("constraints"),
+      "One ConstraintResult for each: joint, position, orientation, visibility.");
+  m.def("_project",
+        [](const PlanningScene& scene, RobotState& state, const std::string& group, const Constraints& constraints) {
+          return ConstraintSet(scene, constraints).project(state, scene.model()->group(group));
+        });
 }
 }  // namespace motion

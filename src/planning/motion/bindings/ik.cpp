@@ -11,8 +11,7 @@ void bindIk(py::module_& m)
   m.def("_ik",
         [](const RobotState& seed, const std::string& group, const std::vector<std::pair<std::string, Transform>>& poses,
            double timeout, double tolerance, bool position_only, std::size_t solutions, int max_restarts, bool approximate,
-           const std::optional<Array>& consistency, const py::object& valid_object,
-           std::uint64_t random_seed,
+           const std::optional<Array>& consistency, const py::object& valid_object, std::uint64_t random_seed,
            const PlanningScene* collisions, const PlanningScene* scene, const Constraints* constraints) {
           const JointModelGroup& g = seed.model()->group(group);
           std::optional<std::function<bool(Array)>> valid;

@@ -8,9 +8,21 @@ namespace
 {
 const char* statusName(PlanStatus status)
 {
-  static const char* names[] = {"solved", "approximate", "timeout", "cancelled", "invalid_start", "start_in_collision",
-                                "start_violates_path_constraints", "no_goal", "invalid_goal", "goal_in_collision",
-                                "goal_violates_path_constraints", "no_ik", "unknown_planner", "failed", "invalid_plan"};
+  static const char* names[] = {"solved",
+                                "approximate",
+                                "timeout",
+                                "cancelled",
+                                "invalid_start",
+                                "start_in_collision",
+                                "start_violates_path_constraints",
+                                "no_goal",
+                                "invalid_goal",
+                                "goal_in_collision",
+                                "goal_violates_path_constraints",
+                                "no_ik",
+                                "unknown_planner",
+                                "failed",
+                                "invalid_plan"};
   return names[static_cast<int>(status)];
 }
 

@@ -25,26 +25,27 @@ void bindMatrix(py::module_& m)
   py::class_<Matrix>(m, "AllowedCollisionMatrix", "Which pairs of names may touch.")
       .def(py::init<>())
       .def_static("from_model", [](const std::shared_ptr<RobotModel>& model) { return Matrix(*model); })
-      .def_static("from_matrix",
-                  [](const std::vector<std::string>& names, const py::array_t<bool, py::array::c_style | py::array::forcecast>& cells,
-                     const std::map<std::string, bool>& defaults) {
-                    Matrix matrix;
-                    const py::ssize_t n = static_cast<py::ssize_t>(names.size());
-                    if (n > 0 && (cells.ndim() != 2 || cells.shape(0) != n || cells.shape(1) != n))
-                      throw InvalidInput("allowed collision matrix: " + std::to_string(n) + " names need as many rows and columns");
-                    for (py::ssize_t i = 0; i < n; ++i)
-                      for (py::ssize_t j = i; j < n; ++j)
-                      {
-                        if (*cells.data(i, j) != *cells.data(j, i))
-                          throw InvalidInput("allowed collision matrix: the entries of '" + names[i] + "' and '" + names[j] +
-                                             "' contradict each other");
-                        matrix.setEntry(names[i], names[j], *cells.data(i, j) ? Matrix::Allowed : Matrix::Never);
-                      }
-                    for (const auto& [name, allowed] : defaults)
-                      matrix.setDefault(name, allowed ? Matrix::Allowed : Matrix::Never);
-                    return matrix;
-                  },
-                  py::arg("names"), py::arg("matrix"), py::arg("defaults") = std::map<std::string, bool>())
+      .def_static(
+          "from_matrix",
+          [](const std::vector<std::string>& names, const py::array_t<bool, py::array::c_style | py::array::forcecast>& cells,
+             const std::map<std::string, bool>& defaults) {
+            Matrix matrix;
+            const py::ssize_t n = static_cast<py::ssize_t>(names.size());
+            if (n > 0 && (cells.ndim() != 2 || cells.shape(0) != n || cells.shape(1) != n))
+              throw InvalidInput("allowed collision matrix: " + std::to_string(n) + " names need as many rows and columns");
+            for (py::ssize_t i = 0; i < n; ++i)
+              for (py::ssize_t j = i; j < n; ++j)
+              {
+                if (*cells.data(i, j) != *cells.data(j, i))
+                  throw InvalidInput("allowed collision matrix: the entries of '" + names[i] + "' and '" + names[j] +
+                                     "' contradict each other");
+                matrix.setEntry(names[i], names[j], *cells.data(i, j) ? Matrix::Allowed : Matrix::Never);
+              }
+            for (const auto& [name, allowed] : defaults)
+              matrix.setDefault(name, allowed ? Matrix::Allowed : Matrix::Never);
+            return matrix;
+          },
+          py::arg("names"), py::arg("matrix"), py::arg("defaults") = std::map<std::string, bool>())
       .def_property_readonly("names", &Matrix::names)
       .def_property_readonly("defaults",
                              [](const Matrix& a) {
@@ -54,13 +55,15 @@ void bindMatrix(py::module_& m)
                                return out;
                              })
       .def("get", [](const Matrix& a, const std::string& x, const std::string& y) { return entryToPython(a.entry(x, y)); })
-      .def("set", [](Matrix& a, const std::string& x, const std::string& y,
-                     const std::optional<bool>& allowed) { a.setEntry(x, y, entryFromPython(allowed)); },
-           py::arg("a"), py::arg("b"), py::arg("allowed"))
+      .def(
+          "set",
+          [](Matrix& a, const std::string& x, const std::string& y, const std::optional<bool>& allowed) {
+            a.setEntry(x, y, entryFromPython(allowed));
+          },
+          py::arg("a"), py::arg("b"), py::arg("allowed"))
       .def("get_default", [](const Matrix& a, const std::string& name) { return entryToPython(a.defaultEntry(name)); })
-      .def("set_default", [](Matrix& a, const std::string& name, const std::optional<bool>& allowed) {
-        a.setDefault(name, entryFromPython(allowed));
-      })
+      .def("set_default", [](Matrix& a, const std::string& name,
+                             const std::optional<bool>& allowed) { a.setDefault(name, entryFromPython(allowed)); })
       .def("remove", &Matrix::remove)
       .def("allowed", &Matrix::allowed)
       .def("matrix",
@@ -124,26 +127,28 @@ void bindResults(py::module_& m)
 
 void bindObjects(py::class_<Scene, std::shared_ptr<Scene>>& c)
 {
-  c.def("add_object",
-        [](Scene& s, const std::string& id, const Shapes& shapes, const std::optional<std::vector<Transform>>& shape_poses,
-           const std::optional<Transform>& pose, const Subframes& subframes, const std::optional<std::string>& type) {
-          WorldObject object;
-          object.id = id;
-          object.shapes.assign(shapes.begin(), shapes.end());
-          object.shape_poses = shape_poses.value_or(std::vector<Transform>());
-          object.pose = pose.value_or(Transform::Identity());
-          object.subframes = subframes;
-          object.type = type.value_or("");
-          s.addObject(object);
-        },
-        py::arg("id"), py::arg("shapes"), py::arg("shape_poses") = py::none(), py::arg("pose") = py::none(),
-        py::arg("subframes") = Subframes(), py::arg("type") = py::none(),
-        "Adds or replaces; `pose` in the model frame, `shape_poses` and `subframes` in the object.")
-      .def("append_shapes",
-           [](Scene& s, const std::string& id, const Shapes& shapes, const std::optional<std::vector<Transform>>& poses) {
-             s.appendShapes(id, std::vector<ShapePtr>(shapes.begin(), shapes.end()), poses.value_or(std::vector<Transform>()));
-           },
-           py::arg("id"), py::arg("shapes"), py::arg("poses") = py::none())
+  c.def(
+       "add_object",
+       [](Scene& s, const std::string& id, const Shapes& shapes, const std::optional<std::vector<Transform>>& shape_poses,
+          const std::optional<Transform>& pose, const Subframes& subframes, const std::optional<std::string>& type) {
+         WorldObject object;
+         object.id = id;
+         object.shapes.assign(shapes.begin(), shapes.end());
+         object.shape_poses = shape_poses.value_or(std::vector<Transform>());
+         object.pose = pose.value_or(Transform::Identity());
+         object.subframes = subframes;
+         object.type = type.value_or("");
+         s.addObject(object);
+       },
+       py::arg("id"), py::arg("shapes"), py::arg("shape_poses") = py::none(), py::arg("pose") = py::none(),
+       py::arg("subframes") = Subframes(), py::arg("type") = py::none(),
+       "Adds or replaces; `pose` in the model frame, `shape_poses` and `subframes` in the object.")
+      .def(
+          "append_shapes",
+          [](Scene& s, const std::string& id, const Shapes& shapes, const std::optional<std::vector<Transform>>& poses) {
+            s.appendShapes(id, std::vector<ShapePtr>(shapes.begin(), shapes.end()), poses.value_or(std::vector<Transform>()));
+          },
+          py::arg("id"), py::arg("shapes"), py::arg("poses") = py::none())
       .def("move_object", &Scene::moveObject, py::arg("id"), py::arg("pose"))
       .def("move_shapes", &Scene::moveShapes, py::arg("id"), py::arg("shape_poses"))
       .def("remove_object", &Scene::removeObject, py::arg("id"))
@@ -151,11 +156,12 @@ void bindObjects(py::class_<Scene, std::shared_ptr<Scene>>& c)
       .def_property_readonly("objects", &Scene::objectNames)
       .def("object", [](const Scene& s, const std::string& id) { return WorldObject(s.object(id)); })
       .def("has_object", [](const Scene& s, const std::string& id) { return s.findObject(id) != nullptr; })
-      .def("set_octomap",
-           [](Scene& s, const std::shared_ptr<OcTreeShape>& tree, const std::optional<Transform>& pose) {
-             s.setOctomap(tree, pose.value_or(Transform::Identity()));
-           },
-           py::arg("tree").none(true), py::arg("pose") = py::none())
+      .def(
+          "set_octomap",
+          [](Scene& s, const std::shared_ptr<OcTreeShape>& tree, const std::optional<Transform>& pose) {
+            s.setOctomap(tree, pose.value_or(Transform::Identity()));
+          },
+          py::arg("tree").none(true), py::arg("pose") = py::none())
       .def_property_readonly("octomap",
                              [](const Scene& s) -> std::shared_ptr<Shape> {
                                const WorldObject* object = s.findObject(Scene::OCTOMAP);
@@ -167,11 +173,12 @@ void bindObjects(py::class_<Scene, std::shared_ptr<Scene>>& c)
                                return object ? object->pose : Transform::Identity();
                              })
       .def("attach", [](Scene& s, const std::shared_ptr<AttachedBody>& body) { s.attach(body); })
-      .def("attach_object",
-           [](Scene& s, const std::string& id, const std::string& link, const std::vector<std::string>& touch_links) {
-             s.attachObject(id, link, std::set<std::string>(touch_links.begin(), touch_links.end()));
-           },
-           py::arg("id"), py::arg("link"), py::arg("touch_links") = std::vector<std::string>())
+      .def(
+          "attach_object",
+          [](Scene& s, const std::string& id, const std::string& link, const std::vector<std::string>& touch_links) {
+            s.attachObject(id, link, std::set<std::string>(touch_links.begin(), touch_links.end()));
+          },
+          py::arg("id"), py::arg("link"), py::arg("touch_links") = std::vector<std::string>())
       .def("detach_object", &Scene::detachObject, py::arg("id"));
 }
 
@@ -191,7 +198,8 @@ CollisionRequest request(const std::string& group, std::size_t contacts, std::si
 
 void bindChecks(py::class_<Scene, std::shared_ptr<Scene>>& c)
 {
-  c.def_property("acm", [](const Scene& s) { return Matrix(s.acm()); }, &Scene::setAcm)
+  c.def_property(
+       "acm", [](const Scene& s) { return Matrix(s.acm()); }, &Scene::setAcm)
       .def("set_acm", &Scene::setAcm)
       .def_property_readonly("padding", &Scene::padding)
       .def_property_readonly("scale", &Scene::scale)
@@ -199,45 +207,48 @@ void bindChecks(py::class_<Scene, std::shared_ptr<Scene>>& c)
       .def("set_scale", &Scene::setScale)
       .def("set_attached_padding", &Scene::setAttachedPadding)
       .def("set_object_padding", &Scene::setObjectPadding)
-      .def("check",
-           [](const Scene& s, const RobotState* state, const std::string& group, std::size_t contacts, std::size_t per_pair,
-              bool padded, const Matrix* acm, bool self, bool world, bool distance) {
-             const RobotState at = state ? *state : s.state();
-             const CollisionRequest wanted = request(group, contacts, per_pair, padded, self, world, distance);
-             py::gil_scoped_release release;
-             return s.check(at, wanted, acm);
-           },
-           py::arg("state") = py::none(), py::arg("group") = "", py::arg("contacts") = 0, py::arg("per_pair") = 1,
-           py::arg("padded") = true, py::arg("acm") = py::none(), py::arg("self_collision") = true, py::arg("world") = true,
-           py::arg("distance") = false)
-      .def("check_states",
-           [](const Scene& s, const std::string& group, const Array& rows, const RobotState* state, bool padded) {
-             RobotState at = state ? *state : s.state();
-             const JointModelGroup& g = s.model()->group(group);
-             const auto values = rowsFromArray(rows, g.size(), "states of group '" + group + "'");
-             py::array_t<bool> out(static_cast<py::ssize_t>(values.size()));
-             bool* hit = out.mutable_data();
-             py::gil_scoped_release release;
-             CollisionRequest wanted;
-             wanted.group = group;
-             wanted.padded = padded;
-             for (std::size_t i = 0; i < values.size(); ++i)
-             {
-               at.setGroup(g, values[i].data());
-               hit[i] = s.check(at, wanted).collision;
-             }
-             return out;
-           },
-           py::arg("group"), py::arg("states"), py::arg("state") = py::none(), py::arg("padded") = true,
-           "(k,) bool: which of the (k, n) group values collide.")
-      .def("distance",
-           [](const Scene& s, const RobotState* state, const std::string& group, double max_distance) {
-             const RobotState at = state ? *state : s.state();
-             py::gil_scoped_release release;
-             return s.distance(at, group, max_distance);
-           },
-           py::arg("state") = py::none(), py::arg("group") = "",
-           py::arg("max_distance") = std::numeric_limits<double>::infinity());
+      .def(
+          "check",
+          [](const Scene& s, const RobotState* state, const std::string& group, std::size_t contacts, std::size_t per_pair,
+             bool padded, const Matrix* acm, bool self, bool world, bool distance) {
+            const RobotState at = state ? *state : s.state();
+            const CollisionRequest wanted = request(group, contacts, per_pair, padded, self, world, distance);
+            py::gil_scoped_release release;
+            return s.check(at, wanted, acm);
+          },
+          py::arg("state") = py::none(), py::arg("group") = "", py::arg("contacts") = 0, py::arg("per_pair") = 1,
+          py::arg("padded") = true, py::arg("acm") = py::none(), py::arg("self_collision") = true, py::arg("world") = true,
+          py::arg("distance") = false)
+      .def(
+          "check_states",
+          [](const Scene& s, const std::string& group, const Array& rows, const RobotState* state, bool padded) {
+            RobotState at = state ? *state : s.state();
+            const JointModelGroup& g = s.model()->group(group);
+            const auto values = rowsFromArray(rows, g.size(), "states of group '" + group + "'");
+            py::array_t<bool> out(static_cast<py::ssize_t>(values.size()));
+            bool* hit = out.mutable_data();
+            py::gil_scoped_release release;
+            CollisionRequest wanted;
+            wanted.group = group;
+            wanted.padded = padded;
+            for (std::size_t i = 0; i < values.size(); ++i)
+            {
+              at.setGroup(g, values[i].data());
+              hit[i] = s.check(at, wanted).collision;
+            }
+            return out;
+          },
+          py::arg("group"), py::arg("states"), py::arg("state") = py::none(), py::arg("padded") = true,
+          "(k,) bool: which of the (k, n) group values collide.")
+      .def(
+          "distance",
+          [](const Scene& s, const RobotState* state, const std::string& group, double max_distance) {
+            const RobotState at = state ? *state : s.state();
+            py::gil_scoped_release release;
+            return s.distance(at, group, max_distance);
+          },
+          py::arg("state") = py::none(), py::arg("group") = "",
+          py::arg("max_distance") = std::numeric_limits<double>::infinity());
 }
 }  // namespace
 
@@ -250,22 +261,24 @@ void bindScene(py::module_& m)
       .def_readwrite("name", &Scene::name)
       .def_property_readonly("model", [](const Scene& s) { return std::const_pointer_cast<RobotModel>(s.model()); })
       .def_property_readonly("frame", &Scene::frame)
-      .def_property("state", [](const Scene& s) { return RobotState(s.state()); }, &Scene::setState,
-                    "A copy of the robot's state; assign to change it.")
+      .def_property(
+          "state", [](const Scene& s) { return RobotState(s.state()); }, &Scene::setState,
+          "A copy of the robot's state; assign to change it.")
       .def("set_state", &Scene::setState)
       .def("copy", [](const Scene& s) { return std::make_shared<Scene>(s); })
       .def("diff", [](const Scene& s) { return std::make_shared<Scene>(s); })
       .def_property_readonly("transforms", &Scene::transforms)
       .def("set_transform", &Scene::setTransform, py::arg("frame"), py::arg("pose"))
       .def("remove_transform", &Scene::removeTransform)
-      .def("frame_pose",
-           [](const Scene& s, const std::string& name, const RobotState* state) {
-             Transform pose;
-             if (!s.framePose(name, state ? *state : s.state(), pose))
-               throwUnknown("frame", name, "the planning scene", s.frameNames());
-             return pose;
-           },
-           py::arg("name"), py::arg("state") = py::none())
+      .def(
+          "frame_pose",
+          [](const Scene& s, const std::string& name, const RobotState* state) {
+            Transform pose;
+            if (!s.framePose(name, state ? *state : s.state(), pose))
+              throwUnknown("frame", name, "the planning scene", s.frameNames());
+            return pose;
+          },
+          py::arg("name"), py::arg("state") = py::none())
       .def("knows_frame",
            [](const Scene& s, const std::string& name) {
              Transform pose;

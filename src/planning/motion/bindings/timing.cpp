@@ -20,23 +20,25 @@ void bindTiming(py::module_& m)
     TimedPath timed;
     {
       py::gil_scoped_release release;
-      timed = method == "iterative_parabolic" ? iterativeParabolic(rows, limits) :
-              method == "iterative_spline"    ? iterativeSpline(rows, limits) :
-                                                timeOptimal(rows, limits, path_tolerance, resample_dt, min_angle_change);
+      timed = method == "iterative_parabolic" ? iterativeParabolic(rows, limits)
+              : method == "iterative_spline"  ? iterativeSpline(rows, limits)
+                                              : timeOptimal(rows, limits, path_tolerance, resample_dt, min_angle_change);
     }
     return py::make_tuple(toArray(timed.times), toArray(timed.positions, n), toArray(timed.velocities, n),
                           toArray(timed.accelerations, n));
   });
-  m.def("_cartesian_path", [](const PlanningScene& scene, const RobotState& start, const std::string& group, const std::string& link,
-                              const std::vector<Transform>& waypoints, double max_step, double jump, double prismatic, double revolute,
-                              bool avoid_collisions, double timeout, const Constraints* constraints, bool position_only) {
-    CartesianRequest request{group, link, waypoints, max_step, jump, prismatic, revolute, avoid_collisions, timeout, position_only};
-    CartesianPath path;
-    {
-      py::gil_scoped_release release;
-      path = cartesianPath(scene, start, request, ConstraintSet(scene, constraints ? *constraints : Constraints()));
-    }
-    return py::make_tuple(path.fraction, toArray(path.points, scene.model()->group(group).size()), path.message);
-  });
+  m.def("_cartesian_path",
+        [](const PlanningScene& scene, const RobotState& start, const std::string& group, const std::string& link,
+           const std::vector<Transform>& waypoints, double max_step, double jump, double prismatic, double revolute,
+           bool avoid_collisions, double timeout, const Constraints* constraints, bool position_only) {
+          CartesianRequest request{group,     link,     waypoints,        max_step, jump,
+                                   prismatic, revolute, avoid_collisions, timeout,  position_only};
+          CartesianPath path;
+          {
+            py::gil_scoped_release release;
+            path = cartesianPath(scene, start, request, ConstraintSet(scene, constraints ? *constraints : Constraints()));
+          }
+          return py::make_tuple(path.fraction, toArray(path.points, scene.model()->group(group).size()), path.message);
+        });
 }
 }  // namespace motion

@@ -75,10 +75,7 @@ bool AllowedCollisionMatrix::allowed(const std::string& a, const std::string& b)
   return da != Never && db != Never;
 }
 
-bool AllowedCollisionMatrix::knows(const std::string& name) const
-{
-  return entries_.count(name) || defaults_.count(name);
-}
+bool AllowedCollisionMatrix::knows(const std::string& name) const { return entries_.count(name) || defaults_.count(name); }
 
 std::vector<std::string> AllowedCollisionMatrix::names() const
 {

@@ -14,7 +14,7 @@ constexpr int MIN_STEPS_FOR_JUMPS = 10;  // fewer say nothing of the mean
 constexpr std::size_t MOST_STEPS = 200000;
 constexpr int ATTEMPTS = 6;
 constexpr double BESIDE = 0.02, NEAR = 0.5;  // rad or m
-constexpr int HALVINGS = 5;  // of a step that is too long for the joints' values to be found from the last ones
+constexpr int HALVINGS = 5;                  // of a step that is too long for the joints' values to be found from the last ones
 
 class Line
 {
@@ -64,8 +64,8 @@ private:
     const double length = (goal.translation() - from.translation()).norm();
     const double wanted = std::floor(length / request_.max_step) + 1;
     if (!(wanted < MOST_STEPS))
-      throw InvalidInput("a Cartesian path of " + std::to_string(length) + " m in steps of " + std::to_string(request_.max_step) +
-                         " m: that is too many steps");
+      throw InvalidInput("a Cartesian path of " + std::to_string(length) + " m in steps of " +
+                         std::to_string(request_.max_step) + " m: that is too many steps");
     const bool jumps = request_.jump_threshold > 0 || request_.prismatic_jump > 0 || request_.revolute_jump > 0;
     const int steps = std::max(static_cast<int>(wanted), jumps ? MIN_STEPS_FOR_JUMPS : 1);
     for (int i = 1; i <= steps; ++i)

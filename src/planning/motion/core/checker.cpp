@@ -59,10 +59,7 @@ void CollisionChecker::addAttached()
   }
 }
 
-bool CollisionChecker::moves(const Body& body) const
-{
-  return body.link >= 0 && (!group_ || group_->link_updated[body.link]);
-}
+bool CollisionChecker::moves(const Body& body) const { return body.link >= 0 && (!group_ || group_->link_updated[body.link]); }
 
 bool CollisionChecker::mayTouch(const Body& a, const Body& b) const
 {
@@ -129,8 +126,7 @@ void CollisionChecker::place(const RobotState& state, Scratch& scratch) const
   {
     scratch.poses[i] = links[parts_[i].link] * parts_[i].origin;
     scratch.bare[i] = boundsOf(*parts_[i].bare, scratch.poses[i]);
-    scratch.padded[i] =
-        parts_[i].padded == parts_[i].bare ? scratch.bare[i] : boundsOf(*parts_[i].padded, scratch.poses[i]);
+    scratch.padded[i] = parts_[i].padded == parts_[i].bare ? scratch.bare[i] : boundsOf(*parts_[i].padded, scratch.poses[i]);
   }
 }
 

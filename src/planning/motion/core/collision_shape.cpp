@@ -38,18 +38,15 @@ std::shared_ptr<fcl::CollisionGeometryd> fclGeometry(const Shape& shape)
       return std::make_shared<fcl::Boxd>(static_cast<const Box&>(shape).size);
     case ShapeType::Sphere:
       return std::make_shared<fcl::Sphered>(static_cast<const Sphere&>(shape).radius);
-    case ShapeType::Cylinder:
-    {
+    case ShapeType::Cylinder: {
       const auto& cylinder = static_cast<const Cylinder&>(shape);
       return std::make_shared<fcl::Cylinderd>(cylinder.radius, cylinder.length);
     }
-    case ShapeType::Cone:
-    {
+    case ShapeType::Cone: {
       const auto& cone = static_cast<const Cone&>(shape);
       return std::make_shared<fcl::Coned>(cone.radius, cone.length);
     }
-    case ShapeType::Plane:
-    {
+    case ShapeType::Plane: {
       // FCL's planes are n.x = d, ours are n.x + d = 0.
       const auto& plane = static_cast<const Plane&>(shape);
       const double length = plane.normal.norm();

@@ -28,10 +28,7 @@ struct Aabb
     return (low.array() <= other.high.array()).all() && (other.low.array() <= high.array()).all();
   }
   // Distance between the two boxes, m.
-  double distance(const Aabb& other) const
-  {
-    return (low - other.high).cwiseMax(other.low - high).cwiseMax(0.0).norm();
-  }
+  double distance(const Aabb& other) const { return (low - other.high).cwiseMax(other.low - high).cwiseMax(0.0).norm(); }
   void extend(const Aabb& other)
   {
     low = low.cwiseMin(other.low);

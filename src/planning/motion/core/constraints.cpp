@@ -40,10 +40,7 @@ Eigen::Matrix3d fromXyz(const Vector3& angles)
       .toRotationMatrix();
 }
 
-Vector3 excess(const Vector3& error, const Vector3& tolerance)
-{
-  return (error.cwiseAbs() - tolerance).cwiseMax(0.0);
-}
+Vector3 excess(const Vector3& error, const Vector3& tolerance) { return (error.cwiseAbs() - tolerance).cwiseMax(0.0); }
 
 // The deviation in the constraint's own terms; of two ways to say it, the one that breaks it less.
 Vector3 deviation(const ConstraintSet::Orientation& c, const Eigen::Matrix3d& frame, const Eigen::Matrix3d& actual)
@@ -59,18 +56,15 @@ Vector3 nearestInside(const Shape& shape, const Vector3& p, double share)
 {
   switch (shape.type)
   {
-    case ShapeType::Box:
-    {
+    case ShapeType::Box: {
       const Vector3 half = 0.5 * share * static_cast<const Box&>(shape).size;
       return p.cwiseMax(-half).cwiseMin(half);
     }
-    case ShapeType::Sphere:
-    {
+    case ShapeType::Sphere: {
       const double radius = share * static_cast<const Sphere&>(shape).radius, length = p.norm();
       return length <= radius ? p : Vector3(p * (radius / length));
     }
-    case ShapeType::Cylinder:
-    {
+    case ShapeType::Cylinder: {
       const auto& cylinder = static_cast<const Cylinder&>(shape);
       const double radius = share * cylinder.radius, half = 0.5 * share * cylinder.length, length = p.head<2>().norm();
       Vector3 out = p;
@@ -79,14 +73,12 @@ Vector3 nearestInside(const Shape& shape, const Vector3& p, double share)
       out.z() = std::min(std::max(p.z(), -half), half);
       return out;
     }
-    case ShapeType::Plane:
-    {
+    case ShapeType::Plane: {
       const auto& plane = static_cast<const Plane&>(shape);
       const double above = plane.normal.dot(p) + plane.d;
       return above <= 0 ? p : Vector3(p - plane.normal * (above / plane.normal.squaredNorm()));
     }
-    default:
-    {
+    default: {
       Vector3 centre, half;
       localBounds(shape, centre, half);
       return contains(shape, p) ? p : centre;
@@ -95,8 +87,8 @@ Vector3 nearestInside(const Shape& shape, const Vector3& p, double share)
 }
 }  // namespace
 
-Eigen::Matrix3d nearestAllowed(const ConstraintSet::Orientation& c, const Eigen::Matrix3d& frame,
-                               const Eigen::Matrix3d& actual, double share)
+Eigen::Matrix3d nearestAllowed(const ConstraintSet::Orientation& c, const Eigen::Matrix3d& frame, const Eigen::Matrix3d& actual,
+                               double share)
 {
   const Vector3 tolerance = share * c.tolerance;
   const Vector3 angles = deviation(c, frame, actual).cwiseMax(-tolerance).cwiseMin(tolerance);
@@ -138,8 +130,9 @@ ConstraintSet::ConstraintSet(const PlanningScene& scene, const Constraints& cons
     if (variable < 0)
     {
       const JointModel& joint = model_->joint(c.joint);
-      throw InvalidInput("joint constraint on '" + c.joint + "': the joint is " + joint.typeName() +
-                         (joint.variable_count ? "; name one of its variables: " + listed(joint.variables) : " and cannot move"));
+      throw InvalidInput(
+          "joint constraint on '" + c.joint + "': the joint is " + joint.typeName() +
+          (joint.variable_count ? "; name one of its variables: " + listed(joint.variables) : " and cannot move"));
     }
     if (!std::isfinite(c.position) || !(c.above >= 0) || !(c.below >= 0))
       throw InvalidInput("joint constraint on '" + c.joint + "': the position must be finite and the tolerances 0 or more");
@@ -280,7 +273,8 @@ ConstraintResult ConstraintSet::check(const RobotState& state, const Sight& c) c
   if (!hit.collision)
     return {true, 0, ""};
   return {false, hit.contacts.empty() ? 0 : hit.contacts[0].depth,
-          "'" + (hit.contacts.empty() ? std::string("the robot") : hit.contacts[0].body_1) + "' is between the sensor and the target"};
+          "'" + (hit.contacts.empty() ? std::string("the robot") : hit.contacts[0].body_1) +
+              "' is between the sensor and the target"};
 }
 
 bool ConstraintSet::satisfied(const RobotState& state) const
@@ -323,7 +317,10 @@ constexpr double SHARE = 0.9;  // a little inside the tolerance, so that what co
 struct Wishes
 {
   Wishes(RobotState& state, const JointModelGroup& group)
-    : state(state), group(group), gradient(group.size()), normal(group.size(), group.size())
+    : state(state)
+    , group(group)
+    , gradient(group.size())
+    , normal(group.size(), group.size())
   {
   }
 
@@ -369,7 +366,8 @@ void comply(RobotState& state, const std::vector<ConstraintSet::Joint>& joints)
 {
   for (const ConstraintSet::Joint& c : joints)
   {
-    const double off = c.continuous ? wrapAngle(state.positions()[c.variable] - c.position) : state.positions()[c.variable] - c.position;
+    const double off =
+        c.continuous ? wrapAngle(state.positions()[c.variable] - c.position) : state.positions()[c.variable] - c.position;
     if (off > c.above || off < -c.below)
       state.setVariable(c.variable, c.position + std::min(std::max(off, -SHARE * c.below), SHARE * c.above));
   }
@@ -389,7 +387,9 @@ bool ConstraintSet::project(RobotState& state, const JointModelGroup& group, int
   {
     bool inside = true;
     wishes.clear();
-    auto want = [&](const Frame& link, const Vector3& d, bool turn) { wishes.add(link.link, link.pose.translation(), d, turn); };
+    auto want = [&](const Frame& link, const Vector3& d, bool turn) {
+      wishes.add(link.link, link.pose.translation(), d, turn);
+    };
     for (const Position& c : positions)
     {
       if (check(state, c).satisfied)

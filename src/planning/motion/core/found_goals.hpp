@@ -16,7 +16,8 @@ namespace motion
 class FoundGoals : public ompl::base::GoalSampleableRegion
 {
 public:
-  FoundGoals(const ompl::base::SpaceInformationPtr& si, const std::vector<std::vector<double>>& goals) : GoalSampleableRegion(si)
+  FoundGoals(const ompl::base::SpaceInformationPtr& si, const std::vector<std::vector<double>>& goals)
+    : GoalSampleableRegion(si)
   {
     setThreshold(1e-9);
     for (const auto& values : goals)

@@ -6,18 +6,20 @@ namespace motion
 {
 namespace
 {
-double uniform(Random& random)
-{
-  return static_cast<double>(random() >> 11) * 0x1.0p-53;
-}
+double uniform(Random& random) { return static_cast<double>(random() >> 11) * 0x1.0p-53; }
 
-constexpr int RESTARTS = 40;   // of one inverse kinematics problem
+constexpr int RESTARTS = 40;  // of one inverse kinematics problem
 constexpr int BUDGET = 4000;  // restarts altogether before a goal counts as not to be met
 }  // namespace
 
 GoalSampler::GoalSampler(const PlanningScene& scene, const RobotState& start, const JointModelGroup& group,
                          const Constraints& goal, const ConstraintSet& path, const CollisionFree& free)
-  : model_(scene.model()), start_(start), group_(group), goal_(scene, goal), path_(path), free_(free)
+  : model_(scene.model())
+  , start_(start)
+  , group_(group)
+  , goal_(scene, goal)
+  , path_(path)
+  , free_(free)
 {
 }
 
@@ -145,10 +147,12 @@ bool GoalSampler::makeTargets(bool centre, Random& random, std::vector<IkTarget>
   {
     if (c.frame.link >= 0 && group_.link_updated[c.frame.link])
       return false;
-    const std::size_t which = centre ? 0 : std::min<std::size_t>(c.shapes.size() - 1, static_cast<std::size_t>(uniform(random) * c.shapes.size()));
+    const std::size_t which =
+        centre ? 0 : std::min<std::size_t>(c.shapes.size() - 1, static_cast<std::size_t>(uniform(random) * c.shapes.size()));
     Vector3 point = Vector3::Zero(), half;
     localBounds(*c.shapes[which], point, half);
-    if (!centre && !sampleInside(*c.shapes[which], [&]() { return uniform(random); }, point))
+    if (!centre && !sampleInside(
+                       *c.shapes[which], [&]() { return uniform(random); }, point))
       return false;
     IkTarget& t = target(c.link);
     const Vector3 offset = c.link.pose.translation();
@@ -157,8 +161,8 @@ bool GoalSampler::makeTargets(bool centre, Random& random, std::vector<IkTarget>
     t.position = true;
     t.pose.translation() = c.frame.at(start_) * c.poses[which] * point - t.pose.linear() * offset;
   }
-  return !targets.empty() &&
-         std::all_of(targets.begin(), targets.end(), [&](const IkTarget& t) { return t.link >= 0 && group_.link_updated[t.link]; });
+  return !targets.empty() && std::all_of(targets.begin(), targets.end(),
+                                         [&](const IkTarget& t) { return t.link >= 0 && group_.link_updated[t.link]; });
 }
 
 void GoalSampler::samplePoses(std::size_t wanted, Random& random, const std::function<bool()>& stop)

@@ -14,10 +14,7 @@ using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColM
 using Values = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, MAX_SIZE, 1>;
 using Clock = std::chrono::steady_clock;
 
-double seconds(Clock::time_point since)
-{
-  return std::chrono::duration<double>(Clock::now() - since).count();
-}
+double seconds(Clock::time_point since) { return std::chrono::duration<double>(Clock::now() - since).count(); }
 }  // namespace
 
 // A joint that the solver moves: the constant way to it, turned so that the joint's axis is z.
@@ -123,7 +120,11 @@ class Descent
 public:
   Descent(const std::vector<IkSolver::Chain>& chains, const std::vector<double>& lower, const std::vector<double>& upper,
           const std::vector<char>& turns)
-    : chains_(chains), lower_(lower), upper_(upper), turns_(turns), n_(static_cast<int>(lower.size()))
+    : chains_(chains)
+    , lower_(lower)
+    , upper_(upper)
+    , turns_(turns)
+    , n_(static_cast<int>(lower.size()))
   {
   }
 
@@ -371,7 +372,7 @@ IkResult IkSolver::solve(const RobotState& state, const std::vector<IkTarget>& t
   Values seed(n), q(n), best(n);
   state.getGroup(group_, seed.data());
   checkSeed(seed, group_, options);
-  Room room{ lower_, upper_, turns_, {} };
+  Room room{lower_, upper_, turns_, {}};
   for (int j = 0; j < n; ++j)
     room.endless.push_back(model_->joints[group_.active_joints[j]].continuous);
   narrow(room, seed, options.consistency);

@@ -55,7 +55,9 @@ void StatePool::give(std::unique_ptr<RobotState> state)
 // ---------------------------------------------------------------- JointSpace
 
 JointSpace::JointSpace(const RobotModelPtr& model, const JointModelGroup& group, StatePool& pool)
-  : model_(model), group_(group), pool_(pool)
+  : model_(model)
+  , group_(group)
+  , pool_(pool)
 {
   setName(group.name);
   for (int j : group.active_joints)
@@ -80,7 +82,8 @@ void JointSpace::limit(std::size_t index, double lower, double upper)
   lower_[index] = std::max(lower_[index], lower);
   upper_[index] = std::min(upper_[index], upper);
   if (lower_[index] > upper_[index])
-    throw InvalidInput("nothing is left of the range of '" + group_.variable_names[index] + "': the path constraints or the workspace exclude all of it");
+    throw InvalidInput("nothing is left of the range of '" + group_.variable_names[index] +
+                       "': the path constraints or the workspace exclude all of it");
 }
 
 // As upstream, what such a setting says wrongly is left out and does not keep the group from being planned for: configurations are
@@ -199,10 +202,7 @@ double JointSpace::getMeasure() const
   return product;
 }
 
-void JointSpace::enforceBounds(ob::State* state) const
-{
-  clip(values(state));
-}
+void JointSpace::enforceBounds(ob::State* state) const { clip(values(state)); }
 
 bool JointSpace::satisfiesBounds(const ob::State* state) const
 {
@@ -221,10 +221,7 @@ void JointSpace::copyState(ob::State* to, const ob::State* from) const
   std::memcpy(values(to), values(from), size() * sizeof(double));
 }
 
-double JointSpace::distance(const ob::State* a, const ob::State* b) const
-{
-  return distance(values(a), values(b));
-}
+double JointSpace::distance(const ob::State* a, const ob::State* b) const { return distance(values(a), values(b)); }
 
 bool JointSpace::equalStates(const ob::State* a, const ob::State* b) const
 {
@@ -324,10 +321,7 @@ private:
 };
 }  // namespace
 
-ob::StateSamplerPtr JointSpace::allocDefaultStateSampler() const
-{
-  return std::make_shared<Sampler>(this);
-}
+ob::StateSamplerPtr JointSpace::allocDefaultStateSampler() const { return std::make_shared<Sampler>(this); }
 
 ob::State* JointSpace::allocState() const
 {
@@ -348,10 +342,7 @@ double* JointSpace::getValueAddressAtIndex(ob::State* state, unsigned int index)
   return index < size() ? values(state) + index : nullptr;
 }
 
-unsigned int JointSpace::getSerializationLength() const
-{
-  return static_cast<unsigned int>(size() * sizeof(double));
-}
+unsigned int JointSpace::getSerializationLength() const { return static_cast<unsigned int>(size() * sizeof(double)); }
 
 void JointSpace::serialize(void* bytes, const ob::State* state) const
 {

@@ -75,7 +75,8 @@ public:
   void copyState(ompl::base::State* to, const ompl::base::State* from) const override;
   double distance(const ompl::base::State* a, const ompl::base::State* b) const override;
   bool equalStates(const ompl::base::State* a, const ompl::base::State* b) const override;
-  void interpolate(const ompl::base::State* from, const ompl::base::State* to, double t, ompl::base::State* state) const override;
+  void interpolate(const ompl::base::State* from, const ompl::base::State* to, double t,
+                   ompl::base::State* state) const override;
   ompl::base::StateSamplerPtr allocDefaultStateSampler() const override;
   ompl::base::State* allocState() const override;
   void freeState(ompl::base::State* state) const override;
@@ -104,7 +105,10 @@ class JointSpaceValidity : public ompl::base::StateValidityChecker
 public:
   JointSpaceValidity(const ompl::base::SpaceInformationPtr& si, const JointSpace& space, const CollisionFree& free,
                      const ConstraintSet* constraints)
-    : StateValidityChecker(si), space_(space), free_(free), constraints_(constraints)
+    : StateValidityChecker(si)
+    , space_(space)
+    , free_(free)
+    , constraints_(constraints)
   {
   }
   bool isValid(const ompl::base::State* state) const override;
@@ -120,8 +124,12 @@ private:
 class CloseMotion : public ompl::base::MotionValidator
 {
 public:
-  CloseMotion(const ompl::base::SpaceInformationPtr& si, const JointSpace& space, std::shared_ptr<const CollisionChecker> checker)
-    : MotionValidator(si), space_(space), coarse_(si), checker_(std::move(checker))
+  CloseMotion(const ompl::base::SpaceInformationPtr& si, const JointSpace& space,
+              std::shared_ptr<const CollisionChecker> checker)
+    : MotionValidator(si)
+    , space_(space)
+    , coarse_(si)
+    , checker_(std::move(checker))
   {
   }
   bool checkMotion(const ompl::base::State* a, const ompl::base::State* b) const override;
@@ -154,7 +162,9 @@ class FeasibleValidity : public JointSpaceValidity
 public:
   FeasibleValidity(const ompl::base::SpaceInformationPtr& si, const JointSpace& space, const CollisionFree& free,
                    const ConstraintSet* constraints, const std::function<bool(const RobotState&)>& feasible)
-    : JointSpaceValidity(si, space, free, constraints), joints_(space), feasible_(feasible)
+    : JointSpaceValidity(si, space, free, constraints)
+    , joints_(space)
+    , feasible_(feasible)
   {
   }
   bool isValid(const ompl::base::State* state) const override

@@ -7,10 +7,7 @@ namespace motion
 {
 namespace
 {
-Vector3 vector(const urdf::Vector3& v)
-{
-  return Vector3(v.x, v.y, v.z);
-}
+Vector3 vector(const urdf::Vector3& v) { return Vector3(v.x, v.y, v.z); }
 
 Transform transform(const urdf::Pose& pose)
 {
@@ -22,10 +19,7 @@ Transform transform(const urdf::Pose& pose)
   return t;
 }
 
-bool emptyLink(const urdf::Link& link)
-{
-  return !link.inertial && !link.visual && !link.collision;
-}
+bool emptyLink(const urdf::Link& link) { return !link.inertial && !link.visual && !link.collision; }
 }  // namespace
 
 void ModelBuilder::build()
@@ -64,8 +58,8 @@ void ModelBuilder::buildRootJoint()
       if (root.name == "world" && emptyLink(root) && v.type == "fixed")
         joint.name = v.name;
       else
-        warn("virtual joint '" + v.name + "' is left out: its child link '" + v.child_link +
-             "' is not the root link '" + root.name + "' of the URDF");
+        warn("virtual joint '" + v.name + "' is left out: its child link '" + v.child_link + "' is not the root link '" +
+             root.name + "' of the URDF");
       continue;
     }
     if (v.parent_frame.empty())
@@ -245,13 +239,11 @@ ShapePtr ModelBuilder::shape(const urdf::Geometry& geometry, const std::string& 
         return std::make_shared<Sphere>(static_cast<const urdf::Sphere&>(geometry).radius);
       case urdf::Geometry::BOX:
         return std::make_shared<Box>(vector(static_cast<const urdf::Box&>(geometry).dim));
-      case urdf::Geometry::CYLINDER:
-      {
+      case urdf::Geometry::CYLINDER: {
         const auto& cylinder = static_cast<const urdf::Cylinder&>(geometry);
         return std::make_shared<Cylinder>(cylinder.radius, cylinder.length);
       }
-      case urdf::Geometry::MESH:
-      {
+      case urdf::Geometry::MESH: {
         if (!options_.meshes)
           return nullptr;
         const auto& mesh = static_cast<const urdf::Mesh&>(geometry);

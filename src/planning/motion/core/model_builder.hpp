@@ -17,7 +17,9 @@ class ModelBuilder
 {
 public:
   ModelBuilder(urdf::ModelInterfaceSharedPtr urdf, const RobotModel::Options& options, RobotModel& model)
-    : urdf_(std::move(urdf)), options_(options), model_(model)
+    : urdf_(std::move(urdf))
+    , options_(options)
+    , model_(model)
   {
   }
   void build();  // model.srdf and model.warnings are set already

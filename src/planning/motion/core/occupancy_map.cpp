@@ -34,7 +34,8 @@ class Region
 {
 public:
   Region(const PlacedShape& placed, double scale, double shadow)
-    : shape_(grown(placed.shape, scale, placed.padding)), inverse_(placed.pose.inverse())
+    : shape_(grown(placed.shape, scale, placed.padding))
+    , inverse_(placed.pose.inverse())
   {
     const auto& [shape, pose, padding] = placed;
     Vector3 centre, half;
@@ -126,10 +127,7 @@ void OccupancyMap::insert(const Vector3& origin, const std::vector<Vector3>& occ
   }
 }
 
-void OccupancyMap::clear()
-{
-  cells_->clear();
-}
+void OccupancyMap::clear() { cells_->clear(); }
 
 void OccupancyMap::assign(const OcTreeShape& other)
 {
@@ -153,15 +151,9 @@ std::shared_ptr<const OcTreeShape> OccupancyMap::shape() const
   return std::make_shared<OcTreeShape>(std::move(tree));
 }
 
-double OccupancyMap::resolution() const
-{
-  return grid_->getResolution();
-}
+double OccupancyMap::resolution() const { return grid_->getResolution(); }
 
-std::size_t OccupancyMap::cells() const
-{
-  return cells_->size();
-}
+std::size_t OccupancyMap::cells() const { return cells_->size(); }
 
 std::vector<std::uint8_t> labelPoints(const std::vector<PlacedShape>& shapes, const std::vector<Vector3>& points,
                                       const Vector3& origin, double scale, double shadow)

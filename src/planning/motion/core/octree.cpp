@@ -111,13 +111,7 @@ std::string OcTreeShape::message(bool binary) const
   return stream.str();
 }
 
-double OcTreeShape::resolution() const
-{
-  return tree->getResolution();
-}
+double OcTreeShape::resolution() const { return tree->getResolution(); }
 
-std::size_t OcTreeShape::nodes() const
-{
-  return tree->size();
-}
+std::size_t OcTreeShape::nodes() const { return tree->size(); }
 }  // namespace motion

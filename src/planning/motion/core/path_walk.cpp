@@ -13,7 +13,7 @@ namespace
 constexpr double RESOLUTION = 5e-4;  // m: shapes that move by less and touch at neither end are believed not to touch
 constexpr double COARSE = 0.01;      // m: the same for shapes whose distance is not known (planes, octrees)
 constexpr double UNKNOWN = -1;
-constexpr double ENOUGH = 1.2;       // times what a step needs: how much larger a distance is, is not asked
+constexpr double ENOUGH = 1.2;  // times what a step needs: how much larger a distance is, is not asked
 
 // How far the points of a shape move at most, the way between the two poses being short.
 double moved(const CollisionShape& shape, const Transform& from, const Transform& to)
@@ -22,14 +22,13 @@ double moved(const CollisionShape& shape, const Transform& from, const Transform
   return 1.05 * ((to * shape.centre - from * shape.centre).norm() + turned * shape.half.norm()) + 1e-7;
 }
 
-bool measurable(const CollisionShape& shape)
-{
-  return !shape.unbounded && shape.shape->type != ShapeType::OcTree;
-}
+bool measurable(const CollisionShape& shape) { return !shape.unbounded && shape.shape->type != ShapeType::OcTree; }
 }  // namespace
 
 PathWalk::PathWalk(std::shared_ptr<const CollisionChecker> checker)
-  : checker_(std::move(checker)), self_now_(checker_->self_pairs_.size()), self_next_(checker_->self_pairs_.size())
+  : checker_(std::move(checker))
+  , self_now_(checker_->self_pairs_.size())
+  , self_next_(checker_->self_pairs_.size())
 {
 }
 
@@ -76,7 +75,8 @@ double PathWalk::gap(const Side& a, const Side& b, double enough) const
   if (!measurable(*a.shape) || !measurable(*b.shape))
     return UNKNOWN;
   fcl::DistanceResultd result(enough);  // what is farther away than this is not looked at
-  const double found = fcl::distance(a.shape->geometry.get(), *a.now, b.shape->geometry.get(), *b.now, fcl::DistanceRequestd(), result);
+  const double found =
+      fcl::distance(a.shape->geometry.get(), *a.now, b.shape->geometry.get(), *b.now, fcl::DistanceRequestd(), result);
   return std::max(0.0, found);
 }
 

@@ -15,11 +15,22 @@ namespace
 // Keys of ompl_planning.yaml that are not the planner's own.
 const std::set<std::string>& generalKeys()
 {
-  static const std::set<std::string> keys{"type", "optimization_objective", "termination_condition", "interpolate", "hybridize",
-                                          "multi_query_planning_enabled", "load_planner_data", "store_planner_data",
-                                          "planner_data_path", "projection_evaluator", "longest_valid_segment_fraction",
-                                          "enforce_joint_model_state_space", "enforce_constrained_state_space",
-                                          "maximum_waypoint_distance", "minimum_waypoint_count", "simplify_solutions"};
+  static const std::set<std::string> keys{"type",
+                                          "optimization_objective",
+                                          "termination_condition",
+                                          "interpolate",
+                                          "hybridize",
+                                          "multi_query_planning_enabled",
+                                          "load_planner_data",
+                                          "store_planner_data",
+                                          "planner_data_path",
+                                          "projection_evaluator",
+                                          "longest_valid_segment_fraction",
+                                          "enforce_joint_model_state_space",
+                                          "enforce_constrained_state_space",
+                                          "maximum_waypoint_distance",
+                                          "minimum_waypoint_count",
+                                          "simplify_solutions"};
   return keys;
 }
 }  // namespace

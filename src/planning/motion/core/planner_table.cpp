@@ -61,24 +61,37 @@ Make maker()
 
 const std::map<std::string, Make>& table()
 {
-  static const std::map<std::string, Make> planners{
-      {"ABITstar", maker<og::ABITstar>()},   {"AITstar", maker<og::AITstar>()},
-      {"AnytimePathShortening", maker<og::AnytimePathShortening>()},
-      {"BFMT", maker<og::BFMT>()},           {"BITstar", maker<og::BITstar>()},
-      {"BKPIECE", maker<og::BKPIECE1>()},    {"BiEST", maker<og::BiEST>()},
-      {"BiTRRT", maker<og::BiTRRT>()},       {"EST", maker<og::EST>()},
-      {"FMT", maker<og::FMT>()},             {"InformedRRTstar", maker<og::InformedRRTstar>()},
-      {"KPIECE", maker<og::KPIECE1>()},      {"LBKPIECE", maker<og::LBKPIECE1>()},
-      {"LBTRRT", maker<og::LBTRRT>()},       {"LazyPRM", maker<og::LazyPRM>()},
-      {"LazyPRMstar", maker<og::LazyPRMstar>()}, {"LazyRRT", maker<og::LazyRRT>()},
-      {"PDST", maker<og::PDST>()},           {"PRM", maker<og::PRM>()},
-      {"PRMstar", maker<og::PRMstar>()},     {"ProjEST", maker<og::ProjEST>()},
-      {"RRT", maker<og::RRT>()},             {"RRTConnect", maker<og::RRTConnect>()},
-      {"RRTsharp", maker<og::RRTsharp>()},   {"RRTstar", maker<og::RRTstar>()},
-      {"SBL", maker<og::SBL>()},             {"SORRTstar", maker<og::SORRTstar>()},
-      {"SPARS", maker<og::SPARS>()},         {"SPARStwo", maker<og::SPARStwo>()},
-      {"STRIDE", maker<og::STRIDE>()},
-      {"TRRT", maker<og::TRRT>()}};
+  static const std::map<std::string, Make> planners{{"ABITstar", maker<og::ABITstar>()},
+                                                    {"AITstar", maker<og::AITstar>()},
+                                                    {"AnytimePathShortening", maker<og::AnytimePathShortening>()},
+                                                    {"BFMT", maker<og::BFMT>()},
+                                                    {"BITstar", maker<og::BITstar>()},
+                                                    {"BKPIECE", maker<og::BKPIECE1>()},
+                                                    {"BiEST", maker<og::BiEST>()},
+                                                    {"BiTRRT", maker<og::BiTRRT>()},
+                                                    {"EST", maker<og::EST>()},
+                                                    {"FMT", maker<og::FMT>()},
+                                                    {"InformedRRTstar", maker<og::InformedRRTstar>()},
+                                                    {"KPIECE", maker<og::KPIECE1>()},
+                                                    {"LBKPIECE", maker<og::LBKPIECE1>()},
+                                                    {"LBTRRT", maker<og::LBTRRT>()},
+                                                    {"LazyPRM", maker<og::LazyPRM>()},
+                                                    {"LazyPRMstar", maker<og::LazyPRMstar>()},
+                                                    {"LazyRRT", maker<og::LazyRRT>()},
+                                                    {"PDST", maker<og::PDST>()},
+                                                    {"PRM", maker<og::PRM>()},
+                                                    {"PRMstar", maker<og::PRMstar>()},
+                                                    {"ProjEST", maker<og::ProjEST>()},
+                                                    {"RRT", maker<og::RRT>()},
+                                                    {"RRTConnect", maker<og::RRTConnect>()},
+                                                    {"RRTsharp", maker<og::RRTsharp>()},
+                                                    {"RRTstar", maker<og::RRTstar>()},
+                                                    {"SBL", maker<og::SBL>()},
+                                                    {"SORRTstar", maker<og::SORRTstar>()},
+                                                    {"SPARS", maker<og::SPARS>()},
+                                                    {"SPARStwo", maker<og::SPARStwo>()},
+                                                    {"STRIDE", maker<og::STRIDE>()},
+                                                    {"TRRT", maker<og::TRRT>()}};
   return planners;
 }
 }  // namespace
@@ -106,10 +119,7 @@ std::vector<std::string> plannerNames()
   return names;
 }
 
-ob::PlannerPtr makePlanner(const std::string& name, const ob::SpaceInformationPtr& si)
-{
-  return table().at(name)(si);
-}
+ob::PlannerPtr makePlanner(const std::string& name, const ob::SpaceInformationPtr& si) { return table().at(name)(si); }
 
 ob::OptimizationObjectivePtr makeObjective(const std::string& name, const ob::SpaceInformationPtr& si)
 {
@@ -133,7 +143,8 @@ ob::PlannerTerminationCondition makeTermination(const std::string& text, const o
   const std::size_t open = text.find('[');
   const std::string kind = text.substr(0, open);
   if (kind == "Iteration" && open != std::string::npos)
-    return ob::plannerOrTerminationCondition(clock, ob::IterationTerminationCondition(std::max(1, std::atoi(text.c_str() + open + 1))));
+    return ob::plannerOrTerminationCondition(
+        clock, ob::IterationTerminationCondition(std::max(1, std::atoi(text.c_str() + open + 1))));
   if (kind == "CostConvergence")
   {
     int window = 10;

@@ -18,7 +18,8 @@ ompl::base::PlannerPtr makePlanner(const std::string& name, const ompl::base::Sp
 // Null for a name that is not known.
 ompl::base::OptimizationObjectivePtr makeObjective(const std::string& name, const ompl::base::SpaceInformationPtr& si);
 // "Iteration[n]", "CostConvergence[window,epsilon]" or "ExactSolution", as ompl_planning.yaml has it, or `stopped`; else that alone.
-ompl::base::PlannerTerminationCondition makeTermination(const std::string& text, const ompl::base::ProblemDefinitionPtr& problem,
+ompl::base::PlannerTerminationCondition makeTermination(const std::string& text,
+                                                        const ompl::base::ProblemDefinitionPtr& problem,
                                                         const std::function<bool()>& stopped);
 // OMPL writes on the console; what matters comes back in the result.
 void quiet();

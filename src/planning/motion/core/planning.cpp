@@ -30,10 +30,7 @@ using Clock = std::chrono::steady_clock;
 constexpr int CLOSER = 3;      // times that a path which cuts corners is looked at again; the last time all along
 constexpr double FINER = 4.0;  // how much nearer to each other are the states then, each time
 
-double since(Clock::time_point started)
-{
-  return std::chrono::duration<double>(Clock::now() - started).count();
-}
+double since(Clock::time_point started) { return std::chrono::duration<double>(Clock::now() - started).count(); }
 
 // OMPL draws the seeds of all random numbers from one place: a seeded plan has it for itself.
 std::shared_timed_mutex& seeding()
@@ -72,7 +69,8 @@ public:
       return finish();
     std::shared_lock<std::shared_timed_mutex> shared(seeding(), std::defer_lock);
     std::unique_lock<std::shared_timed_mutex> alone(seeding(), std::defer_lock);
-    while (!(request_.seed ? alone.try_lock_for(std::chrono::milliseconds(10)) : shared.try_lock_for(std::chrono::milliseconds(10))))
+    while (!(request_.seed ? alone.try_lock_for(std::chrono::milliseconds(10))
+                           : shared.try_lock_for(std::chrono::milliseconds(10))))
       if (stopped())
         return stopResult();
     if (request_.seed)
@@ -432,8 +430,9 @@ private:
     if (request_.interpolate)
     {
       if (request_.maximum_waypoint_distance > 0)
-        path.interpolate(std::max<unsigned int>(static_cast<unsigned int>(0.5 + path.length() / request_.maximum_waypoint_distance),
-                                                std::max(2, request_.minimum_waypoints)));
+        path.interpolate(
+            std::max<unsigned int>(static_cast<unsigned int>(0.5 + path.length() / request_.maximum_waypoint_distance),
+                                   std::max(2, request_.minimum_waypoints)));
       else
         path.interpolate();
       if (path.getStateCount() < static_cast<std::size_t>(std::max(2, request_.minimum_waypoints)))

@@ -119,7 +119,8 @@ int firstHit(const PlanningScene& scene, const RobotState& start, const JointMod
   return -1;
 }
 
-PlanResult planClosely(const PlanningScene& scene, const RobotState& start, const PlanRequest& request, const CancelFlag& cancel)
+PlanResult planClosely(const PlanningScene& scene, const RobotState& start, const PlanRequest& request,
+                       const CancelFlag& cancel)
 {
   if (straight(scene, request))
   {

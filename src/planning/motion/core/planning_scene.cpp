@@ -48,16 +48,10 @@ void PlanningScene::setState(const RobotState& state)
 
 namespace
 {
-std::string bare(const std::string& frame)
-{
-  return !frame.empty() && frame[0] == '/' ? frame.substr(1) : frame;
-}
+std::string bare(const std::string& frame) { return !frame.empty() && frame[0] == '/' ? frame.substr(1) : frame; }
 }  // namespace
 
-void PlanningScene::setTransform(const std::string& frame, const Transform& pose)
-{
-  transforms_[bare(frame)] = pose;
-}
+void PlanningScene::setTransform(const std::string& frame, const Transform& pose) { transforms_[bare(frame)] = pose; }
 
 bool PlanningScene::framePose(const std::string& given, const RobotState& state, Transform& pose) const
 {
@@ -235,10 +229,7 @@ void PlanningScene::setOctomap(std::shared_ptr<const OcTreeShape> tree, const Tr
   addToWorld(object);
 }
 
-void PlanningScene::attach(AttachedBodyPtr body)
-{
-  state_.attach(std::move(body));
-}
+void PlanningScene::attach(AttachedBodyPtr body) { state_.attach(std::move(body)); }
 
 void PlanningScene::attachObject(const std::string& id, const std::string& link, const std::set<std::string>& touch_links)
 {
@@ -275,10 +266,7 @@ bool PlanningScene::detachObject(const std::string& id)
 
 // ---------------------------------------------------------------- collision
 
-void PlanningScene::setAcm(const AllowedCollisionMatrix& acm)
-{
-  acm_ = std::make_shared<AllowedCollisionMatrix>(acm);
-}
+void PlanningScene::setAcm(const AllowedCollisionMatrix& acm) { acm_ = std::make_shared<AllowedCollisionMatrix>(acm); }
 
 void PlanningScene::setPadding(const std::map<std::string, double>& by_link)
 {
@@ -345,8 +333,8 @@ void PlanningScene::rebuildRobotGeometry()
   robot_ = geometry;
 }
 
-std::shared_ptr<const CollisionChecker> PlanningScene::checker(const RobotState& state, const std::string& group,
-                                                               bool padded, const AllowedCollisionMatrix* acm) const
+std::shared_ptr<const CollisionChecker> PlanningScene::checker(const RobotState& state, const std::string& group, bool padded,
+                                                               const AllowedCollisionMatrix* acm) const
 {
   CollisionChecker::Inputs inputs{model_, world_, acm_, robot_, state.attachedShared(), group, padded, attached_padding_};
   if (acm)
@@ -374,10 +362,7 @@ std::shared_ptr<const CollisionChecker> PlanningScene::checker(const RobotState&
   return made;
 }
 
-bool CollisionFree::operator()(const RobotState& state) const
-{
-  return !checker_->collides(state);
-}
+bool CollisionFree::operator()(const RobotState& state) const { return !checker_->collides(state); }
 
 CollisionResult PlanningScene::check(const RobotState& state, const CollisionRequest& request,
                                      const AllowedCollisionMatrix* acm) const

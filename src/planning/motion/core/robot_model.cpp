@@ -18,8 +18,7 @@ Transform JointModel::transform(const double* v) const
   {
     case JointType::Fixed:
       return origin;
-    case JointType::Revolute:
-    {
+    case JointType::Revolute: {
       // Rodrigues' formula, written out: forward kinematics spends most of its time here.
       const double c = std::cos(v[0]), s = std::sin(v[0]), t = 1.0 - c;
       const double x = axis.x(), y = axis.y(), z = axis.z();
@@ -33,21 +32,18 @@ Transform JointModel::transform(const double* v) const
       out.makeAffine();
       return out;
     }
-    case JointType::Prismatic:
-    {
+    case JointType::Prismatic: {
       Transform out = origin;
       out.translation() += origin.linear() * (axis * v[0]);
       return out;
     }
-    case JointType::Planar:
-    {
+    case JointType::Planar: {
       Transform out = origin;
       out.translate(Vector3(v[0], v[1], 0.0));
       out.rotate(Eigen::AngleAxisd(v[2], Vector3::UnitZ()));
       return out;
     }
-    case JointType::Floating:
-    {
+    case JointType::Floating: {
       Transform out = origin;
       out.translate(Vector3(v[0], v[1], v[2]));
       out.rotate(Quaternion(v[6], v[3], v[4], v[5]).normalized());
@@ -102,8 +98,7 @@ double JointModel::distance(const double* a, const double* b) const
     case JointType::Planar:
       return std::hypot(a[0] - b[0], a[1] - b[1]) + angular_distance_weight * std::abs(wrapAngle(a[2] - b[2]));
     case JointType::Floating:
-      return Vector3(a[0] - b[0], a[1] - b[1], a[2] - b[2]).norm() +
-             angular_distance_weight * quaternionAngle(a + 3, b + 3);
+      return Vector3(a[0] - b[0], a[1] - b[1], a[2] - b[2]).norm() + angular_distance_weight * quaternionAngle(a + 3, b + 3);
     default:
       return 0;
   }
@@ -111,9 +106,7 @@ double JointModel::distance(const double* a, const double* b) const
 
 double JointModel::maximumExtent() const
 {
-  auto range = [this](int k) {
-    return bounds[k].has_position ? bounds[k].max_position - bounds[k].min_position : 2.0 * M_PI;
-  };
+  auto range = [this](int k) { return bounds[k].has_position ? bounds[k].max_position - bounds[k].min_position : 2.0 * M_PI; };
   switch (type)
   {
     case JointType::Revolute:
@@ -144,8 +137,7 @@ void JointModel::interpolate(const double* from, const double* to, double t, dou
       out[1] = from[1] + t * (to[1] - from[1]);
       out[2] = wrapAngle(from[2] + t * wrapAngle(to[2] - from[2]));
       break;
-    case JointType::Floating:
-    {
+    case JointType::Floating: {
       for (int k = 0; k < 3; ++k)
         out[k] = from[k] + t * (to[k] - from[k]);
       const Quaternion a(from[6], from[3], from[4], from[5]), b(to[6], to[3], to[4], to[5]);
@@ -177,7 +169,8 @@ bool JointModel::satisfiesBounds(const double* values, double margin) const
       if (std::abs(values[k]) > M_PI + 1e-9 + margin)
         return false;
     }
-    else if (bounds[k].has_position && (values[k] < bounds[k].min_position - margin || values[k] > bounds[k].max_position + margin))
+    else if (bounds[k].has_position &&
+             (values[k] < bounds[k].min_position - margin || values[k] > bounds[k].max_position + margin))
       return false;
   }
   return true;
@@ -209,10 +202,7 @@ bool JointModel::enforceBounds(double* values) const
   return changed;
 }
 
-bool JointModelGroup::hasJoint(int joint) const
-{
-  return std::binary_search(joints.begin(), joints.end(), joint);
-}
+bool JointModelGroup::hasJoint(int joint) const { return std::binary_search(joints.begin(), joints.end(), joint); }
 
 // ---------------------------------------------------------------- RobotModel
 
@@ -278,20 +268,11 @@ std::vector<std::string> names(const Items& items)
 }
 }  // namespace
 
-const JointModel* RobotModel::findJoint(const std::string& name) const
-{
-  return find(joints, joint_index_, name);
-}
+const JointModel* RobotModel::findJoint(const std::string& name) const { return find(joints, joint_index_, name); }
 
-const LinkModel* RobotModel::findLink(const std::string& name) const
-{
-  return find(links, link_index_, name);
-}
+const LinkModel* RobotModel::findLink(const std::string& name) const { return find(links, link_index_, name); }
 
-const JointModelGroup* RobotModel::findGroup(const std::string& name) const
-{
-  return find(groups, group_index_, name);
-}
+const JointModelGroup* RobotModel::findGroup(const std::string& name) const { return find(groups, group_index_, name); }
 
 int RobotModel::findVariable(const std::string& name) const
 {
@@ -346,18 +327,9 @@ bool RobotModel::isAncestor(int ancestor, int link) const
   return link == ancestor;
 }
 
-std::vector<std::string> RobotModel::jointNames() const
-{
-  return names(joints);
-}
+std::vector<std::string> RobotModel::jointNames() const { return names(joints); }
 
-std::vector<std::string> RobotModel::linkNames() const
-{
-  return names(links);
-}
+std::vector<std::string> RobotModel::linkNames() const { return names(links); }
 
-std::vector<std::string> RobotModel::groupNames() const
-{
-  return names(groups);
-}
+std::vector<std::string> RobotModel::groupNames() const { return names(groups); }
 }  // namespace motion

@@ -11,8 +11,7 @@ namespace
 void demandSize(double value, const char* shape, const char* what)
 {
   if (!(std::isfinite(value) && value >= 0))
-    throw InvalidInput(std::string(shape) + ": " + what + " is " + std::to_string(value) +
-                       ", but must be a number from 0 up");
+    throw InvalidInput(std::string(shape) + ": " + what + " is " + std::to_string(value) + ", but must be a number from 0 up");
 }
 
 const char* typeName(ShapeType type)
@@ -29,10 +28,7 @@ double padded(double value, const Shape& shape)
 }
 }  // namespace
 
-std::string Shape::describe() const
-{
-  return typeName(type);
-}
+std::string Shape::describe() const { return typeName(type); }
 
 Box::Box(const Vector3& s) : Shape(ShapeType::Box), size(s)
 {
@@ -40,10 +36,7 @@ Box::Box(const Vector3& s) : Shape(ShapeType::Box), size(s)
     demandSize(size[i], "box", "an edge");
 }
 
-Sphere::Sphere(double r) : Shape(ShapeType::Sphere), radius(r)
-{
-  demandSize(radius, "sphere", "the radius");
-}
+Sphere::Sphere(double r) : Shape(ShapeType::Sphere), radius(r) { demandSize(radius, "sphere", "the radius"); }
 
 Cylinder::Cylinder(double r, double l) : Shape(ShapeType::Cylinder), radius(r), length(l)
 {
@@ -58,11 +51,13 @@ Cone::Cone(double r, double l) : Shape(ShapeType::Cone), radius(r), length(l)
 }
 
 Mesh::Mesh(std::vector<Vector3> v, std::vector<Eigen::Vector3i> t)
-  : Shape(ShapeType::Mesh), vertices(std::move(v)), triangles(std::move(t))
+  : Shape(ShapeType::Mesh)
+  , vertices(std::move(v))
+  , triangles(std::move(t))
 {
   if (vertices.empty() || triangles.empty())
-    throw InvalidInput("mesh: it has " + std::to_string(vertices.size()) + " vertices and " +
-                       std::to_string(triangles.size()) + " triangles; at least one triangle is needed");
+    throw InvalidInput("mesh: it has " + std::to_string(vertices.size()) + " vertices and " + std::to_string(triangles.size()) +
+                       " triangles; at least one triangle is needed");
   for (const Vector3& vertex : vertices)
     if (!vertex.allFinite())
       throw InvalidInput("mesh: a vertex is not finite");
@@ -111,22 +106,19 @@ ShapePtr grown(const ShapePtr& shape, double scale, double padding)
     throw InvalidInput("scale and padding must be finite numbers");
   switch (shape->type)
   {
-    case ShapeType::Box:
-    {
+    case ShapeType::Box: {
       const Vector3 size = static_cast<const Box&>(*shape).size * scale + Vector3::Constant(2 * padding);
       padded(size.minCoeff(), *shape);
       return std::make_shared<Box>(size);
     }
     case ShapeType::Sphere:
       return std::make_shared<Sphere>(padded(static_cast<const Sphere&>(*shape).radius * scale + padding, *shape));
-    case ShapeType::Cylinder:
-    {
+    case ShapeType::Cylinder: {
       const auto& cylinder = static_cast<const Cylinder&>(*shape);
       return std::make_shared<Cylinder>(padded(cylinder.radius * scale + padding, *shape),
                                         padded(cylinder.length * scale + 2 * padding, *shape));
     }
-    case ShapeType::Cone:
-    {
+    case ShapeType::Cone: {
       const auto& cone = static_cast<const Cone&>(*shape);
       return std::make_shared<Cone>(padded(cone.radius * scale + padding, *shape),
                                     padded(cone.length * scale + 2 * padding, *shape));
@@ -173,13 +165,11 @@ bool contains(const Shape& shape, const Vector3& p)
       return (p.cwiseAbs() - 0.5 * static_cast<const Box&>(shape).size).maxCoeff() <= 0;
     case ShapeType::Sphere:
       return p.norm() <= static_cast<const Sphere&>(shape).radius;
-    case ShapeType::Cylinder:
-    {
+    case ShapeType::Cylinder: {
       const auto& cylinder = static_cast<const Cylinder&>(shape);
       return std::abs(p.z()) <= 0.5 * cylinder.length && p.head<2>().norm() <= cylinder.radius;
     }
-    case ShapeType::Cone:
-    {
+    case ShapeType::Cone: {
       const auto& cone = static_cast<const Cone&>(shape);
       return std::abs(p.z()) <= 0.5 * cone.length &&
              p.head<2>().norm() * cone.length <= cone.radius * (0.5 * cone.length - p.z());
@@ -188,8 +178,7 @@ bool contains(const Shape& shape, const Vector3& p)
       return insideMesh(static_cast<const Mesh&>(shape), p);
     case ShapeType::Plane:
       return static_cast<const Plane&>(shape).normal.dot(p) + static_cast<const Plane&>(shape).d <= 0;
-    case ShapeType::OcTree:
-    {
+    case ShapeType::OcTree: {
       const auto& tree = *static_cast<const OcTreeShape&>(shape).tree;
       const auto* node = tree.search(p.x(), p.y(), p.z());
       return node && tree.isNodeOccupied(node);
@@ -209,20 +198,17 @@ bool localBounds(const Shape& shape, Vector3& centre, Vector3& half)
     case ShapeType::Sphere:
       half.setConstant(static_cast<const Sphere&>(shape).radius);
       return true;
-    case ShapeType::Cylinder:
-    {
+    case ShapeType::Cylinder: {
       const auto& cylinder = static_cast<const Cylinder&>(shape);
       half = Vector3(cylinder.radius, cylinder.radius, 0.5 * cylinder.length);
       return true;
     }
-    case ShapeType::Cone:
-    {
+    case ShapeType::Cone: {
       const auto& cone = static_cast<const Cone&>(shape);
       half = Vector3(cone.radius, cone.radius, 0.5 * cone.length);
       return true;
     }
-    case ShapeType::Mesh:
-    {
+    case ShapeType::Mesh: {
       Vector3 low = Vector3::Constant(std::numeric_limits<double>::max()), high = -low;
       for (const Vector3& vertex : static_cast<const Mesh&>(shape).vertices)
       {
@@ -233,8 +219,7 @@ bool localBounds(const Shape& shape, Vector3& centre, Vector3& half)
       half = 0.5 * (high - low);
       return true;
     }
-    case ShapeType::OcTree:
-    {
+    case ShapeType::OcTree: {
       const auto& tree = *static_cast<const OcTreeShape&>(shape).tree;
       double lx = 0, ly = 0, lz = 0, hx = 0, hy = 0, hz = 0;
       tree.getMetricMin(lx, ly, lz);

@@ -192,8 +192,8 @@ Srdf Srdf::parse(const std::string& text, std::vector<std::string>& warnings)
 {
   tinyxml2::XMLDocument document;
   if (document.Parse(text.c_str(), text.size()) != tinyxml2::XML_SUCCESS)
-    throw ModelError("SRDF is not well-formed XML near line " + std::to_string(document.ErrorLineNum()) +
-                     " (" + tinyxml2::XMLDocument::ErrorIDToName(document.ErrorID()) + ")");
+    throw ModelError("SRDF is not well-formed XML near line " + std::to_string(document.ErrorLineNum()) + " (" +
+                     tinyxml2::XMLDocument::ErrorIDToName(document.ErrorID()) + ")");
   const XMLElement* root = document.FirstChildElement("robot");
   if (!root)
     throw ModelError("SRDF has no <robot> element at its root");

@@ -18,8 +18,8 @@ struct Piece
 {
   double length;
   bool arc;
-  Vector start, direction;            // straight: start + s direction
-  Vector centre, x, y;                // arc: centre + radius (x cos(s / radius) + y sin(s / radius))
+  Vector start, direction;  // straight: start + s direction
+  Vector centre, x, y;      // arc: centre + radius (x cos(s / radius) + y sin(s / radius))
   double radius = 0;
   bool stop_before = false;  // a corner that is not rounded: the motion has to stop there
 
@@ -130,12 +130,14 @@ public:
         continue;
       // Between nodes nothing is checked: an arc may not turn much from one to the next.
       const double turn = piece.arc ? piece.length / piece.radius : 0.0;
-      const int count = std::max({8, static_cast<int>(std::ceil(piece.length / total * 1000)), static_cast<int>(std::ceil(turn / 0.03))});
+      const int count =
+          std::max({8, static_cast<int>(std::ceil(piece.length / total * 1000)), static_cast<int>(std::ceil(turn / 0.03))});
       const double length = piece.length / count;
       for (int k = 0; k < count; ++k)
       {
         const double s = k * length;
-        intervals.push_back({length, piece.tangent(s), piece.curvature(s), piece.tangent(s + length), piece.curvature(s + length), p, s});
+        intervals.push_back(
+            {length, piece.tangent(s), piece.curvature(s), piece.tangent(s + length), piece.curvature(s + length), p, s});
         most_.push_back(stop ? 0.0 : std::numeric_limits<double>::infinity());
         stop = false;
       }
@@ -232,10 +234,7 @@ private:
   std::vector<double> most_;
 };
 
-std::vector<double> row(const Vector& v)
-{
-  return std::vector<double>(v.data(), v.data() + v.size());
-}
+std::vector<double> row(const Vector& v) { return std::vector<double>(v.data(), v.data() + v.size()); }
 
 // Those that differ from the one before, and the end exactly.
 std::vector<Vector> wayPoints(const Rows& given, double min_angle_change)

@@ -7,7 +7,7 @@ namespace motion
 {
 namespace
 {
-constexpr double TOLERANCE = 0.01;    // of an acceleration, rad/s^2 or m/s^2, as upstream
+constexpr double TOLERANCE = 0.01;     // of an acceleration, rad/s^2 or m/s^2, as upstream
 constexpr double MOST_STRETCH = 0.01;  // s, of a segment at one touch, as upstream
 
 TimedPath atRest(const Rows& points)
@@ -122,8 +122,8 @@ std::vector<double> splineVelocities(const Rows& points, const std::vector<doubl
   for (std::size_t i = 1; i + 1 < n; ++i)
   {
     const double a = dt[i], b = 2 * (dt[i - 1] + dt[i]), c = dt[i - 1];
-    const double right = 3 * (dt[i - 1] / dt[i] * (points[i + 1][j] - points[i][j]) +
-                              dt[i] / dt[i - 1] * (points[i][j] - points[i - 1][j]));
+    const double right =
+        3 * (dt[i - 1] / dt[i] * (points[i + 1][j] - points[i][j]) + dt[i] / dt[i - 1] * (points[i][j] - points[i - 1][j]));
     const double pivot = b - a * upper[i - 1];
     upper[i] = c / pivot;
     velocity[i] = (right - a * velocity[i - 1]) / pivot;

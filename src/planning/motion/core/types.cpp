@@ -44,8 +44,5 @@ Eigen::Matrix<double, 6, 1> poseError(const Transform& from, const Transform& to
   return error;
 }
 
-bool isFinite(const Transform& pose)
-{
-  return pose.matrix().allFinite();
-}
+bool isFinite(const Transform& pose) { return pose.matrix().allFinite(); }
 }  // namespace motion

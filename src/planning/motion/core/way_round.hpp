@@ -13,7 +13,8 @@ namespace motion
 {
 /// "; 'lift' would turn by 6.49 rad to 5.29, and is at the same place at -0.993 rad", or "" if no joint has such a way round.
 /// Joints with limits of more than a turn have it; an obstacle may then stand in the long way, however long a planner looks.
-inline std::string wayRound(const RobotModel& model, const JointModelGroup& group, const RobotState& start, const std::vector<double>& goal)
+inline std::string wayRound(const RobotModel& model, const JointModelGroup& group, const RobotState& start,
+                            const std::vector<double>& goal)
 {
   constexpr double turn = 2 * M_PI;
   std::string found;

@@ -15,9 +15,9 @@ const Eigen::Isometry3d IDENTITY = Eigen::Isometry3d::Identity();
 }
 
 AttachedBody::AttachedBody(const LinkModel* parent, const std::string& id, const Eigen::Isometry3d& pose,
-                           const std::vector<shapes::ShapeConstPtr>& shapes,
-                           const EigenSTL::vector_Isometry3d& shape_poses, const std::set<std::string>& touch_links,
-                           const trajectory_msgs::JointTrajectory& detach_posture, const FixedTransformsMap& subframe_poses)
+                           const std::vector<shapes::ShapeConstPtr>& shapes, const EigenSTL::vector_Isometry3d& shape_poses,
+                           const std::set<std::string>& touch_links, const trajectory_msgs::JointTrajectory& detach_posture,
+                           const FixedTransformsMap& subframe_poses)
   : parent_link_model_(parent)
   , id_(id)
   , pose_(pose)
@@ -32,7 +32,12 @@ AttachedBody::AttachedBody(const LinkModel* parent, const std::string& id, const
 
 AttachedBody::AttachedBody(const LinkModel* parent, const std::shared_ptr<const motion::AttachedBody>& core,
                            const motion::RobotState* owner)
-  : core_(core), owner_(owner), parent_link_model_(parent), id_(core->id), pose_(core->pose), touch_links_(core->touch_links)
+  : core_(core)
+  , owner_(owner)
+  , parent_link_model_(parent)
+  , id_(core->id)
+  , pose_(core->pose)
+  , touch_links_(core->touch_links)
 {
   for (const motion::ShapePtr& shape : core->shapes)
     shapes_.push_back(toShape(shape));
@@ -46,10 +51,7 @@ AttachedBody::AttachedBody(const LinkModel* parent, const std::shared_ptr<const 
     subframe_poses_in_link_[frame.first] = pose_ * frame.second;
 }
 
-AttachedBody::AttachedBody(const AttachedBody& other, const motion::RobotState* owner) : AttachedBody(other)
-{
-  owner_ = owner;
-}
+AttachedBody::AttachedBody(const AttachedBody& other, const motion::RobotState* owner) : AttachedBody(other) { owner_ = owner; }
 
 AttachedBody::~AttachedBody() = default;
 

@@ -6,9 +6,7 @@ namespace moveit
 {
 namespace tools
 {
-BackgroundProcessing::BackgroundProcessing() : thread_([this]() { work(); })
-{
-}
+BackgroundProcessing::BackgroundProcessing() : thread_([this]() { work(); }) {}
 
 BackgroundProcessing::~BackgroundProcessing()
 {
@@ -85,7 +83,8 @@ void BackgroundProcessing::work()
     }
     catch (const std::exception& error)
     {
-      ROS_ERROR_NAMED("background_processing", "Exception caught while processing action '%s': %s", job.first.c_str(), error.what());
+      ROS_ERROR_NAMED("background_processing", "Exception caught while processing action '%s': %s", job.first.c_str(),
+                      error.what());
     }
     lock.lock();
     busy_ = false;

@@ -53,25 +53,13 @@ Number numberOf(const std::string& text)
 }
 }  // namespace
 
-std::string toString(double d)
-{
-  return textOf(d);
-}
+std::string toString(double d) { return textOf(d); }
 
-std::string toString(float f)
-{
-  return textOf(f);
-}
+std::string toString(float f) { return textOf(f); }
 
-double toDouble(const std::string& s)
-{
-  return numberOf<double>(s);
-}
+double toDouble(const std::string& s) { return numberOf<double>(s); }
 
-float toFloat(const std::string& s)
-{
-  return numberOf<float>(s);
-}
+float toFloat(const std::string& s) { return numberOf<float>(s); }
 
 double parseDouble(const XmlRpc::XmlRpcValue& v)
 {
@@ -107,9 +95,9 @@ bool isStruct(const XmlRpc::XmlRpcValue& v, const std::vector<std::string>& keys
 
 bool isEmpty(const moveit_msgs::PlanningScene& msg)
 {
-  return moveit::core::isEmpty(msg.world) && moveit::core::isEmpty(msg.robot_state) && msg.is_diff &&
-         msg.name.empty() && msg.fixed_frame_transforms.empty() && msg.allowed_collision_matrix.entry_names.empty() &&
-         msg.link_padding.empty() && msg.link_scale.empty() && msg.object_colors.empty();
+  return moveit::core::isEmpty(msg.world) && moveit::core::isEmpty(msg.robot_state) && msg.is_diff && msg.name.empty() &&
+         msg.fixed_frame_transforms.empty() && msg.allowed_collision_matrix.entry_names.empty() && msg.link_padding.empty() &&
+         msg.link_scale.empty() && msg.object_colors.empty();
 }
 
 bool isEmpty(const moveit_msgs::PlanningSceneWorld& msg)
@@ -121,22 +109,18 @@ bool isEmpty(const moveit_msgs::RobotState& msg)
 {
   // A state that takes bodies away is a difference with nothing in it but that.
   return msg.is_diff && msg.multi_dof_joint_state.joint_names.empty() && msg.joint_state.name.empty() &&
-         msg.attached_collision_objects.empty() && msg.joint_state.position.empty() &&
-         msg.joint_state.velocity.empty() && msg.joint_state.effort.empty() &&
-         msg.multi_dof_joint_state.transforms.empty() && msg.multi_dof_joint_state.twist.empty() &&
-         msg.multi_dof_joint_state.wrench.empty();
+         msg.attached_collision_objects.empty() && msg.joint_state.position.empty() && msg.joint_state.velocity.empty() &&
+         msg.joint_state.effort.empty() && msg.multi_dof_joint_state.transforms.empty() &&
+         msg.multi_dof_joint_state.twist.empty() && msg.multi_dof_joint_state.wrench.empty();
 }
 
 bool isEmpty(const moveit_msgs::Constraints& msg)
 {
-  return msg.position_constraints.empty() && msg.orientation_constraints.empty() &&
-         msg.visibility_constraints.empty() && msg.joint_constraints.empty();
+  return msg.position_constraints.empty() && msg.orientation_constraints.empty() && msg.visibility_constraints.empty() &&
+         msg.joint_constraints.empty();
 }
 
-bool isEmpty(const geometry_msgs::Quaternion& msg)
-{
-  return msg.x == 0.0 && msg.y == 0.0 && msg.z == 0.0 && msg.w == 1.0;
-}
+bool isEmpty(const geometry_msgs::Quaternion& msg) { return msg.x == 0.0 && msg.y == 0.0 && msg.z == 0.0 && msg.w == 1.0; }
 
 bool isEmpty(const geometry_msgs::Pose& msg)
 {
@@ -147,8 +131,8 @@ bool isEmpty(const geometry_msgs::Pose& msg)
 
 const char* MoveItErrorCode::toString(const moveit_msgs::MoveItErrorCodes& error_code)
 {
-#define MOVEIT_CODE(name)                                                                                              \
-  case moveit_msgs::MoveItErrorCodes::name:                                                                            \
+#define MOVEIT_CODE(name)                   \
+  case moveit_msgs::MoveItErrorCodes::name: \
     return #name;
   switch (error_code.val)
   {
@@ -182,10 +166,7 @@ const char* MoveItErrorCode::toString(const moveit_msgs::MoveItErrorCodes& error
   return "Unrecognized MoveItErrorCode. This should never happen!";
 }
 
-std::ostream& operator<<(std::ostream& out, const MoveItErrorCode& e)
-{
-  return out << MoveItErrorCode::toString(e);
-}
+std::ostream& operator<<(std::ostream& out, const MoveItErrorCode& e) { return out << MoveItErrorCode::toString(e); }
 
 // ---------------------------------------------------------------- transforms
 
@@ -193,10 +174,7 @@ namespace
 {
 const Eigen::Isometry3d IDENTITY = Eigen::Isometry3d::Identity();
 
-std::string withoutSlash(const std::string& frame)
-{
-  return !frame.empty() && frame[0] == '/' ? frame.substr(1) : frame;
-}
+std::string withoutSlash(const std::string& frame) { return !frame.empty() && frame[0] == '/' ? frame.substr(1) : frame; }
 }  // namespace
 
 Transforms::Transforms(const std::string& target_frame) : target_frame_(withoutSlash(target_frame))
@@ -249,28 +227,22 @@ void Transforms::setTransforms(const std::vector<geometry_msgs::TransformStamped
     setTransform(transform);
 }
 
-void Transforms::setAllTransforms(const FixedTransformsMap& transforms)
-{
-  transforms_map_ = transforms;
-}
+void Transforms::setAllTransforms(const FixedTransformsMap& transforms) { transforms_map_ = transforms; }
 
 bool Transforms::isFixedFrame(const std::string& frame) const
 {
   return !frame.empty() && transforms_map_.count(withoutSlash(frame));
 }
 
-bool Transforms::canTransform(const std::string& from_frame) const
-{
-  return isFixedFrame(from_frame);
-}
+bool Transforms::canTransform(const std::string& from_frame) const { return isFixedFrame(from_frame); }
 
 const Eigen::Isometry3d& Transforms::getTransform(const std::string& from_frame) const
 {
   const auto found = transforms_map_.find(withoutSlash(from_frame));
   if (found != transforms_map_.end())
     return found->second;
-  ROS_ERROR_NAMED("transforms", "Unable to transform from frame '%s' to frame '%s'. Returning identity.",
-                  from_frame.c_str(), target_frame_.c_str());
+  ROS_ERROR_NAMED("transforms", "Unable to transform from frame '%s' to frame '%s'. Returning identity.", from_frame.c_str(),
+                  target_frame_.c_str());
   return IDENTITY;
 }
 }  // namespace core

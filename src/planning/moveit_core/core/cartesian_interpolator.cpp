@@ -24,8 +24,8 @@ double CartesianInterpolator::computeCartesianPath(RobotState* start_state, cons
   Eigen::Isometry3d target = start_state->getGlobalLinkTransform(link);
   target.translation() += global_reference_frame ? translation : Eigen::Vector3d(target.linear() * translation);
   // This one answers with a length, not with a share.
-  return translation.norm() * computeCartesianPath(start_state, group, traj, link, target, true, max_step, jump_threshold,
-                                                   validCallback, options);
+  return translation.norm() *
+         computeCartesianPath(start_state, group, traj, link, target, true, max_step, jump_threshold, validCallback, options);
 }
 
 double CartesianInterpolator::computeCartesianPath(RobotState* start_state, const JointModelGroup* group,
@@ -46,9 +46,10 @@ double CartesianInterpolator::computeCartesianPath(RobotState* start_state, cons
   const Eigen::Quaterniond start_turn(start.linear()), goal_turn(goal.linear());
   if (max_step.translation <= 0.0 && max_step.rotation <= 0.0)
   {
-    ROS_ERROR_NAMED(LOGNAME, "Invalid MaxEEFStep passed into computeCartesianPath. Both the MaxEEFStep.rotation and "
-                             "MaxEEFStep.translation components must be non-negative and at least one component must be "
-                             "greater than zero");
+    ROS_ERROR_NAMED(LOGNAME,
+                    "Invalid MaxEEFStep passed into computeCartesianPath. Both the MaxEEFStep.rotation and "
+                    "MaxEEFStep.translation components must be non-negative and at least one component must be "
+                    "greater than zero");
     return 0.0;
   }
   const double way = (goal.translation() - start.translation()).norm(), turn = start_turn.angularDistance(goal_turn);
@@ -66,8 +67,9 @@ double CartesianInterpolator::computeCartesianPath(RobotState* start_state, cons
   if (jump_threshold.prismatic > 0.0 || jump_threshold.revolute > 0.0)
     for (const JointModel* joint : group->getActiveJointModels())
     {
-      const double limit = joint->getType() == JointModel::REVOLUTE ? jump_threshold.revolute :
-                           joint->getType() == JointModel::PRISMATIC ? jump_threshold.prismatic : 0.0;
+      const double limit = joint->getType() == JointModel::REVOLUTE    ? jump_threshold.revolute
+                           : joint->getType() == JointModel::PRISMATIC ? jump_threshold.prismatic
+                                                                       : 0.0;
       consistency.push_back(limit > 0.0 ? limit : joint->getMaximumExtent());
     }
   double reached = 0.0;
@@ -87,9 +89,8 @@ double CartesianInterpolator::computeCartesianPath(RobotState* start_state, cons
 
 double CartesianInterpolator::computeCartesianPath(RobotState* start_state, const JointModelGroup* group,
                                                    std::vector<RobotStatePtr>& traj, const LinkModel* link,
-                                                   const EigenSTL::vector_Isometry3d& waypoints,
-                                                   bool global_reference_frame, const MaxEEFStep& max_step,
-                                                   const JumpThreshold& jump_threshold,
+                                                   const EigenSTL::vector_Isometry3d& waypoints, bool global_reference_frame,
+                                                   const MaxEEFStep& max_step, const JumpThreshold& jump_threshold,
                                                    const GroupStateValidityCallbackFn& validCallback,
                                                    const kinematics::KinematicsQueryOptions& options,
                                                    const Eigen::Isometry3d& link_offset)
@@ -100,8 +101,8 @@ double CartesianInterpolator::computeCartesianPath(RobotState* start_state, cons
   {
     std::vector<RobotStatePtr> part;
     // Jumps are looked for in the whole path, so that the mean is over all of it.
-    const double share = computeCartesianPath(start_state, group, part, link, waypoints[i], global_reference_frame,
-                                              max_step, JumpThreshold(), validCallback, options, link_offset);
+    const double share = computeCartesianPath(start_state, group, part, link, waypoints[i], global_reference_frame, max_step,
+                                              JumpThreshold(), validCallback, options, link_offset);
     traj.insert(traj.end(), traj.empty() ? part.begin() : std::next(part.begin()), part.end());
     if (std::abs(share - 1.0) > std::numeric_limits<double>::epsilon())
     {
@@ -130,8 +131,9 @@ double CartesianInterpolator::checkRelativeJointSpaceJump(const JointModelGroup*
                                                           double jump_threshold_factor)
 {
   if (traj.size() < MIN_STEPS_FOR_JUMP_THRESH)
-    ROS_WARN_NAMED(LOGNAME, "The computed trajectory is too short to detect jumps in joint-space. Need at least %zu steps, "
-                            "only got %zu. Try a lower max_step.",
+    ROS_WARN_NAMED(LOGNAME,
+                   "The computed trajectory is too short to detect jumps in joint-space. Need at least %zu steps, "
+                   "only got %zu. Try a lower max_step.",
                    MIN_STEPS_FOR_JUMP_THRESH, traj.size());
   std::vector<double> steps;
   for (std::size_t i = 1; i < traj.size(); ++i)
@@ -155,8 +157,9 @@ double CartesianInterpolator::checkAbsoluteJointSpaceJump(const JointModelGroup*
   for (std::size_t i = 1; i < traj.size(); ++i)
     for (const JointModel* joint : group->getActiveJointModels())
     {
-      const double limit = joint->getType() == JointModel::REVOLUTE ? revolute_jump_threshold :
-                           joint->getType() == JointModel::PRISMATIC ? prismatic_jump_threshold : 0.0;
+      const double limit = joint->getType() == JointModel::REVOLUTE    ? revolute_jump_threshold
+                           : joint->getType() == JointModel::PRISMATIC ? prismatic_jump_threshold
+                                                                       : 0.0;
       const double step = traj[i]->distance(*traj[i - 1], joint);
       if (limit <= 0.0 || step <= limit)
         continue;
@@ -171,37 +174,36 @@ double CartesianInterpolator::checkAbsoluteJointSpaceJump(const JointModelGroup*
 
 // ---------------------------------------------------------------- its former place
 
-double RobotState::computeCartesianPath(const JointModelGroup* group, std::vector<RobotStatePtr>& traj,
-                                        const LinkModel* link, const Eigen::Vector3d& direction,
-                                        bool global_reference_frame, double distance, double max_step,
-                                        double jump_threshold_factor, const GroupStateValidityCallbackFn& validCallback,
-                                        const kinematics::KinematicsQueryOptions& options)
-{
-  return CartesianInterpolator::computeCartesianPath(this, group, traj, link, direction, global_reference_frame, distance,
-                                                     MaxEEFStep(max_step), JumpThreshold(jump_threshold_factor),
-                                                     validCallback, options);
-}
-
-double RobotState::computeCartesianPath(const JointModelGroup* group, std::vector<RobotStatePtr>& traj,
-                                        const LinkModel* link, const Eigen::Isometry3d& target,
-                                        bool global_reference_frame, double max_step, double jump_threshold_factor,
+double RobotState::computeCartesianPath(const JointModelGroup* group, std::vector<RobotStatePtr>& traj, const LinkModel* link,
+                                        const Eigen::Vector3d& direction, bool global_reference_frame, double distance,
+                                        double max_step, double jump_threshold_factor,
                                         const GroupStateValidityCallbackFn& validCallback,
                                         const kinematics::KinematicsQueryOptions& options)
 {
-  return CartesianInterpolator::computeCartesianPath(this, group, traj, link, target, global_reference_frame,
-                                                     MaxEEFStep(max_step), JumpThreshold(jump_threshold_factor),
-                                                     validCallback, options);
+  return CartesianInterpolator::computeCartesianPath(this, group, traj, link, direction, global_reference_frame, distance,
+                                                     MaxEEFStep(max_step), JumpThreshold(jump_threshold_factor), validCallback,
+                                                     options);
 }
 
-double RobotState::computeCartesianPath(const JointModelGroup* group, std::vector<RobotStatePtr>& traj,
-                                        const LinkModel* link, const EigenSTL::vector_Isometry3d& waypoints,
-                                        bool global_reference_frame, double max_step, double jump_threshold_factor,
+double RobotState::computeCartesianPath(const JointModelGroup* group, std::vector<RobotStatePtr>& traj, const LinkModel* link,
+                                        const Eigen::Isometry3d& target, bool global_reference_frame, double max_step,
+                                        double jump_threshold_factor, const GroupStateValidityCallbackFn& validCallback,
+                                        const kinematics::KinematicsQueryOptions& options)
+{
+  return CartesianInterpolator::computeCartesianPath(this, group, traj, link, target, global_reference_frame,
+                                                     MaxEEFStep(max_step), JumpThreshold(jump_threshold_factor), validCallback,
+                                                     options);
+}
+
+double RobotState::computeCartesianPath(const JointModelGroup* group, std::vector<RobotStatePtr>& traj, const LinkModel* link,
+                                        const EigenSTL::vector_Isometry3d& waypoints, bool global_reference_frame,
+                                        double max_step, double jump_threshold_factor,
                                         const GroupStateValidityCallbackFn& validCallback,
                                         const kinematics::KinematicsQueryOptions& options)
 {
   return CartesianInterpolator::computeCartesianPath(this, group, traj, link, waypoints, global_reference_frame,
-                                                     MaxEEFStep(max_step), JumpThreshold(jump_threshold_factor),
-                                                     validCallback, options);
+                                                     MaxEEFStep(max_step), JumpThreshold(jump_threshold_factor), validCallback,
+                                                     options);
 }
 }  // namespace core
 }  // namespace moveit

@@ -64,10 +64,7 @@ void CollisionEnv::checkCollision(const CollisionRequest& req, CollisionResult& 
   scene_.check(PlanningScene::SELF | PlanningScene::WORLD, padded_, req, res, state, acm);
 }
 
-double CollisionEnv::distanceSelf(const RobotState& state) const
-{
-  return distanceSelf(state, AllowedCollisionMatrix());
-}
+double CollisionEnv::distanceSelf(const RobotState& state) const { return distanceSelf(state, AllowedCollisionMatrix()); }
 
 double CollisionEnv::distanceSelf(const RobotState& state, const AllowedCollisionMatrix& acm) const
 {
@@ -103,15 +100,9 @@ double CollisionEnv::distanceRobot(const RobotState& state, const AllowedCollisi
   return scene.distance(state.core(), "", std::numeric_limits<double>::infinity()).distance;
 }
 
-const WorldPtr& CollisionEnv::getWorld()
-{
-  return scene_.world_;
-}
+const WorldPtr& CollisionEnv::getWorld() { return scene_.world_; }
 
-const moveit::core::RobotModelConstPtr& CollisionEnv::getRobotModel() const
-{
-  return scene_.robot_model_;
-}
+const moveit::core::RobotModelConstPtr& CollisionEnv::getRobotModel() const { return scene_.robot_model_; }
 
 // ---------------------------------------------------------------- padding and scale
 
@@ -169,15 +160,9 @@ double CollisionEnv::getLinkScale(const std::string& link_name) const
   return found == getLinkScale().end() ? 1.0 : found->second;
 }
 
-const std::map<std::string, double>& CollisionEnv::getLinkPadding() const
-{
-  return scene_.core_->padding();
-}
+const std::map<std::string, double>& CollisionEnv::getLinkPadding() const { return scene_.core_->padding(); }
 
-const std::map<std::string, double>& CollisionEnv::getLinkScale() const
-{
-  return scene_.core_->scale();
-}
+const std::map<std::string, double>& CollisionEnv::getLinkScale() const { return scene_.core_->scale(); }
 
 void CollisionEnv::setPadding(const std::vector<moveit_msgs::LinkPadding>& padding)
 {

@@ -12,10 +12,7 @@ namespace
 {
 using Core = motion::AllowedCollisionMatrix;
 
-Core::Entry entryOf(bool allowed)
-{
-  return allowed ? Core::Allowed : Core::Never;
-}
+Core::Entry entryOf(bool allowed) { return allowed ? Core::Allowed : Core::Never; }
 }  // namespace
 
 void CollisionResult::print() const
@@ -28,10 +25,7 @@ void CollisionResult::print() const
 
 AllowedCollisionMatrix::AllowedCollisionMatrix() : AllowedCollisionMatrix(Core()) {}
 
-AllowedCollisionMatrix::AllowedCollisionMatrix(const Core& core) : core_(new Core(core))
-{
-  changed();
-}
+AllowedCollisionMatrix::AllowedCollisionMatrix(const Core& core) : core_(new Core(core)) { changed(); }
 
 void AllowedCollisionMatrix::changed()
 {
@@ -42,7 +36,9 @@ void AllowedCollisionMatrix::changed()
 AllowedCollisionMatrix::~AllowedCollisionMatrix() = default;
 
 AllowedCollisionMatrix::AllowedCollisionMatrix(const AllowedCollisionMatrix& other)
-  : core_(new Core(*other.core_)), conditions_(other.conditions_), default_conditions_(other.default_conditions_)
+  : core_(new Core(*other.core_))
+  , conditions_(other.conditions_)
+  , default_conditions_(other.default_conditions_)
   , version_(other.version_)
 {
 }
@@ -56,8 +52,7 @@ AllowedCollisionMatrix& AllowedCollisionMatrix::operator=(const AllowedCollision
   return *this;
 }
 
-AllowedCollisionMatrix::AllowedCollisionMatrix(const std::vector<std::string>& names, bool allowed)
-  : AllowedCollisionMatrix()
+AllowedCollisionMatrix::AllowedCollisionMatrix(const std::vector<std::string>& names, bool allowed) : AllowedCollisionMatrix()
 {
   setEntry(names, names, allowed);
 }
@@ -72,13 +67,12 @@ AllowedCollisionMatrix::AllowedCollisionMatrix(const srdf::Model& srdf) : Allowe
     setEntry(pair.link1_, pair.link2_, true);
 }
 
-AllowedCollisionMatrix::AllowedCollisionMatrix(const moveit_msgs::AllowedCollisionMatrix& msg)
-  : AllowedCollisionMatrix()
+AllowedCollisionMatrix::AllowedCollisionMatrix(const moveit_msgs::AllowedCollisionMatrix& msg) : AllowedCollisionMatrix()
 {
-  if (msg.entry_names.size() != msg.entry_values.size() ||
-      msg.default_entry_names.size() != msg.default_entry_values.size())
+  if (msg.entry_names.size() != msg.entry_values.size() || msg.default_entry_names.size() != msg.default_entry_values.size())
   {
-    ROS_ERROR_NAMED("collision_detection", "The number of links does not match the number of entries in AllowedCollisionMatrix message");
+    ROS_ERROR_NAMED("collision_detection",
+                    "The number of links does not match the number of entries in AllowedCollisionMatrix message");
     return;
   }
   for (std::size_t i = 0; i < msg.default_entry_names.size(); ++i)
@@ -106,8 +100,9 @@ bool AllowedCollisionMatrix::getEntry(const std::string& name1, const std::strin
   const Core::Entry entry = core_->entry(name1, name2);
   if (entry == Core::None)
     return false;
-  type = conditions_.count(ordered(name1, name2)) ? AllowedCollision::CONDITIONAL :
-         entry == Core::Allowed ? AllowedCollision::ALWAYS : AllowedCollision::NEVER;
+  type = conditions_.count(ordered(name1, name2)) ? AllowedCollision::CONDITIONAL
+         : entry == Core::Allowed                 ? AllowedCollision::ALWAYS
+                                                  : AllowedCollision::NEVER;
   return true;
 }
 
@@ -174,7 +169,8 @@ void AllowedCollisionMatrix::setEntry(const std::string& name, const std::vector
       setEntry(name, other, allowed);
 }
 
-void AllowedCollisionMatrix::setEntry(const std::vector<std::string>& names1, const std::vector<std::string>& names2, bool allowed)
+void AllowedCollisionMatrix::setEntry(const std::vector<std::string>& names1, const std::vector<std::string>& names2,
+                                      bool allowed)
 {
   for (const std::string& name : names1)
     setEntry(name, names2, allowed);
@@ -189,20 +185,11 @@ void AllowedCollisionMatrix::setEntry(bool allowed)
         setEntry(a, b, allowed);
 }
 
-void AllowedCollisionMatrix::getAllEntryNames(std::vector<std::string>& names) const
-{
-  names = core_->names();
-}
+void AllowedCollisionMatrix::getAllEntryNames(std::vector<std::string>& names) const { names = core_->names(); }
 
-std::size_t AllowedCollisionMatrix::getSize() const
-{
-  return core_->names().size();
-}
+std::size_t AllowedCollisionMatrix::getSize() const { return core_->names().size(); }
 
-void AllowedCollisionMatrix::clear()
-{
-  *this = AllowedCollisionMatrix();
-}
+void AllowedCollisionMatrix::clear() { *this = AllowedCollisionMatrix(); }
 
 void AllowedCollisionMatrix::getMessage(moveit_msgs::AllowedCollisionMatrix& msg) const
 {
@@ -211,9 +198,9 @@ void AllowedCollisionMatrix::getMessage(moveit_msgs::AllowedCollisionMatrix& msg
   msg.entry_values.resize(msg.entry_names.size());
   for (std::size_t i = 0; i < msg.entry_names.size(); ++i)
     for (const std::string& other : msg.entry_names)
-      msg.entry_values[i].enabled.push_back(other == msg.entry_names[i] ?
-                                                core_->entry(other, other) == Core::Allowed :
-                                                core_->allowed(msg.entry_names[i], other));  // by its defaults, too
+      msg.entry_values[i].enabled.push_back(other == msg.entry_names[i]
+                                                ? core_->entry(other, other) == Core::Allowed
+                                                : core_->allowed(msg.entry_names[i], other));  // by its defaults, too
   for (const auto& item : core_->defaults())
   {
     msg.default_entry_names.push_back(item.first);
@@ -242,8 +229,9 @@ bool AllowedCollisionMatrix::getDefaultEntry(const std::string& name, AllowedCol
   const Core::Entry entry = core_->defaultEntry(name);
   if (entry == Core::None)
     return false;
-  type = default_conditions_.count(name) ? AllowedCollision::CONDITIONAL :
-         entry == Core::Allowed ? AllowedCollision::ALWAYS : AllowedCollision::NEVER;
+  type = default_conditions_.count(name) ? AllowedCollision::CONDITIONAL
+         : entry == Core::Allowed        ? AllowedCollision::ALWAYS
+                                         : AllowedCollision::NEVER;
   return true;
 }
 
@@ -280,8 +268,8 @@ bool AllowedCollisionMatrix::getAllowedCollision(const std::string& name1, const
   AllowedCollision::Type other;
   const bool first = getDefaultEntry(name1, type), second = getDefaultEntry(name2, other);
   if (first && second && type != other)
-    type = type == AllowedCollision::NEVER || other == AllowedCollision::NEVER ? AllowedCollision::NEVER :
-                                                                                  AllowedCollision::CONDITIONAL;
+    type = type == AllowedCollision::NEVER || other == AllowedCollision::NEVER ? AllowedCollision::NEVER
+                                                                               : AllowedCollision::CONDITIONAL;
   else if (second && !first)
     type = other;
   return first || second;
@@ -296,7 +284,10 @@ void AllowedCollisionMatrix::print(std::ostream& out) const
     for (const std::string& b : names)
     {
       AllowedCollision::Type type;
-      out << (getAllowedCollision(a, b, type) ? (type == AllowedCollision::ALWAYS ? '1' : type == AllowedCollision::NEVER ? '0' : '?') : '-');
+      out << (getAllowedCollision(a, b, type) ? (type == AllowedCollision::ALWAYS  ? '1'
+                                                 : type == AllowedCollision::NEVER ? '0'
+                                                                                   : '?')
+                                              : '-');
     }
     out << '\n';
   }

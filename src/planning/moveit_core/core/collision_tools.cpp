@@ -113,9 +113,9 @@ void removeCostSources(std::set<CostSource>& cost_sources, const std::set<CostSo
 {
   for (auto it = cost_sources.begin(); it != cost_sources.end();)
     it = std::any_of(cost_sources_to_remove.begin(), cost_sources_to_remove.end(),
-                     [&](const CostSource& other) { return overlaps(*it, other, overlap_fraction); }) ?
-             cost_sources.erase(it) :
-             std::next(it);
+                     [&](const CostSource& other) { return overlaps(*it, other, overlap_fraction); })
+             ? cost_sources.erase(it)
+             : std::next(it);
 }
 
 void intersectCostSources(std::set<CostSource>& cost_sources, const std::set<CostSource>& a, const std::set<CostSource>& b)
@@ -171,9 +171,9 @@ namespace
 {
 std::uint32_t messageType(BodyType type)
 {
-  return type == BodyTypes::ROBOT_LINK     ? moveit_msgs::ContactInformation::ROBOT_LINK :
-         type == BodyTypes::ROBOT_ATTACHED ? moveit_msgs::ContactInformation::ROBOT_ATTACHED :
-                                             moveit_msgs::ContactInformation::WORLD_OBJECT;
+  return type == BodyTypes::ROBOT_LINK       ? moveit_msgs::ContactInformation::ROBOT_LINK
+         : type == BodyTypes::ROBOT_ATTACHED ? moveit_msgs::ContactInformation::ROBOT_ATTACHED
+                                             : moveit_msgs::ContactInformation::WORLD_OBJECT;
 }
 }  // namespace
 

@@ -172,8 +172,8 @@ void visualizeDistribution(const ConstraintSamplerPtr& sampler, const moveit::co
 void visualizeDistribution(const moveit_msgs::Constraints& constr, const PlanningSceneConstPtr& scene, const std::string& group,
                            const std::string& link_name, unsigned int sample_count, visualization_msgs::MarkerArray& markers)
 {
-  visualizeDistribution(ConstraintSamplerManager::selectDefaultSampler(scene, group, constr), scene->getCurrentState(), link_name,
-                        sample_count, markers);
+  visualizeDistribution(ConstraintSamplerManager::selectDefaultSampler(scene, group, constr), scene->getCurrentState(),
+                        link_name, sample_count, markers);
 }
 
 double countSamplesPerSecond(const ConstraintSamplerPtr& sampler, const moveit::core::RobotState& reference_state)
@@ -192,7 +192,8 @@ double countSamplesPerSecond(const ConstraintSamplerPtr& sampler, const moveit::
   return count / (ros::WallTime::now() - start).toSec();
 }
 
-double countSamplesPerSecond(const moveit_msgs::Constraints& constr, const PlanningSceneConstPtr& scene, const std::string& group)
+double countSamplesPerSecond(const moveit_msgs::Constraints& constr, const PlanningSceneConstPtr& scene,
+                             const std::string& group)
 {
   return countSamplesPerSecond(ConstraintSamplerManager::selectDefaultSampler(scene, group, constr), scene->getCurrentState());
 }

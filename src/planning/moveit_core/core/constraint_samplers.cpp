@@ -23,7 +23,8 @@ constexpr double EPSILON = std::numeric_limits<double>::epsilon();
 }  // namespace
 
 ConstraintSampler::ConstraintSampler(const PlanningSceneConstPtr& scene, const std::string& group_name)
-  : scene_(scene), jmg_(scene->getRobotModel()->getJointModelGroup(group_name))
+  : scene_(scene)
+  , jmg_(scene->getRobotModel()->getJointModelGroup(group_name))
 {
   if (!jmg_)
     ROS_ERROR_NAMED(LOGNAME, "A JointModelGroup should have been specified for the constraint sampler: there is no '%s'",
@@ -99,8 +100,9 @@ bool JointConstraintSampler::configure(const std::vector<JointConstraint>& jc)
                                        limits.position_bounded_ ? std::min(limits.max_position_, high) : high);
     if (info.min_bound_ > info.max_bound_ + EPSILON)
     {
-      ROS_ERROR_NAMED(LOGNAME, "The constraints for joint '%s' are such that there are no possible values for it: "
-                               "min_bound: %g, max_bound: %g",
+      ROS_ERROR_NAMED(LOGNAME,
+                      "The constraints for joint '%s' are such that there are no possible values for it: "
+                      "min_bound: %g, max_bound: %g",
                       variable.c_str(), info.min_bound_, info.max_bound_);
       clear();
       return false;
@@ -136,16 +138,15 @@ bool JointConstraintSampler::sample(RobotState& state, const RobotState& /*refer
   for (std::size_t i = 0; i < unbounded_.size(); ++i)
     unbounded_[i]->getVariableRandomPositions(random_number_generator_, &values_[uindex_[i]]);
   for (const JointInfo& bound : bounds_)
-    values_[bound.index_] = random_number_generator_.uniformReal(bound.min_bound_, std::max(bound.min_bound_, bound.max_bound_));
+    values_[bound.index_] =
+        random_number_generator_.uniformReal(bound.min_bound_, std::max(bound.min_bound_, bound.max_bound_));
   state.setJointGroupPositions(jmg_, values_);
   return true;
 }
 
 // ---------------------------------------------------------------- links
 
-IKSamplingPose::IKSamplingPose(const PositionConstraint& pc) : position_constraint_(std::make_shared<PositionConstraint>(pc))
-{
-}
+IKSamplingPose::IKSamplingPose(const PositionConstraint& pc) : position_constraint_(std::make_shared<PositionConstraint>(pc)) {}
 
 IKSamplingPose::IKSamplingPose(const OrientationConstraint& oc)
   : orientation_constraint_(std::make_shared<OrientationConstraint>(oc))
@@ -159,7 +160,8 @@ IKSamplingPose::IKSamplingPose(const PositionConstraint& pc, const OrientationCo
 }
 
 IKConstraintSampler::IKConstraintSampler(const PlanningSceneConstPtr& scene, const std::string& group_name)
-  : ConstraintSampler(scene, group_name), random_number_generator_(createSeededRNG("~ik_constraint_sampler_random_seed"))
+  : ConstraintSampler(scene, group_name)
+  , random_number_generator_(createSeededRNG("~ik_constraint_sampler_random_seed"))
 {
 }
 
@@ -185,8 +187,9 @@ bool IKConstraintSampler::configure(const IKSamplingPose& sp)
     return false;
   if (place && turn && wanted.position_constraint_->getLinkModel() != wanted.orientation_constraint_->getLinkModel())
   {
-    ROS_ERROR_NAMED(LOGNAME, "Position and orientation constraints need to be specified for the same link "
-                             "in order to use IK-based sampling");
+    ROS_ERROR_NAMED(LOGNAME,
+                    "Position and orientation constraints need to be specified for the same link "
+                    "in order to use IK-based sampling");
     return false;
   }
   if (place)
@@ -239,8 +242,8 @@ bool IKConstraintSampler::configure(const moveit_msgs::Constraints& constr)
 
 const std::string& IKConstraintSampler::getLinkName() const
 {
-  return sampling_pose_.orientation_constraint_ ? sampling_pose_.orientation_constraint_->getLinkModel()->getName() :
-                                                  sampling_pose_.position_constraint_->getLinkModel()->getName();
+  return sampling_pose_.orientation_constraint_ ? sampling_pose_.orientation_constraint_->getLinkModel()->getName()
+                                                : sampling_pose_.position_constraint_->getLinkModel()->getName();
 }
 
 double IKConstraintSampler::getSamplingVolume() const
@@ -283,9 +286,10 @@ Eigen::Quaterniond IKConstraintSampler::sampleOrientation(const RobotState& ks)
     difference = Eigen::AngleAxisd(angles.norm(), angles.norm() > EPSILON ? angles.normalized() : Eigen::Vector3d::UnitX())
                      .toRotationMatrix();
   else
-    difference = (Eigen::AngleAxisd(angles.x(), Eigen::Vector3d::UnitX()) * Eigen::AngleAxisd(angles.y(), Eigen::Vector3d::UnitY()) *
-                  Eigen::AngleAxisd(angles.z(), Eigen::Vector3d::UnitZ()))
-                     .toRotationMatrix();
+    difference =
+        (Eigen::AngleAxisd(angles.x(), Eigen::Vector3d::UnitX()) * Eigen::AngleAxisd(angles.y(), Eigen::Vector3d::UnitY()) *
+         Eigen::AngleAxisd(angles.z(), Eigen::Vector3d::UnitZ()))
+            .toRotationMatrix();
   Eigen::Matrix3d wanted = turn.getDesiredRotationMatrix() * difference;
   if (turn.mobileReferenceFrame())
     wanted = ks.getFrameTransform(turn.getReferenceFrame()).linear() * wanted;
@@ -365,9 +369,8 @@ namespace
 bool dependsOn(const ConstraintSampler& one, const ConstraintSampler& other)
 {
   const std::vector<std::string>& moved = other.getJointModelGroup()->getUpdatedLinkModelNames();
-  return std::any_of(one.getFrameDependency().begin(), one.getFrameDependency().end(), [&](const std::string& frame) {
-    return std::find(moved.begin(), moved.end(), frame) != moved.end();
-  });
+  return std::any_of(one.getFrameDependency().begin(), one.getFrameDependency().end(),
+                     [&](const std::string& frame) { return std::find(moved.begin(), moved.end(), frame) != moved.end(); });
 }
 }  // namespace
 

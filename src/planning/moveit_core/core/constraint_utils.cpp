@@ -74,7 +74,8 @@ Constraints mergeConstraints(const Constraints& first, const Constraints& second
       possible = low <= high;
       if (!possible)
       {
-        ROS_ERROR_NAMED("kinematic_constraints", "Attempted to merge incompatible constraints for joint '%s'. Discarding constraint.",
+        ROS_ERROR_NAMED("kinematic_constraints",
+                        "Attempted to merge incompatible constraints for joint '%s'. Discarding constraint.",
                         a.joint_name.c_str());
         break;
       }
@@ -96,10 +97,7 @@ Constraints mergeConstraints(const Constraints& first, const Constraints& second
   return merged;
 }
 
-bool isEmpty(const Constraints& constr)
-{
-  return moveit::core::isEmpty(constr);
-}
+bool isEmpty(const Constraints& constr) { return moveit::core::isEmpty(constr); }
 
 std::size_t countIndividualConstraints(const Constraints& constr)
 {
@@ -132,8 +130,8 @@ Constraints constructGoalConstraints(const moveit::core::RobotState& state, cons
   return constructGoalConstraints(state, jmg, tolerance, tolerance);
 }
 
-Constraints constructGoalConstraints(const std::string& link_name, const geometry_msgs::PoseStamped& pose,
-                                     double tolerance_pos, double tolerance_angle)
+Constraints constructGoalConstraints(const std::string& link_name, const geometry_msgs::PoseStamped& pose, double tolerance_pos,
+                                     double tolerance_angle)
 {
   Constraints goal;
   goal.position_constraints.push_back(position(link_name, pose.header, pose.pose.position, sphere(tolerance_pos)));
@@ -156,7 +154,8 @@ Constraints constructGoalConstraints(const std::string& link_name, const geometr
   return goal;
 }
 
-Constraints constructGoalConstraints(const std::string& link_name, const geometry_msgs::QuaternionStamped& quat, double tolerance)
+Constraints constructGoalConstraints(const std::string& link_name, const geometry_msgs::QuaternionStamped& quat,
+                                     double tolerance)
 {
   Constraints goal;
   goal.orientation_constraints.push_back(
@@ -175,7 +174,8 @@ Constraints constructGoalConstraints(const std::string& link_name, const geometr
   return goal;
 }
 
-Constraints constructGoalConstraints(const std::string& link_name, const geometry_msgs::PointStamped& goal_point, double tolerance)
+Constraints constructGoalConstraints(const std::string& link_name, const geometry_msgs::PointStamped& goal_point,
+                                     double tolerance)
 {
   return constructGoalConstraints(link_name, geometry_msgs::Point(), goal_point, tolerance);
 }

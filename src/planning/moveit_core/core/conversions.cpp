@@ -52,8 +52,9 @@ bool readMultiDofJoints(const sensor_msgs::MultiDOFJointState& message, RobotSta
     }
     if (!known && !message.joint_names.empty())
     {
-      ROS_WARN_NAMED(LOGNAME, "The transform for multi-dof joints was specified in frame '%s' but it was not possible to "
-                              "transform that to frame '%s'",
+      ROS_WARN_NAMED(LOGNAME,
+                     "The transform for multi-dof joints was specified in frame '%s' but it was not possible to "
+                     "transform that to frame '%s'",
                      message.header.frame_id.c_str(), model_frame.c_str());
       good = false;
     }

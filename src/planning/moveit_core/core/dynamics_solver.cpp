@@ -116,7 +116,8 @@ bool DynamicsSolver::getPayloadTorques(const std::vector<double>& joint_angles, 
   return getTorques(joint_angles, still, still, wrenches, joint_torques);
 }
 
-bool DynamicsSolver::getMaxPayload(const std::vector<double>& joint_angles, double& payload, unsigned int& joint_saturated) const
+bool DynamicsSolver::getMaxPayload(const std::vector<double>& joint_angles, double& payload,
+                                   unsigned int& joint_saturated) const
 {
   std::vector<double> empty(joint_angles.size()), loaded(joint_angles.size());
   if (!getPayloadTorques(joint_angles, 0.0, empty) || !getPayloadTorques(joint_angles, 1.0, loaded))

@@ -183,8 +183,7 @@ void JointModel::getVariableRandomPositions(random_numbers::RandomNumberGenerato
 }
 
 void JointModel::getVariableRandomPositionsNearBy(random_numbers::RandomNumberGenerator& rng, double* values,
-                                                  const Bounds& other_bounds, const double* seed,
-                                                  const double distance) const
+                                                  const Bounds& other_bounds, const double* seed, const double distance) const
 {
   for (std::size_t i = 0; i < variable_names_.size(); ++i)
     values[i] = seed[i] + rng.uniformReal(-distance, distance);
@@ -239,8 +238,8 @@ bool JointModel::enforceVelocityBounds(double* values, const Bounds& other_bound
 bool JointModel::satisfiesAccelerationBounds(const double* values, const Bounds& other_bounds, double margin) const
 {
   for (std::size_t i = 0; i < other_bounds.size(); ++i)
-    if (other_bounds[i].acceleration_bounded_ && (values[i] > other_bounds[i].max_acceleration_ + margin ||
-                                                  values[i] < other_bounds[i].min_acceleration_ - margin))
+    if (other_bounds[i].acceleration_bounded_ &&
+        (values[i] > other_bounds[i].max_acceleration_ + margin || values[i] < other_bounds[i].min_acceleration_ - margin))
       return false;
   return true;
 }
@@ -286,25 +285,13 @@ void JointModel::setVariableBounds(const std::vector<moveit_msgs::JointLimits>& 
   writeBounds();
 }
 
-double JointModel::distance(const double* value1, const double* value2) const
-{
-  return core_->distance(value1, value2);
-}
+double JointModel::distance(const double* value1, const double* value2) const { return core_->distance(value1, value2); }
 
-double JointModel::getDistanceFactor() const
-{
-  return core_->distance_factor;
-}
+double JointModel::getDistanceFactor() const { return core_->distance_factor; }
 
-void JointModel::setDistanceFactor(double factor)
-{
-  core_->distance_factor = factor;
-}
+void JointModel::setDistanceFactor(double factor) { core_->distance_factor = factor; }
 
-unsigned int JointModel::getStateSpaceDimension() const
-{
-  return type_ == FLOATING ? 6 : variable_names_.size();
-}
+unsigned int JointModel::getStateSpaceDimension() const { return type_ == FLOATING ? 6 : variable_names_.size(); }
 
 void JointModel::interpolate(const double* from, const double* to, const double t, double* state) const
 {
@@ -326,42 +313,21 @@ void JointModel::computeVariablePositions(const Eigen::Isometry3d& transform, do
   core_->valuesOf(transform, joint_values);
 }
 
-double JointModel::getMimicOffset() const
-{
-  return core_->mimic_offset;
-}
+double JointModel::getMimicOffset() const { return core_->mimic_offset; }
 
-double JointModel::getMimicFactor() const
-{
-  return core_->mimic_factor;
-}
+double JointModel::getMimicFactor() const { return core_->mimic_factor; }
 
-bool JointModel::isPassive() const
-{
-  return core_->passive;
-}
+bool JointModel::isPassive() const { return core_->passive; }
 
-void JointModel::setPassive(bool flag)
-{
-  core_->passive = flag;
-}
+void JointModel::setPassive(bool flag) { core_->passive = flag; }
 
 // ---------------------------------------------------------------- kinds of joints
 
-const Eigen::Vector3d& PrismaticJointModel::getAxis() const
-{
-  return core_->axis;
-}
+const Eigen::Vector3d& PrismaticJointModel::getAxis() const { return core_->axis; }
 
-const Eigen::Vector3d& RevoluteJointModel::getAxis() const
-{
-  return core_->axis;
-}
+const Eigen::Vector3d& RevoluteJointModel::getAxis() const { return core_->axis; }
 
-bool RevoluteJointModel::isContinuous() const
-{
-  return core_->continuous;
-}
+bool RevoluteJointModel::isContinuous() const { return core_->continuous; }
 
 void RevoluteJointModel::setContinuous(bool flag)
 {
@@ -376,35 +342,20 @@ void RevoluteJointModel::setContinuous(bool flag)
   writeBounds();
 }
 
-double PlanarJointModel::getAngularDistanceWeight() const
-{
-  return core_->angular_distance_weight;
-}
+double PlanarJointModel::getAngularDistanceWeight() const { return core_->angular_distance_weight; }
 
-void PlanarJointModel::setAngularDistanceWeight(double weight)
-{
-  core_->angular_distance_weight = weight;
-}
+void PlanarJointModel::setAngularDistanceWeight(double weight) { core_->angular_distance_weight = weight; }
 
-double PlanarJointModel::getMinTranslationalDistance() const
-{
-  return core_->min_translational_distance;
-}
+double PlanarJointModel::getMinTranslationalDistance() const { return core_->min_translational_distance; }
 
 void PlanarJointModel::setMinTranslationalDistance(double min_translational_distance)
 {
   core_->min_translational_distance = min_translational_distance;
 }
 
-PlanarJointModel::MotionModel PlanarJointModel::getMotionModel() const
-{
-  return core_->diff_drive ? DIFF_DRIVE : HOLONOMIC;
-}
+PlanarJointModel::MotionModel PlanarJointModel::getMotionModel() const { return core_->diff_drive ? DIFF_DRIVE : HOLONOMIC; }
 
-void PlanarJointModel::setMotionModel(MotionModel model)
-{
-  core_->diff_drive = model == DIFF_DRIVE;
-}
+void PlanarJointModel::setMotionModel(MotionModel model) { core_->diff_drive = model == DIFF_DRIVE; }
 
 bool PlanarJointModel::normalizeRotation(double* values) const
 {
@@ -414,15 +365,9 @@ bool PlanarJointModel::normalizeRotation(double* values) const
   return true;
 }
 
-double FloatingJointModel::getAngularDistanceWeight() const
-{
-  return core_->angular_distance_weight;
-}
+double FloatingJointModel::getAngularDistanceWeight() const { return core_->angular_distance_weight; }
 
-void FloatingJointModel::setAngularDistanceWeight(double weight)
-{
-  core_->angular_distance_weight = weight;
-}
+void FloatingJointModel::setAngularDistanceWeight(double weight) { core_->angular_distance_weight = weight; }
 
 bool FloatingJointModel::normalizeRotation(double* values) const
 {

@@ -111,25 +111,13 @@ bool contains(const std::vector<std::string>& names, const std::string& name)
 }
 }  // namespace
 
-bool JointModelGroup::hasJointModel(const std::string& joint) const
-{
-  return contains(joint_model_name_vector_, joint);
-}
+bool JointModelGroup::hasJointModel(const std::string& joint) const { return contains(joint_model_name_vector_, joint); }
 
-bool JointModelGroup::hasLinkModel(const std::string& link) const
-{
-  return contains(link_model_name_vector_, link);
-}
+bool JointModelGroup::hasLinkModel(const std::string& link) const { return contains(link_model_name_vector_, link); }
 
-bool JointModelGroup::isLinkUpdated(const std::string& name) const
-{
-  return contains(updated_link_model_name_vector_, name);
-}
+bool JointModelGroup::isLinkUpdated(const std::string& name) const { return contains(updated_link_model_name_vector_, name); }
 
-bool JointModelGroup::isSubgroup(const std::string& group) const
-{
-  return contains(subgroup_names_, group);
-}
+bool JointModelGroup::isSubgroup(const std::string& group) const { return contains(subgroup_names_, group); }
 
 const JointModel* JointModelGroup::getJointModel(const std::string& joint) const
 {
@@ -240,8 +228,7 @@ bool JointModelGroup::computeIKIndexBijection(const std::vector<std::string>& ik
       // Solvers name fixed joints too.
       if (hasJointModel(name) && getJointModel(name)->getType() == JointModel::FIXED)
         continue;
-      ROS_ERROR_NAMED(LOGNAME,
-                      "IK solver computes joint values for joint '%s' but group '%s' does not contain such a joint.",
+      ROS_ERROR_NAMED(LOGNAME, "IK solver computes joint values for joint '%s' but group '%s' does not contain such a joint.",
                       name.c_str(), name_.c_str());
       return false;
     }

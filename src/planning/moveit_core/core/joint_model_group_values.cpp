@@ -82,8 +82,8 @@ void JointModelGroup::getVariableRandomPositionsNearBy(random_numbers::RandomNum
   for (std::size_t i = 0; i < active_joint_model_vector_.size(); ++i)
   {
     const int start = active_joint_model_start_index_[i];
-    active_joint_model_vector_[i]->getVariableRandomPositionsNearBy(rng, values + start, *active_joint_bounds[i],
-                                                                    seed + start, distances[i]);
+    active_joint_model_vector_[i]->getVariableRandomPositionsNearBy(rng, values + start, *active_joint_bounds[i], seed + start,
+                                                                    distances[i]);
   }
   updateMimicJoints(values);
 }
@@ -111,24 +111,23 @@ void JointModelGroup::getVariableRandomPositionsNearBy(random_numbers::RandomNum
   getVariableRandomPositionsNearBy(rng, values, active_joint_bounds, seed, distances);
 }
 
-void JointModelGroup::getVariableRandomPositionsNearBy(random_numbers::RandomNumberGenerator& rng,
-                                                       std::vector<double>& values, const std::vector<double>& seed,
-                                                       double distance) const
+void JointModelGroup::getVariableRandomPositionsNearBy(random_numbers::RandomNumberGenerator& rng, std::vector<double>& values,
+                                                       const std::vector<double>& seed, double distance) const
 {
   values.resize(getVariableCount());
   getVariableRandomPositionsNearBy(rng, values.data(), active_joint_models_bounds_, seed.data(), distance);
 }
 
-void JointModelGroup::getVariableRandomPositionsNearBy(random_numbers::RandomNumberGenerator& rng,
-                                                       std::vector<double>& values, const std::vector<double>& seed,
+void JointModelGroup::getVariableRandomPositionsNearBy(random_numbers::RandomNumberGenerator& rng, std::vector<double>& values,
+                                                       const std::vector<double>& seed,
                                                        const std::map<JointModel::JointType, double>& distance_map) const
 {
   values.resize(getVariableCount());
   getVariableRandomPositionsNearBy(rng, values.data(), active_joint_models_bounds_, seed.data(), distance_map);
 }
 
-void JointModelGroup::getVariableRandomPositionsNearBy(random_numbers::RandomNumberGenerator& rng,
-                                                       std::vector<double>& values, const std::vector<double>& seed,
+void JointModelGroup::getVariableRandomPositionsNearBy(random_numbers::RandomNumberGenerator& rng, std::vector<double>& values,
+                                                       const std::vector<double>& seed,
                                                        const std::vector<double>& distances) const
 {
   values.resize(getVariableCount());
@@ -201,8 +200,8 @@ void JointModelGroup::interpolate(const double* from, const double* to, double t
   updateMimicJoints(state);
 }
 
-bool JointModelGroup::isValidVelocityMove(const std::vector<double>& from_joint_pose,
-                                          const std::vector<double>& to_joint_pose, double dt) const
+bool JointModelGroup::isValidVelocityMove(const std::vector<double>& from_joint_pose, const std::vector<double>& to_joint_pose,
+                                          double dt) const
 {
   if (from_joint_pose.size() != to_joint_pose.size())
   {
@@ -212,8 +211,8 @@ bool JointModelGroup::isValidVelocityMove(const std::vector<double>& from_joint_
   return isValidVelocityMove(from_joint_pose.data(), to_joint_pose.data(), from_joint_pose.size(), dt);
 }
 
-bool JointModelGroup::isValidVelocityMove(const double* from_joint_pose, const double* to_joint_pose,
-                                          std::size_t array_size, double dt) const
+bool JointModelGroup::isValidVelocityMove(const double* from_joint_pose, const double* to_joint_pose, std::size_t array_size,
+                                          double dt) const
 {
   for (std::size_t i = 0; i < array_size && i < active_joint_models_bounds_.size(); ++i)
   {

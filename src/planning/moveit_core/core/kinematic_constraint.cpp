@@ -16,10 +16,7 @@ namespace
 {
 constexpr char LOGNAME[] = "kinematic_constraints";
 
-std::string withoutSlash(const std::string& frame)
-{
-  return !frame.empty() && frame[0] == '/' ? frame.substr(1) : frame;
-}
+std::string withoutSlash(const std::string& frame) { return !frame.empty() && frame[0] == '/' ? frame.substr(1) : frame; }
 
 void addFrame(motion::PlanningScene& scene, const moveit::core::Transforms* tf, const std::string& frame)
 {
@@ -27,15 +24,9 @@ void addFrame(motion::PlanningScene& scene, const moveit::core::Transforms* tf, 
     scene.setTransform(frame, tf->getTransform(frame));
 }
 
-Eigen::Quaterniond quaternion(const geometry_msgs::Quaternion& q)
-{
-  return Eigen::Quaterniond(q.w, q.x, q.y, q.z);
-}
+Eigen::Quaterniond quaternion(const geometry_msgs::Quaternion& q) { return Eigen::Quaterniond(q.w, q.x, q.y, q.z); }
 
-bool near(double a, double b, double margin)
-{
-  return std::abs(a - b) <= margin;
-}
+bool near(double a, double b, double margin) { return std::abs(a - b) <= margin; }
 }  // namespace
 
 bool KinematicConstraint::make(const motion::Constraints& constraints, const moveit::core::Transforms* tf)
@@ -123,8 +114,8 @@ bool JointConstraint::equal(const KinematicConstraint& other, double margin) con
 
 void JointConstraint::print(std::ostream& out) const
 {
-  out << "Joint constraint for joint " << message_.joint_name << ": \n  value: " << message_.position << "; tolerance below: "
-      << message_.tolerance_below << "; tolerance above: " << message_.tolerance_above << '\n';
+  out << "Joint constraint for joint " << message_.joint_name << ": \n  value: " << message_.position
+      << "; tolerance below: " << message_.tolerance_below << "; tolerance above: " << message_.tolerance_above << '\n';
 }
 
 // ---------------------------------------------------------------- orientation
@@ -139,7 +130,8 @@ bool OrientationConstraint::configure(const moveit_msgs::OrientationConstraint& 
   c.orientation = quaternion(oc.orientation);
   if (std::abs(c.orientation.norm() - 1.0) > 1e-3)
   {
-    ROS_WARN_NAMED(LOGNAME, "Orientation constraint for link '%s' is probably incorrect: %f, %f, %f, %f. Assuming identity instead.",
+    ROS_WARN_NAMED(LOGNAME,
+                   "Orientation constraint for link '%s' is probably incorrect: %f, %f, %f, %f. Assuming identity instead.",
                    oc.link_name.c_str(), oc.orientation.x, oc.orientation.y, oc.orientation.z, oc.orientation.w);
     c.orientation.setIdentity();
   }
@@ -158,10 +150,7 @@ const moveit::core::LinkModel* OrientationConstraint::getLinkModel() const
   return enabled() ? robot_model_->getLinkModel(message_.link_name) : nullptr;
 }
 
-bool OrientationConstraint::mobileReferenceFrame() const
-{
-  return enabled() && core_->orientations[0].frame.link >= 0;
-}
+bool OrientationConstraint::mobileReferenceFrame() const { return enabled() && core_->orientations[0].frame.link >= 0; }
 
 Eigen::Matrix3d OrientationConstraint::getDesiredRotationMatrix() const
 {
@@ -176,7 +165,8 @@ bool OrientationConstraint::equal(const KinematicConstraint& other, double margi
   if (other.getType() != type_)
     return false;
   const moveit_msgs::OrientationConstraint& o = static_cast<const OrientationConstraint&>(other).message_;
-  return o.link_name == message_.link_name && moveit::core::Transforms::sameFrame(o.header.frame_id, message_.header.frame_id) &&
+  return o.link_name == message_.link_name &&
+         moveit::core::Transforms::sameFrame(o.header.frame_id, message_.header.frame_id) &&
          quaternion(o.orientation).angularDistance(quaternion(message_.orientation)) <= margin &&
          near(o.absolute_x_axis_tolerance, message_.absolute_x_axis_tolerance, margin) &&
          near(o.absolute_y_axis_tolerance, message_.absolute_y_axis_tolerance, margin) &&
@@ -234,8 +224,8 @@ bool PositionConstraint::configure(const moveit_msgs::PositionConstraint& pc, co
   for (std::size_t i = 0; i < parts.shapes.size(); ++i)
     if (const bodies::BodyPtr body{ bodies::createBodyFromShape(parts.shapes[i].get()) })
     {
-      body->setPose(mobileReferenceFrame() ? parts.shape_poses[i] :
-                                             Eigen::Isometry3d(core_->positions[0].frame.pose * parts.shape_poses[i]));
+      body->setPose(mobileReferenceFrame() ? parts.shape_poses[i]
+                                           : Eigen::Isometry3d(core_->positions[0].frame.pose * parts.shape_poses[i]));
       constraint_region_.push_back(body);
     }
   return true;
@@ -251,10 +241,7 @@ Eigen::Vector3d PositionConstraint::getLinkOffset() const
   return Eigen::Vector3d(message_.target_point_offset.x, message_.target_point_offset.y, message_.target_point_offset.z);
 }
 
-bool PositionConstraint::mobileReferenceFrame() const
-{
-  return enabled() && core_->positions[0].frame.link >= 0;
-}
+bool PositionConstraint::mobileReferenceFrame() const { return enabled() && core_->positions[0].frame.link >= 0; }
 
 bool PositionConstraint::equal(const KinematicConstraint& other, double margin) const
 {
@@ -262,8 +249,8 @@ bool PositionConstraint::equal(const KinematicConstraint& other, double margin) 
     return false;
   const auto& o = static_cast<const PositionConstraint&>(other);
   if (o.message_.link_name != message_.link_name || (o.getLinkOffset() - getLinkOffset()).norm() > margin ||
-      !moveit::core::Transforms::sameFrame(o.message_.header.frame_id, message_.header.frame_id) || !enabled() || !o.enabled() ||
-      o.core_->positions[0].poses.size() != core_->positions[0].poses.size())
+      !moveit::core::Transforms::sameFrame(o.message_.header.frame_id, message_.header.frame_id) || !enabled() ||
+      !o.enabled() || o.core_->positions[0].poses.size() != core_->positions[0].poses.size())
     return false;
   for (std::size_t i = 0; i < core_->positions[0].poses.size(); ++i)
     if (core_->positions[0].shapes[i]->describe() != o.core_->positions[0].shapes[i]->describe() ||
@@ -292,8 +279,9 @@ bool VisibilityConstraint::configure(const moveit_msgs::VisibilityConstraint& vc
   c.cone_sides = vc.cone_sides;
   c.max_view_angle = vc.max_view_angle;
   c.max_range_angle = vc.max_range_angle;
-  c.sensor_view = vc.sensor_view_direction == moveit_msgs::VisibilityConstraint::SENSOR_X ? 'x' :
-                  vc.sensor_view_direction == moveit_msgs::VisibilityConstraint::SENSOR_Y ? 'y' : 'z';
+  c.sensor_view = vc.sensor_view_direction == moveit_msgs::VisibilityConstraint::SENSOR_X   ? 'x'
+                  : vc.sensor_view_direction == moveit_msgs::VisibilityConstraint::SENSOR_Y ? 'y'
+                                                                                            : 'z';
   c.weight = constraint_weight_;
   motion::Constraints constraints;
   constraints.visibility.push_back(c);
@@ -307,8 +295,10 @@ bool VisibilityConstraint::equal(const KinematicConstraint& other, double margin
   const moveit_msgs::VisibilityConstraint& o = static_cast<const VisibilityConstraint&>(other).message_;
   return o.target_pose.header.frame_id == message_.target_pose.header.frame_id &&
          o.sensor_pose.header.frame_id == message_.sensor_pose.header.frame_id &&
-         moveit::core::poseFromMessage(o.target_pose.pose).isApprox(moveit::core::poseFromMessage(message_.target_pose.pose), margin) &&
-         moveit::core::poseFromMessage(o.sensor_pose.pose).isApprox(moveit::core::poseFromMessage(message_.sensor_pose.pose), margin) &&
+         moveit::core::poseFromMessage(o.target_pose.pose)
+             .isApprox(moveit::core::poseFromMessage(message_.target_pose.pose), margin) &&
+         moveit::core::poseFromMessage(o.sensor_pose.pose)
+             .isApprox(moveit::core::poseFromMessage(message_.sensor_pose.pose), margin) &&
          near(o.target_radius, message_.target_radius, margin) && near(o.max_view_angle, message_.max_view_angle, margin);
 }
 

@@ -9,10 +9,7 @@ namespace
 {
 constexpr char LOGNAME[] = "kinematics_base";
 
-std::string withoutSlash(const std::string& frame)
-{
-  return !frame.empty() && frame[0] == '/' ? frame.substr(1) : frame;
-}
+std::string withoutSlash(const std::string& frame) { return !frame.empty() && frame[0] == '/' ? frame.substr(1) : frame; }
 }  // namespace
 
 namespace detail
@@ -32,10 +29,7 @@ ros::NodeHandle& privateParameters()
   return *handle;
 }
 
-void setPrivateParameters(const std::string& node_name)
-{
-  privateName() = node_name;
-}
+void setPrivateParameters(const std::string& node_name) { privateName() = node_name; }
 }  // namespace detail
 
 const double KinematicsBase::DEFAULT_SEARCH_DISCRETIZATION = 0.1;
@@ -166,8 +160,7 @@ bool KinematicsBase::supportsGroup(const moveit::core::JointModelGroup* jmg, std
   return false;
 }
 
-bool KinematicsBase::getPositionIK(const std::vector<geometry_msgs::Pose>& ik_poses,
-                                   const std::vector<double>& ik_seed_state,
+bool KinematicsBase::getPositionIK(const std::vector<geometry_msgs::Pose>& ik_poses, const std::vector<double>& ik_seed_state,
                                    std::vector<std::vector<double>>& solutions, KinematicsResult& result,
                                    const KinematicsQueryOptions& options) const
 {
@@ -180,8 +173,7 @@ bool KinematicsBase::getPositionIK(const std::vector<geometry_msgs::Pose>& ik_po
   if (ik_poses.size() != 1)
   {
     ROS_ERROR_NAMED(LOGNAME, "This kinematic solver does not support getPositionIK for multiple poses");
-    result.kinematic_error =
-        ik_poses.empty() ? KinematicErrors::EMPTY_TIP_POSES : KinematicErrors::MULTIPLE_TIPS_NOT_SUPPORTED;
+    result.kinematic_error = ik_poses.empty() ? KinematicErrors::EMPTY_TIP_POSES : KinematicErrors::MULTIPLE_TIPS_NOT_SUPPORTED;
     return false;
   }
   std::vector<double> solution;
@@ -210,8 +202,8 @@ bool KinematicsBase::searchPositionIK(const std::vector<geometry_msgs::Pose>& ik
     return false;
   }
   if (solution_callback)
-    return searchPositionIK(ik_poses[0], ik_seed_state, timeout, consistency_limits, solution, solution_callback,
-                            error_code, options);
+    return searchPositionIK(ik_poses[0], ik_seed_state, timeout, consistency_limits, solution, solution_callback, error_code,
+                            options);
   return searchPositionIK(ik_poses[0], ik_seed_state, timeout, consistency_limits, solution, error_code, options);
 }
 }  // namespace kinematics

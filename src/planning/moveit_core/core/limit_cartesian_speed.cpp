@@ -9,8 +9,7 @@ namespace
 constexpr char LOGNAME[] = "trajectory_processing";
 }
 
-bool limitMaxCartesianLinkSpeed(robot_trajectory::RobotTrajectory& trajectory, const double speed,
-                                const std::string& link_name)
+bool limitMaxCartesianLinkSpeed(robot_trajectory::RobotTrajectory& trajectory, const double speed, const std::string& link_name)
 {
   if (!link_name.empty())
   {

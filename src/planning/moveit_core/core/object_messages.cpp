@@ -35,7 +35,8 @@ bool readObject(const moveit_msgs::CollisionObject& message, ObjectParts& parts)
   if (message.primitives.size() < message.primitive_poses.size() || message.meshes.size() < message.mesh_poses.size() ||
       message.planes.size() < message.plane_poses.size())
   {
-    ROS_ERROR_NAMED("collision_object", "More shape poses than shapes in collision object message of '%s'.", message.id.c_str());
+    ROS_ERROR_NAMED("collision_object", "More shape poses than shapes in collision object message of '%s'.",
+                    message.id.c_str());
     return false;
   }
   parts.pose = poseFromMessage(message.pose);

@@ -22,16 +22,13 @@ namespace
 constexpr char LOGNAME[] = "planning_scene";
 const Eigen::Isometry3d IDENTITY = Eigen::Isometry3d::Identity();
 
-std::string withoutSlash(const std::string& frame)
-{
-  return !frame.empty() && frame[0] == '/' ? frame.substr(1) : frame;
-}
+std::string withoutSlash(const std::string& frame) { return !frame.empty() && frame[0] == '/' ? frame.substr(1) : frame; }
 
 collision_detection::BodyType typeOf(motion::BodyType type)
 {
-  return type == motion::BodyType::RobotLink ? collision_detection::BodyTypes::ROBOT_LINK :
-         type == motion::BodyType::Attached  ? collision_detection::BodyTypes::ROBOT_ATTACHED :
-                                               collision_detection::BodyTypes::WORLD_OBJECT;
+  return type == motion::BodyType::RobotLink  ? collision_detection::BodyTypes::ROBOT_LINK
+         : type == motion::BodyType::Attached ? collision_detection::BodyTypes::ROBOT_ATTACHED
+                                              : collision_detection::BodyTypes::WORLD_OBJECT;
 }
 }  // namespace
 
@@ -104,10 +101,7 @@ PlanningScene::~PlanningScene()
     world_->removeObserver(observer_);
 }
 
-PlanningScenePtr PlanningScene::diff() const
-{
-  return PlanningScenePtr(new PlanningScene(shared_from_this()));
-}
+PlanningScenePtr PlanningScene::diff() const { return PlanningScenePtr(new PlanningScene(shared_from_this())); }
 
 PlanningScenePtr PlanningScene::diff(const moveit_msgs::PlanningScene& msg) const
 {
@@ -172,7 +166,8 @@ const motion::PlanningScene& PlanningScene::core() const
       for (const shapes::ShapeConstPtr& shape : known->shapes_)
         object.shapes.push_back(moveit::core::fromShape(shape));
       if (object.shapes.size() == 1 && object.shapes[0]->type == motion::ShapeType::OcTree && item.first == OCTOMAP_NS)
-        core_->setOctomap(std::static_pointer_cast<const motion::OcTreeShape>(object.shapes[0]), object.pose * object.shape_poses[0]);
+        core_->setOctomap(std::static_pointer_cast<const motion::OcTreeShape>(object.shapes[0]),
+                          object.pose * object.shape_poses[0]);
       else
         core_->addObject(object);
     }
@@ -205,10 +200,7 @@ void PlanningScene::setCurrentState(const moveit_msgs::RobotState& state)
   moveit::core::robotStateMsgToRobotState(*transforms_, state, *robot_state_);
 }
 
-void PlanningScene::setCurrentState(const RobotState& state)
-{
-  *robot_state_ = state;
-}
+void PlanningScene::setCurrentState(const RobotState& state) { *robot_state_ = state; }
 
 const Eigen::Isometry3d& PlanningScene::getFrameTransform(const RobotState& state, const std::string& id) const
 {
@@ -281,7 +273,8 @@ void PlanningScene::check(int parts, bool padded, const CollisionRequest& req, C
   if (req.contacts || acm.hasConditions())
   {
     request.contacts = acm.hasConditions() ? std::numeric_limits<std::size_t>::max() : req.max_contacts;
-    request.contacts_per_pair = acm.hasConditions() ? std::max<std::size_t>(req.max_contacts_per_pair, 10) : req.max_contacts_per_pair;
+    request.contacts_per_pair =
+        acm.hasConditions() ? std::max<std::size_t>(req.max_contacts_per_pair, 10) : req.max_contacts_per_pair;
   }
   const bool own = acm.version() == acm_in_core_;
   const motion::CollisionResult found = scene.check(state.core(), request, own ? nullptr : &acm.core());
@@ -435,7 +428,8 @@ bool PlanningScene::isStateValid(const RobotState& state, const moveit_msgs::Con
   return isStateValid(state, group, verbose) && isStateConstrained(state, constr, verbose);
 }
 
-bool PlanningScene::isStateValid(const RobotState& state, const ConstraintSet& constr, const std::string& group, bool verbose) const
+bool PlanningScene::isStateValid(const RobotState& state, const ConstraintSet& constr, const std::string& group,
+                                 bool verbose) const
 {
   return isStateValid(state, group, verbose) && isStateConstrained(state, constr, verbose);
 }

@@ -25,7 +25,8 @@ void putDown(const moveit::core::AttachedBody& body, World& world)
   const std::string& name = body.getName();
   if (world.hasObject(name))
   {
-    ROS_WARN_NAMED(LOGNAME, "The collision world already has an object with the same name as the body about to be detached: '%s'",
+    ROS_WARN_NAMED(LOGNAME,
+                   "The collision world already has an object with the same name as the body about to be detached: '%s'",
                    name.c_str());
     return;
   }
@@ -126,7 +127,8 @@ bool PlanningScene::moveObject(const CollisionObject& object)
     std::swap(pose, poses[0]);
   if (!poses.empty() && !world_->moveShapesInObject(object.id, poses))
   {
-    ROS_ERROR_NAMED(LOGNAME, "Number of supplied poses (%zu) for object '%s' does not match number of shapes (%zu). Not moving.",
+    ROS_ERROR_NAMED(LOGNAME,
+                    "Number of supplied poses (%zu) for object '%s' does not match number of shapes (%zu). Not moving.",
                     poses.size(), object.id.c_str(), known->shapes_.size());
     return false;
   }
@@ -170,8 +172,9 @@ bool PlanningScene::processAttachedCollisionObjectMsg(const moveit_msgs::Attache
   {
     if (!from_world)
     {
-      ROS_ERROR_NAMED(LOGNAME, "Attempting to attach object '%s' to link '%s' but no geometry specified and such an object does "
-                               "not exist in the collision world",
+      ROS_ERROR_NAMED(LOGNAME,
+                      "Attempting to attach object '%s' to link '%s' but no geometry specified and such an object does "
+                      "not exist in the collision world",
                       id.c_str(), object.link_name.c_str());
       return false;
     }

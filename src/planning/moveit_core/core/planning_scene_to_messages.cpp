@@ -54,7 +54,8 @@ bool PlanningScene::getAttachedCollisionObjectMsg(moveit_msgs::AttachedCollision
   return false;
 }
 
-void PlanningScene::getAttachedCollisionObjectMsgs(std::vector<moveit_msgs::AttachedCollisionObject>& attached_collision_objs) const
+void PlanningScene::getAttachedCollisionObjectMsgs(
+    std::vector<moveit_msgs::AttachedCollisionObject>& attached_collision_objs) const
 {
   std::vector<const moveit::core::AttachedBody*> bodies;
   robot_state_->getAttachedBodies(bodies);

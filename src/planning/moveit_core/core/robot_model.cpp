@@ -52,7 +52,9 @@ RobotModel::RobotModel(const urdf::ModelInterfaceSharedPtr& urdf_model, const sr
 
 RobotModel::RobotModel(const std::shared_ptr<motion::RobotModel>& core, const urdf::ModelInterfaceSharedPtr& urdf_model,
                        const srdf::ModelConstSharedPtr& srdf_model)
-  : core_(core), urdf_(urdf_model), srdf_(srdf_model ? srdf_model : std::make_shared<srdf::Model>())
+  : core_(core)
+  , urdf_(urdf_model)
+  , srdf_(srdf_model ? srdf_model : std::make_shared<srdf::Model>())
 {
   build();
 }
@@ -247,10 +249,7 @@ void RobotModel::setKinematicsAllocators(const std::map<std::string, SolverAlloc
 
 // ---------------------------------------------------------------- look-ups
 
-bool RobotModel::hasJointModel(const std::string& name) const
-{
-  return core_->findJoint(name) != nullptr;
-}
+bool RobotModel::hasJointModel(const std::string& name) const { return core_->findJoint(name) != nullptr; }
 
 const JointModel* RobotModel::getJointModel(const std::string& joint) const
 {
@@ -283,10 +282,7 @@ const JointModel* RobotModel::getCommonRoot(const JointModel* a, const JointMode
   return common;
 }
 
-bool RobotModel::hasLinkModel(const std::string& name) const
-{
-  return core_->findLink(name) != nullptr;
-}
+bool RobotModel::hasLinkModel(const std::string& name) const { return core_->findLink(name) != nullptr; }
 
 const LinkModel* RobotModel::getLinkModel(const std::string& link, bool* has_link) const
 {
@@ -354,10 +350,7 @@ int RobotModel::getVariableIndex(const std::string& variable) const
   return index;
 }
 
-bool RobotModel::hasJointModelGroup(const std::string& group) const
-{
-  return core_->findGroup(group) != nullptr;
-}
+bool RobotModel::hasJointModelGroup(const std::string& group) const { return core_->findGroup(group) != nullptr; }
 
 const JointModelGroup* RobotModel::getJointModelGroup(const std::string& name) const
 {
@@ -373,10 +366,7 @@ JointModelGroup* RobotModel::getJointModelGroup(const std::string& name)
   return nullptr;
 }
 
-bool RobotModel::hasEndEffector(const std::string& eef) const
-{
-  return end_effectors_map_.count(eef) > 0;
-}
+bool RobotModel::hasEndEffector(const std::string& eef) const { return end_effectors_map_.count(eef) > 0; }
 
 const JointModelGroup* RobotModel::getEndEffector(const std::string& name) const
 {

@@ -12,8 +12,7 @@ namespace
 std::string fileOf(const std::string& robot_name, const std::string& kind)
 {
   const bool pr2 = robot_name == "pr2";  // one package, other names of files
-  const std::string package =
-      "moveit_resources_" + robot_name + (kind == "urdf" || pr2 ? "_description" : "_moveit_config");
+  const std::string package = "moveit_resources_" + robot_name + (kind == "urdf" || pr2 ? "_description" : "_moveit_config");
   const std::string path = ros::package::getPath(package);
   if (path.empty())
   {

@@ -15,8 +15,7 @@ void followMimics(const motion::RobotModel& core, double* values)
 {
   for (const motion::JointModel& joint : core.joints)
     if (joint.mimic >= 0)
-      values[joint.first_variable] =
-          joint.mimic_factor * values[core.joints[joint.mimic].first_variable] + joint.mimic_offset;
+      values[joint.first_variable] = joint.mimic_factor * values[core.joints[joint.mimic].first_variable] + joint.mimic_offset;
 }
 }  // namespace
 
@@ -48,10 +47,7 @@ void RobotModel::getVariableDefaultPositions(double* values) const
   std::copy(core_->defaults.begin(), core_->defaults.end(), values);
 }
 
-void RobotModel::getVariableDefaultPositions(std::vector<double>& values) const
-{
-  values = core_->defaults;
-}
+void RobotModel::getVariableDefaultPositions(std::vector<double>& values) const { values = core_->defaults; }
 
 void RobotModel::getVariableDefaultPositions(std::map<std::string, double>& values) const
 {
@@ -74,8 +70,7 @@ bool RobotModel::enforcePositionBounds(double* state, const JointBoundsVector& a
   return changed;
 }
 
-bool RobotModel::satisfiesPositionBounds(const double* state, const JointBoundsVector& active_joint_bounds,
-                                         double margin) const
+bool RobotModel::satisfiesPositionBounds(const double* state, const JointBoundsVector& active_joint_bounds, double margin) const
 {
   for (std::size_t i = 0; i < active_joint_model_vector_.size(); ++i)
   {

@@ -10,17 +10,14 @@ namespace moveit
 namespace core
 {
 RobotState::RobotState(const RobotModelConstPtr& robot_model)
-  : robot_model_(robot_model), core_(new motion::RobotState(robot_model->core()))
+  : robot_model_(robot_model)
+  , core_(new motion::RobotState(robot_model->core()))
 {
 }
 
-RobotState::~RobotState()
-{
-  clearAttachedBodies();
-}
+RobotState::~RobotState() { clearAttachedBodies(); }
 
-RobotState::RobotState(const RobotState& other)
-  : robot_model_(other.robot_model_), core_(new motion::RobotState(*other.core_))
+RobotState::RobotState(const RobotState& other) : robot_model_(other.robot_model_), core_(new motion::RobotState(*other.core_))
 {
   copyBodies(other);
 }
@@ -60,20 +57,11 @@ void RobotState::setCore(const motion::RobotState& core)
 
 // ---------------------------------------------------------------- positions
 
-double* RobotState::getVariablePositions()
-{
-  return core_->writePositions();
-}
+double* RobotState::getVariablePositions() { return core_->writePositions(); }
 
-const double* RobotState::getVariablePositions() const
-{
-  return core_->positions().data();
-}
+const double* RobotState::getVariablePositions() const { return core_->positions().data(); }
 
-void RobotState::setVariablePositions(const double* position)
-{
-  core_->setPositions(position);
-}
+void RobotState::setVariablePositions(const double* position) { core_->setPositions(position); }
 
 void RobotState::setVariablePositions(const std::vector<double>& position)
 {
@@ -83,10 +71,7 @@ void RobotState::setVariablePositions(const std::vector<double>& position)
   core_->setPositions(position.data());
 }
 
-void RobotState::setVariablePosition(int index, double value)
-{
-  core_->setVariable(index, value);
-}
+void RobotState::setVariablePosition(int index, double value) { core_->setVariable(index, value); }
 
 void RobotState::setVariablePositions(const std::map<std::string, double>& variable_map)
 {
@@ -259,10 +244,7 @@ void RobotState::setVariableValues(const sensor_msgs::JointState& msg)
 
 // ---------------------------------------------------------------- named and random values
 
-void RobotState::setToDefaultValues()
-{
-  core_->setDefault();
-}
+void RobotState::setToDefaultValues() { core_->setDefault(); }
 
 bool RobotState::setToDefaultValues(const JointModelGroup* group, const std::string& name)
 {
@@ -282,20 +264,11 @@ random_numbers::RandomNumberGenerator& RobotState::getRandomNumberGenerator()
   return *rng_;
 }
 
-void RobotState::setToRandomPositions()
-{
-  setToRandomPositions(getRandomNumberGenerator());
-}
+void RobotState::setToRandomPositions() { setToRandomPositions(getRandomNumberGenerator()); }
 
-void RobotState::setToRandomPositions(const JointModelGroup* group)
-{
-  setToRandomPositions(group, getRandomNumberGenerator());
-}
+void RobotState::setToRandomPositions(const JointModelGroup* group) { setToRandomPositions(group, getRandomNumberGenerator()); }
 
-void RobotState::setToRandomPositions(random_numbers::RandomNumberGenerator& rng)
-{
-  setToRandomPositions(nullptr, rng);
-}
+void RobotState::setToRandomPositions(random_numbers::RandomNumberGenerator& rng) { setToRandomPositions(nullptr, rng); }
 
 void RobotState::setToRandomPositions(const JointModelGroup* group, random_numbers::RandomNumberGenerator& rng)
 {
@@ -322,8 +295,7 @@ void RobotState::setToRandomPositionsNearBy(const JointModelGroup* group, const 
 }
 
 void RobotState::setToRandomPositionsNearBy(const JointModelGroup* group, const RobotState& seed,
-                                            const std::vector<double>& distances,
-                                            random_numbers::RandomNumberGenerator& rng)
+                                            const std::vector<double>& distances, random_numbers::RandomNumberGenerator& rng)
 {
   std::vector<double> from, to(group->getVariableCount());
   seed.copyJointGroupPositions(group, from);
@@ -333,10 +305,7 @@ void RobotState::setToRandomPositionsNearBy(const JointModelGroup* group, const 
 
 // ---------------------------------------------------------------- distance, bounds
 
-double RobotState::distance(const RobotState& other) const
-{
-  return core_->distance(*other.core_, nullptr);
-}
+double RobotState::distance(const RobotState& other) const { return core_->distance(*other.core_, nullptr); }
 
 double RobotState::distance(const RobotState& other, const JointModelGroup* joint_group) const
 {
@@ -456,8 +425,8 @@ std::pair<double, const JointModel*> RobotState::getMinDistanceToPositionBounds(
   return getMinDistanceToPositionBounds(group->getActiveJointModels());
 }
 
-std::pair<double, const JointModel*>
-RobotState::getMinDistanceToPositionBounds(const std::vector<const JointModel*>& joints) const
+std::pair<double, const JointModel*> RobotState::getMinDistanceToPositionBounds(
+    const std::vector<const JointModel*>& joints) const
 {
   std::pair<double, const JointModel*> nearest(std::numeric_limits<double>::max(), nullptr);
   for (const JointModel* joint : joints)

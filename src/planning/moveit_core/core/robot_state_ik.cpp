@@ -15,10 +15,7 @@ namespace
 {
 constexpr char LOGNAME[] = "robot_state";
 
-std::string withoutSlash(const std::string& frame)
-{
-  return !frame.empty() && frame[0] == '/' ? frame.substr(1) : frame;
-}
+std::string withoutSlash(const std::string& frame) { return !frame.empty() && frame[0] == '/' ? frame.substr(1) : frame; }
 
 Eigen::Isometry3d fromMessage(const geometry_msgs::Pose& pose)
 {
@@ -29,8 +26,7 @@ Eigen::Isometry3d fromMessage(const geometry_msgs::Pose& pose)
 }  // namespace
 
 bool RobotState::setFromIK(const JointModelGroup* group, const geometry_msgs::Pose& pose, double timeout,
-                           const GroupStateValidityCallbackFn& constraint,
-                           const kinematics::KinematicsQueryOptions& options)
+                           const GroupStateValidityCallbackFn& constraint, const kinematics::KinematicsQueryOptions& options)
 {
   return setFromIK(group, fromMessage(pose), timeout, constraint, options);
 }
@@ -43,8 +39,7 @@ bool RobotState::setFromIK(const JointModelGroup* group, const geometry_msgs::Po
 }
 
 bool RobotState::setFromIK(const JointModelGroup* group, const Eigen::Isometry3d& pose, double timeout,
-                           const GroupStateValidityCallbackFn& constraint,
-                           const kinematics::KinematicsQueryOptions& options)
+                           const GroupStateValidityCallbackFn& constraint, const kinematics::KinematicsQueryOptions& options)
 {
   const kinematics::KinematicsBaseConstPtr& solver = group->getSolverInstance();
   if (!solver)
@@ -56,25 +51,22 @@ bool RobotState::setFromIK(const JointModelGroup* group, const Eigen::Isometry3d
   return setFromIK(group, pose, solver->getTipFrame(), timeout, constraint, options);
 }
 
-bool RobotState::setFromIK(const JointModelGroup* group, const Eigen::Isometry3d& pose, const std::string& tip,
-                           double timeout, const GroupStateValidityCallbackFn& constraint,
-                           const kinematics::KinematicsQueryOptions& options)
+bool RobotState::setFromIK(const JointModelGroup* group, const Eigen::Isometry3d& pose, const std::string& tip, double timeout,
+                           const GroupStateValidityCallbackFn& constraint, const kinematics::KinematicsQueryOptions& options)
 {
   return setFromIK(group, pose, tip, std::vector<double>(), timeout, constraint, options);
 }
 
 bool RobotState::setFromIK(const JointModelGroup* group, const Eigen::Isometry3d& pose, const std::string& tip,
                            const std::vector<double>& consistency_limits, double timeout,
-                           const GroupStateValidityCallbackFn& constraint,
-                           const kinematics::KinematicsQueryOptions& options)
+                           const GroupStateValidityCallbackFn& constraint, const kinematics::KinematicsQueryOptions& options)
 {
   return setFromIK(group, EigenSTL::vector_Isometry3d{ pose }, std::vector<std::string>{ tip },
                    std::vector<std::vector<double>>{ consistency_limits }, timeout, constraint, options);
 }
 
 bool RobotState::setFromIK(const JointModelGroup* group, const EigenSTL::vector_Isometry3d& poses,
-                           const std::vector<std::string>& tips, double timeout,
-                           const GroupStateValidityCallbackFn& constraint,
+                           const std::vector<std::string>& tips, double timeout, const GroupStateValidityCallbackFn& constraint,
                            const kinematics::KinematicsQueryOptions& options)
 {
   return setFromIK(group, poses, tips, std::vector<std::vector<double>>(), timeout, constraint, options);
@@ -130,9 +122,9 @@ bool RobotState::queryFor(Eigen::Isometry3d pose, std::string tip, const kinemat
 }
 
 bool RobotState::solve(const JointModelGroup* group, const JointModelGroup::KinematicsSolver& solver,
-                       const std::vector<geometry_msgs::Pose>& queries, const std::vector<double>& consistency,
-                       double timeout, const GroupStateValidityCallbackFn& constraint,
-                       const kinematics::KinematicsQueryOptions& options, const JointModelGroup* reported)
+                       const std::vector<geometry_msgs::Pose>& queries, const std::vector<double>& consistency, double timeout,
+                       const GroupStateValidityCallbackFn& constraint, const kinematics::KinematicsQueryOptions& options,
+                       const JointModelGroup* reported)
 {
   const std::vector<unsigned int>& place = solver.bijection_;
   std::vector<double> values, seed(place.size()), limits, found;
@@ -153,8 +145,8 @@ bool RobotState::solve(const JointModelGroup* group, const JointModelGroup::Kine
     callback = [&](const geometry_msgs::Pose& /*pose*/, const std::vector<double>& solution,
                    moveit_msgs::MoveItErrorCodes& error_code) {
       const std::vector<double> all = inGroup(solution);
-      error_code.val = constraint(this, reported, all.data()) ? moveit_msgs::MoveItErrorCodes::SUCCESS :
-                                                                moveit_msgs::MoveItErrorCodes::NO_IK_SOLUTION;
+      error_code.val = constraint(this, reported, all.data()) ? moveit_msgs::MoveItErrorCodes::SUCCESS
+                                                              : moveit_msgs::MoveItErrorCodes::NO_IK_SOLUTION;
     };
   moveit_msgs::MoveItErrorCodes error;
   if (!solver.solver_instance_->searchPositionIK(queries, seed, timeout, limits, found, callback, error, options, this))
@@ -164,9 +156,8 @@ bool RobotState::solve(const JointModelGroup* group, const JointModelGroup::Kine
 }
 
 bool RobotState::setFromIK(const JointModelGroup* group, const EigenSTL::vector_Isometry3d& poses,
-                           const std::vector<std::string>& tips,
-                           const std::vector<std::vector<double>>& consistency_limits, double timeout,
-                           const GroupStateValidityCallbackFn& constraint,
+                           const std::vector<std::string>& tips, const std::vector<std::vector<double>>& consistency_limits,
+                           double timeout, const GroupStateValidityCallbackFn& constraint,
                            const kinematics::KinematicsQueryOptions& options)
 {
   if (poses.size() != tips.size() || poses.empty())
@@ -187,8 +178,8 @@ bool RobotState::setFromIK(const JointModelGroup* group, const EigenSTL::vector_
   const std::size_t wanted = solver->getTipFrames().size();
   if (poses.size() > wanted)
   {
-    ROS_ERROR_NAMED(LOGNAME, "%zu poses for the solver of group '%s', which takes %zu", poses.size(),
-                    group->getName().c_str(), wanted);
+    ROS_ERROR_NAMED(LOGNAME, "%zu poses for the solver of group '%s', which takes %zu", poses.size(), group->getName().c_str(),
+                    wanted);
     return false;
   }
   // Tips that nothing is said of stay where they are.
@@ -228,8 +219,8 @@ bool RobotState::setFromIKSubgroups(const JointModelGroup* group, const EigenSTL
       parts.emplace_back(sub.first, &sub.second);
   if (parts.size() < poses.size() || parts.empty())
   {
-    ROS_ERROR_NAMED(LOGNAME, "%zu poses for the %zu subgroups of '%s' that have kinematics solvers", poses.size(),
-                    parts.size(), group->getName().c_str());
+    ROS_ERROR_NAMED(LOGNAME, "%zu poses for the %zu subgroups of '%s' that have kinematics solvers", poses.size(), parts.size(),
+                    group->getName().c_str());
     return false;
   }
   const RobotState before(*this);

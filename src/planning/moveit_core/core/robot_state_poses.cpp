@@ -52,10 +52,7 @@ void RobotState::updateStateWithLinkAt(const LinkModel* link, const Eigen::Isome
 
 namespace
 {
-std::string withoutSlash(const std::string& frame)
-{
-  return !frame.empty() && frame[0] == '/' ? frame.substr(1) : frame;
-}
+std::string withoutSlash(const std::string& frame) { return !frame.empty() && frame[0] == '/' ? frame.substr(1) : frame; }
 }  // namespace
 
 const Eigen::Isometry3d& RobotState::getFrameInfo(const std::string& frame_id, const LinkModel*& robot_link,
@@ -119,8 +116,7 @@ const LinkModel* RobotState::getRigidlyConnectedParentLinkModel(const std::strin
   if (carrier < 0)
     return nullptr;
   Eigen::Isometry3d of_link;
-  const LinkModel* parent =
-      RobotModel::getRigidlyConnectedParentLinkModel(robot_model_->getLinkModel(carrier), of_link, jmg);
+  const LinkModel* parent = RobotModel::getRigidlyConnectedParentLinkModel(robot_model_->getLinkModel(carrier), of_link, jmg);
   if (transform)
     *transform = of_link * in_link;
   return parent;
@@ -139,10 +135,9 @@ void RobotState::attachBody(std::unique_ptr<AttachedBody> attached_body)
 }
 
 void RobotState::attachBody(const std::string& id, const Eigen::Isometry3d& pose,
-                            const std::vector<shapes::ShapeConstPtr>& shapes,
-                            const EigenSTL::vector_Isometry3d& shape_poses, const std::set<std::string>& touch_links,
-                            const std::string& link_name, const trajectory_msgs::JointTrajectory& detach_posture,
-                            const FixedTransformsMap& subframe_poses)
+                            const std::vector<shapes::ShapeConstPtr>& shapes, const EigenSTL::vector_Isometry3d& shape_poses,
+                            const std::set<std::string>& touch_links, const std::string& link_name,
+                            const trajectory_msgs::JointTrajectory& detach_posture, const FixedTransformsMap& subframe_poses)
 {
   const LinkModel* link = robot_model_->getLinkModel(link_name);
   if (!link)

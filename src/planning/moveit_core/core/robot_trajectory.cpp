@@ -15,17 +15,21 @@ using moveit::core::RobotState;
 using moveit::core::RobotStatePtr;
 
 RobotTrajectory::RobotTrajectory(const moveit::core::RobotModelConstPtr& robot_model)
-  : robot_model_(robot_model), group_(nullptr)
+  : robot_model_(robot_model)
+  , group_(nullptr)
 {
 }
 
 RobotTrajectory::RobotTrajectory(const moveit::core::RobotModelConstPtr& robot_model, const std::string& group)
-  : robot_model_(robot_model), group_(group.empty() ? nullptr : robot_model->getJointModelGroup(group))
+  : robot_model_(robot_model)
+  , group_(group.empty() ? nullptr : robot_model->getJointModelGroup(group))
 {
 }
 
-RobotTrajectory::RobotTrajectory(const moveit::core::RobotModelConstPtr& robot_model, const moveit::core::JointModelGroup* group)
-  : robot_model_(robot_model), group_(group)
+RobotTrajectory::RobotTrajectory(const moveit::core::RobotModelConstPtr& robot_model,
+                                 const moveit::core::JointModelGroup* group)
+  : robot_model_(robot_model)
+  , group_(group)
 {
 }
 
@@ -268,7 +272,8 @@ RobotTrajectory& RobotTrajectory::setRobotTrajectoryMsg(const RobotState& refere
 
 // ---------------------------------------------------------------- in between
 
-void RobotTrajectory::findWayPointIndicesForDurationAfterStart(const double duration, int& before, int& after, double& blend) const
+void RobotTrajectory::findWayPointIndicesForDurationAfterStart(const double duration, int& before, int& after,
+                                                               double& blend) const
 {
   before = after = 0;
   blend = 0.0;
@@ -311,10 +316,7 @@ double path_length(RobotTrajectory const& trajectory)
 
 namespace trajectory_processing
 {
-bool isTrajectoryEmpty(const moveit_msgs::RobotTrajectory& trajectory)
-{
-  return trajectoryWaypointCount(trajectory) == 0;
-}
+bool isTrajectoryEmpty(const moveit_msgs::RobotTrajectory& trajectory) { return trajectoryWaypointCount(trajectory) == 0; }
 
 std::size_t trajectoryWaypointCount(const moveit_msgs::RobotTrajectory& trajectory)
 {

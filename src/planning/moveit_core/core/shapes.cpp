@@ -38,25 +38,21 @@ shapes::ShapeConstPtr toShape(const motion::ShapePtr& shape)
 {
   switch (shape->type)
   {
-    case motion::ShapeType::Box:
-    {
+    case motion::ShapeType::Box: {
       const motion::Vector3& size = static_cast<const motion::Box&>(*shape).size;
       return std::make_shared<shapes::Box>(size.x(), size.y(), size.z());
     }
     case motion::ShapeType::Sphere:
       return std::make_shared<shapes::Sphere>(static_cast<const motion::Sphere&>(*shape).radius);
-    case motion::ShapeType::Cylinder:
-    {
+    case motion::ShapeType::Cylinder: {
       const auto& c = static_cast<const motion::Cylinder&>(*shape);
       return std::make_shared<shapes::Cylinder>(c.radius, c.length);
     }
-    case motion::ShapeType::Cone:
-    {
+    case motion::ShapeType::Cone: {
       const auto& c = static_cast<const motion::Cone&>(*shape);
       return std::make_shared<shapes::Cone>(c.radius, c.length);
     }
-    case motion::ShapeType::Plane:
-    {
+    case motion::ShapeType::Plane: {
       const auto& p = static_cast<const motion::Plane&>(*shape);
       return std::make_shared<shapes::Plane>(p.normal.x(), p.normal.y(), p.normal.z(), p.d);
     }
@@ -72,25 +68,21 @@ motion::ShapePtr fromShape(const shapes::ShapeConstPtr& shape)
 {
   switch (shape->type)
   {
-    case shapes::BOX:
-    {
+    case shapes::BOX: {
       const double* size = static_cast<const shapes::Box&>(*shape).size;
       return std::make_shared<motion::Box>(motion::Vector3(size[0], size[1], size[2]));
     }
     case shapes::SPHERE:
       return std::make_shared<motion::Sphere>(static_cast<const shapes::Sphere&>(*shape).radius);
-    case shapes::CYLINDER:
-    {
+    case shapes::CYLINDER: {
       const auto& c = static_cast<const shapes::Cylinder&>(*shape);
       return std::make_shared<motion::Cylinder>(c.radius, c.length);
     }
-    case shapes::CONE:
-    {
+    case shapes::CONE: {
       const auto& c = static_cast<const shapes::Cone&>(*shape);
       return std::make_shared<motion::Cone>(c.radius, c.length);
     }
-    case shapes::PLANE:
-    {
+    case shapes::PLANE: {
       const auto& p = static_cast<const shapes::Plane&>(*shape);
       return std::make_shared<motion::Plane>(p.a, p.b, p.c, p.d);
     }

@@ -124,7 +124,9 @@ bool IterativeSplineParameterization::computeTimeStamps(RobotTrajectory& traject
 
 TimeOptimalTrajectoryGeneration::TimeOptimalTrajectoryGeneration(const double path_tolerance, const double resample_dt,
                                                                  const double min_angle_change)
-  : path_tolerance_(path_tolerance), resample_dt_(resample_dt), min_angle_change_(min_angle_change)
+  : path_tolerance_(path_tolerance)
+  , resample_dt_(resample_dt)
+  , min_angle_change_(min_angle_change)
 {
 }
 

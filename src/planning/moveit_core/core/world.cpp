@@ -230,10 +230,7 @@ World::ObserverHandle World::addObserver(const ObserverCallbackFn& callback)
   return ObserverHandle(next_observer_++);
 }
 
-void World::removeObserver(const ObserverHandle observer_handle)
-{
-  observers_.erase(observer_handle.id_);
-}
+void World::removeObserver(const ObserverHandle observer_handle) { observers_.erase(observer_handle.id_); }
 
 void World::notifyObserverAllObjects(const ObserverHandle observer_handle, Action action) const
 {

@@ -4,10 +4,7 @@ namespace collision_detection
 {
 WorldDiff::WorldDiff() = default;
 
-WorldDiff::WorldDiff(const WorldPtr& world)
-{
-  watch(world);
-}
+WorldDiff::WorldDiff(const WorldPtr& world) { watch(world); }
 
 WorldDiff::WorldDiff(WorldDiff& other) : changes_(other.changes_)
 {
@@ -15,15 +12,13 @@ WorldDiff::WorldDiff(WorldDiff& other) : changes_(other.changes_)
     watch(world);
 }
 
-WorldDiff::~WorldDiff()
-{
-  leave();
-}
+WorldDiff::~WorldDiff() { leave(); }
 
 void WorldDiff::watch(const WorldPtr& world)
 {
   world_ = world;
-  observer_handle_ = world->addObserver([this](const World::ObjectConstPtr& object, World::Action action) { notify(object, action); });
+  observer_handle_ =
+      world->addObserver([this](const World::ObjectConstPtr& object, World::Action action) { notify(object, action); });
 }
 
 void WorldDiff::leave()

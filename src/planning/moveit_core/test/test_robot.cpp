@@ -62,7 +62,7 @@ TEST(RobotModel, groupsStatesAndEndEffectors)
   const JointModelGroup* fingers = model->getEndEffector("gripper");
   EXPECT_EQ(fingers, model->getJointModelGroup("fingers"));
   EXPECT_EQ(fingers->getEndEffectorParentGroup(), std::make_pair(std::string("manipulator"), std::string("hand")));
-  EXPECT_EQ(fingers->getVariableCount(), 2u);  // the mirrored one counts as a variable,
+  EXPECT_EQ(fingers->getVariableCount(), 2u);        // the mirrored one counts as a variable,
   EXPECT_EQ(fingers->getActiveVariableCount(), 1u);  // but does not move by itself
 }
 
@@ -156,8 +156,9 @@ TEST(RobotState, jacobianIsTheDerivativeOfThePose)
   {
     RobotState moved(state);
     moved.setVariablePosition(arm->getVariableIndexList()[k], state.getVariablePosition(arm->getVariableIndexList()[k]) + h);
-    const Eigen::Vector3d v = base.linear().transpose() * (moved.getGlobalLinkTransform("hand").translation() -
-                                                           state.getGlobalLinkTransform("hand").translation()) / h;
+    const Eigen::Vector3d v =
+        base.linear().transpose() *
+        (moved.getGlobalLinkTransform("hand").translation() - state.getGlobalLinkTransform("hand").translation()) / h;
     EXPECT_TRUE(v.isApprox(J.col(k).head<3>(), 1e-5)) << v.transpose() << " and " << J.col(k).transpose();
   }
   Eigen::MatrixXd with_quaternion;
@@ -181,7 +182,8 @@ TEST(RobotState, twistMovesTheTip)
   Eigen::VectorXd qdot;
   state.computeVariableVelocity(arm, qdot, twist, state.getLinkModel("hand"));
   ASSERT_TRUE(state.integrateVariableVelocity(arm, qdot, 1e-3));
-  const Eigen::Vector3d way = before.linear().transpose() * (state.getGlobalLinkTransform("hand").translation() - before.translation());
+  const Eigen::Vector3d way =
+      before.linear().transpose() * (state.getGlobalLinkTransform("hand").translation() - before.translation());
   const Eigen::MatrixXd J = readyState().getJacobian(arm);
   const Eigen::Vector3d wanted = before.linear().transpose() * (J * qdot).head<3>() * 1e-3;
   EXPECT_TRUE(way.isApprox(wanted, 1e-3)) << way.transpose() << " and " << wanted.transpose();

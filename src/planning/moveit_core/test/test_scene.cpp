@@ -67,7 +67,7 @@ TEST(Scene, objectsCollideUntilTheyAreAllowedToOrGone)
   result.clear();
   scene->checkCollision(request, result, scene->getCurrentState(), allowed);
   EXPECT_FALSE(result.collision);
-  EXPECT_TRUE(scene->isStateColliding());  // the scene's own matrix is as it was
+  EXPECT_TRUE(scene->isStateColliding());                             // the scene's own matrix is as it was
   scene->getAllowedCollisionMatrixNonConst().setEntry("post", true);  // with all that have a row
   EXPECT_FALSE(scene->isStateColliding());
 
@@ -190,7 +190,8 @@ TEST(Scene, feasibilityAndConstraints)
   pose.pose.position.y = hand.translation().y();
   pose.pose.position.z = hand.translation().z();
   const Eigen::Quaterniond q(hand.linear());
-  pose.pose.orientation.x = q.x(), pose.pose.orientation.y = q.y(), pose.pose.orientation.z = q.z(), pose.pose.orientation.w = q.w();
+  pose.pose.orientation.x = q.x(), pose.pose.orientation.y = q.y(), pose.pose.orientation.z = q.z(),
+  pose.pose.orientation.w = q.w();
   const moveit_msgs::Constraints goal = kinematic_constraints::constructGoalConstraints("hand", pose, 1e-3, 1e-2);
   EXPECT_TRUE(scene->isStateConstrained(state, goal));
   kinematic_constraints::KinematicConstraintSet set(scene->getRobotModel());

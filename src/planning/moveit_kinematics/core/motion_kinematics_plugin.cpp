@@ -15,9 +15,8 @@ namespace motion_kinematics_plugin
 class MotionKinematicsPlugin : public kinematics::KinematicsBase
 {
 public:
-  bool initialize(const moveit::core::RobotModel& robot_model, const std::string& group_name,
-                  const std::string& base_frame, const std::vector<std::string>& tip_frames,
-                  double search_discretization) override
+  bool initialize(const moveit::core::RobotModel& robot_model, const std::string& group_name, const std::string& base_frame,
+                  const std::vector<std::string>& tip_frames, double search_discretization) override
   {
     storeValues(robot_model, group_name, base_frame, tip_frames, search_discretization);
     const moveit::core::JointModelGroup* group = robot_model.getJointModelGroup(group_name);
@@ -77,25 +76,23 @@ public:
   }
 
   bool searchPositionIK(const geometry_msgs::Pose& pose, const std::vector<double>& seed, double timeout,
-                        std::vector<double>& solution, const IKCallbackFn& callback,
-                        moveit_msgs::MoveItErrorCodes& error_code,
+                        std::vector<double>& solution, const IKCallbackFn& callback, moveit_msgs::MoveItErrorCodes& error_code,
                         const kinematics::KinematicsQueryOptions& options) const override
   {
     return search({ pose }, seed, timeout, {}, solution, callback, error_code, options, nullptr);
   }
 
   bool searchPositionIK(const geometry_msgs::Pose& pose, const std::vector<double>& seed, double timeout,
-                        const std::vector<double>& consistency, std::vector<double>& solution,
-                        const IKCallbackFn& callback, moveit_msgs::MoveItErrorCodes& error_code,
+                        const std::vector<double>& consistency, std::vector<double>& solution, const IKCallbackFn& callback,
+                        moveit_msgs::MoveItErrorCodes& error_code,
                         const kinematics::KinematicsQueryOptions& options) const override
   {
     return search({ pose }, seed, timeout, consistency, solution, callback, error_code, options, nullptr);
   }
 
   bool searchPositionIK(const std::vector<geometry_msgs::Pose>& poses, const std::vector<double>& seed, double timeout,
-                        const std::vector<double>& consistency, std::vector<double>& solution,
-                        const IKCallbackFn& callback, moveit_msgs::MoveItErrorCodes& error_code,
-                        const kinematics::KinematicsQueryOptions& options,
+                        const std::vector<double>& consistency, std::vector<double>& solution, const IKCallbackFn& callback,
+                        moveit_msgs::MoveItErrorCodes& error_code, const kinematics::KinematicsQueryOptions& options,
                         const moveit::core::RobotState* context_state) const override
   {
     return search(poses, seed, timeout, consistency, solution, callback, error_code, options, context_state);
@@ -136,7 +133,8 @@ private:
     error_code.val = moveit_msgs::MoveItErrorCodes::NO_IK_SOLUTION;
     if (!solver_ || seed.size() != names_.size() || poses.size() != tips_.size())
     {
-      ROS_ERROR_NAMED("kinematics", "inverse kinematics of group '%s': %zu seed values and %zu poses, but %zu joints and %zu tips",
+      ROS_ERROR_NAMED("kinematics",
+                      "inverse kinematics of group '%s': %zu seed values and %zu poses, but %zu joints and %zu tips",
                       group_name_.c_str(), seed.size(), poses.size(), names_.size(), tips_.size());
       return false;
     }

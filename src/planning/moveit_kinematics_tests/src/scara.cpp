@@ -55,8 +55,8 @@ public:
     return searchPositionIK(pose, seed, timeout, std::vector<double>(), solution, callback, code, options);
   }
   bool searchPositionIK(const geometry_msgs::Pose& pose, const std::vector<double>& /*seed*/, double /*timeout*/,
-                        const std::vector<double>& /*consistency*/, std::vector<double>& solution,
-                        const IKCallbackFn& callback, moveit_msgs::MoveItErrorCodes& code,
+                        const std::vector<double>& /*consistency*/, std::vector<double>& solution, const IKCallbackFn& callback,
+                        moveit_msgs::MoveItErrorCodes& code,
                         const kinematics::KinematicsQueryOptions& /*options*/) const override
   {
     code.val = moveit_msgs::MoveItErrorCodes::NO_IK_SOLUTION;

@@ -48,10 +48,7 @@ TEST(PoseGoals, areReachedAsThePluginSays)
   EXPECT_NEAR(elbowAtTheEnd("one"), -ELBOW, 0.01);  // its parameter wants the elbow on the right
 }
 
-TEST(PoseGoals, areTheLibrarysWhereThePluginIsOfAnotherRobot)
-{
-  EXPECT_NEAR(std::abs(elbowAtTheEnd("three")), ELBOW, 0.01);
-}
+TEST(PoseGoals, areTheLibrarysWhereThePluginIsOfAnotherRobot) { EXPECT_NEAR(std::abs(elbowAtTheEnd("three")), ELBOW, 0.01); }
 
 int main(int argc, char** argv)
 {

@@ -59,8 +59,9 @@ public:
     error_code.val = MoveItErrorCodes::FAILURE;
     if (!planning_scene || !planning_scene->getRobotModel()->hasJointModelGroup(req.group_name))
     {
-      ROS_ERROR_NAMED(LOGNAME, planning_scene ? "Cannot find planning configuration for group '%s'" :
-                                                "No planning scene supplied as input to plan for group '%s'",
+      ROS_ERROR_NAMED(LOGNAME,
+                      planning_scene ? "Cannot find planning configuration for group '%s'"
+                                     : "No planning scene supplied as input to plan for group '%s'",
                       req.group_name.c_str());
       return nullptr;
     }

@@ -33,15 +33,9 @@ std::string asText(Value& value)
   return text.str();
 }
 
-bool isTable(const Value& value)
-{
-  return value.getType() == Value::TypeStruct;
-}
+bool isTable(const Value& value) { return value.getType() == Value::TypeStruct; }
 
-bool truth(const std::string& text)
-{
-  return text == "1" || text == "true" || text == "True" || text == "yes";
-}
+bool truth(const std::string& text) { return text == "1" || text == "true" || text == "True" || text == "yes"; }
 
 // The planner `name` of planner_configs with what all of the group have; empty when there is none.
 Settings oneConfig(Value& all, const std::string& name, const std::string& group, const Settings& common)
@@ -91,7 +85,8 @@ planning_interface::PlannerConfigurationMap readPlannerConfigs(const moveit::cor
     Value& names = entry["planner_configs"];
     if (names.getType() != Value::TypeArray)
     {
-      ROS_ERROR_NAMED(LOGNAME, "The planner_configs argument of a group configuration should be an array of strings (for group '%s')",
+      ROS_ERROR_NAMED(LOGNAME,
+                      "The planner_configs argument of a group configuration should be an array of strings (for group '%s')",
                       group.c_str());
       continue;
     }

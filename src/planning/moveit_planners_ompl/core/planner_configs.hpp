@@ -12,7 +12,8 @@
 namespace ompl_interface
 {
 // The table name -> settings; names are `group` (its default) and `group[config]`.
-planning_interface::PlannerConfigurationMap readPlannerConfigs(const moveit::core::RobotModel& model, const ros::NodeHandle& nh);
+planning_interface::PlannerConfigurationMap readPlannerConfigs(const moveit::core::RobotModel& model,
+                                                               const ros::NodeHandle& nh);
 
 // The settings for a request; of an unknown planner the log tells, and the group's default is used.
 std::map<std::string, std::string> findConfig(const planning_interface::PlannerConfigurationMap& configs,

@@ -46,7 +46,8 @@ int codeOf(motion::PlanStatus status)
 }  // namespace
 
 OMPLContext::OMPLContext(const std::string& name, const std::string& group, const motion::PlanRequest& base)
-  : PlanningContext(name, group), plan_(base)
+  : PlanningContext(name, group)
+  , plan_(base)
 {
   plan_.group = group;
 }

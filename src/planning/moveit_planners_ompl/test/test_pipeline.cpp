@@ -50,8 +50,8 @@ MotionPlanRequest to(const std::string& pose)
   MotionPlanRequest request;
   request.group_name = "manipulator";
   request.allowed_planning_time = 5.0;
-  request.goal_constraints = { kinematic_constraints::constructGoalConstraints(
-      goal, goal.getJointModelGroup("manipulator"), 1e-4) };
+  request.goal_constraints = { kinematic_constraints::constructGoalConstraints(goal, goal.getJointModelGroup("manipulator"),
+                                                                               1e-4) };
   return request;
 }
 
@@ -153,7 +153,8 @@ TEST(Pipeline, pathConstraintsAreReachedFirst)
   MotionPlanRequest request = to("left");
   request.path_constraints.joint_constraints.resize(1);
   request.path_constraints.joint_constraints[0].joint_name = "joint_6";
-  request.path_constraints.joint_constraints[0].tolerance_above = request.path_constraints.joint_constraints[0].tolerance_below = 0.1;
+  request.path_constraints.joint_constraints[0].tolerance_above =
+      request.path_constraints.joint_constraints[0].tolerance_below = 0.1;
   request.path_constraints.joint_constraints[0].weight = 1.0;
   const auto scene = homeScene();
   scene->getCurrentStateNonConst().setVariablePosition("joint_6", 0.8);
@@ -274,8 +275,9 @@ class Controller
 public:
   using Server = actionlib::SimpleActionServer<control_msgs::FollowJointTrajectoryAction>;
   Controller()
-    : server_(ros::NodeHandle(), "late_controller/follow_joint_trajectory",
-              [this](const control_msgs::FollowJointTrajectoryGoalConstPtr& goal) { move(*goal); }, false)
+    : server_(
+          ros::NodeHandle(), "late_controller/follow_joint_trajectory",
+          [this](const control_msgs::FollowJointTrajectoryGoalConstPtr& goal) { move(*goal); }, false)
   {
     server_.start();
   }

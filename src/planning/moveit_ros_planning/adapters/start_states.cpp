@@ -23,8 +23,8 @@ std::string valuesOf(const RobotState& state, const JointModel& joint)
 {
   std::ostringstream text;
   for (std::size_t k = 0; k < joint.getVariableCount(); ++k)
-    text << (k ? ", " : "") << state.getJointPositions(&joint)[k] << " (" << joint.getVariableBounds()[k].min_position_ << " to "
-         << joint.getVariableBounds()[k].max_position_ << ")";
+    text << (k ? ", " : "") << state.getJointPositions(&joint)[k] << " (" << joint.getVariableBounds()[k].min_position_
+         << " to " << joint.getVariableBounds()[k].max_position_ << ")";
   return text.str();
 }
 }  // namespace
@@ -65,7 +65,8 @@ private:
     const bool turns = joint.getType() == JointModel::REVOLUTE && !joint.getVariableBounds()[0].position_bounded_;
     if (!turns && joint.getType() != JointModel::PLANAR && joint.getType() != JointModel::FLOATING)
       return false;
-    const std::vector<double> before(start.getJointPositions(&joint), start.getJointPositions(&joint) + joint.getVariableCount());
+    const std::vector<double> before(start.getJointPositions(&joint),
+                                     start.getJointPositions(&joint) + joint.getVariableCount());
     if (turns)
       start.enforceBounds(&joint);
     else if (joint.getType() == JointModel::PLANAR)
@@ -77,7 +78,8 @@ private:
     else
     {
       std::vector<double> values(before);
-      const double norm = std::sqrt(values[3] * values[3] + values[4] * values[4] + values[5] * values[5] + values[6] * values[6]);
+      const double norm =
+          std::sqrt(values[3] * values[3] + values[4] * values[4] + values[5] * values[5] + values[6] * values[6]);
       if (norm > 1e-9)
         for (int k = 3; k < 7; ++k)
           values[k] /= norm;
@@ -95,9 +97,10 @@ private:
       return false;
     if (!start.satisfiesBounds(&joint, error_))
     {
-      ROS_WARN("Joint '%s' from the starting state is outside bounds by a significant margin: %s; the error is above the "
-               "~start_state_max_bounds_error parameter (currently set to %g)",
-               joint.getName().c_str(), valuesOf(start, joint).c_str(), error_);
+      ROS_WARN(
+          "Joint '%s' from the starting state is outside bounds by a significant margin: %s; the error is above the "
+          "~start_state_max_bounds_error parameter (currently set to %g)",
+          joint.getName().c_str(), valuesOf(start, joint).c_str(), error_);
       return false;
     }
     ROS_INFO("Starting state is just outside bounds (joint '%s'). Assuming within bounds.", joint.getName().c_str());

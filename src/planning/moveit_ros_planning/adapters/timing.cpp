@@ -84,9 +84,8 @@ public:
 protected:
   bool process(robot_trajectory::RobotTrajectory& trajectory, const Request& req) const override
   {
-    return req.max_cartesian_speed <= 0.0 ||
-           trajectory_processing::limitMaxCartesianLinkSpeed(trajectory, req.max_cartesian_speed,
-                                                             req.cartesian_speed_limited_link);
+    return req.max_cartesian_speed <= 0.0 || trajectory_processing::limitMaxCartesianLinkSpeed(
+                                                 trajectory, req.max_cartesian_speed, req.cartesian_speed_limited_link);
   }
 };
 }  // namespace default_planner_request_adapters

@@ -27,7 +27,10 @@ public:
   using Client = actionlib::SimpleActionClient<Action>;
 
   ActionHandle(const ControllerEntry& entry, const std::string& topic)
-    : MoveItControllerHandle(entry.name), entry_(entry), topic_(topic), client_(new Client(topic, true))
+    : MoveItControllerHandle(entry.name)
+    , entry_(entry)
+    , topic_(topic)
+    , client_(new Client(topic, true))
   {
   }
 
@@ -82,8 +85,9 @@ public:
         there = ros::WallTime::now();
       else if ((ros::WallTime::now() - there).toSec() > GONE)
       {
-        ROS_ERROR_NAMED(LOGNAME, "The action server %s has gone away during the motion; the controller '%s' was stopped, or its "
-                                 "node has ended",
+        ROS_ERROR_NAMED(LOGNAME,
+                        "The action server %s has gone away during the motion; the controller '%s' was stopped, or its "
+                        "node has ended",
                         topic_.c_str(), name_.c_str());
         end(goals_, ExecutionStatus::ABORTED);
         return true;
@@ -138,9 +142,11 @@ private:
     using State = actionlib::SimpleClientGoalState;
     if (state == State::SUCCEEDED || (state == State::ABORTED && entry_.flag("allow_failure")))
       return ExecutionStatus::SUCCEEDED;
-    ROS_WARN_NAMED(LOGNAME, "Controller '%s' ended with %s: %s", name_.c_str(), state.toString().c_str(), state.getText().c_str());
-    return state == State::ABORTED ? ExecutionStatus::ABORTED :
-           state == State::PREEMPTED ? ExecutionStatus::PREEMPTED : ExecutionStatus::FAILED;
+    ROS_WARN_NAMED(LOGNAME, "Controller '%s' ended with %s: %s", name_.c_str(), state.toString().c_str(),
+                   state.getText().c_str());
+    return state == State::ABORTED     ? ExecutionStatus::ABORTED
+           : state == State::PREEMPTED ? ExecutionStatus::PREEMPTED
+                                       : ExecutionStatus::FAILED;
   }
 
   const std::string topic_;
@@ -153,8 +159,9 @@ private:
 
 double numberOf(Value& value)
 {
-  return value.getType() == Value::TypeDouble ? static_cast<double>(value) :
-         value.getType() == Value::TypeInt    ? static_cast<int>(value) : 0.0;
+  return value.getType() == Value::TypeDouble ? static_cast<double>(value)
+         : value.getType() == Value::TypeInt  ? static_cast<int>(value)
+                                              : 0.0;
 }
 
 class FollowJointTrajectoryHandle : public ActionHandle<control_msgs::FollowJointTrajectoryAction>
@@ -253,14 +260,16 @@ Handles makeActionHandles(const std::vector<ControllerEntry>& entries)
   Handles handles;
   for (const ControllerEntry& entry : entries)
   {
-    const std::string topic =
-        entry.name.empty() ? "/" + entry.action_ns : entry.action_ns.empty() ? entry.name : entry.name + "/" + entry.action_ns;
+    const std::string topic = entry.name.empty()        ? "/" + entry.action_ns
+                              : entry.action_ns.empty() ? entry.name
+                                                        : entry.name + "/" + entry.action_ns;
     if (entry.type == "FollowJointTrajectory")
       handles[entry.name] = std::make_shared<FollowJointTrajectoryHandle>(entry, topic);
     else if (entry.type == "GripperCommand")
       handles[entry.name] = std::make_shared<GripperCommandHandle>(entry, topic);
     else
-      ROS_ERROR_NAMED(LOGNAME, "Unknown controller type: %s of controller '%s'; there are: FollowJointTrajectory, GripperCommand",
+      ROS_ERROR_NAMED(LOGNAME,
+                      "Unknown controller type: %s of controller '%s'; there are: FollowJointTrajectory, GripperCommand",
                       entry.type.c_str(), entry.name.c_str());
   }
   return handles;

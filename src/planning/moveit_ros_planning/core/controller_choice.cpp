@@ -42,7 +42,8 @@ std::vector<std::size_t> columnsOf(const Trajectory& trajectory, const std::set<
 }
 
 // The part of a trajectory that moves the joints, in alphabetical order.
-moveit_msgs::RobotTrajectory partOf(const moveit_msgs::RobotTrajectory& whole, const std::set<std::string>& joints, double scaling)
+moveit_msgs::RobotTrajectory partOf(const moveit_msgs::RobotTrajectory& whole, const std::set<std::string>& joints,
+                                    double scaling)
 {
   moveit_msgs::RobotTrajectory part;
   const std::vector<std::size_t> columns = columnsOf(whole.joint_trajectory, joints);
@@ -124,7 +125,8 @@ std::vector<std::string> TrajectoryExecutionManager::select(const Joints& wanted
   for (const std::string& name : allowed)
   {
     joints[name] = jointsOf(name);
-    if (std::any_of(joints[name].begin(), joints[name].end(), [&](const std::string& joint) { return wanted.count(joint) > 0; }))
+    if (std::any_of(joints[name].begin(), joints[name].end(),
+                    [&](const std::string& joint) { return wanted.count(joint) > 0; }))
       useful.push_back(name);
   }
   std::sort(useful.begin(), useful.end());
@@ -203,8 +205,9 @@ bool TrajectoryExecutionManager::configure(TrajectoryExecutionContext& context, 
     std::string text;
     for (const std::string& name : known)
       text += name + " (" + listed(jointsOf(name)) + ") ";
-    ROS_ERROR_NAMED(LOGNAME, "Unable to identify any set of controllers that can actuate the specified joints: [ %s]. Known "
-                             "controllers and their joints: %s",
+    ROS_ERROR_NAMED(LOGNAME,
+                    "Unable to identify any set of controllers that can actuate the specified joints: [ %s]. Known "
+                    "controllers and their joints: %s",
                     listed(wanted).c_str(), known.empty() ? "none" : text.c_str());
     return false;
   }
@@ -239,8 +242,9 @@ bool TrajectoryExecutionManager::startsHere(const TrajectoryExecutionContext& co
       joint->enforcePositionBounds(&current);
       if (allowed > 0.0 && !(joint->distance(&expected, &current) <= allowed))
       {
-        ROS_ERROR_NAMED(LOGNAME, "Invalid Trajectory: start point deviates from current robot state more than %g: joint '%s': "
-                                 "expected: %g, current: %g. Plan again from where the robot is now",
+        ROS_ERROR_NAMED(LOGNAME,
+                        "Invalid Trajectory: start point deviates from current robot state more than %g: joint '%s': "
+                        "expected: %g, current: %g. Plan again from where the robot is now",
                         allowed, names[i].c_str(), expected, current);
         return false;
       }
@@ -252,8 +256,8 @@ bool TrajectoryExecutionManager::startsHere(const TrajectoryExecutionContext& co
 bool TrajectoryExecutionManager::areControllersActive(const std::vector<std::string>& controllers)
 {
   return controller_manager_ && std::all_of(controllers.begin(), controllers.end(), [this](const std::string& name) {
-    return controller_manager_->getControllerState(name).active_;
-  });
+           return controller_manager_->getControllerState(name).active_;
+         });
 }
 
 bool TrajectoryExecutionManager::ensureActiveControllersForGroup(const std::string& group)
@@ -278,7 +282,8 @@ bool TrajectoryExecutionManager::ensureActiveControllers(const std::vector<std::
     return true;
   if (!controller_manager_ || !manage_controllers_)
   {
-    ROS_WARN_NAMED(LOGNAME, "Controllers are not active, and this node does not manage controllers (~moveit_manage_controllers)");
+    ROS_WARN_NAMED(LOGNAME,
+                   "Controllers are not active, and this node does not manage controllers (~moveit_manage_controllers)");
     return false;
   }
   // Those that hold joints of the new ones go.

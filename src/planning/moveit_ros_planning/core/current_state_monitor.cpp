@@ -5,20 +5,24 @@
 
 #include <tf2_eigen/tf2_eigen.h>
 
-namespace planning_scene_monitor {
-namespace {
+namespace planning_scene_monitor
+{
+namespace
+{
 
 const char LOGNAME[] = "current_state_monitor";
 const double CHANGE = 1e-5;  // of a joint of several degrees of freedom, that callbacks are told of
 
-std::string listed(const std::vector<std::string>& names) {
+std::string listed(const std::vector<std::string>& names)
+{
   std::string result;
   for (const std::string& name : names)
     result += (result.empty() ? "'" : ", '") + name + "'";
   return result;
 }
 
-bool isContinuous(const moveit::core::JointModel& joint) {
+bool isContinuous(const moveit::core::JointModel& joint)
+{
   const auto* revolute = dynamic_cast<const moveit::core::RevoluteJointModel*>(&joint);
   return revolute && revolute->isContinuous();
 }
@@ -27,19 +31,26 @@ bool isContinuous(const moveit::core::JointModel& joint) {
 
 CurrentStateMonitor::CurrentStateMonitor(const moveit::core::RobotModelConstPtr& robot_model,
                                          const std::shared_ptr<tf2_ros::Buffer>& tf_buffer)
-    : CurrentStateMonitor(robot_model, tf_buffer, ros::NodeHandle()) {}
+  : CurrentStateMonitor(robot_model, tf_buffer, ros::NodeHandle())
+{
+}
 
 CurrentStateMonitor::CurrentStateMonitor(const moveit::core::RobotModelConstPtr& robot_model,
                                          const std::shared_ptr<tf2_ros::Buffer>& tf_buffer, const ros::NodeHandle& nh)
-    : nh_(nh), tf_buffer_(tf_buffer), robot_model_(robot_model), robot_state_(robot_model),
-      error_(std::numeric_limits<double>::epsilon()) {
+  : nh_(nh)
+  , tf_buffer_(tf_buffer)
+  , robot_model_(robot_model)
+  , robot_state_(robot_model)
+  , error_(std::numeric_limits<double>::epsilon())
+{
   robot_state_.setToDefaultValues();
   nh_.setCallbackQueue(&queue_);
 }
 
 CurrentStateMonitor::~CurrentStateMonitor() { stopStateMonitor(); }
 
-void CurrentStateMonitor::startStateMonitor(const std::string& joint_states_topic) {
+void CurrentStateMonitor::startStateMonitor(const std::string& joint_states_topic)
+{
   if (started_ || !robot_model_)
     return;
   {
@@ -51,15 +62,16 @@ void CurrentStateMonitor::startStateMonitor(const std::string& joint_states_topi
   else
     joint_state_subscriber_ = nh_.subscribe(joint_states_topic, 25, &CurrentStateMonitor::take, this);
   if (tf_buffer_ && !robot_model_->getMultiDOFJointModels().empty())
-    tf_connection_ = std::make_unique<boost::signals2::connection>(
-        tf_buffer_->_addTransformsChangedListener([this] { takeTransforms(); }));
+    tf_connection_ =
+        std::make_unique<boost::signals2::connection>(tf_buffer_->_addTransformsChangedListener([this] { takeTransforms(); }));
   spinner_ = std::make_unique<ros::AsyncSpinner>(1, &queue_);
   spinner_->start();
   started_ = true;
   monitor_start_time_ = ros::Time::now();
 }
 
-void CurrentStateMonitor::stopStateMonitor() {
+void CurrentStateMonitor::stopStateMonitor()
+{
   if (!started_)
     return;
   joint_state_subscriber_.shutdown();
@@ -72,11 +84,13 @@ void CurrentStateMonitor::stopStateMonitor() {
 
 bool CurrentStateMonitor::isActive() const { return started_; }
 
-std::string CurrentStateMonitor::getMonitoredTopic() const {
+std::string CurrentStateMonitor::getMonitoredTopic() const
+{
   return joint_state_subscriber_ ? joint_state_subscriber_.getTopic() : "";
 }
 
-const CurrentStateMonitor::Joints& CurrentStateMonitor::activeJoints(const std::string& group) const {
+const CurrentStateMonitor::Joints& CurrentStateMonitor::activeJoints(const std::string& group) const
+{
   if (group.empty())
     return robot_model_->getActiveJointModels();
   if (robot_model_->hasJointModelGroup(group))
@@ -85,12 +99,13 @@ const CurrentStateMonitor::Joints& CurrentStateMonitor::activeJoints(const std::
   return robot_model_->getActiveJointModels();
 }
 
-bool CurrentStateMonitor::isComplete(const ros::Time& since, std::vector<std::string>* missing,
-                                     const std::string& group) const {
+bool CurrentStateMonitor::isComplete(const ros::Time& since, std::vector<std::string>* missing, const std::string& group) const
+{
   const Joints& joints = activeJoints(group);
   const std::lock_guard<std::mutex> lock(mutex_);
   bool complete = true;
-  for (const moveit::core::JointModel* joint : joints) {
+  for (const moveit::core::JointModel* joint : joints)
+  {
     const auto heard = joint_time_.find(joint);
     if (heard != joint_time_.end() && heard->second >= since)
       continue;
@@ -102,9 +117,11 @@ bool CurrentStateMonitor::isComplete(const ros::Time& since, std::vector<std::st
 }
 
 // Static transforms have no time and hold nobody up. Zero when a joint was never heard of, or none at all.
-ros::Time CurrentStateMonitor::oldest(const std::string& group, bool leave_out_the_unheard) const {
+ros::Time CurrentStateMonitor::oldest(const std::string& group, bool leave_out_the_unheard) const
+{
   ros::Time result = ros::TIME_MAX;
-  for (const moveit::core::JointModel* joint : activeJoints(group)) {
+  for (const moveit::core::JointModel* joint : activeJoints(group))
+  {
     const auto heard = joint_time_.find(joint);
     if (heard == joint_time_.end() && !leave_out_the_unheard)
       return ros::Time();
@@ -114,23 +131,26 @@ ros::Time CurrentStateMonitor::oldest(const std::string& group, bool leave_out_t
   return joint_time_.empty() ? ros::Time() : result;
 }
 
-ros::Time CurrentStateMonitor::getCurrentStateTime(const std::string& group) const {
+ros::Time CurrentStateMonitor::getCurrentStateTime(const std::string& group) const
+{
   const std::lock_guard<std::mutex> lock(mutex_);
   return oldest(group, false);
 }
 
-moveit::core::RobotStatePtr CurrentStateMonitor::getCurrentState() const {
+moveit::core::RobotStatePtr CurrentStateMonitor::getCurrentState() const
+{
   const std::lock_guard<std::mutex> lock(mutex_);
   return std::make_shared<moveit::core::RobotState>(robot_state_);
 }
 
-std::pair<moveit::core::RobotStatePtr, ros::Time>
-CurrentStateMonitor::getCurrentStateAndTime(const std::string& group) const {
+std::pair<moveit::core::RobotStatePtr, ros::Time> CurrentStateMonitor::getCurrentStateAndTime(const std::string& group) const
+{
   const std::lock_guard<std::mutex> lock(mutex_);
-  return {std::make_shared<moveit::core::RobotState>(robot_state_), oldest(group, false)};
+  return { std::make_shared<moveit::core::RobotState>(robot_state_), oldest(group, false) };
 }
 
-std::map<std::string, double> CurrentStateMonitor::getCurrentStateValues() const {
+std::map<std::string, double> CurrentStateMonitor::getCurrentStateValues() const
+{
   const std::lock_guard<std::mutex> lock(mutex_);
   std::map<std::string, double> values;
   for (const std::string& name : robot_state_.getVariableNames())
@@ -138,7 +158,8 @@ std::map<std::string, double> CurrentStateMonitor::getCurrentStateValues() const
   return values;
 }
 
-void CurrentStateMonitor::setToCurrentState(moveit::core::RobotState& upd) const {
+void CurrentStateMonitor::setToCurrentState(moveit::core::RobotState& upd) const
+{
   const std::lock_guard<std::mutex> lock(mutex_);
   upd.setVariablePositions(robot_state_.getVariablePositions());
   if (!copy_dynamics_)
@@ -151,13 +172,15 @@ void CurrentStateMonitor::setToCurrentState(moveit::core::RobotState& upd) const
     upd.setVariableEffort(robot_state_.getVariableEffort());
 }
 
-bool CurrentStateMonitor::waitForCurrentState(const ros::Time t, double wait_time) const {
+bool CurrentStateMonitor::waitForCurrentState(const ros::Time t, double wait_time) const
+{
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(wait_time);
   std::unique_lock<std::mutex> lock(mutex_);
   const auto current = [&] { return oldest("", told_of_unheard_) >= t && !joint_time_.empty(); };
   if (changed_.wait_until(lock, end, current))
     return true;
-  if (oldest("", true) >= t && !joint_time_.empty()) {
+  if (oldest("", true) >= t && !joint_time_.empty())
+  {
     std::vector<std::string> unheard;
     for (const moveit::core::JointModel* joint : activeJoints(""))
       if (joint_time_.count(joint) == 0)
@@ -173,7 +196,8 @@ bool CurrentStateMonitor::waitForCurrentState(const ros::Time t, double wait_tim
   return false;
 }
 
-std::string CurrentStateMonitor::whatIsWrong(const ros::Time& t) const {
+std::string CurrentStateMonitor::whatIsWrong(const ros::Time& t) const
+{
   const std::string topic = getMonitoredTopic();
   if (!started_ || topic.empty())
     return "The monitor does not listen: startStateMonitor() was not called.";
@@ -182,7 +206,8 @@ std::string CurrentStateMonitor::whatIsWrong(const ros::Time& t) const {
   if (joint_time_.empty())
     return "'" + topic + "' has publishers, but none of this robot's joints has come from them.";
   for (const auto& [joint, stamp] : joint_time_)
-    if (!stamp.isZero() && stamp < t) {
+    if (!stamp.isZero() && stamp < t)
+    {
       std::ostringstream text;
       text << "The newest state of joint '" << joint->getName() << "' is " << (t - stamp).toSec() << " s older than asked for";
       if (std::abs((t - stamp).toSec()) > 1e6)
@@ -194,7 +219,8 @@ std::string CurrentStateMonitor::whatIsWrong(const ros::Time& t) const {
 
 bool CurrentStateMonitor::waitForCompleteState(double wait_time) const { return waitForCompleteState("", wait_time); }
 
-bool CurrentStateMonitor::waitForCompleteState(const std::string& group, double wait_time) const {
+bool CurrentStateMonitor::waitForCompleteState(const std::string& group, double wait_time) const
+{
   {
     const Joints& joints = activeJoints(group);
     std::unique_lock<std::mutex> lock(mutex_);
@@ -212,37 +238,44 @@ bool CurrentStateMonitor::waitForCompleteState(const std::string& group, double 
   return false;
 }
 
-void CurrentStateMonitor::addUpdateCallback(const JointStateUpdateCallback& fn) {
+void CurrentStateMonitor::addUpdateCallback(const JointStateUpdateCallback& fn)
+{
   const std::lock_guard<std::mutex> lock(mutex_);
   if (fn)
     update_callbacks_.push_back(fn);
 }
 
-void CurrentStateMonitor::clearUpdateCallbacks() {
+void CurrentStateMonitor::clearUpdateCallbacks()
+{
   const std::lock_guard<std::mutex> lock(mutex_);
   update_callbacks_.clear();
 }
 
 // Whether the state is another one than before.
-bool CurrentStateMonitor::takeJoint(const sensor_msgs::JointState& joint_state, std::size_t i) {
+bool CurrentStateMonitor::takeJoint(const sensor_msgs::JointState& joint_state, std::size_t i)
+{
   if (!robot_model_->hasJointModel(joint_state.name[i]))
     return false;
   const moveit::core::JointModel* joint = robot_model_->getJointModel(joint_state.name[i]);
   if (joint->getVariableCount() != 1)
     return false;
   const auto heard = joint_time_.find(joint);
-  if (heard != joint_time_.end() && heard->second >= joint_state.header.stamp) {
+  if (heard != joint_time_.end() && heard->second >= joint_state.header.stamp)
+  {
     // Time ran backwards: a simulation was reset, a bag began again. A stamp that comes twice is nothing.
-    if (heard->second > joint_state.header.stamp) {
-      ROS_WARN_STREAM_NAMED(LOGNAME, "New joint state for joint '" << joint->getName() << "' is not newer than the "
-                                     "previous state. Assuming your rosbag looped.");
+    if (heard->second > joint_state.header.stamp)
+    {
+      ROS_WARN_STREAM_NAMED(LOGNAME, "New joint state for joint '" << joint->getName()
+                                                                   << "' is not newer than the "
+                                                                      "previous state. Assuming your rosbag looped.");
       joint_time_.clear();
     }
   }
   joint_time_[joint] = joint_state.header.stamp;
   double position = joint_state.position[i];
   const moveit::core::VariableBounds& bounds = joint->getVariableBounds()[0];
-  if (bounds.position_bounded_ && !isContinuous(*joint)) {
+  if (bounds.position_bounded_ && !isContinuous(*joint))
+  {
     if (position < bounds.min_position_ && position >= bounds.min_position_ - error_)
       position = bounds.min_position_;
     else if (position > bounds.max_position_ && position <= bounds.max_position_ + error_)
@@ -251,21 +284,26 @@ bool CurrentStateMonitor::takeJoint(const sensor_msgs::JointState& joint_state, 
   bool changed = robot_state_.getJointPositions(joint)[0] != position;
   if (changed)
     robot_state_.setJointPositions(joint, &position);
-  if (copy_dynamics_ && joint_state.velocity.size() == joint_state.name.size()) {
+  if (copy_dynamics_ && joint_state.velocity.size() == joint_state.name.size())
+  {
     changed = changed || !robot_state_.hasVelocities() || robot_state_.getJointVelocities(joint)[0] != joint_state.velocity[i];
     robot_state_.setJointVelocities(joint, &joint_state.velocity[i]);
   }
-  if (copy_dynamics_ && joint_state.effort.size() == joint_state.name.size()) {
+  if (copy_dynamics_ && joint_state.effort.size() == joint_state.name.size())
+  {
     changed = changed || !robot_state_.hasEffort() || robot_state_.getJointEffort(joint)[0] != joint_state.effort[i];
     robot_state_.setJointEfforts(joint, &joint_state.effort[i]);
   }
   return changed;
 }
 
-void CurrentStateMonitor::take(const sensor_msgs::JointStateConstPtr& joint_state) {
-  if (joint_state->name.size() != joint_state->position.size()) {
-    ROS_ERROR_THROTTLE_NAMED(1, LOGNAME, "State monitor received invalid joint state (number of joint names does not "
-                                         "match number of positions)");
+void CurrentStateMonitor::take(const sensor_msgs::JointStateConstPtr& joint_state)
+{
+  if (joint_state->name.size() != joint_state->position.size())
+  {
+    ROS_ERROR_THROTTLE_NAMED(1, LOGNAME,
+                             "State monitor received invalid joint state (number of joint names does not "
+                             "match number of positions)");
     return;
   }
   std::vector<JointStateUpdateCallback> callbacks;
@@ -282,19 +320,24 @@ void CurrentStateMonitor::take(const sensor_msgs::JointStateConstPtr& joint_stat
   changed_.notify_all();
 }
 
-void CurrentStateMonitor::takeTransforms() {
+void CurrentStateMonitor::takeTransforms()
+{
   std::vector<JointStateUpdateCallback> callbacks;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    for (const moveit::core::JointModel* joint : robot_model_->getMultiDOFJointModels()) {
+    for (const moveit::core::JointModel* joint : robot_model_->getMultiDOFJointModels())
+    {
       const moveit::core::LinkModel *parent = joint->getParentLinkModel(), *child = joint->getChildLinkModel();
       geometry_msgs::TransformStamped transform;
-      try {
-        transform = tf_buffer_->lookupTransform(parent ? parent->getName() : robot_model_->getModelFrame(),
-                                                child->getName(), ros::Time(0));
-      } catch (const tf2::TransformException& error) {
-        ROS_WARN_STREAM_ONCE_NAMED(LOGNAME, "Unable to update multi-DOF joint '" << joint->getName()
-                                                << "': TF does not tell where it is: " << error.what());
+      try
+      {
+        transform = tf_buffer_->lookupTransform(parent ? parent->getName() : robot_model_->getModelFrame(), child->getName(),
+                                                ros::Time(0));
+      }
+      catch (const tf2::TransformException& error)
+      {
+        ROS_WARN_STREAM_ONCE_NAMED(LOGNAME, "Unable to update multi-DOF joint '"
+                                                << joint->getName() << "': TF does not tell where it is: " << error.what());
         continue;
       }
       const auto heard = joint_time_.find(joint);

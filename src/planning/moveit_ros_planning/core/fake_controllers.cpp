@@ -22,7 +22,10 @@ class FakeHandle : public moveit_controller_manager::MoveItControllerHandle
 {
 public:
   FakeHandle(const ControllerEntry& entry, const ros::Publisher& publisher, double rate)
-    : MoveItControllerHandle(entry.name), kind_(entry.type), rate_(rate), publisher_(publisher)
+    : MoveItControllerHandle(entry.name)
+    , kind_(entry.type)
+    , rate_(rate)
+    , publisher_(publisher)
   {
   }
   ~FakeHandle() override { FakeHandle::cancelExecution(); }
@@ -120,7 +123,8 @@ private:
       if (!until(next))
         return;
       const ros::Duration now = ros::Time::now() - start;
-      const auto after = std::find_if(points.begin(), points.end(), [&](const auto& point) { return point.time_from_start > now; });
+      const auto after =
+          std::find_if(points.begin(), points.end(), [&](const auto& point) { return point.time_from_start > now; });
       if (after == points.begin() || after == points.end())
         continue;
       const auto& a = *(after - 1);

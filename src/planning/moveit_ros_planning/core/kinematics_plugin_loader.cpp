@@ -99,7 +99,8 @@ public:
 };
 
 KinematicsPluginLoader::KinematicsPluginLoader(const std::string& robot_description, double default_search_resolution)
-  : robot_description_(robot_description), default_search_resolution_(default_search_resolution)
+  : robot_description_(robot_description)
+  , default_search_resolution_(default_search_resolution)
 {
 }
 

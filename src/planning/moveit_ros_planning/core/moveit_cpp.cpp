@@ -43,7 +43,8 @@ MoveItCpp::MoveItCpp(const ros::NodeHandle& nh, const std::shared_ptr<tf2_ros::B
 }
 
 MoveItCpp::MoveItCpp(const Options& options, const ros::NodeHandle& nh, const std::shared_ptr<tf2_ros::Buffer>& tf_buffer)
-  : tf_buffer_(tf_buffer), node_handle_(nh)
+  : tf_buffer_(tf_buffer)
+  , node_handle_(nh)
 {
   if (!tf_buffer_)
     tf_buffer_ = std::make_shared<tf2_ros::Buffer>();
@@ -68,8 +69,8 @@ void MoveItCpp::loadPlanningSceneMonitor(const PlanningSceneMonitorOptions& opti
                                                         options.monitored_planning_scene_topic);
   planning_scene_monitor_->startSceneMonitor(options.publish_planning_scene_topic);
   planning_scene_monitor_->startWorldGeometryMonitor();
-  if (options.wait_for_initial_state_timeout > 0.0 &&
-      !planning_scene_monitor_->getStateMonitor()->waitForCurrentState(ros::Time::now(), options.wait_for_initial_state_timeout))
+  if (options.wait_for_initial_state_timeout > 0.0 && !planning_scene_monitor_->getStateMonitor()->waitForCurrentState(
+                                                          ros::Time::now(), options.wait_for_initial_state_timeout))
     refuse("Unable to configure planning scene monitor: no complete state of the robot on '" + options.joint_state_topic + "'");
 }
 
@@ -97,8 +98,7 @@ void MoveItCpp::loadPlanningPipelines(const PlanningPipelineOptions& options)
 
 bool MoveItCpp::getCurrentState(moveit::core::RobotStatePtr& current_state, double wait_seconds)
 {
-  if (wait_seconds > 0.0 &&
-      !planning_scene_monitor_->getStateMonitor()->waitForCurrentState(ros::Time::now(), wait_seconds))
+  if (wait_seconds > 0.0 && !planning_scene_monitor_->getStateMonitor()->waitForCurrentState(ros::Time::now(), wait_seconds))
   {
     ROS_ERROR_NAMED(LOGNAME, "Did not receive robot state");
     return false;

@@ -113,8 +113,8 @@ bool PlanningComponent::setGoal(const std::vector<moveit_msgs::Constraints>& goa
 
 bool PlanningComponent::setGoal(const moveit::core::RobotState& goal_state)
 {
-  return setGoal(std::vector<moveit_msgs::Constraints>{
-      kinematic_constraints::constructGoalConstraints(goal_state, joint_model_group_) });
+  return setGoal(
+      std::vector<moveit_msgs::Constraints>{ kinematic_constraints::constructGoalConstraints(goal_state, joint_model_group_) });
 }
 
 bool PlanningComponent::setGoal(const geometry_msgs::PoseStamped& goal_pose, const std::string& link_name)

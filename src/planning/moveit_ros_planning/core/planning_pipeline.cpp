@@ -81,7 +81,8 @@ const std::string PlanningPipeline::MOTION_CONTACTS_TOPIC = "display_contacts";
 
 PlanningPipeline::PlanningPipeline(const moveit::core::RobotModelConstPtr& model, const ros::NodeHandle& pipeline_nh,
                                    const std::string& planning_plugin_param_name, const std::string& adapter_plugins_param_name)
-  : pipeline_nh_(pipeline_nh), robot_model_(model)
+  : pipeline_nh_(pipeline_nh)
+  , robot_model_(model)
 {
   pipeline_nh_.getParam(planning_plugin_param_name, planner_plugin_name_);
   std::string adapters;
@@ -93,7 +94,8 @@ PlanningPipeline::PlanningPipeline(const moveit::core::RobotModelConstPtr& model
 }
 
 PlanningPipeline::PlanningPipeline(const moveit::core::RobotModelConstPtr& model, const ros::NodeHandle& pipeline_nh,
-                                   const std::string& planning_plugin_name, const std::vector<std::string>& adapter_plugin_names)
+                                   const std::string& planning_plugin_name,
+                                   const std::vector<std::string>& adapter_plugin_names)
   : pipeline_nh_(pipeline_nh)
   , planner_plugin_name_(planning_plugin_name)
   , adapter_plugin_names_(adapter_plugin_names)
@@ -208,8 +210,9 @@ bool PlanningPipeline::generatePlan(const PlanningSceneConstPtr& planning_scene,
   if (!solved)
   {
     if (stacked(req))
-      ROS_WARN("More than one constraint is set. If your move_group does not have multiple end effectors/arms, this is unusual. "
-               "Are you using a move_group_interface and forgetting to call clearPoseTargets() or equivalent?");
+      ROS_WARN(
+          "More than one constraint is set. If your move_group does not have multiple end effectors/arms, this is unusual. "
+          "Are you using a move_group_interface and forgetting to call clearPoseTargets() or equivalent?");
     return false;
   }
   const bool valid = !res.trajectory_ || !check_solution_paths_ || check(*planning_scene, req, res, adapter_added_state_index);
@@ -255,10 +258,10 @@ bool PlanningPipeline::check(const planning_scene::PlanningScene& scene, const M
   if (!good)
   {
     res.error_code_.val = moveit_msgs::MoveItErrorCodes::INVALID_MOTION_PLAN;
-    ROS_ERROR("Computed path is not valid. Invalid states at index locations: [ %s] out of %zu. Explanations follow in command "
-              "line. Contacts are published on %s",
-              listed(invalid).c_str(), res.trajectory_->getWayPointCount(),
-              private_nh_.resolveName(MOTION_CONTACTS_TOPIC).c_str());
+    ROS_ERROR(
+        "Computed path is not valid. Invalid states at index locations: [ %s] out of %zu. Explanations follow in command "
+        "line. Contacts are published on %s",
+        listed(invalid).c_str(), res.trajectory_->getWayPointCount(), private_nh_.resolveName(MOTION_CONTACTS_TOPIC).c_str());
     for (const std::size_t index : invalid)
     {
       const moveit::core::RobotState& state = res.trajectory_->getWayPoint(index);

@@ -18,7 +18,8 @@ const std::string PlanningSceneMonitor::DEFAULT_PLANNING_SCENE_TOPIC = "planning
 const std::string PlanningSceneMonitor::DEFAULT_PLANNING_SCENE_SERVICE = "get_planning_scene";
 const std::string PlanningSceneMonitor::MONITORED_PLANNING_SCENE_TOPIC = "monitored_planning_scene";
 
-PlanningSceneMonitor::PlanningSceneMonitor(const std::string& robot_description, const Buffer& tf_buffer, const std::string& name)
+PlanningSceneMonitor::PlanningSceneMonitor(const std::string& robot_description, const Buffer& tf_buffer,
+                                           const std::string& name)
   : PlanningSceneMonitor(planning_scene::PlanningScenePtr(), robot_description, tf_buffer, name)
 {
 }
@@ -38,7 +39,10 @@ PlanningSceneMonitor::PlanningSceneMonitor(const planning_scene::PlanningScenePt
 PlanningSceneMonitor::PlanningSceneMonitor(const planning_scene::PlanningScenePtr& scene,
                                            const robot_model_loader::RobotModelLoaderPtr& rml, const Buffer& tf_buffer,
                                            const std::string& name)
-  : name_(name.empty() ? "planning_scene_monitor" : name), loader_(rml), robot_model_(rml->getModel()), tf_buffer_(tf_buffer)
+  : name_(name.empty() ? "planning_scene_monitor" : name)
+  , loader_(rml)
+  , robot_model_(rml->getModel())
+  , tf_buffer_(tf_buffer)
 {
   nh_.setCallbackQueue(&queue_);
   initialize(scene);
@@ -125,10 +129,7 @@ void PlanningSceneMonitor::stopStateMonitor()
   attached_subscriber_.shutdown();
 }
 
-void PlanningSceneMonitor::setStateUpdateFrequency(double hz)
-{
-  state_period_ = ros::WallDuration(hz > 0.0 ? 1.0 / hz : 0.0);
-}
+void PlanningSceneMonitor::setStateUpdateFrequency(double hz) { state_period_ = ros::WallDuration(hz > 0.0 ? 1.0 / hz : 0.0); }
 
 void PlanningSceneMonitor::updateSceneWithCurrentState()
 {
@@ -211,7 +212,8 @@ bool PlanningSceneMonitor::requestPlanningSceneState(const std::string& service_
       Components::ALLOWED_COLLISION_MATRIX | Components::LINK_PADDING_AND_SCALING | Components::OBJECT_COLORS;
   if (!client.waitForExistence(ros::Duration(5.0)) || !client.call(call))
   {
-    ROS_INFO_NAMED(LOGNAME, "Failed to call service %s, have you launched move_group or called psm.providePlanningSceneService()?",
+    ROS_INFO_NAMED(LOGNAME,
+                   "Failed to call service %s, have you launched move_group or called psm.providePlanningSceneService()?",
                    service_name.c_str());
     return false;
   }
@@ -220,8 +222,7 @@ bool PlanningSceneMonitor::requestPlanningSceneState(const std::string& service_
 
 void PlanningSceneMonitor::clearOctomap()
 {
-  change(UPDATE_GEOMETRY,
-         [&]() { scene_->getWorldNonConst()->removeObject(planning_scene::PlanningScene::OCTOMAP_NS); });
+  change(UPDATE_GEOMETRY, [&]() { scene_->getWorldNonConst()->removeObject(planning_scene::PlanningScene::OCTOMAP_NS); });
 }
 
 void PlanningSceneMonitor::getMonitoredTopics(std::vector<std::string>& topics) const
@@ -229,7 +230,8 @@ void PlanningSceneMonitor::getMonitoredTopics(std::vector<std::string>& topics) 
   topics.clear();
   if (states_ && states_->isActive())
     topics.push_back(states_->getMonitoredTopic());
-  for (const ros::Subscriber* subscriber : { &scene_subscriber_, &object_subscriber_, &world_subscriber_, &attached_subscriber_ })
+  for (const ros::Subscriber* subscriber :
+       { &scene_subscriber_, &object_subscriber_, &world_subscriber_, &attached_subscriber_ })
     if (*subscriber)
       topics.push_back(subscriber->getTopic());
 }
@@ -314,6 +316,7 @@ void PlanningSceneMonitor::providePlanningSceneService(const std::string& servic
           scene_->getPlanningSceneMsg(response.scene);
         return true;
       };
-  service_ = nh_.advertiseService<moveit_msgs::GetPlanningScene::Request, moveit_msgs::GetPlanningScene::Response>(service_name, answer);
+  service_ = nh_.advertiseService<moveit_msgs::GetPlanningScene::Request, moveit_msgs::GetPlanningScene::Response>(service_name,
+                                                                                                                   answer);
 }
 }  // namespace planning_scene_monitor

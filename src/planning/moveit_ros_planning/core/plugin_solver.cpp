@@ -17,17 +17,16 @@ using Clock = std::chrono::steady_clock;
 constexpr double OTHER_ROBOT = 0.01;  // a pose error (m and rad together) that no calibration explains
 constexpr int BARREN = 5;             // tries without a new solution after which there are no more
 
-double seconds(Clock::time_point since)
-{
-  return std::chrono::duration<double>(Clock::now() - since).count();
-}
+double seconds(Clock::time_point since) { return std::chrono::duration<double>(Clock::now() - since).count(); }
 
 class PluginSolver : public motion::GroupSolver
 {
 public:
   PluginSolver(motion::RobotModel& robot, const urdf::ModelInterfaceSharedPtr& urdf_model,
                const srdf::ModelConstSharedPtr& srdf_model, const std::string& group, const SolverRequest& request)
-    : robot_(robot), group_(robot.group(group)), timeout_(request.timeout)
+    : robot_(robot)
+    , group_(robot.group(group))
+    , timeout_(request.timeout)
   {
     // The robot owns this solver: a pointer that counts would keep both for ever.
     const std::shared_ptr<motion::RobotModel> borrowed(std::shared_ptr<void>(), &robot);
@@ -42,7 +41,8 @@ public:
     {
       const motion::JointModel* joint = robot.findJoint(name);
       if (!joint)
-        throw std::runtime_error("kinematics solver '" + request.plugin + "' moves a joint '" + name + "', which the robot lacks");
+        throw std::runtime_error("kinematics solver '" + request.plugin + "' moves a joint '" + name +
+                                 "', which the robot lacks");
       const auto found = std::find(group_.active_joints.begin(), group_.active_joints.end(), joint->index);
       if (found != group_.active_joints.end())
         place_.push_back(static_cast<int>(found - group_.active_joints.begin()));
@@ -87,7 +87,9 @@ private:
     std::vector<std::vector<double>> tried;
 
     Search(const PluginSolver& own, const motion::RobotState& seed, const motion::IkOptions& options)
-      : own(own), seed(seed), options(options)
+      : own(own)
+      , seed(seed)
+      , options(options)
     {
     }
 
@@ -219,7 +221,8 @@ private:
       for (int place : place_)
         seed.push_back(state.positions()[group_.variables[place]]);
       moveit_msgs::MoveItErrorCodes code;
-      if (solver_->searchPositionIK(tf2::toMsg(Eigen::Isometry3d(base.inverse() * search.target.pose)), seed, 0.1, solution, code))
+      if (solver_->searchPositionIK(tf2::toMsg(Eigen::Isometry3d(base.inverse() * search.target.pose)), seed, 0.1, solution,
+                                    code))
         least = std::min(least, search.error(search.inGroup(solution)));
     }
     if (std::isfinite(least) && least > OTHER_ROBOT)
@@ -243,7 +246,11 @@ private:
 class LateSolver : public motion::GroupSolver
 {
 public:
-  LateSolver(std::function<std::unique_ptr<PluginSolver>()> make, const std::string& group) : make_(std::move(make)), group_(group) {}
+  LateSolver(std::function<std::unique_ptr<PluginSolver>()> make, const std::string& group)
+    : make_(std::move(make))
+    , group_(group)
+  {
+  }
 
   bool takes(const std::vector<motion::IkTarget>& targets) const override
   {
@@ -287,8 +294,10 @@ void installSolver(const std::shared_ptr<motion::RobotModel>& robot, const std::
 void installSolverLate(const moveit::core::RobotModel& model, const std::string& group, const SolverRequest& request)
 {
   motion::RobotModel& robot = *model.core();
-  robot.setSolver(group, std::make_shared<LateSolver>([&robot, urdf = model.getURDF(), srdf = model.getSRDF(), group, request]() {
-    return std::make_unique<PluginSolver>(robot, urdf, srdf, group, request);
-  }, group));
+  robot.setSolver(group, std::make_shared<LateSolver>(
+                             [&robot, urdf = model.getURDF(), srdf = model.getSRDF(), group, request]() {
+                               return std::make_unique<PluginSolver>(robot, urdf, srdf, group, request);
+                             },
+                             group));
 }
 }  // namespace kinematics_plugin_loader

@@ -29,10 +29,7 @@ RDFLoader::RDFLoader(const std::string& robot_description)
   parse(urdf, srdf);
 }
 
-RDFLoader::RDFLoader(const std::string& urdf_string, const std::string& srdf_string)
-{
-  parse(urdf_string, srdf_string);
-}
+RDFLoader::RDFLoader(const std::string& urdf_string, const std::string& srdf_string) { parse(urdf_string, srdf_string); }
 
 void RDFLoader::parse(const std::string& urdf, const std::string& srdf)
 {

@@ -16,10 +16,7 @@ RobotModelLoader::RobotModelLoader(const std::string& robot_description, bool lo
   configure(options);
 }
 
-RobotModelLoader::RobotModelLoader(const Options& opt)
-{
-  configure(opt);
-}
+RobotModelLoader::RobotModelLoader(const Options& opt) { configure(opt); }
 
 RobotModelLoader::~RobotModelLoader() = default;
 
@@ -104,8 +101,8 @@ void RobotModelLoader::loadKinematicsSolvers(const kinematics_plugin_loader::Kin
 {
   if (!model_)
     return;
-  kinematics_loader_ = kloader ? kloader :
-                                 std::make_shared<kinematics_plugin_loader::KinematicsPluginLoader>(
+  kinematics_loader_ = kloader ? kloader
+                               : std::make_shared<kinematics_plugin_loader::KinematicsPluginLoader>(
                                      getRobotDescription().empty() ? "robot_description" : getRobotDescription());
   const moveit::core::SolverAllocatorFn allocator = kinematics_loader_->getLoaderFunction(getSRDF());
   std::map<std::string, moveit::core::SolverAllocatorFn> by_group;

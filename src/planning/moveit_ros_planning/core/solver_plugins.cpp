@@ -83,10 +83,12 @@ kinematics::KinematicsBasePtr makeSolver(const SolverRequest& request, const mov
   // Old solvers know the second way alone.
   if (!solver->initialize(group.getParentModel(), group.getName(), base, tips, request.resolution) &&
       !solver->initialize(request.robot_description, group.getName(), base, tips, request.resolution))
-    throw std::runtime_error("kinematics solver '" + request.plugin + "' could not be initialized for group '" + group.getName() + "'");
+    throw std::runtime_error("kinematics solver '" + request.plugin + "' could not be initialized for group '" +
+                             group.getName() + "'");
   std::string why;
   if (!solver->supportsGroup(&group, &why))
-    throw std::runtime_error("kinematics solver '" + request.plugin + "' does not support group '" + group.getName() + "': " + oneLine(why));
+    throw std::runtime_error("kinematics solver '" + request.plugin + "' does not support group '" + group.getName() +
+                             "': " + oneLine(why));
   return solver;
 }
 }  // namespace kinematics_plugin_loader

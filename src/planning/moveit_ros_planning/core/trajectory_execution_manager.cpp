@@ -30,7 +30,8 @@ const std::string TrajectoryExecutionManager::EXECUTION_EVENT_TOPIC = "trajector
 
 TrajectoryExecutionManager::TrajectoryExecutionManager(const moveit::core::RobotModelConstPtr& robot_model,
                                                        const planning_scene_monitor::CurrentStateMonitorPtr& csm)
-  : robot_model_(robot_model), csm_(csm)
+  : robot_model_(robot_model)
+  , csm_(csm)
 {
   node_handle_.getParam("moveit_manage_controllers", manage_controllers_);
   initialize();
@@ -39,7 +40,9 @@ TrajectoryExecutionManager::TrajectoryExecutionManager(const moveit::core::Robot
 TrajectoryExecutionManager::TrajectoryExecutionManager(const moveit::core::RobotModelConstPtr& robot_model,
                                                        const planning_scene_monitor::CurrentStateMonitorPtr& csm,
                                                        bool manage_controllers)
-  : robot_model_(robot_model), csm_(csm), manage_controllers_(manage_controllers)
+  : robot_model_(robot_model)
+  , csm_(csm)
+  , manage_controllers_(manage_controllers)
 {
   initialize();
 }
@@ -60,8 +63,8 @@ void TrajectoryExecutionManager::initialize()
   settings.getParam("allowed_start_tolerance", allowed_start_tolerance_);
   settings.getParam("wait_for_trajectory_completion", wait_for_trajectory_completion_);
   loadControllers();
-  event_topic_subscriber_ = root_node_handle_.subscribe<std_msgs::String>(
-      EXECUTION_EVENT_TOPIC, 100, [this](const std_msgs::StringConstPtr& event) {
+  event_topic_subscriber_ =
+      root_node_handle_.subscribe<std_msgs::String>(EXECUTION_EVENT_TOPIC, 100, [this](const std_msgs::StringConstPtr& event) {
         ROS_INFO_NAMED(LOGNAME, "Received event '%s'", event->data.c_str());
         processEvent(event->data);
       });
@@ -73,8 +76,9 @@ void TrajectoryExecutionManager::loadControllers()
   std::string name;
   if (!node_handle_.getParam("moveit_controller_manager", name) || name.empty())
   {
-    ROS_ERROR_NAMED(LOGNAME, "Parameter '%s' not specified. It names what executes trajectories "
-                             "(moveit_simple_controller_manager/MoveItSimpleControllerManager); no paths can be executed.",
+    ROS_ERROR_NAMED(LOGNAME,
+                    "Parameter '%s' not specified. It names what executes trajectories "
+                    "(moveit_simple_controller_manager/MoveItSimpleControllerManager); no paths can be executed.",
                     node_handle_.resolveName("moveit_controller_manager").c_str());
     return;
   }
@@ -83,9 +87,8 @@ void TrajectoryExecutionManager::loadControllers()
     return;
   try
   {
-    controller_manager_loader_ =
-        std::make_unique<pluginlib::ClassLoader<moveit_controller_manager::MoveItControllerManager>>(
-            "moveit_core", "moveit_controller_manager::MoveItControllerManager");
+    controller_manager_loader_ = std::make_unique<pluginlib::ClassLoader<moveit_controller_manager::MoveItControllerManager>>(
+        "moveit_core", "moveit_controller_manager::MoveItControllerManager");
     controller_manager_ = controller_manager_loader_->createUniqueInstance(name);
   }
   catch (const pluginlib::PluginlibException& error)
@@ -284,8 +287,9 @@ TrajectoryExecutionManager::Status TrajectoryExecutionManager::watch(const Traje
         return Status::PREEMPTED;
       if (execution_duration_monitoring_ && (ros::Time::now() - started).toSec() > allowed)
       {
-        ROS_ERROR_NAMED(LOGNAME, "Controller is taking too long to execute trajectory (the expected upper bound for the "
-                                 "trajectory execution was %f seconds). Stopping trajectory.",
+        ROS_ERROR_NAMED(LOGNAME,
+                        "Controller is taking too long to execute trajectory (the expected upper bound for the "
+                        "trajectory execution was %f seconds). Stopping trajectory.",
                         allowed);
         std::lock_guard<std::mutex> lock(mutex_);
         cancelHandles();

@@ -59,10 +59,9 @@ TEST(Loader, limitsAndSolversAreThoseOfTheParameters)
   far.translation().x() = 9.0;
   EXPECT_FALSE(state.setFromIK(group, far, "tcp", 0.05));
   int asked = 0;
-  EXPECT_FALSE(state.setFromIK(group, tcp, "tcp", 0.05,
-                               [&](moveit::core::RobotState*, const moveit::core::JointModelGroup*, const double*) {
-                                 return ++asked < 0;
-                               }));
+  EXPECT_FALSE(state.setFromIK(
+      group, tcp, "tcp", 0.05,
+      [&](moveit::core::RobotState*, const moveit::core::JointModelGroup*, const double*) { return ++asked < 0; }));
   EXPECT_GT(asked, 0);
 }
 

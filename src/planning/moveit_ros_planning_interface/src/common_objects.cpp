@@ -45,26 +45,23 @@ std::shared_ptr<tf2_ros::Buffer> getSharedTF() {
 moveit::core::RobotModelConstPtr getSharedRobotModel(const std::string& robot_description) {
   const std::lock_guard<std::mutex> lock(shared().mutex);
   moveit::core::RobotModelConstPtr model = shared().models[robot_description].lock();
-  if (model)
-    return model;
+  if (model) return model;
   // The loader holds the kinematics plugins: it lives as long as the model.
   const auto loader = std::make_shared<robot_model_loader::RobotModelLoader>(robot_description);
-  if (!loader->getModel())
-    return nullptr;
+  if (!loader->getModel()) return nullptr;
   model = moveit::core::RobotModelConstPtr(loader, loader->getModel().get());
   shared().models[robot_description] = model;
   return model;
 }
 
-planning_scene_monitor::CurrentStateMonitorPtr
-getSharedStateMonitor(const moveit::core::RobotModelConstPtr& robot_model,
-                      const std::shared_ptr<tf2_ros::Buffer>& tf_buffer) {
+planning_scene_monitor::CurrentStateMonitorPtr getSharedStateMonitor(const moveit::core::RobotModelConstPtr& robot_model,
+                                                                     const std::shared_ptr<tf2_ros::Buffer>& tf_buffer) {
   return getSharedStateMonitor(robot_model, tf_buffer, ros::NodeHandle());
 }
 
-planning_scene_monitor::CurrentStateMonitorPtr
-getSharedStateMonitor(const moveit::core::RobotModelConstPtr& robot_model,
-                      const std::shared_ptr<tf2_ros::Buffer>& tf_buffer, const ros::NodeHandle& nh) {
+planning_scene_monitor::CurrentStateMonitorPtr getSharedStateMonitor(const moveit::core::RobotModelConstPtr& robot_model,
+                                                                     const std::shared_ptr<tf2_ros::Buffer>& tf_buffer,
+                                                                     const ros::NodeHandle& nh) {
   const std::lock_guard<std::mutex> lock(shared().mutex);
   // Two robots of one name in two namespaces have two states.
   std::weak_ptr<planning_scene_monitor::CurrentStateMonitor>& known =

@@ -79,18 +79,17 @@ struct MoveGroupInterface::Impl {
   static void noteStop() { stopped() = std::chrono::steady_clock::now(); }
   static void outlastStop() { std::this_thread::sleep_until(stopped().load() + STOP_HOLDS); }
 
-private:
-  static constexpr std::chrono::milliseconds STOP_HOLDS{ 100 };
+ private:
+  static constexpr std::chrono::milliseconds STOP_HOLDS{100};
   static std::atomic<std::chrono::steady_clock::time_point>& stopped() {
-    static std::atomic<std::chrono::steady_clock::time_point> when{ {} };
+    static std::atomic<std::chrono::steady_clock::time_point> when{{}};
     return when;
   }
 };
 
 template <class Action, class Goal, class Result>
-moveit::core::MoveItErrorCode MoveGroupInterface::Impl::call(const Client<Action>& client, const Goal& goal,
-                                                             const char* name, bool wait,
-                                                             boost::shared_ptr<const Result>& result) const {
+moveit::core::MoveItErrorCode MoveGroupInterface::Impl::call(const Client<Action>& client, const Goal& goal, const char* name,
+                                                             bool wait, boost::shared_ptr<const Result>& result) const {
   if (!client->isServerConnected()) {
     ROS_WARN_STREAM_NAMED(LOGNAME, name << " action server not connected");
     return moveit_msgs::MoveItErrorCodes::COMMUNICATION_FAILURE;
@@ -100,10 +99,8 @@ moveit::core::MoveItErrorCode MoveGroupInterface::Impl::call(const Client<Action
     const auto lock = queue->lock();
     client->sendGoal(goal);
   }
-  if (!wait)
-    return moveit_msgs::MoveItErrorCodes::SUCCESS;
-  if (!client->waitForResult())
-    ROS_INFO_STREAM_NAMED(LOGNAME, name << " action returned early");
+  if (!wait) return moveit_msgs::MoveItErrorCodes::SUCCESS;
+  if (!client->waitForResult()) ROS_INFO_STREAM_NAMED(LOGNAME, name << " action returned early");
   const actionlib::SimpleClientGoalState state = client->getState();
   if (state != actionlib::SimpleClientGoalState::SUCCEEDED)
     ROS_WARN_STREAM_NAMED(LOGNAME, "Fail: " << state.toString() << ": " << state.getText());

@@ -11,8 +11,7 @@ namespace moveit {
 namespace planning_interface {
 namespace {
 
-moveit_msgs::PositionConstraint near(const std::string& link, const geometry_msgs::PoseStamped& target,
-                                     double tolerance) {
+moveit_msgs::PositionConstraint near(const std::string& link, const geometry_msgs::PoseStamped& target, double tolerance) {
   moveit_msgs::PositionConstraint constraint;
   constraint.header = target.header;
   constraint.link_name = link;
@@ -28,8 +27,7 @@ moveit_msgs::PositionConstraint near(const std::string& link, const geometry_msg
   return constraint;
 }
 
-moveit_msgs::OrientationConstraint turned(const std::string& link, const geometry_msgs::PoseStamped& target,
-                                          double tolerance) {
+moveit_msgs::OrientationConstraint turned(const std::string& link, const geometry_msgs::PoseStamped& target, double tolerance) {
   moveit_msgs::OrientationConstraint constraint;
   constraint.header = target.header;
   constraint.link_name = link;
@@ -80,8 +78,7 @@ void MoveGroupInterface::constructMotionPlanRequest(moveit_msgs::MotionPlanReque
         if (impl_->target != Impl::ORIENTATION)
           request.goal_constraints[i].position_constraints.push_back(near(link, poses[i], impl_->position_tolerance));
         if (impl_->target != Impl::POSITION)
-          request.goal_constraints[i].orientation_constraints.push_back(
-              turned(link, poses[i], impl_->orientation_tolerance));
+          request.goal_constraints[i].orientation_constraints.push_back(turned(link, poses[i], impl_->orientation_tolerance));
       }
     }
   }
@@ -129,8 +126,7 @@ moveit::core::MoveItErrorCode MoveGroupInterface::requestMove(bool wait) {
   return impl_->call(impl_->move_client, goal, "MoveGroup", wait, result);
 }
 
-moveit::core::MoveItErrorCode MoveGroupInterface::requestExecution(const moveit_msgs::RobotTrajectory& trajectory,
-                                                                   bool wait) {
+moveit::core::MoveItErrorCode MoveGroupInterface::requestExecution(const moveit_msgs::RobotTrajectory& trajectory, bool wait) {
   moveit_msgs::ExecuteTrajectoryGoal goal;
   goal.trajectory = trajectory;
   moveit_msgs::ExecuteTrajectoryResultConstPtr result;
@@ -139,9 +135,7 @@ moveit::core::MoveItErrorCode MoveGroupInterface::requestExecution(const moveit_
 
 moveit::core::MoveItErrorCode MoveGroupInterface::move() { return requestMove(true); }
 moveit::core::MoveItErrorCode MoveGroupInterface::asyncMove() { return requestMove(false); }
-moveit::core::MoveItErrorCode MoveGroupInterface::execute(const Plan& plan) {
-  return requestExecution(plan.trajectory_, true);
-}
+moveit::core::MoveItErrorCode MoveGroupInterface::execute(const Plan& plan) { return requestExecution(plan.trajectory_, true); }
 moveit::core::MoveItErrorCode MoveGroupInterface::execute(const moveit_msgs::RobotTrajectory& trajectory) {
   return requestExecution(trajectory, true);
 }
@@ -155,14 +149,13 @@ moveit::core::MoveItErrorCode MoveGroupInterface::asyncExecute(const moveit_msgs
 double MoveGroupInterface::computeCartesianPath(const std::vector<geometry_msgs::Pose>& waypoints, double eef_step,
                                                 double jump_threshold, moveit_msgs::RobotTrajectory& trajectory,
                                                 bool avoid_collisions, moveit_msgs::MoveItErrorCodes* error_code) {
-  return computeCartesianPath(waypoints, eef_step, jump_threshold, trajectory, moveit_msgs::Constraints(),
-                              avoid_collisions, error_code);
+  return computeCartesianPath(waypoints, eef_step, jump_threshold, trajectory, moveit_msgs::Constraints(), avoid_collisions,
+                              error_code);
 }
 double MoveGroupInterface::computeCartesianPath(const std::vector<geometry_msgs::Pose>& waypoints, double eef_step,
                                                 moveit_msgs::RobotTrajectory& trajectory, bool avoid_collisions,
                                                 moveit_msgs::MoveItErrorCodes* error_code) {
-  return computeCartesianPath(waypoints, eef_step, 0.0, trajectory, moveit_msgs::Constraints(), avoid_collisions,
-                              error_code);
+  return computeCartesianPath(waypoints, eef_step, 0.0, trajectory, moveit_msgs::Constraints(), avoid_collisions, error_code);
 }
 double MoveGroupInterface::computeCartesianPath(const std::vector<geometry_msgs::Pose>& waypoints, double eef_step,
                                                 moveit_msgs::RobotTrajectory& trajectory,
@@ -187,12 +180,9 @@ double MoveGroupInterface::computeCartesianPath(const std::vector<geometry_msgs:
   path.request.avoid_collisions = avoid_collisions;
   path.request.cartesian_speed_limited_link = impl_->speed_limited_link;
   path.request.max_cartesian_speed = impl_->max_cartesian_speed;
-  if (!impl_->cartesian_service.call(path))
-    path.response.error_code.val = moveit_msgs::MoveItErrorCodes::FAILURE;
-  if (error_code)
-    *error_code = path.response.error_code;
-  if (path.response.error_code.val != moveit_msgs::MoveItErrorCodes::SUCCESS)
-    return -1;
+  if (!impl_->cartesian_service.call(path)) path.response.error_code.val = moveit_msgs::MoveItErrorCodes::FAILURE;
+  if (error_code) *error_code = path.response.error_code;
+  if (path.response.error_code.val != moveit_msgs::MoveItErrorCodes::SUCCESS) return -1;
   trajectory = path.response.solution;
   return path.response.fraction;
 }
@@ -206,8 +196,7 @@ void MoveGroupInterface::stop() {
 }
 
 moveit_msgs::PickupGoal MoveGroupInterface::constructPickupGoal(const std::string& object,
-                                                                std::vector<moveit_msgs::Grasp> grasps,
-                                                                bool plan_only) const {
+                                                                std::vector<moveit_msgs::Grasp> grasps, bool plan_only) const {
   moveit_msgs::PickupGoal goal;
   goal.target_name = object;
   goal.group_name = getName();
@@ -238,8 +227,8 @@ moveit_msgs::PlaceGoal MoveGroupInterface::constructPlaceGoal(const std::string&
   return goal;
 }
 
-std::vector<moveit_msgs::PlaceLocation>
-MoveGroupInterface::posesToPlaceLocations(const std::vector<geometry_msgs::PoseStamped>& poses) const {
+std::vector<moveit_msgs::PlaceLocation> MoveGroupInterface::posesToPlaceLocations(
+    const std::vector<geometry_msgs::PoseStamped>& poses) const {
   moveit_msgs::PlaceLocation location;
   location.pre_place_approach.direction.header.frame_id = getPlanningFrame();
   location.pre_place_approach.direction.vector.z = -1;
@@ -268,12 +257,10 @@ moveit::core::MoveItErrorCode MoveGroupInterface::place(const moveit_msgs::Place
 }
 
 moveit::core::MoveItErrorCode MoveGroupInterface::planGraspsAndPick(const std::string& object, bool plan_only) {
-  if (object.empty())
-    return planGraspsAndPick(moveit_msgs::CollisionObject(), plan_only);
+  if (object.empty()) return planGraspsAndPick(moveit_msgs::CollisionObject(), plan_only);
   PlanningSceneInterface scene(getNodeHandle().getNamespace());
   const std::map<std::string, moveit_msgs::CollisionObject> objects = scene.getObjects({object});
-  if (!objects.empty())
-    return planGraspsAndPick(objects.at(object), plan_only);
+  if (!objects.empty()) return planGraspsAndPick(objects.at(object), plan_only);
   ROS_ERROR_STREAM_NAMED(LOGNAME, "Asked for grasps for the object '" << object << "', but the object could not be found");
   return moveit_msgs::MoveItErrorCodes::INVALID_OBJECT_NAME;
 }
@@ -290,8 +277,7 @@ moveit::core::MoveItErrorCode MoveGroupInterface::planGraspsAndPick(const moveit
   planning.request.group_name = getName();
   planning.request.target = object;
   planning.request.support_surfaces.push_back(impl_->support_surface);
-  if (!impl_->grasps_service.call(planning) ||
-      planning.response.error_code.val != moveit_msgs::MoveItErrorCodes::SUCCESS) {
+  if (!impl_->grasps_service.call(planning) || planning.response.error_code.val != moveit_msgs::MoveItErrorCodes::SUCCESS) {
     ROS_ERROR_NAMED(LOGNAME, "Grasp planning failed. Unable to pick.");
     return moveit_msgs::MoveItErrorCodes::FAILURE;
   }
@@ -306,8 +292,7 @@ bool MoveGroupInterface::attachObject(const std::string& object, const std::stri
                                       const std::vector<std::string>& touch_links) {
   const std::vector<std::string>& links = getLinkNames();
   std::string link = impl_->link(named);
-  if (link.empty() && !links.empty())
-    link = links.front();
+  if (link.empty() && !links.empty()) link = links.front();
   if (link.empty()) {
     ROS_ERROR_NAMED(LOGNAME, "No known link to attach object '%s' to", object.c_str());
     return false;
@@ -328,14 +313,11 @@ bool MoveGroupInterface::detachObject(const std::string& name) {
   std::vector<std::string> links = getLinkNames();
   if (!name.empty()) {
     links.clear();
-    if (impl_->group->hasLinkModel(name))
-      links.push_back(name);
-    else
-      detached.object.id = name;
+    if (impl_->group->hasLinkModel(name)) links.push_back(name);
+    else detached.object.id = name;
   }
   waitForSubscriber(impl_->attached_publisher);
-  if (links.empty())
-    impl_->attached_publisher.publish(detached);
+  if (links.empty()) impl_->attached_publisher.publish(detached);
   for (const std::string& link : links) {
     detached.link_name = link;
     impl_->attached_publisher.publish(detached);

@@ -34,8 +34,8 @@ const double SAY_SO_AFTER = 5.0;  // s
 }
 
 template <class Action>
-void connect(std::unique_ptr<actionlib::SimpleActionClient<Action>>& client, ros::NodeHandle& nh,
-             const std::string& name, const ros::WallTime& until, double allotted) {
+void connect(std::unique_ptr<actionlib::SimpleActionClient<Action>>& client, ros::NodeHandle& nh, const std::string& name,
+             const ros::WallTime& until, double allotted) {
   client = std::make_unique<actionlib::SimpleActionClient<Action>>(nh, name, false);
   const ros::WallTime began = ros::WallTime::now();
   bool said = false;
@@ -43,8 +43,9 @@ void connect(std::unique_ptr<actionlib::SimpleActionClient<Action>>& client, ros
     ros::WallDuration(POLL).sleep();
     if (!said && (ros::WallTime::now() - began).toSec() > SAY_SO_AFTER) {
       ROS_WARN_STREAM_NAMED(LOGNAME, "Still waiting for move_group action server '"
-                                         << nh.resolveName(name) << "'. Does move_group run, in this namespace, and has "
-                                         "it said \"You can start planning now!\"?");
+                                         << nh.resolveName(name)
+                                         << "'. Does move_group run, in this namespace, and has "
+                                            "it said \"You can start planning now!\"?");
       said = true;
     }
   }
@@ -69,16 +70,13 @@ MoveGroupInterface::Impl::Impl(const Options& given, const std::shared_ptr<tf2_r
                                const ros::WallDuration& wait_for_servers)
     : options(given), nh(given.node_handle_), tf_buffer(tf ? tf : getSharedTF()) {
   model = options.robot_model_ ? options.robot_model_ : getSharedRobotModel(options.robot_description_);
-  if (!model)
-    refuse("Unable to construct robot model. Please make sure all needed information is on the parameter server.");
-  if (!model->hasJointModelGroup(options.group_name_))
-    refuse("Group '" + options.group_name_ + "' was not found.");
+  if (!model) refuse("Unable to construct robot model. Please make sure all needed information is on the parameter server.");
+  if (!model->hasJointModelGroup(options.group_name_)) refuse("Group '" + options.group_name_ + "' was not found.");
   group = model->getJointModelGroup(options.group_name_);
   start_state.is_diff = true;
   joint_target = std::make_shared<moveit::core::RobotState>(model);
   joint_target->setToDefaultValues();
-  if (group->isChain())
-    end_effector_link = group->getLinkModelNames().back();
+  if (group->isChain()) end_effector_link = group->getLinkModelNames().back();
   pose_frame = model->getModelFrame();
 
   const std::string description = options.robot_description_.empty() ? ROBOT_DESCRIPTION : options.robot_description_;
@@ -109,10 +107,8 @@ MoveGroupInterface::Impl::Impl(const Options& given, const std::shared_ptr<tf2_r
 }
 
 moveit::core::RobotStatePtr MoveGroupInterface::Impl::currentState(double wait) const {
-  if (!monitor->isActive())
-    monitor->startStateMonitor();
-  if (monitor->waitForCurrentState(ros::Time::now(), wait))
-    return monitor->getCurrentState();
+  if (!monitor->isActive()) monitor->startStateMonitor();
+  if (monitor->waitForCurrentState(ros::Time::now(), wait)) return monitor->getCurrentState();
   ROS_ERROR_NAMED(LOGNAME, "Failed to fetch current robot state");
   return nullptr;
 }
@@ -133,8 +129,7 @@ void MoveGroupInterface::Impl::setScalingFactor(double& factor, double wanted, c
     factor = wanted;
   } else {
     nh.param(std::string("robot_description_planning/default_") + name, factor, 0.1);
-    if (wanted < 0)
-      ROS_WARN_NAMED(LOGNAME, "max_%s < 0.0! Setting to default: %.2f.", name, factor);
+    if (wanted < 0) ROS_WARN_NAMED(LOGNAME, "max_%s < 0.0! Setting to default: %.2f.", name, factor);
   }
 }
 
@@ -149,8 +144,7 @@ MoveGroupInterface::MoveGroupInterface(const Options& opt, const std::shared_ptr
 namespace {
 
 MoveGroupInterface::Options checked(const std::string& group) {
-  if (!ros::ok())
-    throw std::runtime_error("ROS does not seem to be running");
+  if (!ros::ok()) throw std::runtime_error("ROS does not seem to be running");
   return MoveGroupInterface::Options(group);
 }
 
@@ -172,18 +166,14 @@ const std::string& MoveGroupInterface::getName() const { return impl_->options.g
 moveit::core::RobotModelConstPtr MoveGroupInterface::getRobotModel() const { return impl_->model; }
 const ros::NodeHandle& MoveGroupInterface::getNodeHandle() const { return impl_->options.node_handle_; }
 const std::string& MoveGroupInterface::getPlanningFrame() const { return impl_->model->getModelFrame(); }
-const std::vector<std::string>& MoveGroupInterface::getNamedTargets() const {
-  return impl_->group->getDefaultStateNames();
-}
+const std::vector<std::string>& MoveGroupInterface::getNamedTargets() const { return impl_->group->getDefaultStateNames(); }
 const std::vector<std::string>& MoveGroupInterface::getJointModelGroupNames() const {
   return impl_->model->getJointModelGroupNames();
 }
 const std::vector<std::string>& MoveGroupInterface::getLinkNames() const { return impl_->group->getLinkModelNames(); }
 const std::vector<std::string>& MoveGroupInterface::getJoints() const { return impl_->group->getJointModelNames(); }
 const std::vector<std::string>& MoveGroupInterface::getVariableNames() const { return impl_->group->getVariableNames(); }
-const std::vector<std::string>& MoveGroupInterface::getActiveJoints() const {
-  return impl_->group->getActiveJointModelNames();
-}
+const std::vector<std::string>& MoveGroupInterface::getActiveJoints() const { return impl_->group->getActiveJointModelNames(); }
 unsigned int MoveGroupInterface::getVariableCount() const { return impl_->group->getVariableCount(); }
 
 std::map<std::string, double> MoveGroupInterface::getNamedTargetValues(const std::string& name) const {
@@ -194,23 +184,20 @@ std::map<std::string, double> MoveGroupInterface::getNamedTargetValues(const std
     return values;
   }
   const std::vector<std::string>& names = getVariableNames();
-  for (std::size_t i = 0; i < names.size() && i < remembered->second.size(); ++i)
-    values[names[i]] = remembered->second[i];
+  for (std::size_t i = 0; i < names.size() && i < remembered->second.size(); ++i) values[names[i]] = remembered->second[i];
   return values;
 }
 
 bool MoveGroupInterface::getInterfaceDescriptions(std::vector<moveit_msgs::PlannerInterfaceDescription>& desc) const {
   moveit_msgs::QueryPlannerInterfaces query;
-  if (!impl_->query_service.call(query) || query.response.planner_interfaces.empty())
-    return false;
+  if (!impl_->query_service.call(query) || query.response.planner_interfaces.empty()) return false;
   desc = query.response.planner_interfaces;
   return true;
 }
 
 bool MoveGroupInterface::getInterfaceDescription(moveit_msgs::PlannerInterfaceDescription& desc) const {
   std::vector<moveit_msgs::PlannerInterfaceDescription> all;
-  if (!getInterfaceDescriptions(all))
-    return false;
+  if (!getInterfaceDescriptions(all)) return false;
   desc = all.front();
   return true;
 }
@@ -247,8 +234,7 @@ std::string MoveGroupInterface::getDefaultPlanningPipelineId() const {
 }
 
 void MoveGroupInterface::setPlanningPipelineId(const std::string& pipeline_id) {
-  if (pipeline_id == impl_->pipeline_id)
-    return;
+  if (pipeline_id == impl_->pipeline_id) return;
   impl_->pipeline_id = pipeline_id;
   impl_->planner_id.clear();
 }
@@ -267,8 +253,7 @@ void MoveGroupInterface::setPlannerId(const std::string& planner_id) { impl_->pl
 const std::string& MoveGroupInterface::getPlannerId() const { return impl_->planner_id; }
 double MoveGroupInterface::getPlanningTime() const { return impl_->planning_time; }
 void MoveGroupInterface::setPlanningTime(double seconds) {
-  if (seconds > 0)
-    impl_->planning_time = seconds;
+  if (seconds > 0) impl_->planning_time = seconds;
 }
 void MoveGroupInterface::setNumPlanningAttempts(unsigned int attempts) { impl_->attempts = attempts; }
 void MoveGroupInterface::setMaxVelocityScalingFactor(double factor) {
@@ -307,28 +292,21 @@ void MoveGroupInterface::setWorkspace(double minx, double miny, double minz, dou
 void MoveGroupInterface::allowLooking(bool flag) { impl_->look = flag; }
 void MoveGroupInterface::allowReplanning(bool flag) { impl_->replan = flag; }
 void MoveGroupInterface::setLookAroundAttempts(int32_t attempts) {
-  if (attempts < 0)
-    ROS_ERROR_NAMED(LOGNAME, "Tried to set negative number of look-around attempts");
-  else
-    impl_->look_attempts = attempts;
+  if (attempts < 0) ROS_ERROR_NAMED(LOGNAME, "Tried to set negative number of look-around attempts");
+  else impl_->look_attempts = attempts;
 }
 void MoveGroupInterface::setReplanAttempts(int32_t attempts) {
-  if (attempts < 0)
-    ROS_ERROR_NAMED(LOGNAME, "Tried to set negative number of replan attempts");
-  else
-    impl_->replan_attempts = attempts;
+  if (attempts < 0) ROS_ERROR_NAMED(LOGNAME, "Tried to set negative number of replan attempts");
+  else impl_->replan_attempts = attempts;
 }
 void MoveGroupInterface::setReplanDelay(double delay) {
-  if (delay < 0)
-    ROS_ERROR_NAMED(LOGNAME, "Tried to set negative replan delay");
-  else
-    impl_->replan_delay = delay;
+  if (delay < 0) ROS_ERROR_NAMED(LOGNAME, "Tried to set negative replan delay");
+  else impl_->replan_delay = delay;
 }
 void MoveGroupInterface::setSupportSurfaceName(const std::string& name) { impl_->support_surface = name; }
 
 bool MoveGroupInterface::startStateMonitor(double wait) {
-  if (!impl_->monitor->isActive())
-    impl_->monitor->startStateMonitor();
+  if (!impl_->monitor->isActive()) impl_->monitor->startStateMonitor();
   impl_->monitor->waitForCompleteState(getName(), wait);
   return true;
 }
@@ -337,8 +315,7 @@ moveit::core::RobotStatePtr MoveGroupInterface::getCurrentState(double wait) con
 
 std::vector<double> MoveGroupInterface::getCurrentJointValues() const {
   std::vector<double> values;
-  if (const moveit::core::RobotStatePtr state = impl_->currentState())
-    state->copyJointGroupPositions(getName(), values);
+  if (const moveit::core::RobotStatePtr state = impl_->currentState()) state->copyJointGroupPositions(getName(), values);
   return values;
 }
 
@@ -357,8 +334,7 @@ Eigen::Isometry3d linkPose(const moveit::core::RobotStatePtr& state, const std::
 }
 
 bool isNamed(const std::string& link) {
-  if (link.empty())
-    ROS_ERROR_NAMED(LOGNAME, "No end-effector specified");
+  if (link.empty()) ROS_ERROR_NAMED(LOGNAME, "No end-effector specified");
   return !link.empty();
 }
 
@@ -366,15 +342,13 @@ bool isNamed(const std::string& link) {
 
 geometry_msgs::PoseStamped MoveGroupInterface::getCurrentPose(const std::string& end_effector_link) const {
   const std::string& link = impl_->link(end_effector_link);
-  return stamped(isNamed(link) ? linkPose(impl_->currentState(), link) : Eigen::Isometry3d::Identity(),
-                 getPlanningFrame());
+  return stamped(isNamed(link) ? linkPose(impl_->currentState(), link) : Eigen::Isometry3d::Identity(), getPlanningFrame());
 }
 
 std::vector<double> MoveGroupInterface::getCurrentRPY(const std::string& end_effector_link) const {
   const std::string& link = impl_->link(end_effector_link);
   const moveit::core::RobotStatePtr state = isNamed(link) ? impl_->currentState() : nullptr;
-  if (!state || !state->getLinkModel(link))
-    return {};
+  if (!state || !state->getLinkModel(link)) return {};
   tf2::Quaternion q;
   tf2::fromMsg(tf2::toMsg(linkPose(state, link)).orientation, q);
   double roll, pitch, yaw;
@@ -392,22 +366,24 @@ geometry_msgs::PoseStamped MoveGroupInterface::getRandomPose(const std::string& 
   return stamped(linkPose(state, link), getPlanningFrame());
 }
 
-void MoveGroupInterface::rememberJointValues(const std::string& name) {
-  rememberJointValues(name, getCurrentJointValues());
-}
+void MoveGroupInterface::rememberJointValues(const std::string& name) { rememberJointValues(name, getCurrentJointValues()); }
 void MoveGroupInterface::rememberJointValues(const std::string& name, const std::vector<double>& values) {
   remembered_[name] = values;
 }
 void MoveGroupInterface::forgetJointValues(const std::string& name) { remembered_.erase(name); }
 
 void MoveGroupInterface::setConstraintsDatabase(const std::string& host, unsigned int port) {
-  ROS_ERROR_NAMED(LOGNAME, "No constraints are read from the database at %s:%u: this library knows none. Give them to "
-                           "setPathConstraints() as a message.", host.c_str(), port);
+  ROS_ERROR_NAMED(LOGNAME,
+                  "No constraints are read from the database at %s:%u: this library knows none. Give them to "
+                  "setPathConstraints() as a message.",
+                  host.c_str(), port);
 }
 std::vector<std::string> MoveGroupInterface::getKnownConstraints() const { return {}; }
 bool MoveGroupInterface::setPathConstraints(const std::string& constraint) {
-  ROS_ERROR_NAMED(LOGNAME, "No path constraints named '%s': constraints are stored nowhere. Give them to "
-                           "setPathConstraints() as a message.", constraint.c_str());
+  ROS_ERROR_NAMED(LOGNAME,
+                  "No path constraints named '%s': constraints are stored nowhere. Give them to "
+                  "setPathConstraints() as a message.",
+                  constraint.c_str());
   return false;
 }
 moveit_msgs::Constraints MoveGroupInterface::getPathConstraints() const {

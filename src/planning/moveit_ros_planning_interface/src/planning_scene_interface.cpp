@@ -19,8 +19,7 @@ const double SAY_SO_AFTER = 5.0;  // s
 using Components = moveit_msgs::PlanningSceneComponents;
 
 void nameColors(const std::vector<moveit_msgs::CollisionObject>& objects, std::vector<moveit_msgs::ObjectColor>& colors) {
-  for (std::size_t i = 0; i < colors.size() && i < objects.size() && colors[i].id.empty(); ++i)
-    colors[i].id = objects[i].id;
+  for (std::size_t i = 0; i < colors.size() && i < objects.size() && colors[i].id.empty(); ++i) colors[i].id = objects[i].id;
 }
 
 moveit_msgs::PlanningScene diff() {
@@ -54,17 +53,14 @@ struct PlanningSceneInterface::Impl {
       ROS_WARN_STREAM_NAMED(LOGNAME, "service '" << client.getService() << "' not advertised yet. Continue waiting...");
       client.waitForExistence();
     }
-    if (!wait && !client.exists())
-      throw std::runtime_error("ROS service not available");
-    if (persistent)
-      client = nh.serviceClient<Service>(name, true);
+    if (!wait && !client.exists()) throw std::runtime_error("ROS service not available");
+    if (persistent) client = nh.serviceClient<Service>(name, true);
   }
 
   // A persistent connection is gone when move_group was started again.
   template <class Service>
   bool call(ros::ServiceClient& client, const std::string& name, Service& service) {
-    if (!client.isValid())
-      connect<Service>(client, name);
+    if (!client.isValid()) connect<Service>(client, name);
     return client.call(service);
   }
 
@@ -93,61 +89,52 @@ PlanningSceneInterface::~PlanningSceneInterface() = default;
 std::vector<std::string> PlanningSceneInterface::getKnownObjectNames(bool with_type) {
   std::vector<std::string> names;
   for (const moveit_msgs::CollisionObject& object : impl_->get(Components::WORLD_OBJECT_NAMES).world.collision_objects)
-    if (!with_type || !object.type.key.empty())
-      names.push_back(object.id);
+    if (!with_type || !object.type.key.empty()) names.push_back(object.id);
   return names;
 }
 
-std::vector<std::string> PlanningSceneInterface::getKnownObjectNamesInROI(double minx, double miny, double minz,
-                                                                          double maxx, double maxy, double maxz,
-                                                                          bool with_type,
+std::vector<std::string> PlanningSceneInterface::getKnownObjectNamesInROI(double minx, double miny, double minz, double maxx,
+                                                                          double maxy, double maxz, bool with_type,
                                                                           std::vector<std::string>& types) {
   const Eigen::AlignedBox3d box(Eigen::Vector3d(minx, miny, minz), Eigen::Vector3d(maxx, maxy, maxz));
   std::vector<std::string> names;
   for (const moveit_msgs::CollisionObject& object : impl_->get(Components::WORLD_OBJECT_GEOMETRY).world.collision_objects) {
     std::vector<geometry_msgs::Pose> poses = object.mesh_poses;
     poses.insert(poses.end(), object.primitive_poses.begin(), object.primitive_poses.end());
-    if (poses.empty() || (with_type && object.type.key.empty()))
-      continue;
+    if (poses.empty() || (with_type && object.type.key.empty())) continue;
     Eigen::Isometry3d X_WO;
     tf2::fromMsg(object.pose, X_WO);
     const bool inside = std::all_of(poses.begin(), poses.end(), [&](const geometry_msgs::Pose& pose) {
       return box.contains(X_WO * Eigen::Vector3d(pose.position.x, pose.position.y, pose.position.z));
     });
-    if (!inside)
-      continue;
+    if (!inside) continue;
     names.push_back(object.id);
-    if (with_type)
-      types.push_back(object.type.key);
+    if (with_type) types.push_back(object.type.key);
   }
   return names;
 }
 
-std::map<std::string, geometry_msgs::Pose>
-PlanningSceneInterface::getObjectPoses(const std::vector<std::string>& object_ids) {
+std::map<std::string, geometry_msgs::Pose> PlanningSceneInterface::getObjectPoses(const std::vector<std::string>& object_ids) {
   std::map<std::string, geometry_msgs::Pose> poses;
   if (!object_ids.empty())
-    for (const auto& [name, object] : getObjects(object_ids))
-      poses[name] = object.pose;
+    for (const auto& [name, object] : getObjects(object_ids)) poses[name] = object.pose;
   return poses;
 }
 
-std::map<std::string, moveit_msgs::CollisionObject>
-PlanningSceneInterface::getObjects(const std::vector<std::string>& object_ids) {
+std::map<std::string, moveit_msgs::CollisionObject> PlanningSceneInterface::getObjects(
+    const std::vector<std::string>& object_ids) {
   std::map<std::string, moveit_msgs::CollisionObject> objects;
   for (const moveit_msgs::CollisionObject& object : impl_->get(Components::WORLD_OBJECT_GEOMETRY).world.collision_objects)
-    if (isAsked(object_ids, object.id))
-      objects[object.id] = object;
+    if (isAsked(object_ids, object.id)) objects[object.id] = object;
   return objects;
 }
 
-std::map<std::string, moveit_msgs::AttachedCollisionObject>
-PlanningSceneInterface::getAttachedObjects(const std::vector<std::string>& object_ids) {
+std::map<std::string, moveit_msgs::AttachedCollisionObject> PlanningSceneInterface::getAttachedObjects(
+    const std::vector<std::string>& object_ids) {
   std::map<std::string, moveit_msgs::AttachedCollisionObject> objects;
   for (const moveit_msgs::AttachedCollisionObject& attached :
        impl_->get(Components::ROBOT_STATE_ATTACHED_OBJECTS).robot_state.attached_collision_objects)
-    if (isAsked(object_ids, attached.object.id))
-      objects[attached.object.id] = attached;
+    if (isAsked(object_ids, attached.object.id)) objects[attached.object.id] = attached;
   return objects;
 }
 
@@ -176,22 +163,18 @@ bool PlanningSceneInterface::applyAttachedCollisionObject(const moveit_msgs::Att
   return applyAttachedCollisionObjects({attached});
 }
 
-bool PlanningSceneInterface::applyAttachedCollisionObjects(
-    const std::vector<moveit_msgs::AttachedCollisionObject>& attached) {
+bool PlanningSceneInterface::applyAttachedCollisionObjects(const std::vector<moveit_msgs::AttachedCollisionObject>& attached) {
   moveit_msgs::PlanningScene scene = diff();
   scene.robot_state.attached_collision_objects = attached;
   return applyPlanningScene(scene);
 }
 
-moveit_msgs::PlanningScene PlanningSceneInterface::getPlanningSceneMsg(uint32_t components) {
-  return impl_->get(components);
-}
+moveit_msgs::PlanningScene PlanningSceneInterface::getPlanningSceneMsg(uint32_t components) { return impl_->get(components); }
 
 bool PlanningSceneInterface::applyPlanningScene(const moveit_msgs::PlanningScene& ps) {
   moveit_msgs::ApplyPlanningScene service;
   service.request.scene = ps;
-  if (impl_->call(impl_->apply_service, "apply_planning_scene", service))
-    return service.response.success;
+  if (impl_->call(impl_->apply_service, "apply_planning_scene", service)) return service.response.success;
   ROS_WARN_NAMED(LOGNAME, "Failed to call ApplyPlanningScene service");
   return false;
 }

@@ -76,8 +76,7 @@ bool MoveGroupInterface::setTarget(const geometry_msgs::Pose& pose, const std::s
                                    bool approximate) {
   const std::string& link = impl_->link(named);
   const moveit::core::RobotStatePtr start = link.empty() ? nullptr : impl_->startState();
-  if (!start)
-    return false;
+  if (!start) return false;
   impl_->target = Impl::JOINT;
   start->enforceBounds();
   *impl_->joint_target = *start;
@@ -115,8 +114,7 @@ bool MoveGroupInterface::setJointValueTarget(const Eigen::Isometry3d& pose, cons
 bool MoveGroupInterface::setApproximateJointValueTarget(const geometry_msgs::Pose& pose, const std::string& link) {
   return setTarget(pose, link, "", true);
 }
-bool MoveGroupInterface::setApproximateJointValueTarget(const geometry_msgs::PoseStamped& pose,
-                                                        const std::string& link) {
+bool MoveGroupInterface::setApproximateJointValueTarget(const geometry_msgs::PoseStamped& pose, const std::string& link) {
   return setTarget(pose.pose, link, pose.header.frame_id, true);
 }
 bool MoveGroupInterface::setApproximateJointValueTarget(const Eigen::Isometry3d& pose, const std::string& link) {
@@ -130,8 +128,7 @@ void MoveGroupInterface::setRandomTarget() {
 
 bool MoveGroupInterface::setNamedTarget(const std::string& name) {
   const auto remembered = remembered_.find(name);
-  if (remembered != remembered_.end())
-    return setJointValueTarget(remembered->second);
+  if (remembered != remembered_.end()) return setJointValueTarget(remembered->second);
   if (impl_->joint_target->setToDefaultValues(impl_->group, name)) {
     impl_->target = Impl::JOINT;
     return true;
@@ -162,14 +159,12 @@ const std::string& MoveGroupInterface::getEndEffector() const {
   static const std::string none;
   if (!impl_->end_effector_link.empty())
     for (const std::string& name : impl_->group->getAttachedEndEffectorNames())
-      if (impl_->model->getEndEffector(name)->hasLinkModel(impl_->end_effector_link))
-        return name;
+      if (impl_->model->getEndEffector(name)->hasLinkModel(impl_->end_effector_link)) return name;
   return none;
 }
 
 bool MoveGroupInterface::setEndEffectorLink(const std::string& link_name) {
-  if (impl_->end_effector_link.empty() || link_name.empty())
-    return false;
+  if (impl_->end_effector_link.empty() || link_name.empty()) return false;
   impl_->end_effector_link = link_name;
   impl_->target = Impl::POSE;
   return true;
@@ -197,8 +192,7 @@ bool MoveGroupInterface::setPoseTarget(const geometry_msgs::PoseStamped& target,
 }
 bool MoveGroupInterface::setPoseTargets(const EigenSTL::vector_Isometry3d& targets, const std::string& link) {
   std::vector<geometry_msgs::Pose> poses;
-  for (const Eigen::Isometry3d& target : targets)
-    poses.push_back(tf2::toMsg(target));
+  for (const Eigen::Isometry3d& target : targets) poses.push_back(tf2::toMsg(target));
   return setPoseTargets(poses, link);
 }
 bool MoveGroupInterface::setPoseTargets(const std::vector<geometry_msgs::Pose>& targets, const std::string& link) {
@@ -209,8 +203,7 @@ bool MoveGroupInterface::setPoseTargets(const std::vector<geometry_msgs::Pose>& 
   }
   return setPoseTargets(poses, link);
 }
-bool MoveGroupInterface::setPoseTargets(const std::vector<geometry_msgs::PoseStamped>& targets,
-                                        const std::string& named) {
+bool MoveGroupInterface::setPoseTargets(const std::vector<geometry_msgs::PoseStamped>& targets, const std::string& named) {
   if (targets.empty()) {
     ROS_ERROR_NAMED(LOGNAME, "No pose specified as goal target");
     return false;
@@ -222,16 +215,14 @@ bool MoveGroupInterface::setPoseTargets(const std::vector<geometry_msgs::PoseSta
     return false;
   }
   std::vector<geometry_msgs::PoseStamped>& kept = impl_->pose_targets[link] = targets;
-  for (geometry_msgs::PoseStamped& pose : kept)
-    pose.header.stamp = ros::Time(0);
+  for (geometry_msgs::PoseStamped& pose : kept) pose.header.stamp = ros::Time(0);
   return true;
 }
 
 const std::vector<geometry_msgs::PoseStamped>& MoveGroupInterface::getPoseTargets(const std::string& named) const {
   static const std::vector<geometry_msgs::PoseStamped> none;
   const auto found = impl_->pose_targets.find(impl_->link(named));
-  if (found != impl_->pose_targets.end() && !found->second.empty())
-    return found->second;
+  if (found != impl_->pose_targets.end() && !found->second.empty()) return found->second;
   ROS_ERROR_NAMED(LOGNAME, "Poses for end-effector '%s' are not known.", impl_->link(named).c_str());
   return none;
 }
@@ -247,8 +238,7 @@ geometry_msgs::PoseStamped MoveGroupInterface::partOfTarget(const std::string& n
   geometry_msgs::PoseStamped target;
   target.header.frame_id = impl_->pose_frame;
   target.pose.orientation.w = 1;
-  if (impl_->pose_targets.count(impl_->link(named)) == 0)
-    return target;
+  if (impl_->pose_targets.count(impl_->link(named)) == 0) return target;
   target = getPoseTarget(named);
   if (target.header.frame_id != impl_->pose_frame) {
     target = impl_->tf_buffer->transform(target, impl_->pose_frame);

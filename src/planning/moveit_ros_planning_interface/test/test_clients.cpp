@@ -21,8 +21,7 @@ template <class Condition>
 bool comesTrue(Condition condition) {
   for (const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(PATIENCE); ros::WallTime::now() < end;
        ros::WallDuration(0.02).sleep())
-    if (condition())
-      return true;
+    if (condition()) return true;
   return false;
 }
 
@@ -42,8 +41,7 @@ class Clients : public testing::Test {
   void expectAt(const Values& expected, double tolerance) {
     const Values values = arm_.getCurrentJointValues();
     ASSERT_EQ(values.size(), expected.size());
-    for (std::size_t i = 0; i < values.size(); ++i)
-      EXPECT_NEAR(values[i], expected[i], tolerance) << "joint " << i;
+    for (std::size_t i = 0; i < values.size(); ++i) EXPECT_NEAR(values[i], expected[i], tolerance) << "joint " << i;
   }
 
   MoveGroupInterface arm_;
@@ -215,7 +213,8 @@ TEST_F(Clients, ReachPosesAndFollowLines) {
   EXPECT_NEAR(reached.position.y, target.position.y, 1e-3);
   EXPECT_NEAR(reached.position.z, target.position.z, 1e-3);
   EXPECT_NEAR(std::abs(reached.orientation.w * target.orientation.w + reached.orientation.x * target.orientation.x +
-                       reached.orientation.y * target.orientation.y + reached.orientation.z * target.orientation.z), 1, 1e-3);
+                       reached.orientation.y * target.orientation.y + reached.orientation.z * target.orientation.z),
+              1, 1e-3);
 
   std::vector<geometry_msgs::Pose> waypoints(2, reached);
   waypoints[0].position.z += 0.05;

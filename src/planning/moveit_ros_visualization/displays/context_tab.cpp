@@ -81,7 +81,8 @@ QWidget* ContextTab::makeWarehouse() {
   reset_->setObjectName("reset_db_button");
   connect_ = new QPushButton("Connect");
   connect_->setObjectName("database_connect_button");
-  for (QWidget* widget : std::initializer_list<QWidget*>{new QLabel("Host:"), host_, new QLabel("Port:"), port_, reset_, connect_})
+  for (QWidget* widget :
+       std::initializer_list<QWidget*>{new QLabel("Host:"), host_, new QLabel("Port:"), port_, reset_, connect_})
     layout->addWidget(widget);
   connect(connect_, &QPushButton::clicked, this, [this](bool) { connectWarehouse(); });
   connect(reset_, &QPushButton::clicked, this, [this](bool) {
@@ -151,10 +152,8 @@ void ContextTab::load(const rviz::Config& config) {
   const bool usual = !size.isValid() && ros::param::get(dock_->display().named("move_group/default_workspace_bounds"), edge);
   for (int i = 0; i < 3; ++i) {
     if (centre.mapGetFloat(KEYS[i], &value)) centre_[i]->setValue(value);
-    if (size.mapGetFloat(KEYS[i], &value))
-      size_[i]->setValue(value);
-    else if (usual)
-      size_[i]->setValue(edge);
+    if (size.mapGetFloat(KEYS[i], &value)) size_[i]->setValue(value);
+    else if (usual) size_[i]->setValue(edge);
   }
   QString host;
   if (config.mapGetString("MoveIt_Warehouse_Host", &host)) host_->setText(host);
@@ -243,7 +242,8 @@ void ContextTab::fillPlanners() {
     if (planners_->count() == 1 && !of_group)
       for (const std::string& id : library.planner_ids) planners_->addItem(QString::fromStdString(id));
     std::string usual;
-    for (const std::string& place : {"move_group/planning_pipelines/" + library.pipeline_id + "/" + group, "move_group/" + group})
+    for (const std::string& place :
+         {"move_group/planning_pipelines/" + library.pipeline_id + "/" + group, "move_group/" + group})
       if (ros::param::get(dock_->display().named(place + "/default_planner_config"), usual)) break;
     planners_->setCurrentIndex(std::max(0, planners_->findText(QString::fromStdString(usual))));
   }

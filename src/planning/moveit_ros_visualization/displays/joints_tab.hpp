@@ -21,9 +21,9 @@ class JointsTab : public Tab {
 
  private:
   struct Row {
-    int variable;        // of the robot
+    int variable;  // of the robot
     bool angle;
-    double low, high;    // rad or m
+    double low, high;  // rad or m
     QSlider* slider;
     QDoubleSpinBox* number;
   };

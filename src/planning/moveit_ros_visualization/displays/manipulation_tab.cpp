@@ -17,7 +17,7 @@ namespace {
 const char* const AXES[] = {"x", "y", "z"};
 const double CENTRE[] = {0.0, 0.0, 0.6}, SIZE[] = {4.0, 1.5, 1.2};  // m, of the region that is looked at
 const QColor OBJECT_COLOR(255, 0, 0), SURFACE_COLOR(0, 0, 255);     // of what is chosen
-constexpr int LEAST_HEIGHT = 70;  // pixels, of a list
+constexpr int LEAST_HEIGHT = 70;                                    // pixels, of a list
 
 QPushButton* button(const QString& text, const char* name, const char* tip) {
   auto* made = new QPushButton(text);
@@ -62,8 +62,9 @@ QWidget* ManipulationTab::makeObjects() {
   auto* box = new QGroupBox("Detected Objects");
   auto* layout = new QVBoxLayout(box);
   objects_ = list("detected_objects_list", "Objects of the scene whose origin is in the region; what is chosen is red");
-  detect_ = button("&Detect", "detect_objects_button", "Ask the action /recognize_objects, if a node serves it, and list what is "
-                                                        "in the region");
+  detect_ = button("&Detect", "detect_objects_button",
+                   "Ask the action /recognize_objects, if a node serves it, and list what is "
+                   "in the region");
   layout->addWidget(objects_, 1);
   layout->addWidget(detect_);
   return box;
@@ -133,7 +134,8 @@ void ManipulationTab::moveGroupCame() {
   tables_topic_ = nh.subscribe<object_recognition_msgs::TableArray>(
       "table_array", 1, [this](const object_recognition_msgs::TableArray::ConstPtr& tables) { tablesCame(*tables); });
   objects_topic_ = nh.subscribe<object_recognition_msgs::RecognizedObjectArray>(
-      dock_->display().named("recognized_object_array"), 1, [this](const object_recognition_msgs::RecognizedObjectArray::ConstPtr&) {
+      dock_->display().named("recognized_object_array"), 1,
+      [this](const object_recognition_msgs::RecognizedObjectArray::ConstPtr&) {
         listing_ = true;
         fillAgain();
       });

@@ -15,8 +15,7 @@ std::pair<double, double> manipulability(const moveit::core::RobotState& state, 
   const moveit::core::JointModelGroup* group = state.getJointModelGroup(tip.group);
   const moveit::core::LinkModel* link = state.getLinkModel(tip.link);
   Eigen::MatrixXd jacobian;
-  if (!group->isChain() || !group->hasLinkModel(tip.link) ||
-      !state.getJacobian(group, link, Eigen::Vector3d::Zero(), jacobian))
+  if (!group->isChain() || !group->hasLinkModel(tip.link) || !state.getJacobian(group, link, Eigen::Vector3d::Zero(), jacobian))
     return {0.0, 0.0};
   const Eigen::VectorXd values = Eigen::JacobiSVD<Eigen::MatrixXd>(jacobian).singularValues();
   if (values.size() == 0 || values[0] <= 0.0) return {0.0, 0.0};
@@ -30,15 +29,17 @@ void MotionPlanningDisplay::makeMetricsProperties(rviz::Property* category) {
     when(property, this, [this, property]() {
       if (property->getBool())
         setStatus(rviz::StatusProperty::Warn, property->getName(), "Needs the robot's dynamics, which are not computed here");
-      else
-        deleteStatus(property->getName());
+      else deleteStatus(property->getName());
     });
   };
   missing(new rviz::BoolProperty("Show Weight Limit", false, "Not computed here", category));
-  manipulability_index_ = when(new rviz::BoolProperty("Show Manipulability Index", false, "Product of the singular values of the "
-                                                      "goal's Jacobian", category), this, redraw);
-  manipulability_ = when(new rviz::BoolProperty("Show Manipulability", false, "Smallest singular value by the largest", category),
-                         this, redraw);
+  manipulability_index_ = when(new rviz::BoolProperty("Show Manipulability Index", false,
+                                                      "Product of the singular values of the "
+                                                      "goal's Jacobian",
+                                                      category),
+                               this, redraw);
+  manipulability_ = when(
+      new rviz::BoolProperty("Show Manipulability", false, "Smallest singular value by the largest", category), this, redraw);
   missing(new rviz::BoolProperty("Show Joint Torques", false, "Not computed here", category));
   payload_ = new rviz::FloatProperty("Payload", 1.0f, "In the hand, kg", category);
   payload_->setMin(0.0f);

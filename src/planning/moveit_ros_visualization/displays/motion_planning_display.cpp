@@ -47,26 +47,33 @@ void MotionPlanningDisplay::makeQueryProperties(rviz::Property* category) {
   const auto redraw = [this]() {
     for (Query& query : queries_) query.dirty = true;
   };
-  queries_[START].shown = when(new rviz::BoolProperty("Query Start State", false, "Set another start state than the present one",
-                                                      category), this, visibility);
-  queries_[GOAL].shown = when(new rviz::BoolProperty("Query Goal State", true, "Show the goal state", category), this, visibility);
-  marker_size_ = when(new rviz::FloatProperty("Interactive Marker Size", 0.0f, "Of the markers, m; 0: by the size of the hand",
-                                              category), this, [this]() { insertMarkers(); });
+  queries_[START].shown =
+      when(new rviz::BoolProperty("Query Start State", false, "Set another start state than the present one", category), this,
+           visibility);
+  queries_[GOAL].shown =
+      when(new rviz::BoolProperty("Query Goal State", true, "Show the goal state", category), this, visibility);
+  marker_size_ =
+      when(new rviz::FloatProperty("Interactive Marker Size", 0.0f, "Of the markers, m; 0: by the size of the hand", category),
+           this, [this]() { insertMarkers(); });
   marker_size_->setMin(0.0f);
   const char* titles[] = {"Start State ", "Goal State "};
   const QColor colors[] = {QColor(0, 255, 0), QColor(250, 128, 0)};
   for (const Which which : {START, GOAL}) {
-    queries_[which].color = when(new rviz::ColorProperty(QString(titles[which]) + "Color", colors[which], "Of this state", category),
-                                 this, redraw);
-    queries_[which].alpha = when(new rviz::FloatProperty(QString(titles[which]) + "Alpha", 1.0f, "Opacity", category), this,
-                                 visibility);
+    queries_[which].color =
+        when(new rviz::ColorProperty(QString(titles[which]) + "Color", colors[which], "Of this state", category), this, redraw);
+    queries_[which].alpha =
+        when(new rviz::FloatProperty(QString(titles[which]) + "Alpha", 1.0f, "Opacity", category), this, visibility);
     queries_[which].alpha->setMin(0.0f);
     queries_[which].alpha->setMax(1.0f);
   }
-  colliding_color_ = when(new rviz::ColorProperty("Colliding Link Color", QColor(255, 0, 0), "Of links that touch something, and "
-                                                  "of a robot that cannot reach the marker", category), this, redraw);
+  colliding_color_ = when(new rviz::ColorProperty("Colliding Link Color", QColor(255, 0, 0),
+                                                  "Of links that touch something, and "
+                                                  "of a robot that cannot reach the marker",
+                                                  category),
+                          this, redraw);
   violation_color_ = when(new rviz::ColorProperty("Joint Violation Color", QColor(255, 0, 255),
-                                                  "Of links below joints that are out of their limits", category), this, redraw);
+                                                  "Of links below joints that are out of their limits", category),
+                          this, redraw);
 }
 
 MotionPlanningDisplay::~MotionPlanningDisplay() {
@@ -80,10 +87,8 @@ MotionPlanningDisplay::~MotionPlanningDisplay() {
   places_.clear();
   dropMetrics();
   for (Query& query : queries_) query.ghost.reset();
-  if (dock_panel_)
-    delete dock_panel_;
-  else
-    delete dock_.data();
+  if (dock_panel_) delete dock_panel_;
+  else delete dock_.data();
 }
 
 void MotionPlanningDisplay::onInitialize() {
@@ -93,9 +98,8 @@ void MotionPlanningDisplay::onInitialize() {
     Query& query = queries_[which];
     query.ghost = std::make_unique<RobotGhost>(modelNode(), context_, query.name, nullptr);
     query.ghost->setVisible(false);
-    query.follower = std::make_unique<IkFollower>([this, which](const IkFollower::Answer& answer) {
-      jobs_.later([this, which, answer]() { answered(which, answer); });
-    });
+    query.follower = std::make_unique<IkFollower>(
+        [this, which](const IkFollower::Answer& answer) { jobs_.later([this, which, answer]() { answered(which, answer); }); });
   }
   workspace_ = std::make_unique<rviz::Shape>(rviz::Shape::Cube, scene_manager_, modelNode());
   workspace_->setColor(0.0f, 0.0f, 0.6f, 0.3f);
@@ -244,10 +248,10 @@ void MotionPlanningDisplay::groupChanged() {
   tips_ = tipsOf(*robot, *robot->getJointModelGroup(name), solvable);
   if (solvable.empty())
     setStatusStd(rviz::StatusProperty::Warn, "Kinematics",
-                 "No group has a kinematics solver ('" + robotDescription() + "_kinematics', from kinematics.yaml): there is no "
-                 "marker to drag; the tab Joints moves the goal");
-  else
-    deleteStatus("Kinematics");
+                 "No group has a kinematics solver ('" + robotDescription() +
+                     "_kinematics', from kinematics.yaml): there is no "
+                     "marker to drag; the tab Joints moves the goal");
+  else deleteStatus("Kinematics");
   for (Query& query : queries_) query.dirty = true;
   insertMarkers();
   if (dock_) dock_->groupChanged();

@@ -46,18 +46,15 @@ void ObjectsTab::edited() {
 void ObjectsTab::add() {
   const double x = sizes_[0]->value(), y = sizes_[1]->value(), z = sizes_[2]->value();
   switch (shapes_->currentIndex()) {
-    case 0:
-      return addShape("Box", std::make_shared<shapes::Box>(x, y, z));
-    case 1:
-      return addShape("Sphere", std::make_shared<shapes::Sphere>(0.5 * x));
-    case 2:
-      return addShape("Cylinder", std::make_shared<shapes::Cylinder>(0.5 * x, z));
-    case 3:
-      return addShape("Cone", std::make_shared<shapes::Cone>(0.5 * x, z));
+    case 0: return addShape("Box", std::make_shared<shapes::Box>(x, y, z));
+    case 1: return addShape("Sphere", std::make_shared<shapes::Sphere>(0.5 * x));
+    case 2: return addShape("Cylinder", std::make_shared<shapes::Cylinder>(0.5 * x, z));
+    case 3: return addShape("Cone", std::make_shared<shapes::Cone>(0.5 * x, z));
     case 4: {
       auto* dialog = new QFileDialog(this, "Mesh", QString(), "Meshes (*.stl *.obj *.dae *.ply);;All files (*)");
       dialog->setAttribute(Qt::WA_DeleteOnClose);
-      connect(dialog, &QFileDialog::fileSelected, this, [this](const QString& file) { addMesh("file://" + file.toStdString()); });
+      connect(dialog, &QFileDialog::fileSelected, this,
+              [this](const QString& file) { addMesh("file://" + file.toStdString()); });
       return dialog->show();
     }
     default:
@@ -81,7 +78,8 @@ void ObjectsTab::addMesh(const std::string& resource) {
 
 void ObjectsTab::addShape(const std::string& kind, const shapes::ShapeConstPtr& shape) {
   std::string id;
-  for (int number = 0; id.empty() || world_.count(id) || attached_.count(id); ++number) id = kind + "_" + std::to_string(number);
+  for (int number = 0; id.empty() || world_.count(id) || attached_.count(id); ++number)
+    id = kind + "_" + std::to_string(number);
   if (!change([&](planning_scene::PlanningScene& scene) {
         scene.getWorldNonConst()->addToObject(id, Eigen::Isometry3d::Identity(), shape, Eigen::Isometry3d::Identity());
         world_.insert(id);
@@ -261,7 +259,8 @@ void ObjectsTab::publish() {
         gone.operation = moveit_msgs::CollisionObject::REMOVE;
         message.world.collision_objects.push_back(gone);
       }
-    std::tie(known_world_, known_attached_) = names(*scene.operator->());  // move_group has them now, whenever its scene comes back
+    std::tie(known_world_, known_attached_) =
+        names(*scene.operator->());  // move_group has them now, whenever its scene comes back
   }
   publisher_.publish(message);
   edited_ = false;

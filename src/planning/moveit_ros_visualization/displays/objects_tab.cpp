@@ -279,10 +279,8 @@ void ObjectsTab::itemChanged(QListWidgetItem* item) {
   const std::string id = item->data(Qt::UserRole).toString().toStdString(), text = item->text().trimmed().toStdString();
   if (text != id) return rename(id, text);
   const bool ticked = item->checkState() == Qt::Checked;
-  if (ticked && world_.count(id))
-    attach(id);
-  else if (!ticked && attached_.count(id))
-    detach(id);
+  if (ticked && world_.count(id)) attach(id);
+  else if (!ticked && attached_.count(id)) detach(id);
 }
 
 }  // namespace moveit_rviz_plugin

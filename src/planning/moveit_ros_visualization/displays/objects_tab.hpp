@@ -74,9 +74,9 @@ class ObjectsTab : public Tab {
   QLabel* status_;
   QPushButton* publish_;
   QWidget* pose_box_;
-  std::set<std::string> world_, attached_;                // shown in the list
-  std::set<std::string> removed_;                         // by hand, since the last publication
-  std::set<std::string> known_world_, known_attached_;    // to move_group, when nothing was edited
+  std::set<std::string> world_, attached_;              // shown in the list
+  std::set<std::string> removed_;                       // by hand, since the last publication
+  std::set<std::string> known_world_, known_attached_;  // to move_group, when nothing was edited
   std::vector<shapes::ShapeConstPtr> unscaled_;
   Eigen::Isometry3d shown_pose_ = Eigen::Isometry3d::Identity();  // of the one that is chosen
   ros::Publisher publisher_;

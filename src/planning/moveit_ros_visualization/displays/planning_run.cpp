@@ -25,8 +25,8 @@
 
 namespace moveit_rviz_plugin {
 namespace {
-constexpr double GOAL_TOLERANCE = 1e-4;   // rad, m
-constexpr double LINE_STEP = 0.01;        // m
+constexpr double GOAL_TOLERANCE = 1e-4;  // rad, m
+constexpr double LINE_STEP = 0.01;       // m
 
 std::string reason(const moveit_msgs::MoveItErrorCodes& code) { return moveit::core::MoveItErrorCode::toString(code); }
 }  // namespace
@@ -133,10 +133,8 @@ void PlanningTab::plan() {
   if (!plan_button_->isEnabled() || !dock_->display().query(START)) return;
   if (dock_->display().group().empty()) return dock_->say("choose a planning group first", true);
   begin();
-  if (wantsLine())
-    inThread([this, wanted = line()]() { runLine(wanted, false); });
-  else
-    inThread([this, wanted = goal(true)]() { runPlan(wanted, false); });
+  if (wantsLine()) inThread([this, wanted = line()]() { runLine(wanted, false); });
+  else inThread([this, wanted = goal(true)]() { runPlan(wanted, false); });
 }
 
 void PlanningTab::execute() {
@@ -161,10 +159,8 @@ void PlanningTab::planAndExecute() {
   }
   begin();
   stop_button_->setEnabled(true);
-  if (wantsLine())
-    inThread([this, wanted = line()]() { runLine(wanted, true); });
-  else
-    inThread([this, wanted = goal(false)]() { runPlan(wanted, true); });
+  if (wantsLine()) inThread([this, wanted = line()]() { runLine(wanted, true); });
+  else inThread([this, wanted = goal(false)]() { runPlan(wanted, true); });
 }
 
 void PlanningTab::stop() {
@@ -190,8 +186,7 @@ template <typename Action>
 std::shared_ptr<typename ActionCall<Action>::Client> PlanningTab::run(ActionCall<Action>& call, const char* name,
                                                                       const typename ActionCall<Action>::Goal& goal,
                                                                       std::string& why) {
-  const auto client =
-      call.run(dock_->display().jobs(), dock_->display().named(name), goal, "is move_group running?", why);
+  const auto client = call.run(dock_->display().jobs(), dock_->display().named(name), goal, "is move_group running?", why);
   if (!client) return nullptr;
   const moveit_msgs::MoveItErrorCodes code = client->getResult()->error_code;
   why = reason(code);

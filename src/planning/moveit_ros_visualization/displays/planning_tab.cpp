@@ -130,7 +130,8 @@ void PlanningTab::addOptionNumbers(QGridLayout* layout) {
   attempts_->setRange(1, 1000);
   attempts_->setValue(10);
   velocity_ = named(new QDoubleSpinBox, "velocity_scaling_factor", "Share of the joints' greatest velocities, up to 1");
-  acceleration_ = named(new QDoubleSpinBox, "acceleration_scaling_factor", "Share of the joints' greatest accelerations, up to 1");
+  acceleration_ =
+      named(new QDoubleSpinBox, "acceleration_scaling_factor", "Share of the joints' greatest accelerations, up to 1");
   for (QDoubleSpinBox* factor : {velocity_, acceleration_}) {
     factor->setRange(0.01, 1.0);
     factor->setSingleStep(0.1);
@@ -149,10 +150,12 @@ void PlanningTab::addOptionNumbers(QGridLayout* layout) {
 
 void PlanningTab::addOptionBoxes(QGridLayout* layout) {
   cartesian_ = named(new QCheckBox("Use Cartesian Path"), "use_cartesian_path", "The hand moves on a straight line");
-  collision_aware_ = named(new QCheckBox("Collision-aware IK"), "collision_aware_ik", "Dragging looks for states that touch nothing");
+  collision_aware_ =
+      named(new QCheckBox("Collision-aware IK"), "collision_aware_ik", "Dragging looks for states that touch nothing");
   approximate_ = named(new QCheckBox("Approx IK Solutions"), "approximate_ik", "Dragging goes as near as there is a way");
-  external_ = named(new QCheckBox("External Comm."), "allow_external_program", "Other nodes may plan, execute and set states by "
-                                                                               "topics below /rviz/moveit");
+  external_ = named(new QCheckBox("External Comm."), "allow_external_program",
+                    "Other nodes may plan, execute and set states by "
+                    "topics below /rviz/moveit");
   replanning_ = named(new QCheckBox("Replanning"), "allow_replanning", "Plan again when something comes into the way");
   looking_ = named(new QCheckBox("Sensor Positioning"), "allow_looking", "Look around before going where nothing was seen yet");
   collision_aware_->setChecked(true);
@@ -200,7 +203,8 @@ void PlanningTab::save(rviz::Config config) const {
 void PlanningTab::robotLoaded() {
   filling_ = true;
   group_->clear();
-  for (const std::string& name : dock_->display().model()->getJointModelGroupNames()) group_->addItem(QString::fromStdString(name));
+  for (const std::string& name : dock_->display().model()->getJointModelGroupNames())
+    group_->addItem(QString::fromStdString(name));
   filling_ = false;
   if (!scaled_) {  // what the file does not say, the robot does
     std::string key = dock_->display().robotDescription();
@@ -277,8 +281,8 @@ void PlanningTab::fillStates() {
   for (const Which which : {START, GOAL}) {
     const QString before = states_[which]->currentText();
     states_[which]->clear();
-    for (const char* name : {"<random valid>", "<random>", "<current>", which == START ? "<same as goal>" : "<same as start>",
-                             "<previous>"})
+    for (const char* name :
+         {"<random valid>", "<random>", "<current>", which == START ? "<same as goal>" : "<same as start>", "<previous>"})
       states_[which]->addItem(name);
     if (model && model->hasJointModelGroup(dock_->display().group()))
       for (const std::string& name : model->getJointModelGroup(dock_->display().group())->getDefaultStateNames())
@@ -313,18 +317,13 @@ void PlanningTab::setQueryTo(Which which, const std::string& state) {
   states_[which]->setCurrentIndex(states_[which]->findText(QString::fromStdString(state)));
   const moveit::core::JointModelGroup* group =
       query->getRobotModel()->hasJointModelGroup(display.group()) ? query->getJointModelGroup(display.group()) : nullptr;
-  if (state == "<current>")
-    query = display.currentState();
+  if (state == "<current>") query = display.currentState();
   else if (state == "<same as goal>" || state == "<same as start>")
     query = display.query(state == "<same as goal>" ? GOAL : START);
-  else if (state == "<previous>")
-    query = display.previous();
-  else if (!group)
-    return dock_->say("choose a planning group first", true);
-  else if (state == "<random valid>")
-    return setRandomValid(which);
-  else if (state == "<random>")
-    query->setToRandomPositions(group);
+  else if (state == "<previous>") query = display.previous();
+  else if (!group) return dock_->say("choose a planning group first", true);
+  else if (state == "<random valid>") return setRandomValid(which);
+  else if (state == "<random>") query->setToRandomPositions(group);
   else if (!query->setToDefaultValues(group, state))
     return dock_->say("group '" + display.group() + "' has no state '" + state + "'", true);
   if (query) display.setQuery(which, *query);

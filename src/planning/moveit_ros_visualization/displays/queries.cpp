@@ -137,10 +137,8 @@ void MotionPlanningDisplay::dragTo(Which which, const Tip& tip, const Eigen::Iso
 void MotionPlanningDisplay::answered(Which which, const IkFollower::Answer& answer) {
   Query& query = queries_[which];
   if (!query.state) return;
-  if (!answer.problem.empty())
-    setStatusStd(rviz::StatusProperty::Warn, "Inverse kinematics", answer.problem);
-  else
-    deleteStatus("Inverse kinematics");
+  if (!answer.problem.empty()) setStatusStd(rviz::StatusProperty::Warn, "Inverse kinematics", answer.problem);
+  else deleteStatus("Inverse kinematics");
   if (answer.state && answer.state->getRobotModel() == query.state->getRobotModel()) {
     query.state = answer.state;
     if (dock_) dock_->queryDragged(which);
@@ -206,7 +204,8 @@ RobotGhost::LinkColors MotionPlanningDisplay::colorsOf(const Query& query) const
     for (const std::string& link : group->getUpdatedLinkModelNames())
       colors[link] = query.out_of_reach ? colliding_color_->getColor() : query.color->getColor();
   for (const moveit::core::JointModel* joint : robot.getActiveJointModels())
-    if (!query.state->satisfiesBounds(joint, 1e-6)) colors[joint->getChildLinkModel()->getName()] = violation_color_->getColor();
+    if (!query.state->satisfiesBounds(joint, 1e-6))
+      colors[joint->getChildLinkModel()->getName()] = violation_color_->getColor();
   std::vector<std::string> colliding;
   {
     const planning_scene_monitor::LockedPlanningSceneRO scene(monitor());

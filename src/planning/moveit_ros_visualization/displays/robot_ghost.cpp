@@ -28,9 +28,10 @@ class Poses : public rviz::LinkUpdater {
 };
 }  // namespace
 
-RobotGhost::RobotGhost(Ogre::SceneNode* node, rviz::DisplayContext* context, const std::string& name,
-                       rviz::Property* parent)
-    : context_(context), node_(node->createChildSceneNode()), bodies_node_(node_->createChildSceneNode()),
+RobotGhost::RobotGhost(Ogre::SceneNode* node, rviz::DisplayContext* context, const std::string& name, rviz::Property* parent)
+    : context_(context),
+      node_(node->createChildSceneNode()),
+      bodies_node_(node_->createChildSceneNode()),
       robot_(std::make_unique<rviz::Robot>(node_, context, name, parent)) {}
 
 RobotGhost::~RobotGhost() {

@@ -28,10 +28,10 @@ bool RobotParameter::update(float wall_dt) {
   wanted_ = false;
   const robot_model_loader::RobotModelLoader loader(description_, false);
   model_ = loader.getModel();
-  if (model_)
-    display_->setStatusStd(rviz::StatusProperty::Ok, "Robot Model", model_->getName());
+  if (model_) display_->setStatusStd(rviz::StatusProperty::Ok, "Robot Model", model_->getName());
   else
-    display_->setStatusStd(rviz::StatusProperty::Error, "Robot Model", "What '" + key + "' holds makes no robot: the terminal says why");
+    display_->setStatusStd(rviz::StatusProperty::Error, "Robot Model",
+                           "What '" + key + "' holds makes no robot: the terminal says why");
   return model_ != nullptr;
 }
 

@@ -17,9 +17,9 @@ namespace moveit_rviz_plugin {
 
 RobotStateDisplay::RobotStateDisplay() {
   const auto style = [this]() { applyStyle(); };
-  robot_description_ = when(new rviz::StringProperty("Robot Description", "robot_description", "Parameter that holds the URDF",
-                                                     this),
-                            this, [this]() { reset(); });
+  robot_description_ =
+      when(new rviz::StringProperty("Robot Description", "robot_description", "Parameter that holds the URDF", this), this,
+           [this]() { reset(); });
   topic_ = when(new rviz::RosTopicProperty("Robot State Topic", "display_robot_state",
                                            ros::message_traits::datatype<moveit_msgs::DisplayRobotState>(),
                                            "Topic of the states to show", this),
@@ -29,8 +29,8 @@ RobotStateDisplay::RobotStateDisplay() {
   alpha_ = when(new rviz::FloatProperty("Robot Alpha", 1.0f, "Opacity of the robot", this), this, style);
   alpha_->setMin(0.0f);
   alpha_->setMax(1.0f);
-  attached_color_ = when(new rviz::ColorProperty("Attached Body Color", QColor(150, 50, 150), "Of attached objects", this),
-                         this, style);
+  attached_color_ =
+      when(new rviz::ColorProperty("Attached Body Color", QColor(150, 50, 150), "Of attached objects", this), this, style);
   highlights_ = when(new rviz::BoolProperty("Show Highlights", true, "Use the colours of the message", this), this, style);
   visual_ = when(new rviz::BoolProperty("Visual Enabled", true, "Show the robot's meshes", this), this, style);
   collision_ = when(new rviz::BoolProperty("Collision Enabled", false, "Show the shapes that collide", this), this, style);
@@ -83,12 +83,10 @@ void RobotStateDisplay::received(const moveit_msgs::DisplayRobotState::ConstPtr&
   }
   hidden_ = message->hide;
   const bool good = moveit::core::robotStateMsgToRobotState(message->state, *state_);
-  if (!good)
-    setStatus(rviz::StatusProperty::Error, "RobotState", "The state of the message does not fit this robot");
+  if (!good) setStatus(rviz::StatusProperty::Error, "RobotState", "The state of the message does not fit this robot");
   else if (!unknown.empty())
     setStatusStd(rviz::StatusProperty::Warn, "RobotState", "The robot has no link '" + unknown + "', which is highlighted");
-  else
-    setStatus(rviz::StatusProperty::Ok, "RobotState", "");
+  else setStatus(rviz::StatusProperty::Ok, "RobotState", "");
   applyStyle();
   ghost_->show(*state_);
 }

@@ -79,11 +79,11 @@ void PlanningSceneDisplay::makeSceneProperties() {
   scene_alpha_ = when(new rviz::FloatProperty("Scene Alpha", 1.0f, "Opacity of objects", scene_category_), this, again);
   scene_alpha_->setMin(0.0f);
   scene_alpha_->setMax(1.0f);
-  scene_color_ = when(new rviz::ColorProperty("Scene Color", QColor(50, 230, 50), "Of objects without a colour of their own",
-                                              scene_category_),
-                      this, again);
-  voxel_rendering_ = when(new rviz::EnumProperty("Voxel Rendering", "Occupied Voxels", "Which voxels", scene_category_), this,
-                          again);
+  scene_color_ = when(
+      new rviz::ColorProperty("Scene Color", QColor(50, 230, 50), "Of objects without a colour of their own", scene_category_),
+      this, again);
+  voxel_rendering_ =
+      when(new rviz::EnumProperty("Voxel Rendering", "Occupied Voxels", "Which voxels", scene_category_), this, again);
   voxel_rendering_->addOption("Occupied Voxels", static_cast<int>(VoxelRendering::Occupied));
   voxel_rendering_->addOption("Free Voxels", static_cast<int>(VoxelRendering::Free));
   voxel_rendering_->addOption("All Voxels", static_cast<int>(VoxelRendering::All));
@@ -97,21 +97,20 @@ void PlanningSceneDisplay::makeSceneProperties() {
 void PlanningSceneDisplay::makeRobotProperties() {
   const auto visibility = [this]() { applyVisibility(); };
   robot_category_ = new rviz::Property("Scene Robot", QVariant(), "", this);
-  robot_visual_ = when(new rviz::BoolProperty("Show Robot Visual", true, "Show the robot's meshes", robot_category_), this,
-                       visibility);
-  robot_collision_ = when(new rviz::BoolProperty("Show Robot Collision", false, "Show the shapes that collide",
-                                                 robot_category_),
-                          this, visibility);
+  robot_visual_ =
+      when(new rviz::BoolProperty("Show Robot Visual", true, "Show the robot's meshes", robot_category_), this, visibility);
+  robot_collision_ = when(
+      new rviz::BoolProperty("Show Robot Collision", false, "Show the shapes that collide", robot_category_), this, visibility);
   robot_alpha_ = when(new rviz::FloatProperty("Robot Alpha", 1.0f, "Opacity of the robot", robot_category_), this, [this]() {
     if (scene_robot_) scene_robot_->setAlpha(robot_alpha_->getFloat());
   });
   robot_alpha_->setMin(0.0f);
   robot_alpha_->setMax(1.0f);
-  attached_color_ = when(new rviz::ColorProperty("Attached Body Color", QColor(150, 50, 150), "Of attached objects",
-                                                 robot_category_),
-                         this, [this]() {
-                           if (scene_robot_) scene_robot_->setAttachedColor(attached_color_->getColor());
-                         });
+  attached_color_ =
+      when(new rviz::ColorProperty("Attached Body Color", QColor(150, 50, 150), "Of attached objects", robot_category_), this,
+           [this]() {
+             if (scene_robot_) scene_robot_->setAttachedColor(attached_color_->getColor());
+           });
 }
 
 PlanningSceneDisplay::~PlanningSceneDisplay() {
@@ -141,10 +140,8 @@ void PlanningSceneDisplay::load(const rviz::Config& config) {
 
 void PlanningSceneDisplay::onEnable() {
   applyVisibility();
-  if (!monitor_)
-    startLoading();
-  else
-    listen();
+  if (!monitor_) startLoading();
+  else listen();
 }
 
 void PlanningSceneDisplay::onDisable() {
@@ -216,7 +213,8 @@ void PlanningSceneDisplay::loadInBackground(int generation, const std::string& d
   const ros::NodeHandle nh("~");
   std::string key;
   while (!nh.searchParam(description, key)) {
-    const std::string line = "Waiting for a robot: there is no parameter '" + description + "' yet (launch the robot, or "
+    const std::string line = "Waiting for a robot: there is no parameter '" + description +
+                             "' yet (launch the robot, or "
                              "set Robot Description)";
     if (told_robot_.news(line)) ROS_WARN_NAMED(LOGNAME, "%s", line.c_str());
     tell(rviz::StatusProperty::Warn, "Robot Model", line);
@@ -227,8 +225,8 @@ void PlanningSceneDisplay::loadInBackground(int generation, const std::string& d
   const auto loader = std::make_shared<robot_model_loader::RobotModelLoader>(description, false);
   if (!loader->getModel()) {
     tell(rviz::StatusProperty::Error, "Robot Model",
-         loader->getURDF() ? "The robot in '" + key + "' cannot be used: the terminal says why" :
-                             "The text in '" + key + "' is no URDF (check_urdf says where)");
+         loader->getURDF() ? "The robot in '" + key + "' cannot be used: the terminal says why"
+                           : "The text in '" + key + "' is no URDF (check_urdf says where)");
     return;
   }
   const auto monitor = std::make_shared<planning_scene_monitor::PlanningSceneMonitor>(loader);
@@ -244,13 +242,11 @@ void PlanningSceneDisplay::adopt(const planning_scene_monitor::PlanningSceneMoni
   scene_robot_->setAlpha(robot_alpha_->getFloat());
   scene_robot_->setAttachedColor(attached_color_->getColor());
   applyVisibility();
-  if (!errors.empty())
-    setStatusStd(rviz::StatusProperty::Warn, "Robot Model", "Not shown: " + errors);
+  if (!errors.empty()) setStatusStd(rviz::StatusProperty::Warn, "Robot Model", "Not shown: " + errors);
   else if (model()->getJointModelGroups().empty())
     setStatusStd(rviz::StatusProperty::Warn, "Robot Model",
                  "No planning groups: the SRDF in '" + robotDescription() + "_semantic' is missing, or names none");
-  else
-    setStatusStd(rviz::StatusProperty::Ok, "Robot Model", model()->getName());
+  else setStatusStd(rviz::StatusProperty::Ok, "Robot Model", model()->getName());
   monitor_->addUpdateCallback([this](planning_scene_monitor::PlanningSceneMonitor::SceneUpdateType) { dirty_ = true; });
   robotLoaded();
   listen();

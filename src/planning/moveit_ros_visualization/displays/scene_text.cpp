@@ -75,7 +75,8 @@ class Reader {
     std::istringstream stream(found);
     stream.imbue(std::locale::classic());
     double value;
-    if (!(stream >> value) || !stream.eof()) throw problem("'" + found.substr(0, 20) + "' stands where " + what + " is expected");
+    if (!(stream >> value) || !stream.eof())
+      throw problem("'" + found.substr(0, 20) + "' stands where " + what + " is expected");
     return value;
   }
   std::size_t count(const char* what, std::size_t most = 10000000) {
@@ -130,11 +131,13 @@ void readShape(Reader& reader, moveit_msgs::CollisionObject& object) {
       for (double* part : {&v.x, &v.y, &v.z}) *part = reader.number("a vertex");
     for (auto& t : mesh.triangles)
       for (auto& index : t.vertex_indices)
-        index = static_cast<uint32_t>(reader.count("vertices of a triangle", mesh.vertices.empty() ? 0 : mesh.vertices.size() - 1));
+        index =
+            static_cast<uint32_t>(reader.count("vertices of a triangle", mesh.vertices.empty() ? 0 : mesh.vertices.size() - 1));
     object.meshes.push_back(mesh);
     object.mesh_poses.push_back(reader.pose());
   } else {
-    throw reader.problem("shape '" + name.substr(0, 20) + "' is unknown; there are box, sphere, cylinder, cone, plane and mesh");
+    throw reader.problem("shape '" + name.substr(0, 20) +
+                         "' is unknown; there are box, sphere, cylinder, cone, plane and mesh");
   }
 }
 }  // namespace
@@ -186,7 +189,8 @@ moveit_msgs::PlanningScene readScene(const std::string& text, const std::string&
   for (;;) {
     const std::string marker = reader.word("'* <object>' or the final '.'");
     if (marker == ".") return scene;
-    if (marker != "*") throw reader.problem("'" + marker.substr(0, 20) + "' stands where '* <object>' or the final '.' is expected");
+    if (marker != "*")
+      throw reader.problem("'" + marker.substr(0, 20) + "' stands where '* <object>' or the final '.' is expected");
     moveit_msgs::CollisionObject object;
     object.header.frame_id = frame;
     object.id = reader.line();

@@ -78,13 +78,11 @@ void ShapeView::make(const shapes::Shape& shape, const VoxelStyle& style) {
       shape_->setOrientation(toOgre(Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), normal)));
       return;
     }
-    case shapes::MESH:
-      return makeMesh(static_cast<const shapes::Mesh&>(shape));
+    case shapes::MESH: return makeMesh(static_cast<const shapes::Mesh&>(shape));
     case shapes::OCTREE:
       if (const auto& tree = static_cast<const shapes::OcTree&>(shape).octree) makeVoxels(*tree, style);
       return;
-    default:
-      return;
+    default: return;
   }
 }
 
@@ -142,9 +140,9 @@ void ShapeView::makeVoxels(const octomap::OcTree& tree, const VoxelStyle& style)
     rviz::PointCloud::Point point;
     point.position = Ogre::Vector3(centre.x(), centre.y(), centre.z());
     const double p = leaf->getOccupancy();
-    point.color = style.coloring == VoxelColoring::ZAxis ?
-                      rainbow(high > low ? (centre.z() - low) / (high - low) : 0.0) :
-                      Ogre::ColourValue(static_cast<float>(1.0 - p), static_cast<float>(p), 0.0f);
+    point.color = style.coloring == VoxelColoring::ZAxis
+                      ? rainbow(high > low ? (centre.z() - low) / (high - low) : 0.0)
+                      : Ogre::ColourValue(static_cast<float>(1.0 - p), static_cast<float>(p), 0.0f);
     by_size[size].push_back(point);
   }
   for (auto& item : by_size) {

@@ -45,11 +45,13 @@ StoredScenesTab::StoredScenesTab(Dock* dock) : Tab(dock) {
   auto* layout = new QGridLayout(this);
   layout->addWidget(group("Planning Scenes and Queries", {tree_}), 0, 0, 3, 1);
   layout->addWidget(group("Current Scene", {button("Save Scene", "save_scene_button", this, [this]() { saveScene(); }),
-                                            button("Save Query", "save_query_button", this, [this]() { saveQuery(); })}), 0, 1);
+                                            button("Save Query", "save_query_button", this, [this]() { saveQuery(); })}),
+                    0, 1);
   layout->addWidget(group("Saved Scenes", {button("Load &Scene", "load_scene_button", this, [this]() { loadScene(); }),
                                            button("Load &Query", "load_query_button", this, [this]() { loadQuery(); }),
                                            button("Delete Scene", "delete_scene_button", this, [this]() { remove(false); }),
-                                           button("Delete Query", "delete_query_button", this, [this]() { remove(true); })}), 1, 1);
+                                           button("Delete Query", "delete_query_button", this, [this]() { remove(true); })}),
+                    1, 1);
   layout->setColumnStretch(0, 1);
   layout->setRowStretch(2, 1);
   connect(tree_, &QTreeWidget::itemChanged, this, [this](QTreeWidgetItem* item, int) {
@@ -72,7 +74,8 @@ void StoredScenesTab::refresh() {
   dock_->inBackground([this]() {
     Warehouse& warehouse = dock_->warehouse();
     std::vector<std::pair<std::string, std::vector<std::string>>> found;
-    for (const std::string& name : warehouse.names("scenes")) found.push_back({name, warehouse.names("requests", {{"scene", name}})});
+    for (const std::string& name : warehouse.names("scenes"))
+      found.push_back({name, warehouse.names("requests", {{"scene", name}})});
     dock_->later([this, found]() {
       filling_ = true;
       tree_->clear();
@@ -196,21 +199,27 @@ StoredStatesTab::StoredStatesTab(Dock* dock) : Tab(dock) {
   list_->setObjectName("list_states");
   auto* layout = new QGridLayout(this);
   layout->addWidget(list_, 0, 0, 4, 1);
-  layout->addWidget(group("Stored Robot States", {button("Load", "load_state_button", this, [this]() {
-                            dock_->ask("Load states", "Names to load (a regular expression):", ".*",
-                                       [this](const QString& pattern) { read(pattern.toStdString()); });
-                          }),
-                                                  button("Clear", "clear_states_button", this, [this]() {
-                            states_.clear();
-                            show();
-                          })}), 0, 1);
-  layout->addWidget(group("Selected Robot State",
-                          {button("Set as Start", "set_as_start_state_button", this, [this]() { use(START); }),
-                           button("Set as Goal", "set_as_goal_state_button", this, [this]() { use(GOAL); }),
-                           button("Remove", "remove_state_button", this, [this]() { remove(); })}), 1, 1);
-  layout->addWidget(group("Current Robot State",
-                          {button("Save Start", "save_start_state_button", this, [this]() { save(START); }),
-                           button("Save Goal", "save_goal_state_button", this, [this]() { save(GOAL); })}), 2, 1);
+  layout->addWidget(group("Stored Robot States", {button("Load", "load_state_button", this,
+                                                         [this]() {
+                                                           dock_->ask(
+                                                               "Load states", "Names to load (a regular expression):", ".*",
+                                                               [this](const QString& pattern) { read(pattern.toStdString()); });
+                                                         }),
+                                                  button("Clear", "clear_states_button", this,
+                                                         [this]() {
+                                                           states_.clear();
+                                                           show();
+                                                         })}),
+                    0, 1);
+  layout->addWidget(
+      group("Selected Robot State", {button("Set as Start", "set_as_start_state_button", this, [this]() { use(START); }),
+                                     button("Set as Goal", "set_as_goal_state_button", this, [this]() { use(GOAL); }),
+                                     button("Remove", "remove_state_button", this, [this]() { remove(); })}),
+      1, 1);
+  layout->addWidget(
+      group("Current Robot State", {button("Save Start", "save_start_state_button", this, [this]() { save(START); }),
+                                    button("Save Goal", "save_goal_state_button", this, [this]() { save(GOAL); })}),
+      2, 1);
   layout->setColumnStretch(0, 1);
   layout->setRowStretch(3, 1);
 }
@@ -246,16 +255,17 @@ void StoredStatesTab::save(Which which) {
   if (!state) return;
   moveit_msgs::RobotState message;
   moveit::core::robotStateToRobotStateMsg(*state, message);
-  dock_->ask("Save state", "Name of the state:", "", [this, message, robot = state->getRobotModel()->getName()](const QString& name) {
-    dock_->inBackground([this, message, robot, name = name.toStdString()]() {
-      dock_->warehouse().save("states", name, message, {{"robot", robot}});
-      dock_->say("State '" + name + "' was saved in " + dock_->warehouse().file());
-      dock_->later([this, message, name]() {
-        states_[name] = message;
-        show();
-      });
-    });
-  });
+  dock_->ask("Save state", "Name of the state:", "",
+             [this, message, robot = state->getRobotModel()->getName()](const QString& name) {
+               dock_->inBackground([this, message, robot, name = name.toStdString()]() {
+                 dock_->warehouse().save("states", name, message, {{"robot", robot}});
+                 dock_->say("State '" + name + "' was saved in " + dock_->warehouse().file());
+                 dock_->later([this, message, name]() {
+                   states_[name] = message;
+                   show();
+                 });
+               });
+             });
 }
 
 void StoredStatesTab::use(Which which) {
@@ -274,7 +284,9 @@ void StoredStatesTab::remove() {
   const std::string name = item->text().toStdString();
   states_.erase(name);
   show();
-  dock_->inBackground([this, name, robot = model->getName()]() { dock_->warehouse().remove("states", name, {{"robot", robot}}); });
+  dock_->inBackground([this, name, robot = model->getName()]() {
+    dock_->warehouse().remove("states", name, {{"robot", robot}});
+  });
 }
 
 // ---------------------------------------------------------------- status

@@ -7,13 +7,13 @@
 
 namespace moveit_rviz_plugin {
 namespace {
-constexpr double LEVEL = 0.002;        // m, how uneven a top may be
-constexpr double LEAST_AREA = 1e-4;    // m2 of a top that something can stand on
-constexpr double LEAST_SHARE = 0.5;    // of what an object covers: a ball and a lying can have no top
-constexpr double CLOSE = 0.02;         // m, how far above a surface an object still stands on it
-constexpr double SPACING = 0.1;        // m between two places
-constexpr double THICKNESS = 0.01;     // m of a detected table
-constexpr double ROUNDING = 1e-6;      // m
+constexpr double LEVEL = 0.002;      // m, how uneven a top may be
+constexpr double LEAST_AREA = 1e-4;  // m2 of a top that something can stand on
+constexpr double LEAST_SHARE = 0.5;  // of what an object covers: a ball and a lying can have no top
+constexpr double CLOSE = 0.02;       // m, how far above a surface an object still stands on it
+constexpr double SPACING = 0.1;      // m between two places
+constexpr double THICKNESS = 0.01;   // m of a detected table
+constexpr double ROUNDING = 1e-6;    // m
 
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
@@ -68,7 +68,8 @@ std::vector<Eigen::Vector2d> convexHull(std::vector<Eigen::Vector2d> points) {
 
 // ---------------------------------------------------------------- objects
 
-std::vector<Eigen::Vector3d> cornersOf(const std::vector<shapes::ShapeConstPtr>& shapes, const EigenSTL::vector_Isometry3d& poses) {
+std::vector<Eigen::Vector3d> cornersOf(const std::vector<shapes::ShapeConstPtr>& shapes,
+                                       const EigenSTL::vector_Isometry3d& poses) {
   std::vector<Eigen::Vector3d> corners;
   for (std::size_t i = 0; i < shapes.size() && i < poses.size(); ++i) {
     const shapes::Shape& shape = *shapes[i];

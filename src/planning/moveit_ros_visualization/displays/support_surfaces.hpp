@@ -29,7 +29,8 @@ struct Surface {
 };
 
 // Corners of shapes; of round ones those of a mesh around them. Planes and voxels have none.
-std::vector<Eigen::Vector3d> cornersOf(const std::vector<shapes::ShapeConstPtr>& shapes, const EigenSTL::vector_Isometry3d& poses);
+std::vector<Eigen::Vector3d> cornersOf(const std::vector<shapes::ShapeConstPtr>& shapes,
+                                       const EigenSTL::vector_Isometry3d& poses);
 Bounds boundsOf(const std::vector<Eigen::Vector3d>& corners);
 std::vector<Eigen::Vector2d> convexHull(std::vector<Eigen::Vector2d> points);
 

@@ -7,9 +7,9 @@
 namespace moveit_rviz_plugin {
 
 TrajectoryDisplay::TrajectoryDisplay() {
-  robot_description_ = when(new rviz::StringProperty("Robot Description", "robot_description", "Parameter that holds the URDF",
-                                                     this),
-                            this, [this]() { reset(); });
+  robot_description_ =
+      when(new rviz::StringProperty("Robot Description", "robot_description", "Parameter that holds the URDF", this), this,
+           [this]() { reset(); });
   view_ = std::make_unique<TrajectoryView>(this, this);
 }
 

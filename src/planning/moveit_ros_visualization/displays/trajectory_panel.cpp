@@ -57,8 +57,6 @@ void TrajectoryPanel::pause(bool paused) {
   button_->setText(paused ? "Play" : "Pause");
 }
 
-void TrajectoryPanel::show() {
-  place_->setText(QString("%1 / %2").arg(count_ ? slider_->value() + 1 : 0).arg(count_));
-}
+void TrajectoryPanel::show() { place_->setText(QString("%1 / %2").arg(count_ ? slider_->value() + 1 : 0).arg(count_)); }
 
 }  // namespace moveit_rviz_plugin

@@ -32,10 +32,8 @@ TrajectoryView::~TrajectoryView() {
   subscriber_.shutdown();
   trail_robots_.clear();
   robot_.reset();
-  if (dock_)
-    delete dock_;
-  else
-    delete panel_.data();
+  if (dock_) delete dock_;
+  else delete panel_.data();
 }
 
 void TrajectoryView::makeProperties(rviz::Property* parent) {
@@ -57,8 +55,8 @@ void TrajectoryView::makeProperties(rviz::Property* parent) {
   loop_ = when(new rviz::BoolProperty("Loop Animation", false, "Show the last path again and again", parent), this, [this]() {
     if (loop_->getBool() && !path_.empty()) begin();
   });
-  trail_ = when(new rviz::BoolProperty("Show Trail", false, "Show all way points at once", parent), this,
-                [this]() { showTrail(); });
+  trail_ =
+      when(new rviz::BoolProperty("Show Trail", false, "Show all way points at once", parent), this, [this]() { showTrail(); });
 }
 
 void TrajectoryView::makeColorProperties(rviz::Property* parent) {
@@ -66,8 +64,8 @@ void TrajectoryView::makeColorProperties(rviz::Property* parent) {
   trail_step_ = when(new rviz::IntProperty("Trail Step Size", 1, "Every how many way points a robot is shown", parent), this,
                      [this]() { showTrail(); });
   trail_step_->setMin(1);
-  interrupt_ = new rviz::BoolProperty("Interrupt Display", false, "Show a new path at once, not after the one that is shown",
-                                      parent);
+  interrupt_ =
+      new rviz::BoolProperty("Interrupt Display", false, "Show a new path at once, not after the one that is shown", parent);
   color_ = when(new rviz::ColorProperty("Robot Color", QColor(150, 50, 150), "Of the robot on the path", parent), this, style);
   color_enabled_ = when(new rviz::BoolProperty("Color Enabled", false, "Whether that colour is used", parent), this, style);
 }
@@ -142,8 +140,7 @@ void TrajectoryView::received(const moveit_msgs::DisplayTrajectory::ConstPtr& me
   if (!message->model_id.empty() && message->model_id != model_->getName())
     display_->setStatusStd(rviz::StatusProperty::Warn, "Trajectory",
                            "The path is of robot '" + message->model_id + "', this is '" + model_->getName() + "'");
-  else
-    display_->deleteStatus("Trajectory");
+  else display_->deleteStatus("Trajectory");
   next_path_ = wayPoints(*message);
   if (next_path_.empty()) return;
   if (!moving_ || interrupt_->getBool()) {

@@ -34,8 +34,7 @@ class TrajectoryView : public QObject {
 
   void initialize(Ogre::SceneNode* node, rviz::DisplayContext* context, const ros::NodeHandle& nh);
   // Null: none. `reference` gives the joints that paths do not name.
-  void setModel(const moveit::core::RobotModelConstPtr& model,
-                const std::function<moveit::core::RobotStatePtr()>& reference);
+  void setModel(const moveit::core::RobotModelConstPtr& model, const std::function<moveit::core::RobotStatePtr()>& reference);
   void setEnabled(bool enabled);
   void update(float wall_dt, float ros_dt);
   // Nothing is shown any more, until the next path comes.

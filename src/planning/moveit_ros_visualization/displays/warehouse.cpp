@@ -130,7 +130,8 @@ void Warehouse::makeTables() {
 
 std::vector<std::string> Warehouse::names(const std::string& table, const Owners& owners) {
   const std::lock_guard<std::mutex> lock(lock_);
-  Statement statement(*this, "SELECT DISTINCT name FROM " + table + " WHERE 1" + Statement::where(owners, true) + " ORDER BY name");
+  Statement statement(*this,
+                      "SELECT DISTINCT name FROM " + table + " WHERE 1" + Statement::where(owners, true) + " ORDER BY name");
   statement.bind(owners);
   std::vector<std::string> found;
   while (statement.step()) found.push_back(statement.text());

@@ -16,10 +16,13 @@ Eigen::Isometry3d at(double x, double y, double z, double tilt = 0.0) {
 collision_detection::World world() {
   collision_detection::World world;
   world.addToObject("table", at(0.5, 0.0, 0.2), std::make_shared<shapes::Box>(0.4, 0.8, 0.04), Eigen::Isometry3d::Identity());
-  world.addToObject("block", at(0.45, 0.1, 0.25), std::make_shared<shapes::Box>(0.04, 0.04, 0.06), Eigen::Isometry3d::Identity());
+  world.addToObject("block", at(0.45, 0.1, 0.25), std::make_shared<shapes::Box>(0.04, 0.04, 0.06),
+                    Eigen::Isometry3d::Identity());
   world.addToObject("ball", at(0.5, 0.3, 0.25), std::make_shared<shapes::Sphere>(0.03), Eigen::Isometry3d::Identity());
-  world.addToObject("board", at(2.0, 0.0, 0.5, 0.5), std::make_shared<shapes::Box>(1.0, 1.0, 0.02), Eigen::Isometry3d::Identity());
-  world.addToObject("can", at(3.0, 0.0, 0.1, M_PI_2), std::make_shared<shapes::Cylinder>(0.1, 0.3), Eigen::Isometry3d::Identity());
+  world.addToObject("board", at(2.0, 0.0, 0.5, 0.5), std::make_shared<shapes::Box>(1.0, 1.0, 0.02),
+                    Eigen::Isometry3d::Identity());
+  world.addToObject("can", at(3.0, 0.0, 0.1, M_PI_2), std::make_shared<shapes::Cylinder>(0.1, 0.3),
+                    Eigen::Isometry3d::Identity());
   return world;
 }
 

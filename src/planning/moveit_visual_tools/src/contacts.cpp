@@ -8,8 +8,7 @@ namespace {
 
 const double CONTACT_SIZE = 0.04;  // m
 
-collision_detection::CollisionResult check(const planning_scene::PlanningScene& scene,
-                                           const moveit::core::RobotState& state) {
+collision_detection::CollisionResult check(const planning_scene::PlanningScene& scene, const moveit::core::RobotState& state) {
   collision_detection::CollisionRequest request;
   request.contacts = true;
   request.max_contacts = 10;
@@ -27,8 +26,7 @@ bool MoveItVisualTools::checkAndPublishCollision(const moveit::core::RobotState&
                                                  const rviz_visual_tools::colors& contact_point_color) {
   const collision_detection::CollisionResult result = check(*planning_scene, robot_state);
   std::vector<std::string> touching;
-  for (const auto& [names, contacts] : result.contacts)
-    touching.insert(touching.end(), {names.first, names.second});
+  for (const auto& [names, contacts] : result.contacts) touching.insert(touching.end(), {names.first, names.second});
   publishRobotState(robot_state, highlight_link_color, touching);
   publishContactPoints(result.contacts, planning_scene, contact_point_color);
   return result.collision;

@@ -13,16 +13,15 @@ namespace {
 
 const char LOGNAME[] = "visual_tools";
 const char VIRTUAL_JOINT[] = "virtual_joint";
-const double LINE_RADIUS = 0.005;    // m
-const double UNTIMED_PERIOD = 2.0;   // s between way points that carry no times
-const double UNTIMED_POINT = 0.05;   // s to wait per way point of those
+const double LINE_RADIUS = 0.005;   // m
+const double UNTIMED_PERIOD = 2.0;  // s between way points that carry no times
+const double UNTIMED_POINT = 0.05;  // s to wait per way point of those
 
 using rviz_visual_tools::colors;
 
 std::vector<const moveit::core::LinkModel*> tips(const moveit::core::JointModelGroup* group) {
   std::vector<const moveit::core::LinkModel*> links;
-  if (!group)
-    ROS_FATAL_STREAM_NAMED(LOGNAME, "arm_jmg is NULL");
+  if (!group) ROS_FATAL_STREAM_NAMED(LOGNAME, "arm_jmg is NULL");
   else if (!group->getEndEffectorTips(links) || links.empty())
     ROS_ERROR_STREAM_NAMED(LOGNAME, "Unable to get end effector tips from jmg");
   return links;
@@ -43,10 +42,8 @@ MoveItVisualTools::MoveItVisualTools(const std::string& base_frame, const std::s
     : RvizVisualTools(base_frame, marker_topic), robot_model_(std::move(robot_model)) {}
 
 bool MoveItVisualTools::loadSharedRobotState() {
-  if (shared_robot_state_)
-    return true;
-  if (!robot_model_ && psm_)
-    robot_model_ = psm_->getRobotModel();
+  if (shared_robot_state_) return true;
+  if (!robot_model_ && psm_) robot_model_ = psm_->getRobotModel();
   if (!robot_model_) {
     rm_loader_ = std::make_shared<robot_model_loader::RobotModelLoader>(ROBOT_DESCRIPTION);
     robot_model_ = rm_loader_->getModel();
@@ -72,25 +69,19 @@ moveit::core::RobotModelConstPtr MoveItVisualTools::getRobotModel() {
 }
 
 void MoveItVisualTools::loadTrajectoryPub(const std::string& topic, bool blocking) {
-  if (pub_display_path_)
-    return;
+  if (pub_display_path_) return;
   pub_display_path_ = nh_.advertise<moveit_msgs::DisplayTrajectory>(topic, 10);
-  if (blocking)
-    waitForSubscriber(pub_display_path_);
+  if (blocking) waitForSubscriber(pub_display_path_);
 }
 
 void MoveItVisualTools::loadRobotStatePub(const std::string& topic, bool blocking) {
-  if (pub_robot_state_)
-    return;
-  if (!topic.empty())
-    robot_state_topic_ = topic;
+  if (pub_robot_state_) return;
+  if (!topic.empty()) robot_state_topic_ = topic;
   pub_robot_state_ = nh_.advertise<moveit_msgs::DisplayRobotState>(robot_state_topic_, 1);
-  if (blocking)
-    waitForSubscriber(pub_robot_state_);
+  if (blocking) waitForSubscriber(pub_robot_state_);
 }
 
-bool MoveItVisualTools::loadEEMarker(const moveit::core::JointModelGroup* ee_jmg,
-                                     const std::vector<double>& ee_joint_pos) {
+bool MoveItVisualTools::loadEEMarker(const moveit::core::JointModelGroup* ee_jmg, const std::vector<double>& ee_joint_pos) {
   if (!ee_jmg) {
     ROS_ERROR_STREAM_NAMED(LOGNAME, "Unable to find joint model group: it is NULL");
     return false;
@@ -105,8 +96,7 @@ bool MoveItVisualTools::loadEEMarker(const moveit::core::JointModelGroup* ee_jmg
                                         << ee_jmg->getName() << "(" << active << ")");
     return false;
   }
-  if (!ee_joint_pos.empty())
-    state.setJointGroupActivePositions(ee_jmg, ee_joint_pos);
+  if (!ee_joint_pos.empty()) state.setJointGroupActivePositions(ee_jmg, ee_joint_pos);
   state.update(true);
 
   EndEffector made;
@@ -114,8 +104,7 @@ bool MoveItVisualTools::loadEEMarker(const moveit::core::JointModelGroup* ee_jmg
   state.getRobotMarkers(made.markers, ee_jmg->getLinkModelNames(), getColor(rviz_visual_tools::GREY), ee_jmg->getName(),
                         ros::Duration());
   if (made.markers.markers.empty()) {
-    ROS_ERROR_STREAM_NAMED(LOGNAME, "No links found to visualize in end effector for joint model group: "
-                                        << ee_jmg->getName());
+    ROS_ERROR_STREAM_NAMED(LOGNAME, "No links found to visualize in end effector for joint model group: " << ee_jmg->getName());
     return false;
   }
   const Eigen::Isometry3d X_PW = state.getGlobalLinkTransform(ee_jmg->getEndEffectorParentGroup().second).inverse();
@@ -132,11 +121,9 @@ bool MoveItVisualTools::loadEEMarker(const moveit::core::JointModelGroup* ee_jmg
 }
 
 bool MoveItVisualTools::publishEEMarkers(const geometry_msgs::Pose& pose, const moveit::core::JointModelGroup* ee_jmg,
-                                         const std::vector<double>& ee_joint_pos, const colors& color,
-                                         const std::string& ns) {
+                                         const std::vector<double>& ee_joint_pos, const colors& color, const std::string& ns) {
   const auto known = end_effectors_.find(ee_jmg);
-  if ((known == end_effectors_.end() || known->second.joint_positions != ee_joint_pos) &&
-      !loadEEMarker(ee_jmg, ee_joint_pos))
+  if ((known == end_effectors_.end() || known->second.joint_positions != ee_joint_pos) && !loadEEMarker(ee_jmg, ee_joint_pos))
     return false;
   EndEffector& shown = end_effectors_[ee_jmg];
   const Eigen::Isometry3d X_BP = convertPose(pose);
@@ -145,8 +132,7 @@ bool MoveItVisualTools::publishEEMarkers(const geometry_msgs::Pose& pose, const 
     marker.header.stamp = ros::Time::now();
     marker.ns = ns;
     marker.lifetime = marker_lifetime_;
-    if (color != rviz_visual_tools::DEFAULT)
-      marker.color = getColor(color);
+    if (color != rviz_visual_tools::DEFAULT) marker.color = getColor(color);
     marker.pose = convertPose(X_BP * shown.poses[i]);
   }
   return publishMarkers(shown.markers);
@@ -155,8 +141,7 @@ bool MoveItVisualTools::publishEEMarkers(const geometry_msgs::Pose& pose, const 
 bool MoveItVisualTools::publishGrasps(const std::vector<moveit_msgs::Grasp>& possible_grasps,
                                       const moveit::core::JointModelGroup* ee_jmg, double animate_speed) {
   for (const moveit_msgs::Grasp& grasp : possible_grasps) {
-    if (!ros::ok())
-      break;
+    if (!ros::ok()) break;
     publishEEMarkers(grasp.grasp_pose.pose, ee_jmg);
     ros::Duration(animate_speed).sleep();
   }
@@ -166,22 +151,20 @@ bool MoveItVisualTools::publishGrasps(const std::vector<moveit_msgs::Grasp>& pos
 bool MoveItVisualTools::publishAnimatedGrasps(const std::vector<moveit_msgs::Grasp>& possible_grasps,
                                               const moveit::core::JointModelGroup* ee_jmg, double animate_speed) {
   for (const moveit_msgs::Grasp& grasp : possible_grasps) {
-    if (!ros::ok())
-      break;
+    if (!ros::ok()) break;
     publishAnimatedGrasp(grasp, ee_jmg, animate_speed);
     ros::Duration(animate_speed).sleep();
   }
   return true;
 }
 
-bool MoveItVisualTools::publishAnimatedGrasp(const moveit_msgs::Grasp& grasp,
-                                             const moveit::core::JointModelGroup* ee_jmg, double animate_speed) {
+bool MoveItVisualTools::publishAnimatedGrasp(const moveit_msgs::Grasp& grasp, const moveit::core::JointModelGroup* ee_jmg,
+                                             double animate_speed) {
   const int pictures = 10;
   const Eigen::Isometry3d X_BG = convertPose(grasp.grasp_pose.pose);
   const auto& direction = grasp.pre_grasp_approach.direction;
   Eigen::Vector3d approach(direction.vector.x, direction.vector.y, direction.vector.z);
-  if (direction.header.frame_id == ee_jmg->getEndEffectorParentGroup().second)
-    approach = X_BG.linear() * approach;
+  if (direction.header.frame_id == ee_jmg->getEndEffectorParentGroup().second) approach = X_BG.linear() * approach;
   for (int picture = 0; picture < pictures && ros::ok(); ++picture) {
     const double left = grasp.pre_grasp_approach.min_distance * (pictures - picture) / pictures;
     publishEEMarkers(Eigen::Isometry3d(Eigen::Translation3d(-left * approach) * X_BG), ee_jmg);
@@ -224,8 +207,7 @@ bool MoveItVisualTools::publishTrajectoryPoint(const trajectory_msgs::JointTraje
 bool MoveItVisualTools::publishTrajectoryPath(const std::vector<moveit::core::RobotStatePtr>& trajectory,
                                               const moveit::core::JointModelGroup* jmg, double speed, bool blocking) {
   robot_trajectory::RobotTrajectory timed(getRobotModel(), jmg->getName());
-  for (const moveit::core::RobotStatePtr& state : trajectory)
-    timed.addSuffixWayPoint(state, speed);
+  for (const moveit::core::RobotStatePtr& state : trajectory) timed.addSuffixWayPoint(state, speed);
   return publishTrajectoryPath(timed, blocking);
 }
 
@@ -238,11 +220,9 @@ bool MoveItVisualTools::publishTrajectoryPath(const robot_trajectory::RobotTraje
   trajectory.getRobotTrajectoryMsg(message);
   auto& points = message.joint_trajectory.points;
   if (points.size() > 1 && points[1].time_from_start.isZero())
-    for (std::size_t i = 0; i < points.size(); ++i)
-      points[i].time_from_start = ros::Duration(i * UNTIMED_PERIOD);
+    for (std::size_t i = 0; i < points.size(); ++i) points[i].time_from_start = ros::Duration(i * UNTIMED_PERIOD);
   moveit_msgs::RobotState start;
-  if (!trajectory.empty())
-    moveit::core::robotStateToRobotStateMsg(trajectory.getFirstWayPoint(), start);
+  if (!trajectory.empty()) moveit::core::robotStateToRobotStateMsg(trajectory.getFirstWayPoint(), start);
   return publishTrajectoryPath(message, start, blocking);
 }
 
@@ -324,8 +304,7 @@ bool MoveItVisualTools::publishTrajectoryLine(const moveit_msgs::RobotTrajectory
                                               const moveit::core::JointModelGroup* arm_jmg, const colors& color) {
   const auto links = tips(arm_jmg);
   for (const moveit::core::LinkModel* link : links)
-    if (!publishTrajectoryLine(trajectory_msg, link, arm_jmg, color))
-      return false;
+    if (!publishTrajectoryLine(trajectory_msg, link, arm_jmg, color)) return false;
   return !links.empty();
 }
 
@@ -338,8 +317,7 @@ bool MoveItVisualTools::publishTrajectoryLine(const robot_trajectory::RobotTraje
                                               const moveit::core::JointModelGroup* arm_jmg, const colors& color) {
   const auto links = tips(arm_jmg);
   for (const moveit::core::LinkModel* link : links)
-    if (!publishTrajectoryLine(robot_trajectory, link, color))
-      return false;
+    if (!publishTrajectoryLine(robot_trajectory, link, color)) return false;
   return !links.empty();
 }
 
@@ -362,8 +340,8 @@ bool MoveItVisualTools::publishRobotState(const trajectory_msgs::JointTrajectory
   return publishRobotState(trajectory_pt.positions, jmg, color);
 }
 
-bool MoveItVisualTools::publishRobotState(const std::vector<double>& joint_positions,
-                                          const moveit::core::JointModelGroup* jmg, const colors& color) {
+bool MoveItVisualTools::publishRobotState(const std::vector<double>& joint_positions, const moveit::core::JointModelGroup* jmg,
+                                          const colors& color) {
   getSharedRobotState()->setToDefaultValues();
   shared_robot_state_->setJointGroupPositions(jmg, joint_positions);
   return publishRobotState(*shared_robot_state_, color);
@@ -378,17 +356,15 @@ bool MoveItVisualTools::publishRobotState(const moveit::core::RobotState& robot_
                                           const std::vector<std::string>& highlight_links) {
   moveit_msgs::DisplayRobotState shown;
   if (color != rviz_visual_tools::DEFAULT) {
-    for (const std::string& link : highlight_links.empty()
-                                       ? robot_state.getRobotModel()->getLinkModelNamesWithCollisionGeometry()
-                                       : highlight_links) {
+    for (const std::string& link :
+         highlight_links.empty() ? robot_state.getRobotModel()->getLinkModelNamesWithCollisionGeometry() : highlight_links) {
       shown.highlight_links.emplace_back();
       shown.highlight_links.back().id = link;
       shown.highlight_links.back().color = getColor(color);
     }
   }
   moveit::core::RobotState state = robot_state;
-  if (robot_state_root_offset_enabled_)
-    applyVirtualJointTransform(state, robot_state_root_offset_);
+  if (robot_state_root_offset_enabled_) applyVirtualJointTransform(state, robot_state_root_offset_);
   moveit::core::robotStateToRobotStateMsg(state, shown.state);
   publishRobotState(shown);
   return true;
@@ -407,11 +383,9 @@ bool MoveItVisualTools::hideRobot() {
   return true;
 }
 
-bool MoveItVisualTools::applyVirtualJointTransform(moveit::core::RobotState& robot_state,
-                                                   const Eigen::Isometry3d& offset) {
+bool MoveItVisualTools::applyVirtualJointTransform(moveit::core::RobotState& robot_state, const Eigen::Isometry3d& offset) {
   const moveit::core::RobotModel& model = *robot_state.getRobotModel();
-  const moveit::core::JointModel* joint =
-      model.hasJointModel(VIRTUAL_JOINT) ? model.getJointModel(VIRTUAL_JOINT) : nullptr;
+  const moveit::core::JointModel* joint = model.hasJointModel(VIRTUAL_JOINT) ? model.getJointModel(VIRTUAL_JOINT) : nullptr;
   if (!joint || joint->getType() != moveit::core::JointModel::FLOATING) {
     ROS_WARN_STREAM_NAMED(LOGNAME, "Joint '" << VIRTUAL_JOINT << "' " << (joint ? "is not floating" : "does not exist")
                                              << ": unable to apply virtual joint transform");
@@ -424,8 +398,7 @@ bool MoveItVisualTools::applyVirtualJointTransform(moveit::core::RobotState& rob
 void MoveItVisualTools::showJointLimits(const moveit::core::RobotStatePtr& robot_state) {
   const int marks = 20;
   for (const moveit::core::JointModel* joint : robot_state->getRobotModel()->getActiveJointModels()) {
-    if (joint->getVariableCount() != 1)
-      continue;
+    if (joint->getVariableCount() != 1) continue;
     const double position = robot_state->getVariablePosition(joint->getVariableNames()[0]);
     const moveit::core::VariableBounds& bounds = joint->getVariableBounds()[0];
     const double span = bounds.max_position_ - bounds.min_position_;

@@ -18,8 +18,8 @@ using shape_msgs::SolidPrimitive;
 double visible(double length) { return length > 0 ? length : rviz_visual_tools::SMALL_SCALE; }
 
 geometry_msgs::Pose standing(double x, double y, double z, double angle) {
-  return rviz_visual_tools::RvizVisualTools::convertPose(Eigen::Isometry3d(
-      Eigen::Translation3d(x, y, z) * Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ())));
+  return rviz_visual_tools::RvizVisualTools::convertPose(
+      Eigen::Isometry3d(Eigen::Translation3d(x, y, z) * Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ())));
 }
 
 SolidPrimitive primitive(uint8_t type, const std::vector<double>& dimensions) {
@@ -71,8 +71,7 @@ bool MoveItVisualTools::loadPlanningSceneMonitor() {
 }
 
 planning_scene_monitor::PlanningSceneMonitorPtr MoveItVisualTools::getPlanningSceneMonitor() {
-  if (!psm_)
-    loadPlanningSceneMonitor();
+  if (!psm_) loadPlanningSceneMonitor();
   return psm_;
 }
 
@@ -113,16 +112,13 @@ bool MoveItVisualTools::addPrimitive(const std::string& name, uint8_t type, cons
 bool MoveItVisualTools::moveCollisionObject(const Eigen::Isometry3d& pose, const std::string& name, const colors& color) {
   return moveCollisionObject(convertPose(pose), name, color);
 }
-bool MoveItVisualTools::moveCollisionObject(const geometry_msgs::Pose& pose, const std::string& name,
-                                            const colors& color) {
+bool MoveItVisualTools::moveCollisionObject(const geometry_msgs::Pose& pose, const std::string& name, const colors& color) {
   CollisionObject moved = object(name, CollisionObject::MOVE);
   moved.pose = pose;
   return processCollisionObjectMsg(moved, color);
 }
 
-bool MoveItVisualTools::removeAllCollisionObjects() {
-  return processCollisionObjectMsg(object("", CollisionObject::REMOVE));
-}
+bool MoveItVisualTools::removeAllCollisionObjects() { return processCollisionObjectMsg(object("", CollisionObject::REMOVE)); }
 bool MoveItVisualTools::cleanupCO(const std::string& name) {
   return processCollisionObjectMsg(object(name, CollisionObject::REMOVE));
 }
@@ -140,8 +136,8 @@ bool MoveItVisualTools::attachCO(const std::string& name, const std::string& ee_
 
 bool MoveItVisualTools::publishCollisionFloor(double z, const std::string& plane_name, const colors& color) {
   const double far = rviz_visual_tools::LARGE_SCALE;
-  return publishCollisionCuboid(Eigen::Vector3d(far, far, z),
-                                Eigen::Vector3d(-far, -far, z - rviz_visual_tools::SMALL_SCALE), plane_name, color);
+  return publishCollisionCuboid(Eigen::Vector3d(far, far, z), Eigen::Vector3d(-far, -far, z - rviz_visual_tools::SMALL_SCALE),
+                                plane_name, color);
 }
 bool MoveItVisualTools::publishCollisionBlock(const geometry_msgs::Pose& block_pose, const std::string& block_name,
                                               double block_size, const colors& color) {
@@ -154,15 +150,15 @@ bool MoveItVisualTools::publishCollisionCuboid(const geometry_msgs::Point& point
 bool MoveItVisualTools::publishCollisionCuboid(const Eigen::Vector3d& point1, const Eigen::Vector3d& point2,
                                                const std::string& name, const colors& color) {
   const Eigen::Vector3d size = (point1 - point2).cwiseAbs();
-  return publishCollisionCuboid(convertPointToPose(convertPoint(getCenterPoint(point1, point2))), size.x(), size.y(),
-                                size.z(), name, color);
+  return publishCollisionCuboid(convertPointToPose(convertPoint(getCenterPoint(point1, point2))), size.x(), size.y(), size.z(),
+                                name, color);
 }
 bool MoveItVisualTools::publishCollisionCuboid(const Eigen::Isometry3d& pose, double width, double depth, double height,
                                                const std::string& name, const colors& color) {
   return publishCollisionCuboid(convertPose(pose), width, depth, height, name, color);
 }
-bool MoveItVisualTools::publishCollisionCuboid(const geometry_msgs::Pose& pose, double width, double depth,
-                                               double height, const std::string& name, const colors& color) {
+bool MoveItVisualTools::publishCollisionCuboid(const geometry_msgs::Pose& pose, double width, double depth, double height,
+                                               const std::string& name, const colors& color) {
   return addPrimitive(name, SolidPrimitive::BOX, {visible(width), visible(depth), visible(height)}, pose, color);
 }
 
@@ -218,8 +214,7 @@ bool MoveItVisualTools::publishCollisionGraph(const graph_msgs::GeometryGraph& g
   std::set<std::pair<std::size_t, std::size_t>> drawn;
   for (std::size_t i = 0; i < graph.nodes.size() && i < graph.edges.size(); ++i)
     for (const std::size_t j : graph.edges[i].node_ids) {
-      if (j >= graph.nodes.size() || !drawn.insert({std::min(i, j), std::max(i, j)}).second)
-        continue;
+      if (j >= graph.nodes.size() || !drawn.insert({std::min(i, j), std::max(i, j)}).second) continue;
       const Eigen::Vector3d a = convertPoint(graph.nodes[i]), b = convertPoint(graph.nodes[j]);
       added.primitives.push_back(primitive(SolidPrimitive::CYLINDER, {visible((a - b).norm()), radius}));
       added.primitive_poses.push_back(convertPose(between(a, b)));

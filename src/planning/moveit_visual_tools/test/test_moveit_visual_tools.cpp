@@ -21,8 +21,7 @@ struct Listener {
       ros::spinOnce();
     EXPECT_FALSE(heard.empty());
     const Message message = heard.empty() ? Message() : heard.front();
-    if (!heard.empty())
-      heard.erase(heard.begin());
+    if (!heard.empty()) heard.erase(heard.begin());
     return message;
   }
 

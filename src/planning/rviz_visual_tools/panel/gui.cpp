@@ -23,21 +23,12 @@ RvizVisualToolsGui::RvizVisualToolsGui(QWidget* parent) : rviz::Panel(parent) {
 
 int KeyTool::processKeyEvent(QKeyEvent* event, rviz::RenderPanel* panel) {
   switch (event->key()) {
-    case Qt::Key_N:
-      remote_.publishNext();
-      break;
+    case Qt::Key_N: remote_.publishNext(); break;
     case Qt::Key_A:
-    case Qt::Key_C:
-      remote_.publishContinue();
-      break;
-    case Qt::Key_B:
-      remote_.publishBreak();
-      break;
-    case Qt::Key_S:
-      remote_.publishStop();
-      break;
-    default:
-      return move_tool_.processKeyEvent(event, panel);
+    case Qt::Key_C: remote_.publishContinue(); break;
+    case Qt::Key_B: remote_.publishBreak(); break;
+    case Qt::Key_S: remote_.publishStop(); break;
+    default: return move_tool_.processKeyEvent(event, panel);
   }
   return Render;
 }

@@ -43,9 +43,7 @@ geometry_msgs::Point RvizVisualTools::convertPoseToPoint(const Eigen::Isometry3d
 
 Eigen::Vector3d RvizVisualTools::convertPoint(const geometry_msgs::Point& point) { return {point.x, point.y, point.z}; }
 
-Eigen::Vector3d RvizVisualTools::convertPoint32(const geometry_msgs::Point32& point) {
-  return {point.x, point.y, point.z};
-}
+Eigen::Vector3d RvizVisualTools::convertPoint32(const geometry_msgs::Point32& point) { return {point.x, point.y, point.z}; }
 
 geometry_msgs::Point32 RvizVisualTools::convertPoint32(const Eigen::Vector3d& point) {
   geometry_msgs::Point32 result;
@@ -69,14 +67,12 @@ geometry_msgs::Point RvizVisualTools::convertPoint(const Eigen::Vector3d& point)
 
 Eigen::Isometry3d RvizVisualTools::convertFromXYZRPY(double tx, double ty, double tz, double rx, double ry, double rz,
                                                      EulerConvention convention) {
-  const Eigen::AngleAxisd x(rx, Eigen::Vector3d::UnitX()), y(ry, Eigen::Vector3d::UnitY()),
-      z(rz, Eigen::Vector3d::UnitZ());
+  const Eigen::AngleAxisd x(rx, Eigen::Vector3d::UnitX()), y(ry, Eigen::Vector3d::UnitY()), z(rz, Eigen::Vector3d::UnitZ());
   const Eigen::Quaterniond rotation = convention == ZYX ? z * y * x : convention == ZXZ ? z * x * z : x * y * z;
   return Eigen::Translation3d(tx, ty, tz) * rotation;
 }
 
-Eigen::Isometry3d RvizVisualTools::convertFromXYZRPY(const std::vector<double>& transform6,
-                                                     EulerConvention convention) {
+Eigen::Isometry3d RvizVisualTools::convertFromXYZRPY(const std::vector<double>& transform6, EulerConvention convention) {
   if (transform6.size() != 6)
     throw std::invalid_argument("convertFromXYZRPY wants x, y, z, roll, pitch, yaw and got " +
                                 std::to_string(transform6.size()) + " numbers");
@@ -106,9 +102,9 @@ Eigen::Vector3d RvizVisualTools::getCenterPoint(const Eigen::Vector3d& a, const 
 
 Eigen::Isometry3d RvizVisualTools::getVectorBetweenPoints(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const {
   const Eigen::Vector3d direction = b - a;
-  return Eigen::Translation3d(a) * Eigen::Quaterniond::FromTwoVectors(
-                                       Eigen::Vector3d::UnitX(),
-                                       direction.isZero(0) ? Eigen::Vector3d(Eigen::Vector3d::UnitX()) : direction);
+  return Eigen::Translation3d(a) *
+         Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitX(),
+                                            direction.isZero(0) ? Eigen::Vector3d(Eigen::Vector3d::UnitX()) : direction);
 }
 
 void RvizVisualTools::generateRandomPose(geometry_msgs::Pose& pose, RandomPoseBounds pose_bounds) {
@@ -131,11 +127,9 @@ void RvizVisualTools::generateRandomPose(Eigen::Isometry3d& pose, RandomPoseBoun
          Eigen::AngleAxisd(angle, axis);
 }
 
-void RvizVisualTools::generateRandomCuboid(geometry_msgs::Pose& cuboid_pose, double& depth, double& width,
-                                           double& height, RandomPoseBounds pose_bounds,
-                                           RandomCuboidBounds cuboid_bounds) {
-  for (double* edge : {&depth, &width, &height})
-    *edge = fRand(cuboid_bounds.cuboid_size_min_, cuboid_bounds.cuboid_size_max_);
+void RvizVisualTools::generateRandomCuboid(geometry_msgs::Pose& cuboid_pose, double& depth, double& width, double& height,
+                                           RandomPoseBounds pose_bounds, RandomCuboidBounds cuboid_bounds) {
+  for (double* edge : {&depth, &width, &height}) *edge = fRand(cuboid_bounds.cuboid_size_min_, cuboid_bounds.cuboid_size_max_);
   generateRandomPose(cuboid_pose, pose_bounds);
 }
 
@@ -160,8 +154,8 @@ void RvizVisualTools::printTranslation(const Eigen::Vector3d& p) {
 void RvizVisualTools::printTransform(const Eigen::Isometry3d& transform) {
   const Eigen::Vector3d p = transform.translation();
   const Eigen::Quaterniond q(transform.linear());
-  std::cout << "T.xyz = [" << p.x() << ", " << p.y() << ", " << p.z() << "], Q.xyzw = [" << q.x() << ", " << q.y()
-            << ", " << q.z() << ", " << q.w() << "]" << std::endl;
+  std::cout << "T.xyz = [" << p.x() << ", " << p.y() << ", " << p.z() << "], Q.xyzw = [" << q.x() << ", " << q.y() << ", "
+            << q.z() << ", " << q.w() << "]" << std::endl;
 }
 
 void RvizVisualTools::printTransformRPY(const Eigen::Isometry3d& transform) {

@@ -27,8 +27,7 @@ void addAxis(visualization_msgs::InteractiveMarker& marker, const std::string& a
 IMarkerSimple::IMarkerSimple(const std::string& name, double scale, const geometry_msgs::Pose& initial_pose,
                              const std::string& parent_frame)
     : nh_("~"), latest_pose_(initial_pose) {
-  imarker_server_ = std::make_shared<interactive_markers::InteractiveMarkerServer>(nh_.getNamespace() + "/" + name, "",
-                                                                                  false);
+  imarker_server_ = std::make_shared<interactive_markers::InteractiveMarkerServer>(nh_.getNamespace() + "/" + name, "", false);
   int_marker_.header.frame_id = parent_frame;
   int_marker_.pose = initial_pose;
   int_marker_.scale = scale;
@@ -53,11 +52,9 @@ void IMarkerSimple::setPose(const geometry_msgs::Pose& pose) {
 }
 
 void IMarkerSimple::iMarkerCallback(const visualization_msgs::InteractiveMarkerFeedbackConstPtr& feedback) {
-  if (feedback->event_type != visualization_msgs::InteractiveMarkerFeedback::POSE_UPDATE)
-    return;
+  if (feedback->event_type != visualization_msgs::InteractiveMarkerFeedback::POSE_UPDATE) return;
   latest_pose_ = feedback->pose;
-  if (imarker_callback_)
-    imarker_callback_(feedback);
+  if (imarker_callback_) imarker_callback_(feedback);
 }
 
 }  // namespace rviz_visual_tools

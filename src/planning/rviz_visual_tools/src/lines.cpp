@@ -15,15 +15,13 @@ Eigen::Vector3d position(const geometry_msgs::Pose& pose) { return RvizVisualToo
 template <class Path>
 EigenSTL::vector_Vector3d positions(const Path& path) {
   EigenSTL::vector_Vector3d points;
-  for (const auto& element : path)
-    points.push_back(position(element));
+  for (const auto& element : path) points.push_back(position(element));
   return points;
 }
 
 std::vector<geometry_msgs::Point> messages(const EigenSTL::vector_Vector3d& points) {
   std::vector<geometry_msgs::Point> result;
-  for (const Eigen::Vector3d& point : points)
-    result.push_back(RvizVisualTools::convertPoint(point));
+  for (const Eigen::Vector3d& point : points) result.push_back(RvizVisualTools::convertPoint(point));
   return result;
 }
 
@@ -33,14 +31,12 @@ geometry_msgs::Vector3 width(geometry_msgs::Vector3 scale) {
 }
 
 bool isPath(std::size_t points) {
-  if (points < 2)
-    ROS_WARN_STREAM_NAMED(LOGNAME, "Skipping path because " << points << " points passed in.");
+  if (points < 2) ROS_WARN_STREAM_NAMED(LOGNAME, "Skipping path because " << points << " points passed in.");
   return points >= 2;
 }
 
 bool areAsMany(const char* what, std::size_t a, std::size_t b) {
-  if (a != b)
-    ROS_ERROR_STREAM_NAMED(LOGNAME, "Skipping " << what << " because " << a << " different from " << b << ".");
+  if (a != b) ROS_ERROR_STREAM_NAMED(LOGNAME, "Skipping " << what << " because " << a << " different from " << b << ".");
   return a == b;
 }
 
@@ -50,12 +46,10 @@ bool RvizVisualTools::publishLine(const Eigen::Isometry3d& point1, const Eigen::
                                   scales scale) {
   return publishLine(convertPoseToPoint(point1), convertPoseToPoint(point2), getColor(color), getScale(scale));
 }
-bool RvizVisualTools::publishLine(const Eigen::Vector3d& point1, const Eigen::Vector3d& point2, colors color,
-                                  scales scale) {
+bool RvizVisualTools::publishLine(const Eigen::Vector3d& point1, const Eigen::Vector3d& point2, colors color, scales scale) {
   return publishLine(convertPoint(point1), convertPoint(point2), getColor(color), getScale(scale));
 }
-bool RvizVisualTools::publishLine(const Eigen::Vector3d& point1, const Eigen::Vector3d& point2, colors color,
-                                  double radius) {
+bool RvizVisualTools::publishLine(const Eigen::Vector3d& point1, const Eigen::Vector3d& point2, colors color, double radius) {
   return publishLine(convertPoint(point1), convertPoint(point2), getColor(color), cube(radius));
 }
 bool RvizVisualTools::publishLine(const Eigen::Vector3d& point1, const Eigen::Vector3d& point2,
@@ -88,16 +82,13 @@ bool RvizVisualTools::publishLine(const geometry_msgs::Point& point1, const geom
 bool RvizVisualTools::publishLines(const EigenSTL::vector_Vector3d& aPoints, const EigenSTL::vector_Vector3d& bPoints,
                                    const std::vector<colors>& colors, scales scale) {
   std::vector<std_msgs::ColorRGBA> painted;
-  for (const auto color : colors)
-    painted.push_back(getColor(color));
+  for (const auto color : colors) painted.push_back(getColor(color));
   return publishLines(messages(aPoints), messages(bPoints), painted, getScale(scale));
 }
 bool RvizVisualTools::publishLines(const std::vector<geometry_msgs::Point>& aPoints,
                                    const std::vector<geometry_msgs::Point>& bPoints,
-                                   const std::vector<std_msgs::ColorRGBA>& colors,
-                                   const geometry_msgs::Vector3& scale) {
-  if (!areAsMany("lines", aPoints.size(), bPoints.size()) || !areAsMany("lines", aPoints.size(), colors.size()))
-    return false;
+                                   const std::vector<std_msgs::ColorRGBA>& colors, const geometry_msgs::Vector3& scale) {
+  if (!areAsMany("lines", aPoints.size(), bPoints.size()) || !areAsMany("lines", aPoints.size(), colors.size())) return false;
   line_list_marker_.header = header();
   line_list_marker_.header.stamp = ros::Time();
   ++line_list_marker_.id;
@@ -113,8 +104,7 @@ bool RvizVisualTools::publishLines(const std::vector<geometry_msgs::Point>& aPoi
 }
 bool RvizVisualTools::publishLineStrip(const std::vector<geometry_msgs::Point>& path, colors color, scales scale,
                                        const std::string& ns) {
-  if (!isPath(path.size()))
-    return true;
+  if (!isPath(path.size())) return true;
   line_strip_marker_.header = header();
   line_strip_marker_.header.stamp = ros::Time();
   ++line_strip_marker_.id;
@@ -134,48 +124,38 @@ bool RvizVisualTools::publishPath(const std::vector<geometry_msgs::Point>& path,
                                   const std::string& ns) {
   return publishPath(positions(path), color, getScale(scale).x, ns);
 }
-bool RvizVisualTools::publishPath(const EigenSTL::vector_Isometry3d& path, colors color, scales scale,
-                                  const std::string& ns) {
+bool RvizVisualTools::publishPath(const EigenSTL::vector_Isometry3d& path, colors color, scales scale, const std::string& ns) {
   return publishPath(positions(path), color, getScale(scale).x, ns);
 }
-bool RvizVisualTools::publishPath(const EigenSTL::vector_Vector3d& path, colors color, scales scale,
-                                  const std::string& ns) {
+bool RvizVisualTools::publishPath(const EigenSTL::vector_Vector3d& path, colors color, scales scale, const std::string& ns) {
   return publishPath(path, color, getScale(scale).x, ns);
 }
 bool RvizVisualTools::publishPath(const std::vector<geometry_msgs::Point>& path, colors color, double radius,
                                   const std::string& ns) {
   return publishPath(positions(path), color, radius, ns);
 }
-bool RvizVisualTools::publishPath(const EigenSTL::vector_Isometry3d& path, colors color, double radius,
-                                  const std::string& ns) {
+bool RvizVisualTools::publishPath(const EigenSTL::vector_Isometry3d& path, colors color, double radius, const std::string& ns) {
   return publishPath(positions(path), color, radius, ns);
 }
-bool RvizVisualTools::publishPath(const EigenSTL::vector_Vector3d& path, colors color, double radius,
-                                  const std::string& ns) {
+bool RvizVisualTools::publishPath(const EigenSTL::vector_Vector3d& path, colors color, double radius, const std::string& ns) {
   return publishPath(path, std::vector<std_msgs::ColorRGBA>(path.size(), getColor(color)), radius, ns);
 }
-bool RvizVisualTools::publishPath(const EigenSTL::vector_Vector3d& path, const std::vector<colors>& colors,
-                                  double radius, const std::string& ns) {
+bool RvizVisualTools::publishPath(const EigenSTL::vector_Vector3d& path, const std::vector<colors>& colors, double radius,
+                                  const std::string& ns) {
   std::vector<std_msgs::ColorRGBA> painted;
-  for (const auto color : colors)
-    painted.push_back(getColor(color));
+  for (const auto color : colors) painted.push_back(getColor(color));
   return publishPath(path, painted, radius, ns);
 }
 bool RvizVisualTools::publishPath(const EigenSTL::vector_Vector3d& path, const std::vector<std_msgs::ColorRGBA>& colors,
                                   double radius, const std::string& ns) {
-  if (!isPath(path.size()) || !areAsMany("path", path.size(), colors.size()))
-    return false;
-  for (std::size_t i = 1; i < path.size(); ++i)
-    publishCylinder(path[i - 1], path[i], colors[i], radius, ns);
+  if (!isPath(path.size()) || !areAsMany("path", path.size(), colors.size())) return false;
+  for (std::size_t i = 1; i < path.size(); ++i) publishCylinder(path[i - 1], path[i], colors[i], radius, ns);
   return true;
 }
-bool RvizVisualTools::publishPolygon(const geometry_msgs::Polygon& polygon, colors color, scales scale,
-                                     const std::string& ns) {
+bool RvizVisualTools::publishPolygon(const geometry_msgs::Polygon& polygon, colors color, scales scale, const std::string& ns) {
   EigenSTL::vector_Vector3d points;
-  for (const geometry_msgs::Point32& point : polygon.points)
-    points.push_back(convertPoint32(point));
-  if (!points.empty())
-    points.push_back(Eigen::Vector3d(points.front()));
+  for (const geometry_msgs::Point32& point : polygon.points) points.push_back(convertPoint32(point));
+  if (!points.empty()) points.push_back(Eigen::Vector3d(points.front()));
   return publishPath(points, color, getScale(scale).x, ns);
 }
 
@@ -188,18 +168,18 @@ bool RvizVisualTools::publishGraph(const graph_msgs::GeometryGraph& graph, color
   return true;
 }
 
-bool RvizVisualTools::publishCylinder(const Eigen::Vector3d& point1, const Eigen::Vector3d& point2, colors color,
-                                      scales scale, const std::string& ns) {
+bool RvizVisualTools::publishCylinder(const Eigen::Vector3d& point1, const Eigen::Vector3d& point2, colors color, scales scale,
+                                      const std::string& ns) {
   return publishCylinder(point1, point2, getColor(color), getScale(scale).x, ns);
 }
-bool RvizVisualTools::publishCylinder(const Eigen::Vector3d& point1, const Eigen::Vector3d& point2, colors color,
-                                      double radius, const std::string& ns) {
+bool RvizVisualTools::publishCylinder(const Eigen::Vector3d& point1, const Eigen::Vector3d& point2, colors color, double radius,
+                                      const std::string& ns) {
   return publishCylinder(point1, point2, getColor(color), radius, ns);
 }
 bool RvizVisualTools::publishCylinder(const Eigen::Vector3d& point1, const Eigen::Vector3d& point2,
                                       const std_msgs::ColorRGBA& color, double radius, const std::string& ns) {
-  const Eigen::Isometry3d pose = getVectorBetweenPoints(getCenterPoint(point1, point2), point2) *
-                                 Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitY());
+  const Eigen::Isometry3d pose =
+      getVectorBetweenPoints(getCenterPoint(point1, point2), point2) * Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitY());
   return publishCylinder(convertPose(pose), color, (point1 - point2).norm(), radius, ns);
 }
 bool RvizVisualTools::publishCylinder(const Eigen::Isometry3d& pose, colors color, double height, double radius,
@@ -222,9 +202,8 @@ bool RvizVisualTools::publishCylinder(const geometry_msgs::Pose& pose, const std
   return publishMarker(cylinder_marker_);
 }
 
-bool RvizVisualTools::addEdges(const std::vector<Eigen::Vector3d>& corners,
-                               const std::vector<std::pair<int, int>>& edges, geometry_msgs::Vector3 scale,
-                               colors color, const std::string& ns, std::size_t id) {
+bool RvizVisualTools::addEdges(const std::vector<Eigen::Vector3d>& corners, const std::vector<std::pair<int, int>>& edges,
+                               geometry_msgs::Vector3 scale, colors color, const std::string& ns, std::size_t id) {
   line_list_marker_.header = header();
   line_list_marker_.header.stamp = ros::Time();
   line_list_marker_.id = id == 0 ? line_list_marker_.id + 1 : static_cast<int>(id);
@@ -252,17 +231,15 @@ bool RvizVisualTools::publishWireframeCuboid(const Eigen::Isometry3d& pose, cons
   std::vector<Eigen::Vector3d> corners;
   std::vector<std::pair<int, int>> edges;
   for (int corner = 0; corner < 8; ++corner) {
-    corners.push_back(pose * Eigen::Vector3d((corner & 1 ? max_point : min_point).x(),
-                                             (corner & 2 ? max_point : min_point).y(),
+    corners.push_back(pose * Eigen::Vector3d((corner & 1 ? max_point : min_point).x(), (corner & 2 ? max_point : min_point).y(),
                                              (corner & 4 ? max_point : min_point).z()));
     for (const int bit : {1, 2, 4})
-      if (!(corner & bit))
-        edges.emplace_back(corner, corner | bit);
+      if (!(corner & bit)) edges.emplace_back(corner, corner | bit);
   }
   return addEdges(corners, edges, getScale(XXSMALL), color, ns, id);
 }
-bool RvizVisualTools::publishWireframeRectangle(const Eigen::Isometry3d& pose, double height, double width,
-                                                colors color, scales scale, std::size_t id) {
+bool RvizVisualTools::publishWireframeRectangle(const Eigen::Isometry3d& pose, double height, double width, colors color,
+                                                scales scale, std::size_t id) {
   const double x = width / 2, y = height / 2;
   return addEdges({pose * Eigen::Vector3d(-x, -y, 0), pose * Eigen::Vector3d(-x, y, 0), pose * Eigen::Vector3d(x, y, 0),
                    pose * Eigen::Vector3d(x, -y, 0)},
@@ -295,25 +272,22 @@ bool RvizVisualTools::publishSpheres(const std::vector<geometry_msgs::Point>& po
                                      const geometry_msgs::Vector3& scale, const std::string& ns) {
   return publishSpheres(points, std::vector<std_msgs::ColorRGBA>(points.size(), getColor(color)), scale, ns);
 }
-bool RvizVisualTools::publishSpheres(const EigenSTL::vector_Vector3d& points, const std::vector<colors>& colors,
-                                     scales scale, const std::string& ns) {
+bool RvizVisualTools::publishSpheres(const EigenSTL::vector_Vector3d& points, const std::vector<colors>& colors, scales scale,
+                                     const std::string& ns) {
   std::vector<std_msgs::ColorRGBA> painted;
-  for (const auto color : colors)
-    painted.push_back(getColor(color));
+  for (const auto color : colors) painted.push_back(getColor(color));
   return publishSpheres(messages(points), painted, getScale(scale), ns);
 }
 bool RvizVisualTools::publishSpheres(const std::vector<geometry_msgs::Point>& points,
-                                     const std::vector<std_msgs::ColorRGBA>& colors,
-                                     const geometry_msgs::Vector3& scale, const std::string& ns) {
-  if (!areAsMany("spheres", points.size(), colors.size()))
-    return false;
+                                     const std::vector<std_msgs::ColorRGBA>& colors, const geometry_msgs::Vector3& scale,
+                                     const std::string& ns) {
+  if (!areAsMany("spheres", points.size(), colors.size())) return false;
   spheres_marker_.header = header();
   spheres_marker_.header.stamp = ros::Time();
   ++spheres_marker_.id;
   spheres_marker_.ns = ns;
   spheres_marker_.scale = scale;
-  if (!colors.empty())
-    spheres_marker_.color = colors.front();
+  if (!colors.empty()) spheres_marker_.color = colors.front();
   spheres_marker_.points = points;
   spheres_marker_.colors = colors;
   return publishMarker(spheres_marker_);

@@ -13,24 +13,24 @@ struct Paint {
 
 // In the order of the enum, as far as a colour is fixed.
 const std::array<Paint, 18> PAINTS = {{
-    {0, 0, 0, OPAQUE},              // BLACK
-    {0.597, 0.296, 0, OPAQUE},      // BROWN
-    {0.1, 0.1, 0.8, OPAQUE},        // BLUE
-    {0, 1, 1, OPAQUE},              // CYAN
-    {0.9, 0.9, 0.9, OPAQUE},        // GREY
-    {0.6, 0.6, 0.6, OPAQUE},        // DARK_GREY
-    {0.1, 0.8, 0.1, OPAQUE},        // GREEN
-    {0.6, 1, 0.2, OPAQUE},          // LIME_GREEN
-    {1, 0, 1, OPAQUE},              // MAGENTA
-    {1, 0.5, 0, OPAQUE},            // ORANGE
-    {0.597, 0, 0.597, OPAQUE},      // PURPLE
-    {0.8, 0.1, 0.1, OPAQUE},        // RED
-    {1, 0.4, 1, OPAQUE},            // PINK
-    {1, 1, 1, OPAQUE},              // WHITE
-    {1, 1, 0, OPAQUE},              // YELLOW
-    {0.1, 0.1, 0.1, 0.25},          // TRANSLUCENT
-    {0.1, 0.1, 0.1, 0.1},           // TRANSLUCENT_LIGHT
-    {0.1, 0.1, 0.1, 0.5},           // TRANSLUCENT_DARK
+    {0, 0, 0, OPAQUE},          // BLACK
+    {0.597, 0.296, 0, OPAQUE},  // BROWN
+    {0.1, 0.1, 0.8, OPAQUE},    // BLUE
+    {0, 1, 1, OPAQUE},          // CYAN
+    {0.9, 0.9, 0.9, OPAQUE},    // GREY
+    {0.6, 0.6, 0.6, OPAQUE},    // DARK_GREY
+    {0.1, 0.8, 0.1, OPAQUE},    // GREEN
+    {0.6, 1, 0.2, OPAQUE},      // LIME_GREEN
+    {1, 0, 1, OPAQUE},          // MAGENTA
+    {1, 0.5, 0, OPAQUE},        // ORANGE
+    {0.597, 0, 0.597, OPAQUE},  // PURPLE
+    {0.8, 0.1, 0.1, OPAQUE},    // RED
+    {1, 0.4, 1, OPAQUE},        // PINK
+    {1, 1, 1, OPAQUE},          // WHITE
+    {1, 1, 0, OPAQUE},          // YELLOW
+    {0.1, 0.1, 0.1, 0.25},      // TRANSLUCENT
+    {0.1, 0.1, 0.1, 0.1},       // TRANSLUCENT_LIGHT
+    {0.1, 0.1, 0.1, 0.5},       // TRANSLUCENT_DARK
 }};
 
 struct Size {
@@ -51,21 +51,19 @@ const std::array<Size, XXXXLARGE> SIZES = {{{"XXXXSMALL", 0.001},
                                             {"XXXXLARGE", 0.5}}};
 
 const Size& size(std::size_t scale) {
-  if (scale < XXXXSMALL || scale > XXXXLARGE)
-    throw std::runtime_error("Unknown size");
+  if (scale < XXXXSMALL || scale > XXXXLARGE) throw std::runtime_error("Unknown size");
   return SIZES[scale - XXXXSMALL];
 }
 
 }  // namespace
 
-const std::array<colors, 14> RvizVisualTools::ALL_RAND_COLORS = {RED,  GREEN, BLUE,       GREY,   DARK_GREY, WHITE, ORANGE, YELLOW,
-                                                                 BROWN, PINK,  LIME_GREEN, PURPLE, CYAN,      MAGENTA};
+const std::array<colors, 14> RvizVisualTools::ALL_RAND_COLORS = {RED,    GREEN, BLUE, GREY,       DARK_GREY, WHITE, ORANGE,
+                                                                 YELLOW, BROWN, PINK, LIME_GREEN, PURPLE,    CYAN,  MAGENTA};
 
 colors RvizVisualTools::getRandColor() { return ALL_RAND_COLORS[iRand(0, ALL_RAND_COLORS.size() - 1)]; }
 
 std_msgs::ColorRGBA RvizVisualTools::getColor(colors color) const {
-  if (color == RAND)
-    return createRandColor();
+  if (color == RAND) return createRandColor();
   std_msgs::ColorRGBA result;
   if (color == CLEAR) {
     result.r = result.g = result.b = 1;
@@ -81,9 +79,7 @@ std_msgs::ColorRGBA RvizVisualTools::getColor(colors color) const {
   return result;
 }
 
-colors RvizVisualTools::intToRvizColor(std::size_t color) {
-  return color <= DEFAULT ? static_cast<colors>(color) : DEFAULT;
-}
+colors RvizVisualTools::intToRvizColor(std::size_t color) { return color <= DEFAULT ? static_cast<colors>(color) : DEFAULT; }
 
 scales RvizVisualTools::intToRvizScale(std::size_t scale) {
   size(scale);
@@ -110,8 +106,8 @@ double RvizVisualTools::slerp(double start, double end, double range, double val
 
 std_msgs::ColorRGBA RvizVisualTools::getColorScale(double value) const {
   if (value < 0 || value > 1)
-    ROS_WARN_STREAM_NAMED(LOGNAME, "Intensity value for color scale is " << (value < 0 ? "below" : "above")
-                                                                         << " range [0,1], value: " << value);
+    ROS_WARN_STREAM_NAMED(
+        LOGNAME, "Intensity value for color scale is " << (value < 0 ? "below" : "above") << " range [0,1], value: " << value);
   value = std::min(1.0, std::max(0.0, value));
   const bool lower = value <= 0.5;
   const std_msgs::ColorRGBA start = getColor(lower ? RED : YELLOW), end = getColor(lower ? YELLOW : GREEN);

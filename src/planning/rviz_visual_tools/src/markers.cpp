@@ -36,8 +36,8 @@ RvizVisualTools::RvizVisualTools(std::string base_frame, std::string marker_topi
 }
 
 std::vector<visualization_msgs::Marker*> RvizVisualTools::kinds() {
-  return {&arrow_marker_, &sphere_marker_, &block_marker_,      &cylinder_marker_,  &mesh_marker_,   &text_marker_,
-          &cuboid_marker_, &line_strip_marker_, &line_list_marker_, &spheres_marker_, &triangle_marker_};
+  return {&arrow_marker_,  &sphere_marker_,     &block_marker_,     &cylinder_marker_, &mesh_marker_,    &text_marker_,
+          &cuboid_marker_, &line_strip_marker_, &line_list_marker_, &spheres_marker_,  &triangle_marker_};
 }
 
 bool RvizVisualTools::loadRvizMarkers() {
@@ -73,14 +73,12 @@ bool RvizVisualTools::loadRvizMarkers() {
 bool RvizVisualTools::deleteAllMarkers() { return publishMarker(reset_marker_); }
 
 void RvizVisualTools::resetMarkerCounts() {
-  for (visualization_msgs::Marker* marker : kinds())
-    ++marker->id;
+  for (visualization_msgs::Marker* marker : kinds()) ++marker->id;
 }
 
 void RvizVisualTools::setLifetime(double lifetime) {
   marker_lifetime_ = ros::Duration(lifetime);
-  for (visualization_msgs::Marker* marker : kinds())
-    marker->lifetime = marker_lifetime_;
+  for (visualization_msgs::Marker* marker : kinds()) marker->lifetime = marker_lifetime_;
 }
 
 std_msgs::Header RvizVisualTools::header() const {
@@ -91,12 +89,10 @@ std_msgs::Header RvizVisualTools::header() const {
 }
 
 void RvizVisualTools::loadMarkerPub(bool wait_for_subscriber, bool latched) {
-  if (pub_rviz_markers_)
-    return;
+  if (pub_rviz_markers_) return;
   pub_rviz_markers_ = nh_.advertise<visualization_msgs::MarkerArray>(marker_topic_, 10, latched);
   ROS_DEBUG_STREAM_NAMED(LOGNAME, "Publishing Rviz markers on topic " << pub_rviz_markers_.getTopic());
-  if (wait_for_subscriber)
-    waitForSubscriber(pub_rviz_markers_);
+  if (wait_for_subscriber) waitForSubscriber(pub_rviz_markers_);
 }
 
 void RvizVisualTools::waitForMarkerPub() { waitForSubscriber(pub_rviz_markers_, 0, true); }
@@ -114,14 +110,14 @@ bool RvizVisualTools::waitForSubscriber(const ros::Publisher& pub, double wait_t
   while (pub.getNumSubscribers() == 0) {
     if (!blocking && ros::WallTime::now() > end) {
       ROS_WARN_STREAM_NAMED(LOGNAME, "Topic '" << pub.getTopic() << "' unable to connect to any subscribers within "
-                                               << wait_time << " sec. It is possible initially published visual "
-                                                               "messages will be lost.");
+                                               << wait_time
+                                               << " sec. It is possible initially published visual "
+                                                  "messages will be lost.");
       return false;
     }
     ros::spinOnce();
     ros::WallDuration(POLL).sleep();
-    if (!ros::ok())
-      return false;
+    if (!ros::ok()) return false;
   }
   pub_rviz_markers_connected_ = true;
   return true;
@@ -141,8 +137,7 @@ bool RvizVisualTools::triggerEvery(std::size_t queueSize) {
 }
 
 bool RvizVisualTools::trigger() {
-  if (markers_.markers.empty())
-    return false;
+  if (markers_.markers.empty()) return false;
   const bool sent = publishMarkers(markers_);
   markers_.markers.clear();
   return sent;
@@ -154,15 +149,12 @@ bool RvizVisualTools::publishMarkers(visualization_msgs::MarkerArray& markers) {
     waitForSubscriber(pub_rviz_markers_);
     pub_rviz_markers_waited_ = true;
   }
-  if (markers.markers.empty())
-    return false;
+  if (markers.markers.empty()) return false;
   for (visualization_msgs::Marker& marker : markers.markers) {
     normalize(marker.pose.orientation);
-    if (!psychedelic_mode_)
-      continue;
+    if (!psychedelic_mode_) continue;
     invert(marker.color);
-    for (std_msgs::ColorRGBA& color : marker.colors)
-      invert(color);
+    for (std_msgs::ColorRGBA& color : marker.colors) invert(color);
   }
   pub_rviz_markers_.publish(markers);
   return true;
@@ -176,8 +168,7 @@ RemoteControlPtr& RvizVisualTools::getRemoteControl() {
 }
 
 void RvizVisualTools::loadRemoteControl() {
-  if (remote_control_)
-    return;
+  if (remote_control_) return;
   remote_control_ = std::make_shared<RemoteControl>(nh_);
   ros::spinOnce();
 }

@@ -19,22 +19,16 @@ RemoteControl::RemoteControl(const ros::NodeHandle& nh) : nh_(nh) {
 
 void RemoteControl::rvizDashboardCallback(const sensor_msgs::Joy::ConstPtr& msg) {
   const auto pressed = [&](std::size_t button) { return msg->buttons.size() > button && msg->buttons[button] != 0; };
-  if (pressed(1))
-    setReadyForNextStep();
-  else if (pressed(2))
-    setAutonomous();
-  else if (pressed(3))
-    setFullAutonomous();
-  else if (pressed(4))
-    setStop();
-  else
-    ROS_ERROR_STREAM_NAMED(LOGNAME, "Unknown input button");
+  if (pressed(1)) setReadyForNextStep();
+  else if (pressed(2)) setAutonomous();
+  else if (pressed(3)) setFullAutonomous();
+  else if (pressed(4)) setStop();
+  else ROS_ERROR_STREAM_NAMED(LOGNAME, "Unknown input button");
 }
 
 bool RemoteControl::setReadyForNextStep() {
   stop_ = false;
-  if (is_waiting_)
-    next_step_ready_ = true;
+  if (is_waiting_) next_step_ready_ = true;
   return true;
 }
 
@@ -50,8 +44,7 @@ void RemoteControl::setFullAutonomous(bool autonomous) {
 }
 
 void RemoteControl::setStop(bool stop) {
-  if (stop)
-    setFullAutonomous(false);
+  if (stop) setFullAutonomous(false);
   stop_ = stop;
 }
 
@@ -63,23 +56,19 @@ bool RemoteControl::waitForNextStep(const std::string& caption) { return wait(ca
 bool RemoteControl::waitForNextFullStep(const std::string& caption) { return wait(caption, full_autonomous_); }
 
 bool RemoteControl::wait(const std::string& caption, const std::atomic<bool>& autonomous) {
-  if (next_step_ready_ || autonomous || !ros::ok())
-    return true;
+  if (next_step_ready_ || autonomous || !ros::ok()) return true;
   std::cout << std::endl << CYAN << "Waiting to continue: " << caption << PLAIN << std::flush;
-  if (display_waiting_state_)
-    display_waiting_state_(true);
+  if (display_waiting_state_) display_waiting_state_(true);
   is_waiting_ = true;
   while (!next_step_ready_ && !autonomous && ros::ok()) {
     ros::WallDuration(POLL).sleep();
     ros::spinOnce();
   }
-  if (!ros::ok())
-    std::exit(0);
+  if (!ros::ok()) std::exit(0);
   next_step_ready_ = false;
   is_waiting_ = false;
   std::cout << CYAN << "... continuing" << PLAIN << std::endl;
-  if (display_waiting_state_)
-    display_waiting_state_(false);
+  if (display_waiting_state_) display_waiting_state_(false);
   return true;
 }
 

@@ -4,9 +4,7 @@
 namespace rviz_visual_tools {
 namespace {
 
-void number(visualization_msgs::Marker& marker, std::size_t id) {
-  marker.id = id == 0 ? marker.id + 1 : static_cast<int>(id);
-}
+void number(visualization_msgs::Marker& marker, std::size_t id) { marker.id = id == 0 ? marker.id + 1 : static_cast<int>(id); }
 
 double visible(double length) { return length > 0 ? length : SMALL_SCALE; }
 
@@ -89,8 +87,8 @@ bool RvizVisualTools::publishYZPlane(const geometry_msgs::Pose& pose, colors col
 }
 
 bool RvizVisualTools::addSphere(const std_msgs::Header& header, const geometry_msgs::Pose& pose,
-                                const std_msgs::ColorRGBA& color, const geometry_msgs::Vector3& scale,
-                                const std::string& ns, std::size_t id) {
+                                const std_msgs::ColorRGBA& color, const geometry_msgs::Vector3& scale, const std::string& ns,
+                                std::size_t id) {
   sphere_marker_.header = header;
   number(sphere_marker_, id);
   sphere_marker_.ns = ns;
@@ -112,8 +110,8 @@ bool RvizVisualTools::publishSphere(const Eigen::Vector3d& point, colors color, 
                                     std::size_t id) {
   return addSphere(header(), convertPointToPose(convertPoint(point)), getColor(color), cube(scale), ns, id);
 }
-bool RvizVisualTools::publishSphere(const geometry_msgs::Point& point, colors color, scales scale,
-                                    const std::string& ns, std::size_t id) {
+bool RvizVisualTools::publishSphere(const geometry_msgs::Point& point, colors color, scales scale, const std::string& ns,
+                                    std::size_t id) {
   return addSphere(header(), convertPointToPose(point), getColor(color), getScale(scale), ns, id);
 }
 bool RvizVisualTools::publishSphere(const geometry_msgs::Pose& pose, colors color, scales scale, const std::string& ns,
@@ -140,13 +138,13 @@ bool RvizVisualTools::publishSphere(const Eigen::Vector3d& point, const std_msgs
                                     const geometry_msgs::Vector3 scale, const std::string& ns, std::size_t id) {
   return addSphere(header(), convertPointToPose(convertPoint(point)), color, scale, ns, id);
 }
-bool RvizVisualTools::publishSphere(const geometry_msgs::PoseStamped& pose, colors color,
-                                    const geometry_msgs::Vector3 scale, const std::string& ns, std::size_t id) {
+bool RvizVisualTools::publishSphere(const geometry_msgs::PoseStamped& pose, colors color, const geometry_msgs::Vector3 scale,
+                                    const std::string& ns, std::size_t id) {
   return addSphere(pose.header, pose.pose, getColor(color), scale, ns, id);
 }
 
-bool RvizVisualTools::addArrow(const std_msgs::Header& header, const geometry_msgs::Pose& pose, colors color,
-                               scales scale, double length, std::size_t id) {
+bool RvizVisualTools::addArrow(const std_msgs::Header& header, const geometry_msgs::Pose& pose, colors color, scales scale,
+                               double length, std::size_t id) {
   arrow_marker_.header = header;
   number(arrow_marker_, id);
   arrow_marker_.points.clear();
@@ -157,12 +155,10 @@ bool RvizVisualTools::addArrow(const std_msgs::Header& header, const geometry_ms
   return publishMarker(arrow_marker_);
 }
 
-bool RvizVisualTools::publishArrow(const Eigen::Isometry3d& pose, colors color, scales scale, double length,
-                                   std::size_t id) {
+bool RvizVisualTools::publishArrow(const Eigen::Isometry3d& pose, colors color, scales scale, double length, std::size_t id) {
   return addArrow(header(), convertPose(pose), color, scale, length, id);
 }
-bool RvizVisualTools::publishArrow(const geometry_msgs::Pose& pose, colors color, scales scale, double length,
-                                   std::size_t id) {
+bool RvizVisualTools::publishArrow(const geometry_msgs::Pose& pose, colors color, scales scale, double length, std::size_t id) {
   return addArrow(header(), pose, color, scale, length, id);
 }
 bool RvizVisualTools::publishArrow(const geometry_msgs::PoseStamped& pose, colors color, scales scale, double length,
@@ -200,8 +196,7 @@ bool RvizVisualTools::publishYArrow(const geometry_msgs::Pose& pose, colors colo
 bool RvizVisualTools::publishYArrow(const geometry_msgs::PoseStamped& pose, colors color, scales scale, double length) {
   return publishArrow(turned(pose, M_PI / 2, Eigen::Vector3d::UnitZ()), color, scale, length);
 }
-bool RvizVisualTools::publishZArrow(const Eigen::Isometry3d& pose, colors color, scales scale, double length,
-                                    std::size_t id) {
+bool RvizVisualTools::publishZArrow(const Eigen::Isometry3d& pose, colors color, scales scale, double length, std::size_t id) {
   return publishArrow(turned(pose, -M_PI / 2, Eigen::Vector3d::UnitY()), color, scale, length, id);
 }
 bool RvizVisualTools::publishZArrow(const geometry_msgs::Pose& pose, colors color, scales scale, double length) {
@@ -218,8 +213,8 @@ bool RvizVisualTools::publishZArrow(const geometry_msgs::PoseStamped& pose, colo
 bool RvizVisualTools::publishCuboid(const Eigen::Vector3d& point1, const Eigen::Vector3d& point2, colors color) {
   return publishCuboid(convertPoint(point1), convertPoint(point2), color);
 }
-bool RvizVisualTools::publishCuboid(const geometry_msgs::Point& point1, const geometry_msgs::Point& point2,
-                                    colors color, const std::string& ns, std::size_t id) {
+bool RvizVisualTools::publishCuboid(const geometry_msgs::Point& point1, const geometry_msgs::Point& point2, colors color,
+                                    const std::string& ns, std::size_t id) {
   const Eigen::Vector3d a = convertPoint(point1), b = convertPoint(point2), size = (a - b).cwiseAbs();
   cuboid_marker_.header = header();
   number(cuboid_marker_, id);
@@ -231,8 +226,7 @@ bool RvizVisualTools::publishCuboid(const geometry_msgs::Point& point1, const ge
   cuboid_marker_.scale.z = visible(size.z());
   return publishMarker(cuboid_marker_);
 }
-bool RvizVisualTools::publishCuboid(const geometry_msgs::Pose& pose, double depth, double width, double height,
-                                    colors color) {
+bool RvizVisualTools::publishCuboid(const geometry_msgs::Pose& pose, double depth, double width, double height, colors color) {
   cuboid_marker_.header = header();
   number(cuboid_marker_, 0);
   cuboid_marker_.color = getColor(color);
@@ -242,8 +236,7 @@ bool RvizVisualTools::publishCuboid(const geometry_msgs::Pose& pose, double dept
   cuboid_marker_.scale.z = visible(height);
   return publishMarker(cuboid_marker_);
 }
-bool RvizVisualTools::publishCuboid(const Eigen::Isometry3d& pose, double depth, double width, double height,
-                                    colors color) {
+bool RvizVisualTools::publishCuboid(const Eigen::Isometry3d& pose, double depth, double width, double height, colors color) {
   return publishCuboid(convertPose(pose), depth, width, height, color);
 }
 bool RvizVisualTools::publishCuboid(const Eigen::Isometry3d& pose, const Eigen::Vector3d& size, colors color) {
@@ -253,8 +246,7 @@ bool RvizVisualTools::publishCuboid(const geometry_msgs::Pose& pose, const geome
   return publishCuboid(pose, size.x, size.y, size.z, color);
 }
 
-bool RvizVisualTools::publishAxisLabeled(const Eigen::Isometry3d& pose, const std::string& label, scales scale,
-                                         colors color) {
+bool RvizVisualTools::publishAxisLabeled(const Eigen::Isometry3d& pose, const std::string& label, scales scale, colors color) {
   return publishAxisLabeled(convertPose(pose), label, scale, color);
 }
 bool RvizVisualTools::publishAxisLabeled(const geometry_msgs::Pose& pose, const std::string& label, scales scale,
@@ -274,8 +266,7 @@ bool RvizVisualTools::publishAxis(const Eigen::Isometry3d& pose, scales scale, c
   const double radius = getScale(scale).x;
   return publishAxis(pose, 10 * radius, radius, ns);
 }
-bool RvizVisualTools::publishAxis(const geometry_msgs::Pose& pose, double length, double radius,
-                                  const std::string& ns) {
+bool RvizVisualTools::publishAxis(const geometry_msgs::Pose& pose, double length, double radius, const std::string& ns) {
   return publishAxis(convertPose(pose), length, radius, ns);
 }
 bool RvizVisualTools::publishAxis(const Eigen::Isometry3d& pose, double length, double radius, const std::string& ns) {
@@ -288,23 +279,21 @@ bool RvizVisualTools::publishAxis(const Eigen::Isometry3d& pose, double length, 
          bar(Eigen::Vector3d::UnitZ(), 0, Eigen::Vector3d::UnitZ(), BLUE);
 }
 bool RvizVisualTools::publishAxisPath(const EigenSTL::vector_Isometry3d& path, scales scale, const std::string& ns) {
-  for (const Eigen::Isometry3d& pose : path)
-    publishAxis(pose, scale, ns);
+  for (const Eigen::Isometry3d& pose : path) publishAxis(pose, scale, ns);
   return true;
 }
 bool RvizVisualTools::publishAxisPath(const EigenSTL::vector_Isometry3d& path, double length, double radius,
                                       const std::string& ns) {
-  for (const Eigen::Isometry3d& pose : path)
-    publishAxis(pose, length, radius, ns);
+  for (const Eigen::Isometry3d& pose : path) publishAxis(pose, length, radius, ns);
   return true;
 }
 
-bool RvizVisualTools::publishMesh(const Eigen::Isometry3d& pose, const std::string& file_name, colors color,
-                                  double scale, const std::string& ns, std::size_t id) {
+bool RvizVisualTools::publishMesh(const Eigen::Isometry3d& pose, const std::string& file_name, colors color, double scale,
+                                  const std::string& ns, std::size_t id) {
   return publishMesh(convertPose(pose), file_name, color, scale, ns, id);
 }
-bool RvizVisualTools::publishMesh(const geometry_msgs::Pose& pose, const std::string& file_name, colors color,
-                                  double scale, const std::string& ns, std::size_t id) {
+bool RvizVisualTools::publishMesh(const geometry_msgs::Pose& pose, const std::string& file_name, colors color, double scale,
+                                  const std::string& ns, std::size_t id) {
   mesh_marker_.header = header();
   number(mesh_marker_, id);
   mesh_marker_.ns = ns;
@@ -315,16 +304,15 @@ bool RvizVisualTools::publishMesh(const geometry_msgs::Pose& pose, const std::st
   mesh_marker_.scale.x = mesh_marker_.scale.y = mesh_marker_.scale.z = scale;
   return publishMarker(mesh_marker_);
 }
-bool RvizVisualTools::publishMesh(const Eigen::Isometry3d& pose, const shape_msgs::Mesh& mesh, colors color,
-                                  double scale, const std::string& ns, std::size_t id) {
+bool RvizVisualTools::publishMesh(const Eigen::Isometry3d& pose, const shape_msgs::Mesh& mesh, colors color, double scale,
+                                  const std::string& ns, std::size_t id) {
   return publishMesh(convertPose(pose), mesh, color, scale, ns, id);
 }
-bool RvizVisualTools::publishMesh(const geometry_msgs::Pose& pose, const shape_msgs::Mesh& mesh, colors color,
-                                  double scale, const std::string& ns, std::size_t id) {
+bool RvizVisualTools::publishMesh(const geometry_msgs::Pose& pose, const shape_msgs::Mesh& mesh, colors color, double scale,
+                                  const std::string& ns, std::size_t id) {
   std::vector<geometry_msgs::Point> points;
   for (const shape_msgs::MeshTriangle& triangle : mesh.triangles)
-    for (const auto index : triangle.vertex_indices)
-      points.push_back(mesh.vertices.at(index));
+    for (const auto index : triangle.vertex_indices) points.push_back(mesh.vertices.at(index));
   return addTriangles(pose, std::move(points), ns, color, scale, id);
 }
 
@@ -351,8 +339,7 @@ bool RvizVisualTools::publishText(const geometry_msgs::Pose& pose, const std::st
   text_marker_.scale = scale;
   text_marker_.scale.x = text_marker_.scale.y = 0;
   const bool added = publishMarker(text_marker_);
-  if (static_id)
-    text_marker_.id = last;
+  if (static_id) text_marker_.id = last;
   return added;
 }
 

@@ -27,8 +27,7 @@ bool TFVisualTools::publishTransform(const Eigen::Isometry3d& transform, const s
 void TFVisualTools::clearAllTransforms() { transforms_.clear(); }
 
 void TFVisualTools::publishAllTransforms(const ros::TimerEvent&) {
-  for (geometry_msgs::TransformStamped& transform : transforms_)
-    transform.header.stamp = ros::Time::now();
+  for (geometry_msgs::TransformStamped& transform : transforms_) transform.header.stamp = ros::Time::now();
   tf_pub_.sendTransform(transforms_);
 }
 

@@ -95,7 +95,8 @@ TEST_F(VisualTools, WireFramesHaveTwelveEdges) {
   double length = 0;
   for (std::size_t i = 0; i < 24; i += 2)
     length += (rvt::RvizVisualTools::convertPoint(markers[0].points[i]) -
-               rvt::RvizVisualTools::convertPoint(markers[0].points[i + 1])).norm();
+               rvt::RvizVisualTools::convertPoint(markers[0].points[i + 1]))
+                  .norm();
   EXPECT_NEAR(length, 4 * (1 + 2 + 3), 1e-9);
 }
 
@@ -137,8 +138,7 @@ TEST_F(VisualTools, PromptsWaitForTheButton) {
   std::atomic<bool> waited{false};
   tools_.getRemoteControl()->setDisplayWaitingState([&](bool waiting) { waited = waited || waiting; });
   std::thread presser([&] {
-    while (!tools_.getRemoteControl()->isWaiting() && ros::ok())
-      ros::WallDuration(0.01).sleep();
+    while (!tools_.getRemoteControl()->isWaiting() && ros::ok()) ros::WallDuration(0.01).sleep();
     while (tools_.getRemoteControl()->isWaiting() && ros::ok()) {  // again, as the first may come before the connection
       panel.publishNext();
       ros::WallDuration(0.05).sleep();

@@ -12,10 +12,7 @@ namespace srdf
 Model::Model() : core_(std::make_shared<motion::Srdf>()) {}
 Model::~Model() = default;
 
-void Model::clear()
-{
-  *this = Model();
-}
+void Model::clear() { *this = Model(); }
 
 bool Model::initString(const urdf::ModelInterface& urdf_model, const std::string& xmlstring)
 {

@@ -21,10 +21,7 @@ XMLElement* add(XMLElement* parent, const char* tag, std::initializer_list<std::
   return element;
 }
 
-void comment(XMLElement* root, const char* text)
-{
-  root->InsertEndChild(root->GetDocument()->NewComment(text));
-}
+void comment(XMLElement* root, const char* text) { root->InsertEndChild(root->GetDocument()->NewComment(text)); }
 
 std::string numbers(std::initializer_list<double> values)
 {
@@ -120,8 +117,9 @@ void SRDFWriter::generateSRDF(XMLDocument& document)
 void SRDFWriter::createGroupsXML(XMLElement* root)
 {
   if (!groups_.empty())
-    comment(root, "GROUPS: sets of joints and links that are planned for together; by links (their parent joints), joints, "
-                  "a chain between two links, or other groups");
+    comment(root,
+            "GROUPS: sets of joints and links that are planned for together; by links (their parent joints), joints, "
+            "a chain between two links, or other groups");
   for (const auto& group : groups_)
   {
     XMLElement* element = add(root, "group", {{"name", group.name_}});
@@ -154,8 +152,9 @@ void SRDFWriter::createEndEffectorsXML(XMLElement* root)
     comment(root, "END EFFECTOR: what a group of links is to the arm that carries it");
   for (const auto& effector : end_effectors_)
   {
-    XMLElement* element = add(root, "end_effector",
-                              {{"name", effector.name_}, {"parent_link", effector.parent_link_}, {"group", effector.component_group_}});
+    XMLElement* element =
+        add(root, "end_effector",
+            {{"name", effector.name_}, {"parent_link", effector.parent_link_}, {"group", effector.component_group_}});
     if (!effector.parent_group_.empty())
       element->SetAttribute("parent_group", effector.parent_group_.c_str());
   }
@@ -167,7 +166,10 @@ void SRDFWriter::createVirtualJointsXML(XMLElement* root)
     comment(root, "VIRTUAL JOINT: between the robot and the frame outside that it stands or moves in");
   for (const auto& joint : virtual_joints_)
     add(root, "virtual_joint",
-        {{"name", joint.name_}, {"type", joint.type_}, {"parent_frame", joint.parent_frame_}, {"child_link", joint.child_link_}});
+        {{"name", joint.name_},
+         {"type", joint.type_},
+         {"parent_frame", joint.parent_frame_},
+         {"child_link", joint.child_link_}});
 }
 
 void SRDFWriter::createPassiveJointsXML(XMLElement* root)
@@ -184,8 +186,7 @@ void SRDFWriter::createJointPropertiesXML(XMLElement* root)
     comment(root, "JOINT PROPERTIES: what planners want to know of a joint");
   for (const auto& joint : joint_properties_)
     for (const auto& property : joint.second)
-      add(root, "joint_property",
-          {{"joint_name", joint.first}, {"property_name", property.first}, {"value", property.second}});
+      add(root, "joint_property", {{"joint_name", joint.first}, {"property_name", property.first}, {"value", property.second}});
 }
 
 void SRDFWriter::createLinkSphereApproximationsXML(XMLElement* root)
@@ -215,8 +216,7 @@ void SRDFWriter::createDisabledCollisionPairsXML(XMLElement* root)
   createCollisionPairsXML(root, "disable_collisions", disabled_collision_pairs_);
 }
 
-void SRDFWriter::createCollisionPairsXML(XMLElement* root, const char* tag_name,
-                                         const std::vector<Model::CollisionPair>& pairs)
+void SRDFWriter::createCollisionPairsXML(XMLElement* root, const char* tag_name, const std::vector<Model::CollisionPair>& pairs)
 {
   for (const auto& pair : pairs)
     add(root, tag_name, {{"link1", pair.link1_}, {"link2", pair.link2_}, {"reason", pair.reason_}});

@@ -95,8 +95,7 @@ sensor_msgs::CompressedImage encode(const sensor_msgs::Image& image, const Setti
       pixels.setTo(0, pixels > std::min(settings.depth_max * 1000, 65535.0));
     }
     std::vector<uint8_t> packed;
-    if (settings.format == "rvl")
-      packed = packRvl(pixels);
+    if (settings.format == "rvl") packed = packRvl(pixels);
     else if (!cv::imencode(".png", pixels, packed, {cv::IMWRITE_PNG_COMPRESSION, settings.png_level}))
       refuse("OpenCV makes no PNG of this depth image");
     message.data.resize(sizeof(Head));
@@ -116,18 +115,15 @@ sensor_msgs::ImagePtr decode(const sensor_msgs::CompressedImage& message) {
   const std::string how = split == std::string::npos ? "" : message.format.substr(split);
   if (encoding != enc::TYPE_32FC1 && encoding != enc::TYPE_16UC1 && encoding != enc::MONO16)
     refuse("format '" + message.format + "' is no compressed depth");
-  if (message.data.size() <= sizeof(Head))
-    refuse(std::to_string(message.data.size()) + " bytes are no compressed depth");
+  if (message.data.size() <= sizeof(Head)) refuse(std::to_string(message.data.size()) + " bytes are no compressed depth");
   Head head;
   std::memcpy(&head, message.data.data(), sizeof(Head));
   try {
     const uint8_t* packed = message.data.data() + sizeof(Head);
     const size_t size = message.data.size() - sizeof(Head);
     cv::Mat pixels;
-    if (how.find("compressedDepth rvl") != std::string::npos)
-      pixels = unpackRvl(packed, size);
-    else
-      pixels = cv::imdecode(cv::Mat(1, size, CV_8UC1, const_cast<uint8_t*>(packed)), cv::IMREAD_UNCHANGED);
+    if (how.find("compressedDepth rvl") != std::string::npos) pixels = unpackRvl(packed, size);
+    else pixels = cv::imdecode(cv::Mat(1, size, CV_8UC1, const_cast<uint8_t*>(packed)), cv::IMREAD_UNCHANGED);
     if (pixels.empty()) refuse("what should be PNG is no picture");
     if (pixels.type() != CV_16UC1) refuse("the depth does not have 16 bits");
     if (encoding == enc::TYPE_32FC1) pixels = metres(pixels, head);

@@ -39,10 +39,8 @@ TEST_P(Formats, FloatsComeBackAsExactAsTheirStep) {
   ASSERT_EQ(got.type(), CV_32FC1);
   for (int i = 0; i < 8; ++i) {
     const float z = sent.at<float>(i / 4, i % 4), back = got.at<float>(i / 4, i % 4);
-    if (z < 10)
-      EXPECT_NEAR(back, z, 1.01f * z * z / 10100) << z;  // one step of inverse depth
-    else
-      EXPECT_TRUE(std::isnan(back)) << z;
+    if (z < 10) EXPECT_NEAR(back, z, 1.01f * z * z / 10100) << z;  // one step of inverse depth
+    else EXPECT_TRUE(std::isnan(back)) << z;
   }
 }
 

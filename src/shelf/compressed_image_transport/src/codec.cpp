@@ -32,8 +32,7 @@ bool ofDepth(const std::string& encoding, int depth) { return bits(encoding) == 
 
 }  // namespace
 
-sensor_msgs::CompressedImage encode(const sensor_msgs::Image& image, Format format,
-                                    const std::vector<int>& parameters) {
+sensor_msgs::CompressedImage encode(const sensor_msgs::Image& image, Format format, const std::vector<int>& parameters) {
   const int depth = bits(image.encoding);
   const std::string name = format == Format::jpeg ? "jpeg" : "png";
   if (depth != 8 && depth != 16)
@@ -61,16 +60,13 @@ sensor_msgs::ImagePtr decode(const sensor_msgs::CompressedImage& message, Mode m
   const size_t split = message.format.find(';');
   const std::string told = split == std::string::npos ? "" : message.format.substr(0, split);
   const bool redFirst = split != std::string::npos && message.format.find("compressed rgb", split) != std::string::npos;
-  const int flags = mode == Mode::gray    ? cv::IMREAD_GRAYSCALE
-                    : mode == Mode::color ? cv::IMREAD_COLOR
-                                          : cv::IMREAD_UNCHANGED;
+  const int flags = mode == Mode::gray ? cv::IMREAD_GRAYSCALE : mode == Mode::color ? cv::IMREAD_COLOR : cv::IMREAD_UNCHANGED;
   try {
     const cv::Mat pixels = message.data.empty() ? cv::Mat() : cv::imdecode(message.data, flags);
     if (pixels.empty())
       refuse(std::to_string(message.data.size()) + " bytes of format '" + message.format + "' are no picture");
     const int depth = pixels.depth(), channels = pixels.channels();
-    if ((depth != CV_8U && depth != CV_16U) || channels == 2 || channels > 4)
-      refuse("a picture of this kind is not known");
+    if ((depth != CV_8U && depth != CV_16U) || channels == 2 || channels > 4) refuse("a picture of this kind is not known");
     const bool wide = depth == CV_16U, fits = ofDepth(told, depth);
     if (channels == 1) {
       const bool kept = fits && enc::numChannels(told) == 1;

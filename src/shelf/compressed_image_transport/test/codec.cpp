@@ -21,10 +21,8 @@ sensor_msgs::ImagePtr picture(const std::string& encoding) {
     for (int column = 0; column < pixels.cols; ++column)
       for (int c = 0; c < channels; ++c) {
         const int value = c == 3 ? 255 : 255 * (row + (c + 1) * column) / (20 + (c + 1) * 30);
-        if (pixels.depth() == CV_8U)
-          pixels.ptr<uint8_t>(row)[column * channels + c] = value;
-        else
-          pixels.ptr<uint16_t>(row)[column * channels + c] = value * 257;
+        if (pixels.depth() == CV_8U) pixels.ptr<uint8_t>(row)[column * channels + c] = value;
+        else pixels.ptr<uint16_t>(row)[column * channels + c] = value * 257;
       }
   std_msgs::Header header;
   header.frame_id = "camera";

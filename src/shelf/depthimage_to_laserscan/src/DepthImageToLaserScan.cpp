@@ -38,10 +38,8 @@ sensor_msgs::LaserScanPtr DepthImageToLaserScan::convert_msg(const sensor_msgs::
   scan->range_min = range_min_;
   scan->range_max = range_max_;
   scan->ranges.assign(depth->width, std::numeric_limits<float>::quiet_NaN());
-  if (millimetres)
-    take_rows<uint16_t>(*depth, 0.001f, *scan);
-  else
-    take_rows<float>(*depth, 1.0f, *scan);
+  if (millimetres) take_rows<uint16_t>(*depth, 0.001f, *scan);
+  else take_rows<float>(*depth, 1.0f, *scan);
   return scan;
 }
 
@@ -59,7 +57,7 @@ void DepthImageToLaserScan::take_rows(const sensor_msgs::Image& depth, float met
       T value;
       std::memcpy(&value, &depth.data[size_t(row) * depth.step + column * sizeof(T)], sizeof(T));
       const double seen = std::is_floating_point<T>::value || value != 0 ? value * double(metres) * stretch
-                                                                          : std::numeric_limits<double>::quiet_NaN();
+                                                                         : std::numeric_limits<double>::quiet_NaN();
       if (!std::isfinite(seen)) {
         if (std::isnan(range) && !std::isnan(seen)) range = float(seen);  // "nothing there" says more than "not known"
       } else if (scan.range_min <= seen && seen <= scan.range_max && !(std::isfinite(range) && range <= seen)) {

@@ -12,8 +12,7 @@ DepthImageToLaserScanROS::DepthImageToLaserScanROS(ros::NodeHandle& node, ros::N
 
 void DepthImageToLaserScanROS::listen_while_wanted() {
   std::lock_guard<std::mutex> guard(connecting_);
-  if (scans_.getNumSubscribers() == 0)
-    camera_.shutdown();
+  if (scans_.getNumSubscribers() == 0) camera_.shutdown();
   else if (!camera_)
     camera_ = images_.subscribeCamera("image", 10, &DepthImageToLaserScanROS::take, this,
                                       image_transport::TransportHints("raw", ros::TransportHints(), parameters_));

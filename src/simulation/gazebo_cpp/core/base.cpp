@@ -33,10 +33,7 @@ Base::~Base()
       child->parent_ = nullptr;
 }
 
-BasePtr Base::GetParent() const
-{
-  return parent_ ? parent_->shared_from_this() : BasePtr();
-}
+BasePtr Base::GetParent() const { return parent_ ? parent_->shared_from_this() : BasePtr(); }
 
 int Base::GetParentId() const { return parent_ ? static_cast<int>(parent_->GetId()) : 0; }
 
@@ -48,7 +45,8 @@ void Base::AddChild(BasePtr child)
 
 void Base::RemoveChild(unsigned int id)
 {
-  children.erase(std::remove_if(children.begin(), children.end(), [&](const BasePtr& c) { return c->GetId() == id; }), children.end());
+  children.erase(std::remove_if(children.begin(), children.end(), [&](const BasePtr& c) { return c->GetId() == id; }),
+                 children.end());
 }
 
 void Base::RemoveChild(const std::string& name) { RemoveChild(GetByName(name)); }
@@ -91,13 +89,17 @@ std::string Base::StripScopedName(const std::string& name) const
   return name.compare(0, own.size(), own) == 0 ? name.substr(own.size()) : name;
 }
 
-std::string Base::StripParentScopedName(const std::string& name) const { return parent_ ? parent_->StripScopedName(name) : name; }
+std::string Base::StripParentScopedName(const std::string& name) const
+{
+  return parent_ ? parent_->StripScopedName(name) : name;
+}
 
 std::string Base::TypeStr() const
 {
-  static const std::pair<EntityType, const char*> names[] = { { ACTOR, "actor" },   { MODEL, "model" }, { LINK, "link" },
-                                                              { COLLISION, "collision" }, { LIGHT, "light" }, { JOINT, "joint" },
-                                                              { SHAPE, "shape" },   { ENTITY, "entity" } };
+  static const std::pair<EntityType, const char*> names[] = { { ACTOR, "actor" }, { MODEL, "model" },
+                                                              { LINK, "link" },   { COLLISION, "collision" },
+                                                              { LIGHT, "light" }, { JOINT, "joint" },
+                                                              { SHAPE, "shape" }, { ENTITY, "entity" } };
   for (const auto& name : names)
     if (HasType(name.first))
       return name.second;
@@ -195,8 +197,8 @@ void Inertial::Load(sdf::ElementPtr sdf)
   if (!sdf->HasElement("inertia"))
     return;
   const sdf::ElementPtr tensor = sdf->GetElement("inertia");
-  SetInertiaMatrix(tensor->Get<double>("ixx"), tensor->Get<double>("iyy"), tensor->Get<double>("izz"), tensor->Get<double>("ixy"),
-                   tensor->Get<double>("ixz"), tensor->Get<double>("iyz"));
+  SetInertiaMatrix(tensor->Get<double>("ixx"), tensor->Get<double>("iyy"), tensor->Get<double>("izz"),
+                   tensor->Get<double>("ixy"), tensor->Get<double>("ixz"), tensor->Get<double>("iyz"));
 }
 
 ignition::math::Inertiald Inertial::Ign() const
@@ -210,10 +212,7 @@ void Inertial::Rotate(const ignition::math::Quaterniond& rotation)
   cog_.Rot() = rotation * cog_.Rot();
 }
 
-ignition::math::Matrix3d Inertial::MOI() const
-{
-  return { IXX(), IXY(), IXZ(), IXY(), IYY(), IYZ(), IXZ(), IYZ(), IZZ() };
-}
+ignition::math::Matrix3d Inertial::MOI() const { return { IXX(), IXY(), IXZ(), IXY(), IYY(), IYZ(), IXZ(), IYZ(), IZZ() }; }
 
 ignition::math::Matrix3d Inertial::MOI(const ignition::math::Pose3d& pose) const
 {

@@ -135,7 +135,11 @@ std::string Time::FormattedString(FormatOption start, FormatOption end) const
   std::ostringstream text;
   text << std::setfill('0');
   for (int i = start; i <= end; ++i)
-    text << (i == start ? "" : i == MILLISECONDS ? "." : i == HOURS ? " " : ":") << std::setw(i == MILLISECONDS ? 3 : 2) << parts[i];
+    text << (i == start          ? ""
+             : i == MILLISECONDS ? "."
+             : i == HOURS        ? " "
+                                 : ":")
+         << std::setw(i == MILLISECONDS ? 3 : 2) << parts[i];
   return text.str();
 }
 
@@ -153,10 +157,7 @@ Time Time::operator-(const Time& other) const { return from_nanoseconds(nanoseco
 Time Time::operator*(const Time& other) const { return Time(Double() * other.Double()); }
 Time Time::operator/(const Time& other) const { return Time(Double() / other.Double()); }
 
-std::ostream& operator<<(std::ostream& out, const Time& time)
-{
-  return out << time.sec << " " << time.nsec;
-}
+std::ostream& operator<<(std::ostream& out, const Time& time) { return out << time.sec << " " << time.nsec; }
 std::istream& operator>>(std::istream& in, Time& time) { return in >> time.sec >> time.nsec; }
 
 // -- Console, Exception -------------------------------------------------------------------------------------------------------------
@@ -183,7 +184,9 @@ std::ostream& Console::Begin(const char* word, int colour, bool always, const ch
   return std::cerr << "\033[0m";
 }
 
-Exception::Exception(const char* file, int64_t line, std::string message) : file_(file), text_(std::move(message)), line_(line) {}
+Exception::Exception(const char* file, int64_t line, std::string message) : file_(file), text_(std::move(message)), line_(line)
+{
+}
 
 // -- PID ----------------------------------------------------------------------------------------------------------------------------
 

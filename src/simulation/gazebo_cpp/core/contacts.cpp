@@ -53,7 +53,8 @@ void Collision::SetMaxContacts(unsigned int most)
 }
 
 SurfaceParams::SurfaceParams(std::shared_ptr<ode_sim::Shape> core)
-  : collideWithoutContact(core->surface.collide_without_contact), collideBitmask(core->surface.collide_bitmask)
+  : collideWithoutContact(core->surface.collide_without_contact)
+  , collideBitmask(core->surface.collide_bitmask)
   , pyramid_(new class FrictionPyramid(std::move(core)))
 {
 }
@@ -246,8 +247,10 @@ struct ContactManager::Private
       f_L = rotation.RotateVectorReverse(f);
       t_L = rotation.RotateVectorReverse(arm.Cross(f));
     };
-    turned(*one, force, c->positions[i] - one->GetLink()->WorldCoGPose().Pos(), c->wrench[i].body1Force, c->wrench[i].body1Torque);
-    turned(*two, -force, c->positions[i] - two->GetLink()->WorldCoGPose().Pos(), c->wrench[i].body2Force, c->wrench[i].body2Torque);
+    turned(*one, force, c->positions[i] - one->GetLink()->WorldCoGPose().Pos(), c->wrench[i].body1Force,
+           c->wrench[i].body1Torque);
+    turned(*two, -force, c->positions[i] - two->GetLink()->WorldCoGPose().Pos(), c->wrench[i].body2Force,
+           c->wrench[i].body2Torque);
   }
 };
 

@@ -104,11 +104,12 @@ void Joint::Init()
   {
     const char* who = internal::CurrentPlugin();
     const std::lock_guard<std::mutex> lock(asked().mutex);
-    asked().joints[this] = { Mirror::Get().Now(),
-                             (who ? std::string(who) + ": " : "") + "joint '" + GetName() + "' of " +
+    asked().joints[this] = {
+      Mirror::Get().Now(), (who ? std::string(who) + ": " : "") + "joint '" + GetName() + "' of " +
                                (parent_ ? parent_->GetScopedName() : "the world") + " and " +
                                (child_ ? child_->GetScopedName() : "the world") +
-                               " cannot be made while the simulation runs: only firm ones can (type fixed, or both limits 0)" };
+                               " cannot be made while the simulation runs: only firm ones can (type fixed, or both limits 0)"
+    };
     return;
   }
   forget(this);
@@ -133,7 +134,8 @@ void Joint::Attach(LinkPtr parent, LinkPtr child)
 void Joint::Detach()
 {
   if (core_)
-    return refused("joint " + GetScopedName() + " is of the model's description: it cannot be taken off while the simulation runs");
+    return refused("joint " + GetScopedName() +
+                   " is of the model's description: it cannot be taken off while the simulation runs");
   const LinkPtr link = child_ ? child_ : parent_;
   if (!weld_ || !link)
     return;
@@ -205,7 +207,8 @@ bool Joint::SetPosition(unsigned int index, double position, bool preserve_veloc
       for (ode_sim::Link* link : ode_sim::links_beyond(*core_))
         kept.emplace_back(link, link->v, link->w);
     const double rate = axis->qd;
-    done = core->set_joint_position(*core_, static_cast<int>(index), ode_sim::limited(position, ode_sim::kFarthest, "a position"));
+    done =
+        core->set_joint_position(*core_, static_cast<int>(index), ode_sim::limited(position, ode_sim::kFarthest, "a position"));
     for (const auto& [link, v, w] : kept)
       core->set_link_twist(*link, v, w);
     if (preserve_velocity)
@@ -342,19 +345,19 @@ double Joint::GetParam(const std::string& key, unsigned int index)
   return kept == params_.end() ? 0.0 : kept->second;
 }
 
-#define GZ_AXIS_NUMBER(Get, Set, field, none, low) \
-  double Joint::Get(unsigned int index) \
-  { \
-    const auto* axis = axis_of(core_, index); \
-    return axis ? axis->field : none; \
-  } \
-  void Joint::Set(unsigned int index, double value) \
-  { \
-    auto* axis = axis_of(core_, index); \
-    if (!axis || std::isnan(value)) \
-      return; \
+#define GZ_AXIS_NUMBER(Get, Set, field, none, low)                    \
+  double Joint::Get(unsigned int index)                               \
+  {                                                                   \
+    const auto* axis = axis_of(core_, index);                         \
+    return axis ? axis->field : none;                                 \
+  }                                                                   \
+  void Joint::Set(unsigned int index, double value)                   \
+  {                                                                   \
+    auto* axis = axis_of(core_, index);                               \
+    if (!axis || std::isnan(value))                                   \
+      return;                                                         \
     axis->field = std::min(std::max(value, low), ode_sim::kStiffest); \
-    core_->model->dirty = true; \
+    core_->model->dirty = true;                                       \
   }
 GZ_AXIS_NUMBER(GetDamping, SetDamping, damping, 0.0, 0.0)
 GZ_AXIS_NUMBER(GetStiffness, SetStiffness, spring_stiffness, 0.0, 0.0)

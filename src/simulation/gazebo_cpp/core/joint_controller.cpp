@@ -79,7 +79,8 @@ void JointController::SetPositionPID(const std::string& name, const common::PID&
   if (joints_.count(name))
     position_pids_[name] = pid;
   else
-    refused("the joint controller of " + model_->GetName() + " has no joint '" + name + "'; it takes scoped names (model::joint)");
+    refused("the joint controller of " + model_->GetName() + " has no joint '" + name +
+            "'; it takes scoped names (model::joint)");
 }
 
 void JointController::SetVelocityPID(const std::string& name, const common::PID& pid)
@@ -87,7 +88,8 @@ void JointController::SetVelocityPID(const std::string& name, const common::PID&
   if (joints_.count(name))
     velocity_pids_[name] = pid;
   else
-    refused("the joint controller of " + model_->GetName() + " has no joint '" + name + "'; it takes scoped names (model::joint)");
+    refused("the joint controller of " + model_->GetName() + " has no joint '" + name +
+            "'; it takes scoped names (model::joint)");
 }
 
 bool JointController::SetPositionTarget(const std::string& name, double target)
@@ -98,7 +100,10 @@ bool JointController::SetVelocityTarget(const std::string& name, double target)
 {
   return joints_.count(name) && (velocities_[name] = target, true);
 }
-bool JointController::SetForce(const std::string& name, double force) { return joints_.count(name) && (forces_[name] = force, true); }
+bool JointController::SetForce(const std::string& name, double force)
+{
+  return joints_.count(name) && (forces_[name] = force, true);
+}
 
 }  // namespace physics
 }  // namespace gazebo

@@ -115,7 +115,10 @@ void Link::SetAngularVel(const Vector3d& velocity)
   set_twist(GetScopedName(), *core_, WorldCoGLinearVel() + velocity.Cross(arm), velocity);
 }
 
-void Link::SetWorldTwist(const Vector3d& linear, const Vector3d& angular, bool) { set_twist(GetScopedName(), *core_, linear, angular); }
+void Link::SetWorldTwist(const Vector3d& linear, const Vector3d& angular, bool)
+{
+  set_twist(GetScopedName(), *core_, linear, angular);
+}
 
 void Link::MoveFrame(const Pose3d& from, const Pose3d& to, bool preserve_velocity)
 {
@@ -175,7 +178,10 @@ void Link::AddForce(const Vector3d& force) { add(force, {}); }
 void Link::AddTorque(const Vector3d& torque) { add({}, torque); }
 void Link::AddRelativeForce(const Vector3d& force) { add(WorldPose().Rot().RotateVector(force), {}); }
 void Link::AddRelativeTorque(const Vector3d& torque) { add({}, WorldPose().Rot().RotateVector(torque)); }
-void Link::AddForceAtWorldPosition(const Vector3d& force, const Vector3d& position) { add(force, (position - com()).Cross(force)); }
+void Link::AddForceAtWorldPosition(const Vector3d& force, const Vector3d& position)
+{
+  add(force, (position - com()).Cross(force));
+}
 void Link::AddForceAtRelativePosition(const Vector3d& force, const Vector3d& position)
 {
   add(force, WorldPose().Rot().RotateVector(position).Cross(force));
@@ -241,7 +247,10 @@ CollisionPtr Link::GetCollision(const std::string& name)
   return CollisionPtr();
 }
 
-CollisionPtr Link::GetCollision(unsigned int index) const { return index < collisions_.size() ? collisions_[index] : CollisionPtr(); }
+CollisionPtr Link::GetCollision(unsigned int index) const
+{
+  return index < collisions_.size() ? collisions_[index] : CollisionPtr();
+}
 
 CollisionPtr Link::GetCollisionById(unsigned int id) const
 {

@@ -24,7 +24,8 @@ public:
   void Destroy();
 
 private:
-  template <class F> void call(const char* what, F f);
+  template <class F>
+  void call(const char* what, F f);
   const char* label_;
   PluginType kind_;
   boost::shared_ptr<ModelPlugin> model_;

@@ -134,7 +134,10 @@ void Model::SetJointPosition(const std::string& joint, double position, int inde
   GetJointController()->SetJointPosition(joint, position, index);
 }
 
-void Model::SetJointPositions(const std::map<std::string, double>& positions) { GetJointController()->SetJointPositions(positions); }
+void Model::SetJointPositions(const std::map<std::string, double>& positions)
+{
+  GetJointController()->SetJointPositions(positions);
+}
 
 void Model::SetEnabled(bool enabled)
 {

@@ -40,7 +40,8 @@ void ContactSensor::Load(const std::string& world)
   for (auto named = contact->GetElement("collision"); named; named = named->GetNextElement("collision"))
   {
     const std::string name = named->Get<std::string>();
-    collisions_.push_back(name.compare(0, ParentName().size() + 2, ParentName() + "::") == 0 ? name : ParentName() + "::" + name);
+    collisions_.push_back(name.compare(0, ParentName().size() + 2, ParentName() + "::") == 0 ? name
+                                                                                             : ParentName() + "::" + name);
   }
   topic_ = topicOf("");
   if (contact->HasElement("topic") && contact->Get<std::string>("topic") != "__default_topic__")

@@ -42,12 +42,12 @@ void Set(SphericalCoordinates* m, const common::SphericalCoordinates& s)
   m->set_heading_deg(s.HeadingOffset().Degree()), m->set_elevation(s.GetElevationReference());
 }
 
-#define GZ_CONVERT(Message, Type) \
+#define GZ_CONVERT(Message, Type)    \
   Message Convert(const Type& value) \
-  { \
-    Message message; \
-    Set(&message, value); \
-    return message; \
+  {                                  \
+    Message message;                 \
+    Set(&message, value);            \
+    return message;                  \
   }
 GZ_CONVERT(Vector3d, ignition::math::Vector3d)
 GZ_CONVERT(Vector2d, ignition::math::Vector2d)
@@ -70,18 +70,19 @@ ignition::math::Planed ConvertIgn(const PlaneGeom& m)
 }
 ignition::math::Inertiald Convert(const Inertial& m)
 {
-  return { ignition::math::MassMatrix3d(m.mass(), { m.ixx(), m.iyy(), m.izz() }, { m.ixy(), m.ixz(), m.iyz() }), ConvertIgn(m.pose()) };
+  return { ignition::math::MassMatrix3d(m.mass(), { m.ixx(), m.iyy(), m.izz() }, { m.ixy(), m.ixz(), m.iyz() }),
+           ConvertIgn(m.pose()) };
 }
 ignition::math::Color Convert(const Color& m) { return { m.r(), m.g(), m.b(), m.a() }; }
 common::Time Convert(const Time& m) { return { m.sec(), m.nsec() }; }
 
 #define GZ_ANY(Type, kind, set) \
-  Any ConvertAny(Type value) \
-  { \
-    Any any; \
-    any.set_type(Any::kind); \
-    set; \
-    return any; \
+  Any ConvertAny(Type value)    \
+  {                             \
+    Any any;                    \
+    any.set_type(Any::kind);    \
+    set;                        \
+    return any;                 \
   }
 GZ_ANY(double, DOUBLE, any.set_double_value(value))
 GZ_ANY(int, INT32, any.set_int_value(value))

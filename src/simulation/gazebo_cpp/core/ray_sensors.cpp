@@ -22,7 +22,11 @@ using ignition::math::Pose3d;
 using ignition::math::Vector3d;
 
 MultiRayShape::MultiRayShape(const Scan& horizontal, const Scan& vertical, double min, double max)
-  : Shape(CollisionPtr(), MULTIRAY_SHAPE), horizontal_(horizontal), vertical_(vertical), min_(min), max_(max)
+  : Shape(CollisionPtr(), MULTIRAY_SHAPE)
+  , horizontal_(horizontal)
+  , vertical_(vertical)
+  , min_(min)
+  , max_(max)
 {
   for (int row = 0; row < vertical.samples; ++row)
     for (int column = 0; column < horizontal.samples; ++column)

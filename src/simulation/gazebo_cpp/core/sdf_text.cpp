@@ -57,8 +57,7 @@ sdf::ElementPtr plugin_element(const sdf::ElementPtr& owner, int index, const st
     if (found)
       return found;
   }
-  const auto alone =
-      child("<sdf version='1.6'><model name='any'><link name='link'/>" + text + "</model></sdf>", "model", "");
+  const auto alone = child("<sdf version='1.6'><model name='any'><link name='link'/>" + text + "</model></sdf>", "model", "");
   return alone && alone->HasElement("plugin") ? alone->GetElement("plugin") : sdf::ElementPtr();
 }
 

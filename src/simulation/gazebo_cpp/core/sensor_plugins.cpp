@@ -12,12 +12,13 @@ namespace gazebo
 namespace
 {
 
-template <class Kind> std::shared_ptr<Kind> as(const sensors::SensorPtr& sensor, const char* plugin, const char* kind)
+template <class Kind>
+std::shared_ptr<Kind> as(const sensors::SensorPtr& sensor, const char* plugin, const char* kind)
 {
   const auto found = std::dynamic_pointer_cast<Kind>(sensor);
   if (!found)
-    throw std::runtime_error(std::string("a ") + plugin + " belongs into a sensor of type " + kind + "; " + sensor->Name() + " is of type " +
-                             sensor->Type());
+    throw std::runtime_error(std::string("a ") + plugin + " belongs into a sensor of type " + kind + "; " + sensor->Name() +
+                             " is of type " + sensor->Type());
   return found;
 }
 
@@ -33,7 +34,8 @@ void RayPlugin::Load(sensors::SensorPtr sensor, sdf::ElementPtr)
 void GpuRayPlugin::Load(sensors::SensorPtr sensor, sdf::ElementPtr)
 {
   parentSensor = as<sensors::GpuRaySensor>(sensor, "GpuRayPlugin", "gpu_ray");
-  width = static_cast<unsigned int>(parentSensor->RangeCount()), height = static_cast<unsigned int>(parentSensor->VerticalRangeCount());
+  width = static_cast<unsigned int>(parentSensor->RangeCount()),
+  height = static_cast<unsigned int>(parentSensor->VerticalRangeCount());
   depth = 3, format = "FLOAT32";
   connection_ = parentSensor->ConnectNewLaserFrame([this](const float* data, unsigned int w, unsigned int h, unsigned int d,
                                                           const std::string& f) { OnNewLaserFrame(data, w, h, d, f); });

@@ -281,7 +281,8 @@ void SensorManager::Start()
   using event::Events;
   connections_ = { Events::ConnectAddEntity([this](const std::string& model) { addOf(model); }),
                    Events::ConnectDeleteEntity([this](const std::string& model) { removeOf(model); }),
-                   Events::ConnectTimeReset([this] { ResetLastUpdateTimes(); }), Events::ConnectWorldUpdateEnd([this] { step(); }) };
+                   Events::ConnectTimeReset([this] { ResetLastUpdateTimes(); }),
+                   Events::ConnectWorldUpdateEnd([this] { step(); }) };
 }
 
 void SensorManager::step()

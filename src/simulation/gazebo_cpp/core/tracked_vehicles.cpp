@@ -130,7 +130,8 @@ void SimpleTrackedVehiclePlugin::Load(physics::ModelPtr model, sdf::ElementPtr s
     const std::string track = name + "_track", flipper = name + "_flipper";
     tracks[side] = link_of(model, track, sdf->Get<std::string>(track));
     links_[side] = { tracks[side] };
-    for (sdf::ElementPtr each = sdf->HasElement(flipper) ? sdf->GetElement(flipper) : nullptr; each; each = each->GetNextElement(flipper))
+    for (sdf::ElementPtr each = sdf->HasElement(flipper) ? sdf->GetElement(flipper) : nullptr; each;
+         each = each->GetNextElement(flipper))
       links_[side].push_back(link_of(model, flipper, each->Get<std::string>()));
     trackVelocity[side] = 0;
   }

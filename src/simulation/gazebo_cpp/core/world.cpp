@@ -18,7 +18,12 @@ namespace physics
 
 using ignition::math::Vector3d;
 
-World::World(const std::string& name) : name_(name), place_(new common::SphericalCoordinates), start_(common::Time::GetWallTime()) {}
+World::World(const std::string& name)
+  : name_(name)
+  , place_(new common::SphericalCoordinates)
+  , start_(common::Time::GetWallTime())
+{
+}
 World::~World() = default;
 
 const sdf::ElementPtr World::SDF()
@@ -259,7 +264,7 @@ ShapePtr PhysicsEngine::CreateShape(const std::string& type, CollisionPtr collis
 JointPtr PhysicsEngine::CreateJoint(const std::string& type, ModelPtr model)
 {
   static const std::map<std::string, Base::EntityType> types = {
-    { "revolute", Base::HINGE_JOINT }, { "prismatic", Base::SLIDER_JOINT }, { "fixed", Base::FIXED_JOINT },
+    { "revolute", Base::HINGE_JOINT }, { "prismatic", Base::SLIDER_JOINT },    { "fixed", Base::FIXED_JOINT },
     { "ball", Base::BALL_JOINT },      { "universal", Base::UNIVERSAL_JOINT }, { "revolute2", Base::HINGE2_JOINT },
     { "screw", Base::SCREW_JOINT },    { "gearbox", Base::GEARBOX_JOINT }
   };
@@ -293,13 +298,16 @@ double number(const boost::any& value)
 
 const std::map<std::string, std::string>& settings()
 {
-  static const std::map<std::string, std::string> names = {
-    { "max_step_size", "max_step_size" }, { "real_time_update_rate", "real_time_update_rate" }, { "iters", "iters" },
-    { "precon_iters", "precon_iters" },   { "sor", "sor" },                                     { "cfm", "cfm" },
-    { "erp", "erp" },                     { "max_contacts", "max_contacts" },
-    { "contact_max_correcting_vel", "contact_max_correcting_vel" },
-    { "contact_surface_layer", "contact_surface_layer" }
-  };
+  static const std::map<std::string, std::string> names = { { "max_step_size", "max_step_size" },
+                                                            { "real_time_update_rate", "real_time_update_rate" },
+                                                            { "iters", "iters" },
+                                                            { "precon_iters", "precon_iters" },
+                                                            { "sor", "sor" },
+                                                            { "cfm", "cfm" },
+                                                            { "erp", "erp" },
+                                                            { "max_contacts", "max_contacts" },
+                                                            { "contact_max_correcting_vel", "contact_max_correcting_vel" },
+                                                            { "contact_surface_layer", "contact_surface_layer" } };
   return names;
 }
 
@@ -318,7 +326,8 @@ bool PhysicsEngine::SetParam(const std::string& key, const boost::any& value)
   const double v = number(value);
   if (name == settings().end() || std::isnan(v))
   {
-    refused("PhysicsEngine::SetParam(\"" + key + "\") has no effect here" + (name == settings().end() ? "" : ": it takes a number"));
+    refused("PhysicsEngine::SetParam(\"" + key + "\") has no effect here" +
+            (name == settings().end() ? "" : ": it takes a number"));
     return false;
   }
   if (key == "real_time_update_rate")

@@ -29,8 +29,9 @@ public:
     queue_ = queues_.addPub<std_msgs::String>();
     queues_.startServiceThread();
     std_msgs::String message;
-    message.data = (boost::format("%1% %2% %3% %4% %5% %6% %7%") % gazebo_ros_->info() % rate % gazebo_ros_->resolveTF(frame) % odom % turned %
-                    side % joint->GetName()).str();
+    message.data = (boost::format("%1% %2% %3% %4% %5% %6% %7%") % gazebo_ros_->info() % rate % gazebo_ros_->resolveTF(frame) %
+                    odom % turned % side % joint->GetName())
+                       .str();
     queue_->push(message, publisher_);
   }
 

@@ -29,8 +29,8 @@ std::string interface_of(const transmission_interface::TransmissionInfo& transmi
     interfaces = transmission.actuators_[0].hardware_interfaces_;
   const std::string interface = interfaces.empty() ? "" : interface_of(interfaces[0]);
   if (interfaces.size() > 1)
-    ROS_WARN("transmission '%s' names several hardware interfaces for joint '%s'; the first, %s, is taken", transmission.name_.c_str(),
-             joint.name_.c_str(), interface.c_str());
+    ROS_WARN("transmission '%s' names several hardware interfaces for joint '%s'; the first, %s, is taken",
+             transmission.name_.c_str(), joint.name_.c_str(), interface.c_str());
   return interface;
 }
 
@@ -38,8 +38,8 @@ bool drives_one(const transmission_interface::TransmissionInfo& transmission)
 {
   if (transmission.joints_.size() == 1)
     return true;
-  ROS_WARN("Transmission '%s' has %zu joints; it is left out: the simulation drives joints directly", transmission.name_.c_str(),
-           transmission.joints_.size());
+  ROS_WARN("Transmission '%s' has %zu joints; it is left out: the simulation drives joints directly",
+           transmission.name_.c_str(), transmission.joints_.size());
   return false;
 }
 
@@ -47,22 +47,23 @@ bool possible(const std::string& interface, const transmission_interface::Transm
 {
   if (interface == "EffortJointInterface" || interface == "PositionJointInterface" || interface == "VelocityJointInterface")
     return true;
-  ROS_ERROR("transmission '%s', joint '%s': hardware interface '%s' cannot be simulated; possible are "
-            "hardware_interface/EffortJointInterface, PositionJointInterface and VelocityJointInterface",
-            transmission.name_.c_str(), transmission.joints_[0].name_.c_str(), interface.c_str());
+  ROS_ERROR(
+      "transmission '%s', joint '%s': hardware interface '%s' cannot be simulated; possible are "
+      "hardware_interface/EffortJointInterface, PositionJointInterface and VelocityJointInterface",
+      transmission.name_.c_str(), transmission.joints_[0].name_.c_str(), interface.c_str());
   return false;
 }
 
 }  // namespace
 
-bool DefaultRobotHWSim::initSim(const std::string& robot_namespace, ros::NodeHandle model_nh, gazebo::physics::ModelPtr parent_model,
-                                const urdf::Model* const urdf_model,
+bool DefaultRobotHWSim::initSim(const std::string& robot_namespace, ros::NodeHandle model_nh,
+                                gazebo::physics::ModelPtr parent_model, const urdf::Model* const urdf_model,
                                 std::vector<transmission_interface::TransmissionInfo> transmissions)
 {
   const std::size_t most = transmissions.size();
-  for (auto* numbers : { &joint_lower_limits_, &joint_upper_limits_, &joint_effort_limits_, &joint_position_, &joint_velocity_,
-                         &joint_effort_, &joint_effort_command_, &joint_position_command_, &last_joint_position_command_,
-                         &joint_velocity_command_ })
+  for (auto* numbers :
+       { &joint_lower_limits_, &joint_upper_limits_, &joint_effort_limits_, &joint_position_, &joint_velocity_, &joint_effort_,
+         &joint_effort_command_, &joint_position_command_, &last_joint_position_command_, &joint_velocity_command_ })
     numbers->reserve(most);
   physics_type_ = parent_model->GetWorld()->Physics()->GetType();
   registerInterface(&js_interface_);
@@ -108,7 +109,8 @@ bool DefaultRobotHWSim::addJoint(const transmission_interface::TransmissionInfo&
   joint_velocity_.push_back(0.0);
   joint_position_command_.push_back(joint_position_[j]);
   last_joint_position_command_.push_back(joint_position_[j]);
-  for (auto* numbers : { &joint_lower_limits_, &joint_upper_limits_, &joint_effort_, &joint_effort_command_, &joint_velocity_command_ })
+  for (auto* numbers :
+       { &joint_lower_limits_, &joint_upper_limits_, &joint_effort_, &joint_effort_command_, &joint_velocity_command_ })
     numbers->push_back(0.0);
   joint_effort_limits_.push_back(std::numeric_limits<double>::max());
 
@@ -141,8 +143,8 @@ bool DefaultRobotHWSim::addJoint(const transmission_interface::TransmissionInfo&
 
 void DefaultRobotHWSim::registerJointLimits(const std::string& joint_name, const hardware_interface::JointHandle& joint_handle,
                                             const ControlMethod ctrl_method, const ros::NodeHandle& joint_limit_nh,
-                                            const urdf::Model* const urdf_model, int* const joint_type, double* const lower_limit,
-                                            double* const upper_limit, double* const effort_limit)
+                                            const urdf::Model* const urdf_model, int* const joint_type,
+                                            double* const lower_limit, double* const upper_limit, double* const effort_limit)
 {
   *joint_type = urdf::Joint::UNKNOWN;
   *lower_limit = -std::numeric_limits<double>::max();
@@ -160,9 +162,9 @@ void DefaultRobotHWSim::registerJointLimits(const std::string& joint_name, const
   if (!has_limits)
     return;
   if (*joint_type == urdf::Joint::UNKNOWN)
-    *joint_type = limits.has_position_limits ? urdf::Joint::REVOLUTE :
-                  limits.angle_wraparound    ? urdf::Joint::CONTINUOUS :
-                                               urdf::Joint::PRISMATIC;
+    *joint_type = limits.has_position_limits ? urdf::Joint::REVOLUTE
+                  : limits.angle_wraparound  ? urdf::Joint::CONTINUOUS
+                                             : urdf::Joint::PRISMATIC;
   if (limits.has_position_limits)
     *lower_limit = limits.min_position, *upper_limit = limits.max_position;
   if (limits.has_effort_limits)
@@ -246,11 +248,21 @@ void DefaultRobotHWSim::writeSim(ros::Time, ros::Duration period)
     };
     switch (joint_control_methods_[j])
     {
-      case EFFORT: sim_joints_[j]->SetForce(0, e_stop_active_ ? 0.0 : joint_effort_command_[j]); break;
-      case POSITION: gazebo::internal::Drive(sim_joints_[j], joint_position_command_[j]); break;
-      case POSITION_PID: push(positionError(j)); break;
-      case VELOCITY: sim_joints_[j]->SetParam("vel", 0, speed); break;
-      case VELOCITY_PID: push(speed - joint_velocity_[j]); break;
+      case EFFORT:
+        sim_joints_[j]->SetForce(0, e_stop_active_ ? 0.0 : joint_effort_command_[j]);
+        break;
+      case POSITION:
+        gazebo::internal::Drive(sim_joints_[j], joint_position_command_[j]);
+        break;
+      case POSITION_PID:
+        push(positionError(j));
+        break;
+      case VELOCITY:
+        sim_joints_[j]->SetParam("vel", 0, speed);
+        break;
+      case VELOCITY_PID:
+        push(speed - joint_velocity_[j]);
+        break;
     }
   }
 }

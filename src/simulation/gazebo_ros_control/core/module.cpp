@@ -35,7 +35,8 @@ class Sim
 public:
   /// \param clock roscpp's clock is to be moved by the steps
   Sim(const std::string& library, const std::string& type, const std::string& label, bool clock)
-    : label_(strdup(label.c_str())), clock_(clock)  // never freed: handlers of signals and threads of plugins read it
+    : label_(strdup(label.c_str()))
+    , clock_(clock)  // never freed: handlers of signals and threads of plugins read it
   {
     compiled_plugins::remember(library);
     call("constructor", [&] {
@@ -63,7 +64,10 @@ public:
     }
   }
 
-  std::uintptr_t address() const { return reinterpret_cast<std::uintptr_t>(static_cast<hardware_interface::RobotHW*>(hw_.get())); }
+  std::uintptr_t address() const
+  {
+    return reinterpret_cast<std::uintptr_t>(static_cast<hardware_interface::RobotHW*>(hw_.get()));
+  }
 
   /// \return false where the hardware refuses
   bool init(const std::string& robot_namespace, const std::string& model_name, const std::string& description)
@@ -77,9 +81,8 @@ public:
     std::vector<transmission_interface::TransmissionInfo> transmissions;
     transmission_interface::TransmissionParser::parse(description, transmissions);
     bool done = false;
-    call("initSim()", [&] {
-      done = hw_->initSim(robot_namespace, ros::NodeHandle(robot_namespace), model, urdf_.get(), transmissions);
-    });
+    call("initSim()",
+         [&] { done = hw_->initSim(robot_namespace, ros::NodeHandle(robot_namespace), model, urdf_.get(), transmissions); });
     return done;
   }
 
@@ -101,7 +104,8 @@ public:
   }
 
 private:
-  template <class F> void call(const char* what, F f)
+  template <class F>
+  void call(const char* what, F f)
   {
     const compiled_plugins::Call guard(label_, what);
     try
@@ -136,11 +140,11 @@ PYBIND11_MODULE(_compiled, module)
   // A plugin waits for the step of others to end; whoever holds that up may need Python.
   using released = py::call_guard<py::gil_scoped_release>;
   py::class_<Sim>(module, "Sim")
-    .def(py::init<const std::string&, const std::string&, const std::string&, bool>(), py::arg("library"), py::arg("type"),
-         py::arg("label"), py::arg("clock"), released())
-    .def_property_readonly("address", &Sim::address)
-    .def("init", &Sim::init, py::arg("robot_namespace"), py::arg("model"), py::arg("description"), released())
-    .def("read", &Sim::read, released())
-    .def("write", &Sim::write, released())
-    .def("stop", &Sim::stop, released());
+      .def(py::init<const std::string&, const std::string&, const std::string&, bool>(), py::arg("library"), py::arg("type"),
+           py::arg("label"), py::arg("clock"), released())
+      .def_property_readonly("address", &Sim::address)
+      .def("init", &Sim::init, py::arg("robot_namespace"), py::arg("model"), py::arg("description"), released())
+      .def("read", &Sim::read, released())
+      .def("write", &Sim::write, released())
+      .def("stop", &Sim::stop, released());
 }

@@ -157,10 +157,8 @@ void place_members(Cluster& c) {
     if (!l->up) continue;  // static model
     const Joint& j = *l->up;
     const Pose X_PC = j.X_PJ * j.motion(j.axes[0].q) * inverse(j.X_CJ);
-    if (l == j.child)
-      l->X_RL = normalized(j.parent ? j.parent->X_RL * X_PC : X_PC);
-    else
-      l->X_RL = normalized(j.child->X_RL * inverse(X_PC));
+    if (l == j.child) l->X_RL = normalized(j.parent ? j.parent->X_RL * X_PC : X_PC);
+    else l->X_RL = normalized(j.child->X_RL * inverse(X_PC));
   }
 }
 

@@ -22,8 +22,9 @@ inline T3 out(const Vec3& v) { return {v.x, v.y, v.z}; }
 inline Vec3 in(const T3& t) { return checked(Vec3{std::get<0>(t), std::get<1>(t), std::get<2>(t)}, "a vector"); }
 inline T7 out(const Pose& X) { return {X.p.x, X.p.y, X.p.z, X.q.x, X.q.y, X.q.z, X.q.w}; }
 inline Pose in(const T7& t, double most = kFarthestPart) {
-  return checked(Pose{{std::get<0>(t), std::get<1>(t), std::get<2>(t)}, {std::get<3>(t), std::get<4>(t), std::get<5>(t), std::get<6>(t)}},
-                 "a pose", most);
+  return checked(
+      Pose{{std::get<0>(t), std::get<1>(t), std::get<2>(t)}, {std::get<3>(t), std::get<4>(t), std::get<5>(t), std::get<6>(t)}},
+      "a pose", most);
 }
 using T6 = std::tuple<double, double, double, double, double, double>;
 inline Sym3 in(const T6& t) {  // ixx iyy izz ixy ixz iyz

@@ -50,10 +50,8 @@ void BroadPhase::find(std::vector<std::pair<Shape*, Shape*>>& out) {
   for (size_t i = 0; i < moving_.size(); ++i) sweep(moving_[i], moving_, i + 1);
   // Of a moving and a static box that overlap along x, one begins within the other.
   for (size_t m = 0, s = 0; m < moving_.size() && s < static_.size();) {
-    if (moving_[m].low[0] <= static_[s].low[0])
-      sweep(moving_[m++], static_, s);
-    else
-      sweep(static_[s++], moving_, m);
+    if (moving_[m].low[0] <= static_[s].low[0]) sweep(moving_[m++], static_, s);
+    else sweep(static_[s++], moving_, m);
   }
 }
 

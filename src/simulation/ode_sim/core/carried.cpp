@@ -76,7 +76,8 @@ class CarryPlan {
     if (seen_.insert(&c).second) queue_.push_back(&c);
   }
 
-  template <class Wanted> void start(Wanted wanted) {
+  template <class Wanted>
+  void start(Wanted wanted) {
     for (auto& m : scene_.models)
       for (auto& c : m->clusters)
         if (wanted(c)) visit(c);

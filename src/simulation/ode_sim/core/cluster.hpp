@@ -22,7 +22,7 @@ struct Cluster {
   std::vector<Link*> members;  // breadth first from the root
   bool moving = false;         // some position drive inside
   bool has_joints = false;
-  bool carriers = false;       // some member has a kinematic body
+  bool carriers = false;  // some member has a kinematic body
   double mass = 0;
   Vec3 com;      // in the root frame
   Sym3 inertia;  // about the CoM, root axes

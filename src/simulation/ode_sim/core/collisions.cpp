@@ -10,7 +10,8 @@ namespace {
 
 constexpr double kFlat = 0.005;    // rad: a wheel that is tilted by less stands on its whole tread
 constexpr double kOneEdge = 1e-5;  // m along the axis, within which contacts are those of one edge
-constexpr double kFacet = 0.2;     // of the radius: half the side of a mesh with 16 corners, the coarsest that rolls as if it were round
+constexpr double kFacet =
+    0.2;  // of the radius: half the side of a mesh with 16 corners, the coarsest that rolls as if it were round
 
 // ODE loses a cylinder that has come deeper into a box than the box is thick, as what falls on a floor of a centimetre does within
 // two steps. It is still on the side on which its middle is. Contacts of cylinder `g` and `box` through the box's thinnest side,
@@ -87,8 +88,9 @@ void find_pairs(Scene& scene, StepState& state) {
     if (a->id > b->id) std::swap(a, b);
   pairs.erase(std::remove_if(pairs.begin(), pairs.end(), [&](const auto& p) { return !may_touch(scene, *p.first, *p.second); }),
               pairs.end());
-  std::sort(pairs.begin(), pairs.end(),
-            [](auto& p, auto& q) { return std::make_pair(p.first->id, p.second->id) < std::make_pair(q.first->id, q.second->id); });
+  std::sort(pairs.begin(), pairs.end(), [](auto& p, auto& q) {
+    return std::make_pair(p.first->id, p.second->id) < std::make_pair(q.first->id, q.second->id);
+  });
 }
 
 // ODE has no collider for two cylinders, or a cylinder and a capsule: one of them goes in as a faceted mesh.

@@ -56,8 +56,8 @@ Limot limot_of(const Joint& j, int axis) {
 }
 
 // A motor is a row, and so is a stop that is reached; a motor at a stop is a force of its greatest size, as in ODE.
-void add_limot(std::vector<Row>& rows, std::vector<Body>& bodies, const Pair& pair, const Limot& a, const Vec3& axis_W, bool linear,
-               double dt) {
+void add_limot(std::vector<Row>& rows, std::vector<Body>& bodies, const Pair& pair, const Limot& a, const Vec3& axis_W,
+               bool linear, double dt) {
   const int limit = a.q <= a.lower ? 1 : a.q >= a.upper ? 2 : 0;
   const bool fixed = a.lower == a.upper, powered = a.most > 0 && !(limit && fixed);
   if (!powered && !limit) return;
@@ -112,7 +112,8 @@ void add_joint_rows(std::vector<Row>& rows, std::vector<Body>& bodies, const Joi
 }
 
 // Normal force and two of friction along fixed tangents (a pyramid).
-void add_contact_rows(std::vector<Row>& rows, const std::vector<Body>& bodies, const Pair& pair, const dContact& d, const Settings& set) {
+void add_contact_rows(std::vector<Row>& rows, const std::vector<Body>& bodies, const Pair& pair, const dContact& d,
+                      const Settings& set) {
   const double dt = set.dt;
   const Vec3 at = vec(d.geom.pos), n = vec(d.geom.normal);
   Row r = gazebo_like::point_row(pair, at, n);
@@ -141,15 +142,17 @@ void add_contact_rows(std::vector<Row>& rows, const std::vector<Body>& bodies, c
 // A step of the body: the place by what the full correction makes of its velocity, which does not stay.
 void move(dBodyID id, const Body& b, double dt) {
   if (dBodyIsKinematic(id)) {
-    set_body_pose(id, {vec(dBodyGetPosition(id)) + b.v * dt,
-                       normalized(axis_angle(b.w * (1 / std::max(norm(b.w), 1e-300)), norm(b.w) * dt) * quat(dBodyGetQuaternion(id)))});
+    set_body_pose(
+        id, {vec(dBodyGetPosition(id)) + b.v * dt,
+             normalized(axis_angle(b.w * (1 / std::max(norm(b.w), 1e-300)), norm(b.w) * dt) * quat(dBodyGetQuaternion(id)))});
     return;
   }
   const Vec3 v = b.v + b.force * (b.inverse_mass * dt), w = b.w + b.inverse_inertia * (b.torque * dt);
   const Vec3 v_move = v + b.push_fully * dt, w_move = w + b.turn_fully * dt;
   const double turn = norm(w_move);
   const Quat q = quat(dBodyGetQuaternion(id));
-  set_body_pose(id, {vec(dBodyGetPosition(id)) + v_move * dt, turn > 0 ? normalized(axis_angle(w_move * (1 / turn), turn * dt) * q) : q});
+  set_body_pose(
+      id, {vec(dBodyGetPosition(id)) + v_move * dt, turn > 0 ? normalized(axis_angle(w_move * (1 / turn), turn * dt) * q) : q});
   auto damped = [](const Vec3& x, double scale) { return dot(x, x) > 1e-4 ? x * (1 - scale) : x; };
   set_body_twist(id, damped(v + b.push * dt, dBodyGetLinearDamping(id)), damped(w + b.turn * dt, dBodyGetAngularDamping(id)));
   dBodySetForce(id, 0, 0, 0);
@@ -196,8 +199,15 @@ class Rows {
     const auto a = number_.find(first), b = number_.find(second);
     if (a == number_.end() || (second && b == number_.end())) return false;
     auto place = [](dBodyID body) { return body ? body_pose(body) : Pose{}; };
-    pair_ = {a->second, second ? b->second : -1, place(first) * X_1J, place(second) * X_2J, vec(dBodyGetPosition(first)),
-             place(second).p, set_.erp / set_.dt, set_.like_gazebo ? set_.cfm : 0, fastest};
+    pair_ = {a->second,
+             second ? b->second : -1,
+             place(first) * X_1J,
+             place(second) * X_2J,
+             vec(dBodyGetPosition(first)),
+             place(second).p,
+             set_.erp / set_.dt,
+             set_.like_gazebo ? set_.cfm : 0,
+             fastest};
     return true;
   }
 
@@ -209,7 +219,8 @@ class Rows {
         if (!take(j->joint, j->sign > 0 ? X_C : X_P, j->sign > 0 ? X_P : X_C, set_.contact_max_vel)) continue;
         const size_t from = rows.size();
         add_joint_rows(rows, bodies_, *j, pair_, set_.dt);
-        for (size_t i = from; i < rows.size(); ++i) rows[i].lambda = j->borne[i - from], rows[i].lambda_fully = j->borne[6 + i - from];
+        for (size_t i = from; i < rows.size(); ++i)
+          rows[i].lambda = j->borne[i - from], rows[i].lambda_fully = j->borne[6 + i - from];
         owners.push_back({j->watched ? &j->ode_feedback : nullptr, j.get(), from, rows.size()});
       }
   }

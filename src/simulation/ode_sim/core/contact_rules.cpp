@@ -46,7 +46,8 @@ Hardness contact_hardness(const Surface& a, const Surface& b, const Touch& touch
     fastest = std::max(fastest, 0.9 * std::sqrt(2 * g * (depth - kDeep)));
   double pressed_in = kp > 0 && touch.inverse_mass > 0 ? g / (touch.inverse_mass * kp) : 0;
   // A soft spring that was put in deeper pushes no more than it is to: each of several would carry the weight, and throw it.
-  if ((touch.depth > kDeep || touch.emerging) && touch.leaving > 0 && pressed_in > kSlack) pressed_in *= std::max(1 - touch.leaving / fastest, 0.0);
+  if ((touch.depth > kDeep || touch.emerging) && touch.leaving > 0 && pressed_in > kSlack)
+    pressed_in *= std::max(1 - touch.leaving / fastest, 0.0);
   if (out.soft_erp > 0) depth = std::min(depth, fastest * set.dt / out.soft_erp + pressed_in);
   out.depth = depth;
   return out;

@@ -8,13 +8,13 @@ namespace ode_sim {
 
 // What a contact is between, besides the two surfaces.
 struct Touch {
-  double depth = 0;         // m
-  int merged = 1;           // contacts that it stands for
-  double inverse_mass = 0;  // 1/kg, sum over the models that are not static
+  double depth = 0;           // m
+  int merged = 1;             // contacts that it stands for
+  double inverse_mass = 0;    // 1/kg, sum over the models that are not static
   bool one_is_fixed = false;  // of the two models, exactly one is static
-  double leaving = 0;  // m/s, how fast they part already
-  bool emerging = false;  // the other model still comes out of the static one
-  double outwards = 0;  // m/s^2, gravity along the normal out of the static one: negative as on a floor
+  double leaving = 0;         // m/s, how fast they part already
+  bool emerging = false;      // the other model still comes out of the static one
+  double outwards = 0;        // m/s^2, gravity along the normal out of the static one: negative as on a floor
 };
 
 // As dSurfaceParameters and dContactGeom::depth have them.

@@ -48,8 +48,9 @@ void set_hardness(const Settings& set, Contact& c, dContact& d) {
   touch.outwards = a.is_static ? -dot(c.normal, set.gravity) : dot(c.normal, set.gravity);
   touch.leaving = leaving(c);
   touch.emerging = a.emerging > 0 || b.emerging > 0;
-  const Hardness hard = contact_hardness(c.a->surface, c.b->surface, touch,
-                                         {set.dt, set.erp, set.contact_softness, set.contact_max_vel, norm(set.gravity), set.like_gazebo});
+  const Hardness hard =
+      contact_hardness(c.a->surface, c.b->surface, touch,
+                       {set.dt, set.erp, set.contact_softness, set.contact_max_vel, norm(set.gravity), set.like_gazebo});
   d.surface.mode = dContactMu2 | dContactSoftERP | dContactSoftCFM | dContactApprox1 | dContactFDir1 | dContactBounce |
                    dContactSlip1 | dContactSlip2;
   d.surface.soft_erp = hard.soft_erp;
@@ -87,8 +88,12 @@ void set_surface_speed(const StepState& state, const Contact& c, const Vec3& n, 
 dContact as_ode_has_it(const Scene& scene, const StepState& state, Contact& c, dBodyID first, dBodyID second) {
   dContact d{};
   const Vec3 n = c.swapped ? -c.normal : c.normal;
-  d.geom.pos[0] = c.pos.x; d.geom.pos[1] = c.pos.y; d.geom.pos[2] = c.pos.z;
-  d.geom.normal[0] = n.x; d.geom.normal[1] = n.y; d.geom.normal[2] = n.z;
+  d.geom.pos[0] = c.pos.x;
+  d.geom.pos[1] = c.pos.y;
+  d.geom.pos[2] = c.pos.z;
+  d.geom.normal[0] = n.x;
+  d.geom.normal[1] = n.y;
+  d.geom.normal[2] = n.z;
   set_hardness(scene.settings, c, d);
   set_friction(scene, state, c, n, d);
   set_surface_speed(state, c, n, vec(d.fdir1), first, second, d);
@@ -126,8 +131,12 @@ std::vector<ContactRecord> contact_records(const StepState& state) {
     ContactRecord r{};
     r.collision1 = c.a->id;
     r.collision2 = c.b->id;
-    r.position[0] = c.pos.x; r.position[1] = c.pos.y; r.position[2] = c.pos.z;
-    r.normal[0] = c.normal.x; r.normal[1] = c.normal.y; r.normal[2] = c.normal.z;
+    r.position[0] = c.pos.x;
+    r.position[1] = c.pos.y;
+    r.position[2] = c.pos.z;
+    r.normal[0] = c.normal.x;
+    r.normal[1] = c.normal.y;
+    r.normal[2] = c.normal.z;
     r.depth = c.depth;
     if (c.told && c.feedback >= 0 && c.feedback < static_cast<int>(state.feedback.size())) {
       // ODE gives what acts on its first body about that body's CoM; here: on the first link, about its CoM.
@@ -135,8 +144,12 @@ std::vector<ContactRecord> contact_records(const StepState& state) {
       Vec3 force = c.swapped ? -vec(f.f1) : vec(f.f1);
       Vec3 torque = cross(c.pos - c.a->link->com_W(), force);
       if (!finite(force) || !finite(torque)) force = torque = {};  // the solver lost its way: nothing is known
-      r.force[0] = force.x; r.force[1] = force.y; r.force[2] = force.z;
-      r.torque[0] = torque.x; r.torque[1] = torque.y; r.torque[2] = torque.z;
+      r.force[0] = force.x;
+      r.force[1] = force.y;
+      r.force[2] = force.z;
+      r.torque[0] = torque.x;
+      r.torque[1] = torque.y;
+      r.torque[2] = torque.z;
     }
     out.push_back(r);
   }

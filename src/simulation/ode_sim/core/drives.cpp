@@ -10,10 +10,12 @@ namespace ode_sim {
 namespace {
 
 constexpr double kFollows = 0.2;  // part of the way to its leader that a follower makes in a step while it pushes
-constexpr double kJump = 30;  // m/s, rad/s: a position drive commanded to move faster than this is teleported
+constexpr double kJump = 30;      // m/s, rad/s: a position drive commanded to move faster than this is teleported
 
 // The fastest that a drive may go, m/s or rad/s.
-double speed_limit(const Axis& a, double otherwise) { return a.velocity > 0 && a.velocity < kUnlimited ? a.velocity : otherwise; }
+double speed_limit(const Axis& a, double otherwise) {
+  return a.velocity > 0 && a.velocity < kUnlimited ? a.velocity : otherwise;
+}
 
 void follow_leader(Joint& j, double dt) {
   const auto leader = j.leader.lock();

@@ -10,11 +10,11 @@ namespace ode_sim {
 
 namespace {
 
-constexpr double kStopSkin = 1e-12;  // a joint put exactly on its stop is to be found there despite rounding
-constexpr double kNearStop = 1e-9;   // within the reach of the skin
+constexpr double kStopSkin = 1e-12;               // a joint put exactly on its stop is to be found there despite rounding
+constexpr double kNearStop = 1e-9;                // within the reach of the skin
 constexpr double kBackTurn = 10, kBackSlide = 1;  // rad/s, m/s: from beyond a stop
-constexpr double kStiffLaw = 1;      // share of a speed error that a controller makes good in one step; more swings
-constexpr double kSwings = 0.05;     // the same of a law of the position alone, where nothing else damps the joint
+constexpr double kStiffLaw = 1;   // share of a speed error that a controller makes good in one step; more swings
+constexpr double kSwings = 0.05;  // the same of a law of the position alone, where nothing else damps the joint
 
 void apply_axis_force(const Joint& j, int axis, double f) {
   if (f == 0) return;
@@ -52,7 +52,8 @@ void set_stops(const Settings& set, const Joint& j, int i) {
   if (j.sign < 0) std::tie(lower, upper) = std::make_pair(-upper, -lower);
   // ODE's hinge looks at no stop while both are out of its reach, and takes itself to be where it was when it last looked. Its
   // angle is always less than pi: it looks at this stop and never meets it.
-  if (j.type == JointType::Revolute && lower < -kPi && upper > kPi && (std::isfinite(lower) || std::isfinite(upper))) upper = kPi;
+  if (j.type == JointType::Revolute && lower < -kPi && upper > kPi && (std::isfinite(lower) || std::isfinite(upper)))
+    upper = kPi;
   set_limot(j, i, dParamLoStop, std::isfinite(lower) ? lower : -dInfinity);
   set_limot(j, i, dParamHiStop, std::isfinite(upper) ? upper : dInfinity);
   set_limot(j, i, dParamLoStop, std::isfinite(lower) ? lower : -dInfinity);  // ODE refuses a low stop above the old high one
@@ -79,7 +80,8 @@ double speed_by_law(const Axis& a, double dt, double inverse_inertia) {
   return std::copysign(std::max(std::abs(speed) - a.friction / slope, 0.0), speed);
 }
 
-MotorRow axis_row(const Axis& a, double dt, double inverse_inertia, bool like_gazebo, bool always_implicit, const MotorRow* drive) {
+MotorRow axis_row(const Axis& a, double dt, double inverse_inertia, bool like_gazebo, bool always_implicit,
+                  const MotorRow* drive) {
   double damping = a.damping;
   const double stiffness = a.spring_stiffness;
   const double pull = stiffness > 0 ? -stiffness * (a.q - a.spring_reference) : 0;
@@ -87,7 +89,8 @@ MotorRow axis_row(const Axis& a, double dt, double inverse_inertia, bool like_ga
   // At a stop ODE turns motors into torques of their greatest size.
   const bool off_stops = a.q - a.lower > kNearStop && a.upper - a.q > kNearStop;
   const bool stiff_law = dt * a.steepness() * inverse_inertia > (a.undamped() ? kSwings : kStiffLaw);
-  const bool by_law = !like_gazebo && off_stops && !drive && a.motor_force <= 0 && stiff_law && (a.law == 0 || a.admitted(a.law) != 0);
+  const bool by_law =
+      !like_gazebo && off_stops && !drive && a.motor_force <= 0 && stiff_law && (a.law == 0 || a.admitted(a.law) != 0);
   const double bound = a.effort >= 0 ? std::min(a.law_bound, a.effort) : a.law_bound;
   const double at_rest = std::min(std::max(a.law_at_rest(), -bound), bound);  // what the law gives when the step ends at rest
   MotorRow row;

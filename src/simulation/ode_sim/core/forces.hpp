@@ -19,6 +19,7 @@ double speed_by_law(const Axis& axis, double dt, double inverse_inertia);
 
 // Motor, friction, damping, spring and the forces of controllers. `drive`: the row of a position drive that pushes, before all else.
 // always_implicit: springs and dampers too stiff for the step are rows in any case, else only where they would swing.
-MotorRow axis_row(const Axis& axis, double dt, double inverse_inertia, bool like_gazebo, bool always_implicit, const MotorRow* drive);
+MotorRow axis_row(const Axis& axis, double dt, double inverse_inertia, bool like_gazebo, bool always_implicit,
+                  const MotorRow* drive);
 
 }  // namespace ode_sim

@@ -7,7 +7,7 @@ namespace ode_sim::gazebo_like {
 
 namespace {
 
-struct Work {  // of a row
+struct Work {               // of a row
   Vec3 l1, a1, l2, a2;      // scaled by the relaxation
   Vec3 pl1, pa1, pl2, pa2;  // acceleration for one unit of force
   double rhs, rhs_fully, cfm;
@@ -66,7 +66,8 @@ void sweep(Row& r, const Work& k, std::vector<Row>& rows, std::vector<Body>& bod
     hi_fully = std::abs(r.hi * rows[r.kind].lambda_fully), lo_fully = -hi_fully;
   }
   r.lambda = clamp(wanting(k.rhs, old, b1.push, b1.turn, b2.push, b2.turn), lo, hi);
-  r.lambda_fully = clamp(wanting(k.rhs_fully, old_fully, b1.push_fully, b1.turn_fully, b2.push_fully, b2.turn_fully), lo_fully, hi_fully);
+  r.lambda_fully =
+      clamp(wanting(k.rhs_fully, old_fully, b1.push_fully, b1.turn_fully, b2.push_fully, b2.turn_fully), lo_fully, hi_fully);
   push(bodies, r, k, r.lambda - old, r.lambda_fully - old_fully);
   // Upstream smooths the force of contacts, which bounds friction, and not what it does to the bodies.
   if (r.kind != kBilateral) r.lambda = (1 - s.smoothing) * r.lambda + s.smoothing * old;
@@ -99,7 +100,8 @@ void solve(std::vector<Row>& rows, std::vector<Body>& bodies, const Settings& se
 Sym3 inverse(const Sym3& m) {
   const double a = m.yy * m.zz - m.yz * m.yz, b = m.xz * m.yz - m.xy * m.zz, c = m.xy * m.yz - m.xz * m.yy;
   const double s = 1 / (m.xx * a + m.xy * b + m.xz * c);
-  return {a * s, (m.xx * m.zz - m.xz * m.xz) * s, (m.xx * m.yy - m.xy * m.xy) * s, b * s, c * s, (m.xy * m.xz - m.xx * m.yz) * s};
+  return {a * s, (m.xx * m.zz - m.xz * m.xz) * s, (m.xx * m.yy - m.xy * m.xy) * s, b * s,
+          c * s, (m.xy * m.xz - m.xx * m.yz) * s};
 }
 
 // ------------------------------------------------------------------------------------------------ rows

@@ -50,12 +50,12 @@ struct Pair {
   double erp_rate;  // 1/s: erp / dt
   double cfm, fastest;
 };
-void add_point(std::vector<Row>& rows, const Pair& pair);                                        // three rows: origins together
-void add_turn(std::vector<Row>& rows, const Pair& pair, const Vec3& axis_W, double speed);       // about one axis
-void add_alignment(std::vector<Row>& rows, const Pair& pair);                                    // three rows: no rotation
+void add_point(std::vector<Row>& rows, const Pair& pair);                                   // three rows: origins together
+void add_turn(std::vector<Row>& rows, const Pair& pair, const Vec3& axis_W, double speed);  // about one axis
+void add_alignment(std::vector<Row>& rows, const Pair& pair);                               // three rows: no rotation
 void add_hinge(std::vector<Row>& rows, const Pair& pair, const Vec3& axis1_W, const Vec3& axis2_W);  // two rows
-void add_slide(std::vector<Row>& rows, const Pair& pair, const Vec3& axis_W);                    // two rows across the axis
-Row along(const Pair& pair, const Vec3& axis_W, bool linear);  // a limit or motor of an axis
+void add_slide(std::vector<Row>& rows, const Pair& pair, const Vec3& axis_W);                        // two rows across the axis
+Row along(const Pair& pair, const Vec3& axis_W, bool linear);            // a limit or motor of an axis
 Row point_row(const Pair& pair, const Vec3& at, const Vec3& direction);  // of contacts
 
 }  // namespace ode_sim::gazebo_like

@@ -17,8 +17,8 @@ MeshData::MeshData(std::vector<double> v, std::vector<dTriIndex> i) : vertices(s
   for (dTriIndex i : indices)
     if (i >= vertices.size() / 3) throw std::invalid_argument("a triangle of the mesh names a corner that there is not");
   data.reset(dGeomTriMeshDataCreate());
-  dGeomTriMeshDataBuildDouble(data, vertices.data(), 3 * sizeof(double), static_cast<int>(vertices.size() / 3),
-                              indices.data(), static_cast<int>(indices.size()), 3 * sizeof(dTriIndex));
+  dGeomTriMeshDataBuildDouble(data, vertices.data(), 3 * sizeof(double), static_cast<int>(vertices.size() / 3), indices.data(),
+                              static_cast<int>(indices.size()), 3 * sizeof(dTriIndex));
 }
 
 // A mesh is a wheel if what is furthest from its axis stands all round it, and is no wider than it is high.
@@ -82,7 +82,8 @@ OwnedGeom make_heightmap(Shape& shape, std::vector<double> heights, int columns,
   checked_size(size_x, "the width of a height map");
   checked_size(size_y, "the depth of a height map");
   for (double h : heights)
-    if (!(std::abs(h) <= kFarthest)) throw std::invalid_argument("a height of the map is not a number within " + shown(kFarthest) + " m");
+    if (!(std::abs(h) <= kFarthest))
+      throw std::invalid_argument("a height of the map is not a number within " + shown(kFarthest) + " m");
   // `heights`: row-major, first row at +y. ODE wants depth samples along its z, which the y-up turn makes our -y.
   shape.heights = std::move(heights);
   shape.field.reset(dGeomHeightfieldDataCreate());

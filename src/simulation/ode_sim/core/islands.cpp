@@ -67,7 +67,8 @@ class IslandSearch {
     return c.root && c.root->kinematic ? state_.of(*c.root).node : state_.of(c).node;
   }
 
-  template <class Do> void each_joint(Do what) {
+  template <class Do>
+  void each_joint(Do what) {
     for (auto& m : scene_.models)
       for (auto& j : m->joints)
         if (j->joint) what(j->parent, j->child);

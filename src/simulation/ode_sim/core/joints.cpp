@@ -194,7 +194,9 @@ void read_feedback(Joint& j, JointStep& step) {
 
 // Links that are welded do not collide, nor does what is rigidly joined to them.
 bool welded(const Scene& scene, const Link& a, const Link& b) {
-  const auto same = [](const std::shared_ptr<Link>& l, const Link& m) { return l && l->model == m.model && l->cluster == m.cluster; };
+  const auto same = [](const std::shared_ptr<Link>& l, const Link& m) {
+    return l && l->model == m.model && l->cluster == m.cluster;
+  };
   for (auto& t : scene.welds)
     if ((same(t.parent, a) && same(t.child, b)) || (same(t.parent, b) && same(t.child, a))) return true;
   return false;

@@ -10,13 +10,13 @@
 
 namespace ode_sim {
 
-constexpr double kFarthest = 1e7;     // m from the origin, and the largest size; 2 nanometres is the last digit there
+constexpr double kFarthest = 1e7;      // m from the origin, and the largest size; 2 nanometres is the last digit there
 constexpr double kFarthestPart = 2e7;  // m: parts of what is placed at kFarthest, and what has moved, may be beyond it
-constexpr double kOutOfReach = 1e8;   // m: shapes beyond do not collide; boxes of a micrometre have no size there any more
-constexpr double kFastestSet = 1e10;  // m/s, rad/s that may be asked for
-constexpr double kStrongest = 1e12;   // N, N m: forces beyond are cut to it, so that sums and products stay finite
-constexpr double kStiffest = 1e18;    // N/m, N s/m
-constexpr double kRoughest = 1e15;    // friction coefficients
+constexpr double kOutOfReach = 1e8;    // m: shapes beyond do not collide; boxes of a micrometre have no size there any more
+constexpr double kFastestSet = 1e10;   // m/s, rad/s that may be asked for
+constexpr double kStrongest = 1e12;    // N, N m: forces beyond are cut to it, so that sums and products stay finite
+constexpr double kStiffest = 1e18;     // N/m, N s/m
+constexpr double kRoughest = 1e15;     // friction coefficients
 
 inline std::string shown(double v) {
   char text[32];
@@ -38,8 +38,9 @@ inline bool within(const Vec3& p, double most) {
 inline const Vec3& checked_place(const Vec3& p, const char* what, double most = kFarthestPart) {
   if (within(p, most)) return p;
   const double far = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-  throw std::invalid_argument(std::string(what) + (finite(p) ? " lies " + shown(far) + " m away; stay within " + shown(most) + " m"
-                                                             : " must be finite numbers"));
+  throw std::invalid_argument(std::string(what) + (finite(p)
+                                                       ? " lies " + shown(far) + " m away; stay within " + shown(most) + " m"
+                                                       : " must be finite numbers"));
 }
 inline Pose checked(const Pose& X, const char* what, double most = kFarthestPart) {
   checked_place(X.p, what, most);

@@ -68,12 +68,16 @@ struct Sym3 {
   double xx = 0, yy = 0, zz = 0, xy = 0, xz = 0, yz = 0;
 };
 inline Sym3& operator+=(Sym3& a, const Sym3& b) {
-  a.xx += b.xx; a.yy += b.yy; a.zz += b.zz; a.xy += b.xy; a.xz += b.xz; a.yz += b.yz;
+  a.xx += b.xx;
+  a.yy += b.yy;
+  a.zz += b.zz;
+  a.xy += b.xy;
+  a.xz += b.xz;
+  a.yz += b.yz;
   return a;
 }
 inline Vec3 operator*(const Sym3& m, const Vec3& v) {
-  return {m.xx * v.x + m.xy * v.y + m.xz * v.z, m.xy * v.x + m.yy * v.y + m.yz * v.z,
-          m.xz * v.x + m.yz * v.y + m.zz * v.z};
+  return {m.xx * v.x + m.xy * v.y + m.xz * v.z, m.xy * v.x + m.yy * v.y + m.yz * v.z, m.xz * v.x + m.yz * v.y + m.zz * v.z};
 }
 // R m R^T for the rotation R of `q`.
 inline Sym3 rotate(const Quat& q, const Sym3& m) {
@@ -85,8 +89,12 @@ inline Sym3 rotate(const Quat& q, const Sym3& m) {
 }
 // Inertia about the origin of a point mass at `r`.
 inline Sym3 point_inertia(double mass, const Vec3& r) {
-  return {mass * (r.y * r.y + r.z * r.z), mass * (r.x * r.x + r.z * r.z), mass * (r.x * r.x + r.y * r.y),
-          -mass * r.x * r.y, -mass * r.x * r.z, -mass * r.y * r.z};
+  return {mass * (r.y * r.y + r.z * r.z),
+          mass * (r.x * r.x + r.z * r.z),
+          mass * (r.x * r.x + r.y * r.y),
+          -mass * r.x * r.y,
+          -mass * r.x * r.z,
+          -mass * r.y * r.z};
 }
 // Component of the inverse of `m` along `n`: n^T m^-1 n.
 inline double inverse_along(const Sym3& m, const Vec3& n) {

@@ -7,9 +7,9 @@ namespace ode_sim {
 // A number of a surface: cut to its bounds, NaN refused.
 template <double Surface::*field>
 static void bounded(py::class_<Surface>& c, const char* name, double least, double most) {
-  c.def_property(name, [](Surface& s) { return s.*field; }, [name, least, most](Surface& s, double v) {
-    s.*field = std::max(limited(v, most, name), least);
-  });
+  c.def_property(
+      name, [](Surface& s) { return s.*field; },
+      [name, least, most](Surface& s, double v) { s.*field = std::max(limited(v, most, name), least); });
 }
 
 void bind_shapes(py::module_& m) {
@@ -26,22 +26,25 @@ void bind_shapes(py::module_& m) {
   bounded<&Surface::bounce_threshold>(surface, "bounce_threshold", 0, kFastestSet);
   surface.def_readwrite("collide_bitmask", &Surface::collide_bitmask)
       .def_readwrite("collide_without_contact", &Surface::collide_without_contact)
-      .def_property("fdir1", [](Surface& s) { return out(s.fdir1); },
-                    [](Surface& s, T3 v) { s.fdir1 = limited(in(v), kFarthest, "fdir1"); });
+      .def_property(
+          "fdir1", [](Surface& s) { return out(s.fdir1); },
+          [](Surface& s, T3 v) { s.fdir1 = limited(in(v), kFarthest, "fdir1"); });
 
   py::class_<MeshData, std::shared_ptr<MeshData>>(m, "MeshData")
       .def(py::init([](Doubles vertices, py::array_t<uint32_t, py::array::c_style | py::array::forcecast> triangles) {
-        std::vector<double> v(vertices.data(), vertices.data() + vertices.size());
-        std::vector<dTriIndex> t(triangles.data(), triangles.data() + triangles.size());
-        py::gil_scoped_release release;
-        return std::make_shared<MeshData>(std::move(v), std::move(t));
-      }), py::arg("vertices"), py::arg("triangles"));
+             std::vector<double> v(vertices.data(), vertices.data() + vertices.size());
+             std::vector<dTriIndex> t(triangles.data(), triangles.data() + triangles.size());
+             py::gil_scoped_release release;
+             return std::make_shared<MeshData>(std::move(v), std::move(t));
+           }),
+           py::arg("vertices"), py::arg("triangles"));
 
   py::class_<Shape, std::shared_ptr<Shape>>(m, "Shape")
       .def_readonly("id", &Shape::id)
       .def_readwrite("max_contacts", &Shape::max_contacts)
       .def_readwrite("watched", &Shape::watched)
-      .def_property_readonly("surface", [](Shape& s) -> Surface& { return s.surface; }, py::return_value_policy::reference_internal)
+      .def_property_readonly(
+          "surface", [](Shape& s) -> Surface& { return s.surface; }, py::return_value_policy::reference_internal)
       .def_property_readonly("pose", [](Shape& s) { return out(s.link->X_WL * s.X_LC); })
       .def("aabb", [](Shape& s) {
         const OdeScope scope;

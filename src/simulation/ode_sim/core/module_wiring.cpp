@@ -34,9 +34,10 @@ py::object write(Wiring& w, double dt) {
 void bind_wiring(py::module_& m) {
   py::class_<Wiring>(m, "Wiring")
       .def(py::init<>())
-      .def("add_joint", [](Wiring& w, std::shared_ptr<Joint> joint, uintptr_t position, uintptr_t velocity, uintptr_t effort) {
-        return w.add_joint(std::move(joint), {place(position), place(velocity), place(effort)});
-      })
+      .def("add_joint",
+           [](Wiring& w, std::shared_ptr<Joint> joint, uintptr_t position, uintptr_t velocity, uintptr_t effort) {
+             return w.add_joint(std::move(joint), {place(position), place(velocity), place(effort)});
+           })
       .def("add_command", &add_command)
       .def("set_working", &Wiring::set_working)
       .def("report_load", &Wiring::report_load)

@@ -16,7 +16,7 @@ void abandon_step(Scene& scene, StepState& state);  // after an OdeFailure
 
 // assembly.cpp: clusters of links, and their bodies
 void assemble(Scene& scene, Model& model);
-void compose(Cluster& cluster);        // poses of the members in the root frame from the joint positions, and the composite mass
+void compose(Cluster& cluster);  // poses of the members in the root frame from the joint positions, and the composite mass
 void place_cluster(Cluster& cluster);  // its body to where its root link is, moving as the root link moves
 void spread_poses(Cluster& cluster);
 void spread_twists(Cluster& cluster, bool drives = true);
@@ -75,7 +75,8 @@ void solver_pass(Scene& scene, bool direct, int iterations);
 void run_like_gazebo(Scene& scene, StepState& state, const Pass& pass);
 uint64_t order_seed(const Scene& scene);
 void run_pile(Scene& scene, StepState& state, const Island& island);
-bool run_trees(Scene& scene, StepState& state, const Island& island);  // false: nothing was done, too much is left to iterations
+bool run_trees(Scene& scene, StepState& state,
+               const Island& island);  // false: nothing was done, too much is left to iterations
 void guard_numbers(Scene& scene, StepState& state);
 
 // loads.cpp: forces of joints that ODE does not have

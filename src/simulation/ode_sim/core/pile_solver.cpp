@@ -40,7 +40,8 @@ Packed pack(const Row& r, const std::vector<Body>& bodies, const Settings& s) {
   static const Body world;
   const Body &b1 = bodies[r.first], &b2 = r.second >= 0 ? bodies[r.second] : world;
   const double rate = 1 / s.dt, cfm = r.cfm * rate;
-  const Vec3 l1 = r.l1 * b1.inverse_mass, a1 = b1.inverse_inertia * r.a1, l2 = r.l2 * b2.inverse_mass, a2 = b2.inverse_inertia * r.a2;
+  const Vec3 l1 = r.l1 * b1.inverse_mass, a1 = b1.inverse_inertia * r.a1, l2 = r.l2 * b2.inverse_mass,
+             a2 = b2.inverse_inertia * r.a2;
   const double own = dot(r.l1, l1) + dot(r.a1, a1) + dot(r.l2, l2) + dot(r.a2, a2) + cfm;
   const double scale = own > 0 ? s.sor / own : 0;
   auto comes = [&](const Body& b, const Vec3& l, const Vec3& a) {

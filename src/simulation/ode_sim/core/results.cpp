@@ -52,8 +52,13 @@ void publish_link(Scene& scene, const Model& m, Link& l) {
   }
   double* row = scene.link_poses->data() + 7 * l.row;
   const Pose& X = l.X_WL;
-  row[0] = X.p.x; row[1] = X.p.y; row[2] = X.p.z;
-  row[3] = X.q.x; row[4] = X.q.y; row[5] = X.q.z; row[6] = X.q.w;
+  row[0] = X.p.x;
+  row[1] = X.p.y;
+  row[2] = X.p.z;
+  row[3] = X.q.x;
+  row[4] = X.q.y;
+  row[5] = X.q.z;
+  row[6] = X.q.w;
 }
 
 }  // namespace

@@ -20,7 +20,9 @@ uint64_t digest(const char* data, size_t size) {  // FNV-1a
   return h;
 }
 
-[[noreturn]] void refuse(const char* why) { throw std::invalid_argument(std::string("the snapshot cannot be restored: ") + why); }
+[[noreturn]] void refuse(const char* why) {
+  throw std::invalid_argument(std::string("the snapshot cannot be restored: ") + why);
+}
 
 constexpr const char* kOtherModels = "it is of a world with other models";
 
@@ -28,7 +30,10 @@ constexpr const char* kOtherModels = "it is of a world with other models";
 struct Writer {
   static constexpr bool reads = false;
   std::string out;
-  template <class T> void number(T& v) { out.append(reinterpret_cast<const char*>(&v), sizeof v); }
+  template <class T>
+  void number(T& v) {
+    out.append(reinterpret_cast<const char*>(&v), sizeof v);
+  }
   void flag(bool& v) { out.push_back(v ? 1 : 0); }
   void same(int v, const char*) { number(v); }
 };
@@ -38,14 +43,16 @@ struct Reader {
   const std::string& in;
   const bool commit;  // else values are looked at and left alone
   size_t at = 0, end = 0;
-  template <class T> T next() {
+  template <class T>
+  T next() {
     T v;
     if (end - at < sizeof v) refuse("it is incomplete");
     std::memcpy(&v, in.data() + at, sizeof v);
     at += sizeof v;
     return v;
   }
-  template <class T> void number(T& v) {
+  template <class T>
+  void number(T& v) {
     const T read = next<T>();
     if constexpr (std::is_floating_point_v<T>)
       if (std::isnan(read)) refuse("it holds a number that is none");
@@ -61,32 +68,43 @@ struct Reader {
   }
 };
 
-template <class F> void visit(F& f, Vec3& v) { f.number(v.x), f.number(v.y), f.number(v.z); }
-template <class F> void visit(F& f, Pose& X) {
+template <class F>
+void visit(F& f, Vec3& v) {
+  f.number(v.x), f.number(v.y), f.number(v.z);
+}
+template <class F>
+void visit(F& f, Pose& X) {
   visit(f, X.p);
   f.number(X.q.x), f.number(X.q.y), f.number(X.q.z), f.number(X.q.w);
 }
-template <class F> void visit(F& f, Sym3& m) {
+template <class F>
+void visit(F& f, Sym3& m) {
   f.number(m.xx), f.number(m.yy), f.number(m.zz), f.number(m.xy), f.number(m.xz), f.number(m.yz);
 }
-template <class F> void visit(F& f, Surface& s) {
-  for (double* v : {&s.mu, &s.mu2, &s.slip1, &s.slip2, &s.kp, &s.kd, &s.max_vel, &s.min_depth, &s.restitution, &s.bounce_threshold})
+template <class F>
+void visit(F& f, Surface& s) {
+  for (double* v :
+       {&s.mu, &s.mu2, &s.slip1, &s.slip2, &s.kp, &s.kd, &s.max_vel, &s.min_depth, &s.restitution, &s.bounce_threshold})
     f.number(*v);
   visit(f, s.fdir1);
   f.number(s.collide_bitmask);
   f.flag(s.collide_without_contact);
 }
-template <class F> void visit(F& f, Axis& a) {
+template <class F>
+void visit(F& f, Axis& a) {
   visit(f, a.xyz);
-  for (double* v : {&a.lower, &a.upper, &a.effort, &a.velocity, &a.damping, &a.friction, &a.spring_reference, &a.spring_stiffness,
-                    &a.q, &a.qd, &a.force, &a.applied, &a.motor_velocity, &a.motor_force, &a.law, &a.slope, &a.law_bound})
+  for (double* v :
+       {&a.lower, &a.upper, &a.effort, &a.velocity, &a.damping, &a.friction, &a.spring_reference, &a.spring_stiffness, &a.q,
+        &a.qd, &a.force, &a.applied, &a.motor_velocity, &a.motor_force, &a.law, &a.slope, &a.law_bound})
     f.number(*v);
   f.flag(a.commanded);
 }
-template <class F> void visit(F& f, Feedback& b) {
+template <class F>
+void visit(F& f, Feedback& b) {
   for (Vec3* v : {&b.child_force, &b.child_torque, &b.parent_force, &b.parent_torque}) visit(f, *v);
 }
-template <class F> void visit(F& f, DriveMode& mode) {
+template <class F>
+void visit(F& f, DriveMode& mode) {
   int value = static_cast<int>(mode);
   if constexpr (F::reads) {
     value = f.template next<int>();
@@ -96,7 +114,8 @@ template <class F> void visit(F& f, DriveMode& mode) {
     f.number(value);
   }
 }
-template <class F> void visit(F& f, Joint& j) {
+template <class F>
+void visit(F& f, Joint& j) {
   f.same(j.id, kOtherModels);
   f.same(j.axis_count, kOtherModels);
   visit(f, j.X_PJ);
@@ -109,7 +128,8 @@ template <class F> void visit(F& f, Joint& j) {
   for (auto& a : j.axes) visit(f, a);
   for (double& v : j.borne) f.number(v);
 }
-template <class F> void visit(F& f, Link& l) {
+template <class F>
+void visit(F& f, Link& l) {
   f.same(l.id, kOtherModels);
   f.same(static_cast<int>(l.shapes.size()), kOtherModels);
   f.number(l.mass);
@@ -136,7 +156,8 @@ template <class F> void visit(F& f, Link& l) {
 }
 
 // All that a snapshot holds, in its order, but for what depends on the plan of clusters: see restore.
-template <class F> void walk(F& f, Scene& scene) {
+template <class F>
+void walk(F& f, Scene& scene) {
   Settings& set = scene.settings;
   for (double* v : {&set.dt, &set.gravity.x, &set.gravity.y, &set.gravity.z, &set.erp, &set.cfm, &set.sor, &set.contact_max_vel,
                     &set.surface_layer})
@@ -172,11 +193,12 @@ struct Relations {
   std::vector<SavedWeld> welds;
   std::vector<Borne> borne;
   std::vector<std::vector<std::pair<int, int>>> exempt;  // of each model
-  std::map<int, int> leaders;                             // joint -> joint
-  std::map<int, Rest> rest;                               // of the cluster with this root link
+  std::map<int, int> leaders;                            // joint -> joint
+  std::map<int, Rest> rest;                              // of the cluster with this root link
 };
 
-template <class F, class List> void visit_size(F& f, List& list, size_t least_bytes) {
+template <class F, class List>
+void visit_size(F& f, List& list, size_t least_bytes) {
   uint64_t n = list.size();
   if constexpr (F::reads) {
     n = f.template next<uint64_t>();
@@ -187,7 +209,8 @@ template <class F, class List> void visit_size(F& f, List& list, size_t least_by
   }
 }
 
-template <class F> void visit(F& f, Relations& r) {
+template <class F>
+void visit(F& f, Relations& r) {
   visit_size(f, r.borne, sizeof(int));
   for (auto& b : r.borne) f.number(b.a), f.number(b.b), visit(f, b.pos), f.number(b.normal);
   visit_size(f, r.welds, sizeof(int));
@@ -336,6 +359,8 @@ std::string save(Scene& scene) {
 }
 
 // `weld_ids`: the numbers of the welds in the snapshot.
-void restore(Scene& scene, const std::string& data, const std::vector<int>& weld_ids) { Plan(scene, data, weld_ids).carry_out(); }
+void restore(Scene& scene, const std::string& data, const std::vector<int>& weld_ids) {
+  Plan(scene, data, weld_ids).carry_out();
+}
 
 }  // namespace ode_sim

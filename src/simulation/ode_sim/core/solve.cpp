@@ -19,7 +19,8 @@ uint64_t mix(uint64_t x) {
 
 // Whether the numbers of a body are still numbers, and its place one at which things can collide.
 bool on_the_map(dBodyID b) {
-  return finite(body_pose(b)) && finite(body_velocity(b)) && finite(body_spin(b)) && within(vec(dBodyGetPosition(b)), kFarthestPart);
+  return finite(body_pose(b)) && finite(body_velocity(b)) && finite(body_spin(b)) &&
+         within(vec(dBodyGetPosition(b)), kFarthestPart);
 }
 
 std::string names_of(const std::vector<Cluster*>& clusters) {
@@ -74,7 +75,8 @@ void run_one_by_one(Scene& scene, StepState& state, std::vector<std::string>& sa
     if (said.empty()) continue;
     recall(start);
     for (Cluster* c : alone.clusters) state.of(*c).iterative = true;
-    run_iterative(scene, alone, std::max(iters, std::min(10 * iters, 10000)), said);  // small: more iterations than usual are affordable
+    run_iterative(scene, alone, std::max(iters, std::min(10 * iters, 10000)),
+                  said);  // small: more iterations than usual are affordable
     ++scene.counters.fallbacks;
   }
   said.clear();
@@ -99,7 +101,8 @@ void drop_absurd_forces(Scene& scene, const StepState& state) {
     if (norm(f) / c->mass * dt < kFastest && spin * dt < kFastest) continue;
     dBodySetForce(b, 0, 0, 0);
     dBodySetTorque(b, 0, 0, 0);
-    scene.messages.report("a force beyond all reason was left out. Look at its masses, inertias and commands", c->root->model->name);
+    scene.messages.report("a force beyond all reason was left out. Look at its masses, inertias and commands",
+                          c->root->model->name);
   }
 }
 
@@ -188,8 +191,9 @@ void guard_numbers(Scene& scene, StepState& state) {
     if (on_the_map(s.body)) continue;
     for (auto& n : state.nodes)
       if (n->root->body == s.body)
-        scene.messages.report("its motion became infinite; it was stopped where it was. Look at its masses, inertias and commands",
-                              n->root->model->name);
+        scene.messages.report(
+            "its motion became infinite; it was stopped where it was. Look at its masses, inertias and commands",
+            n->root->model->name);
     BodyState still = s;
     still.f = still.t = {};
     stop(still);

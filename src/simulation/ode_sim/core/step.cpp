@@ -44,7 +44,9 @@ void start_drives(Scene& scene, StepState& state) {
 
 // What is pushed wakes up, before its contacts are looked for.
 void wake_pushed(Scene& scene) {
-  auto pushed = [](const auto& l) { return dot(l->force, l->force) > 0 || dot(l->torque, l->torque) > 0 || l->belt.speed != 0; };
+  auto pushed = [](const auto& l) {
+    return dot(l->force, l->force) > 0 || dot(l->torque, l->torque) > 0 || l->belt.speed != 0;
+  };
   for (auto& m : scene.models)
     if (m->may_sleep && std::any_of(m->links.begin(), m->links.end(), pushed)) wake(*m);
 }

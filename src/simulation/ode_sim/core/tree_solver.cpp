@@ -69,10 +69,10 @@ struct Node {
   int count = 0;               // rows of the joint
   size_t rows[kMost];
   Six child[kMost], above[kMost];
-  Six wanted{};     // right sides of the rows, as accelerations
-  Square inertia;   // of the body and all beyond it
-  Square mobility;  // its inverse
-  Square stiffness; // of the joint: the inverse of what a force in it moves
+  Six wanted{};      // right sides of the rows, as accelerations
+  Square inertia;    // of the body and all beyond it
+  Square mobility;   // its inverse
+  Square stiffness;  // of the joint: the inverse of what a force in it moves
 };
 
 // What a force on the bodies becomes at a node on the way to the root.

@@ -21,11 +21,11 @@ struct Branch {
 
 struct Settings {
   double dt = 0.001;
-  int iterations = 50;         // at least
-  size_t most_rest = 400;      // rows that are left to the iterations; their time grows with the square
+  int iterations = 50;          // at least
+  size_t most_rest = 400;       // rows that are left to the iterations; their time grows with the square
   size_t most_steps = 2000000;  // of all their ways to the root together, times their number
-  double work = 4e6;           // products that the iterations may take
-  double close_enough = 1e-7;  // m/s^2 or rad/s^2: what a further iteration changes
+  double work = 4e6;            // products that the iterations may take
+  double close_enough = 1e-7;   // m/s^2 or rad/s^2: what a further iteration changes
 };
 
 // The forces of all rows (Row::lambda), and what they make of the bodies (Body::push, turn). False if too many rows are left: nothing

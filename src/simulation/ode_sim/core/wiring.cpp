@@ -50,7 +50,7 @@ std::pair<double, double> corridor(const CommandLimits& l, double position, doub
       return {low, high};
     }
     case CommandLimits::EffortSaturation: {
-      const bool below = position < l.low || velocity < -v, above = position > l.high || velocity > v;
+      const bool below = position < l.low || velocity<-v, above = position> l.high || velocity > v;
       return {below ? 0.0 : -l.effort, above ? 0.0 : l.effort};
     }
     case CommandLimits::EffortSoft: break;
@@ -70,7 +70,8 @@ double kept_within(double command, double low, double high, double held) {
 }
 
 int Wiring::add_joint(std::shared_ptr<Joint> joint, const Places& places) {
-  if (!places.position || !places.velocity) throw std::invalid_argument("a wired joint needs places for its position and velocity");
+  if (!places.position || !places.velocity)
+    throw std::invalid_argument("a wired joint needs places for its position and velocity");
   joints_.push_back({std::move(joint), places});
   return static_cast<int>(joints_.size()) - 1;
 }

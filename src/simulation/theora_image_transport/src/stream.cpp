@@ -11,8 +11,8 @@
 namespace theora_image_transport {
 namespace {
 
-constexpr int kBlock = 16;      // a coded frame is made of whole macroblocks
-constexpr int kRate = 30;       // pictures per second that a bit rate is meant for; stamps are in the messages
+constexpr int kBlock = 16;           // a coded frame is made of whole macroblocks
+constexpr int kRate = 30;            // pictures per second that a bit rate is meant for; stamps are in the messages
 constexpr uint32_t kMost = 1 << 14;  // pixels of a side
 
 int padded(int pixels) { return (pixels + kBlock - 1) / kBlock * kBlock; }
@@ -27,9 +27,7 @@ Packet packetOf(const ogg_packet& ogg) {
   return packet;
 }
 
-cv::Mat wrap(const th_img_plane& plane) {
-  return cv::Mat(plane.height, plane.width, CV_8UC1, plane.data, plane.stride);
-}
+cv::Mat wrap(const th_img_plane& plane) { return cv::Mat(plane.height, plane.width, CV_8UC1, plane.data, plane.stride); }
 
 th_img_plane plane(cv::Mat& pixels) { return {pixels.cols, pixels.rows, static_cast<int>(pixels.step), pixels.data}; }
 
@@ -134,8 +132,12 @@ void Decoder::postProcess(int level) {
 
 cv::Mat Decoder::decode(const Packet& packet) {
   if (packet.b_o_s) parts_ = std::make_unique<Parts>();
-  ogg_packet ogg{const_cast<unsigned char*>(packet.data.data()), static_cast<long>(packet.data.size()), packet.b_o_s,
-                 packet.e_o_s, packet.granulepos, packet.packetno};
+  ogg_packet ogg{const_cast<unsigned char*>(packet.data.data()),
+                 static_cast<long>(packet.data.size()),
+                 packet.b_o_s,
+                 packet.e_o_s,
+                 packet.granulepos,
+                 packet.packetno};
   if (!parts_->context) {
     const int left = th_decode_headerin(&parts_->info, &parts_->comment, &parts_->setup, &ogg);
     if (left > 0) return {};

@@ -79,8 +79,10 @@ protected:
       std::string type;
       if (!nh.getParam("type", type))
       {
-        ROS_ERROR("Could not load robot HW '%s' because the type was not specified. Did you load the robot HW configuration on the "
-                  "parameter server (namespace: '%s')?", name.c_str(), nh.getNamespace().c_str());
+        ROS_ERROR(
+            "Could not load robot HW '%s' because the type was not specified. Did you load the robot HW configuration on the "
+            "parameter server (namespace: '%s')?",
+            name.c_str(), nh.getNamespace().c_str());
         return false;
       }
       const hardware_interface::RobotHWSharedPtr part(robot_hw_loader_.createUnmanagedInstance(type));

@@ -9,17 +9,17 @@ namespace control_toolbox
 class LimitedProxy
 {
 public:
-  double mass_ = 0.0;             // of the proxy, kg or kg m^2
-  double Kd_ = 0.0;               // coupling
+  double mass_ = 0.0;  // of the proxy, kg or kg m^2
+  double Kd_ = 0.0;    // coupling
   double Kp_ = 0.0;
   double Ki_ = 0.0;
-  double Ficl_ = 0.0;             // bound of its integral effort
+  double Ficl_ = 0.0;  // bound of its integral effort
   double effort_limit_ = 0.0;
   double vel_limit_ = 0.0;
   double pos_upper_limit_ = 0.0;  // of the proxy; no limits if both are 0
   double pos_lower_limit_ = 0.0;
-  double lambda_proxy_ = 0.0;     // bandwidth of the approach near the target, 1/s
-  double acc_converge_ = 0.0;     // deceleration that the approach plans with
+  double lambda_proxy_ = 0.0;  // bandwidth of the approach near the target, 1/s
+  double acc_converge_ = 0.0;  // deceleration that the approach plans with
 
   /// Put the proxy on the joint.
   void reset(double pos_act, double vel_act);

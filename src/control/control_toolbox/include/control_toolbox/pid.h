@@ -29,7 +29,12 @@ public:
   {
     Gains() = default;
     Gains(double p, double i, double d, double i_max, double i_min, bool antiwindup = false)
-      : p_gain_(p), i_gain_(i), d_gain_(d), i_max_(i_max), i_min_(i_min), antiwindup_(antiwindup)
+      : p_gain_(p)
+      , i_gain_(i)
+      , d_gain_(d)
+      , i_max_(i_max)
+      , i_min_(i_min)
+      , antiwindup_(antiwindup)
     {
     }
 

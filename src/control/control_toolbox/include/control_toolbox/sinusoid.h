@@ -16,7 +16,10 @@ class Sinusoid
 public:
   Sinusoid() = default;
   Sinusoid(double offset, double amplitude, double frequency, double phase)
-    : offset_(offset), amplitude_(amplitude), frequency_(frequency), phase_(phase)
+    : offset_(offset)
+    , amplitude_(amplitude)
+    , frequency_(frequency)
+    , phase_(phase)
   {
   }
   virtual ~Sinusoid() = default;
@@ -29,7 +32,9 @@ public:
       const char* name;
       double* value;
     };
-    const Entry entries[] = { { "offset", &offset_ }, { "amplitude", &amplitude_ }, { "frequency", &frequency_ }, { "phase", &phase_ } };
+    const Entry entries[] = {
+      { "offset", &offset_ }, { "amplitude", &amplitude_ }, { "frequency", &frequency_ }, { "phase", &phase_ }
+    };
     for (const Entry& entry : entries)
     {
       const char* text = element->Attribute(entry.name);
@@ -40,10 +45,7 @@ public:
     return true;
   }
 
-  void debug()
-  {
-    ROS_DEBUG("offset=%.2f amplitude=%.2f phase=%.2f frequency=%.2f", offset_, amplitude_, phase_, frequency_);
-  }
+  void debug() { ROS_DEBUG("offset=%.2f amplitude=%.2f phase=%.2f frequency=%.2f", offset_, amplitude_, phase_, frequency_); }
 
   /// \param[out] qd, qdd first and second derivative \return the value at \p time, s
   double update(double time, double& qd, double& qdd)

@@ -37,9 +37,10 @@ protected:
       std::string names;
       for (const std::string& name : robot_hw->getNames())
         names += (names.empty() ? "" : ", ") + name;
-      ROS_ERROR("This controller requires a hardware interface of type '%s'. Make sure this is registered in the "
-                "hardware_interface::RobotHW class. The robot has: %s",
-                getHardwareInterfaceType().c_str(), names.empty() ? "none" : names.c_str());
+      ROS_ERROR(
+          "This controller requires a hardware interface of type '%s'. Make sure this is registered in the "
+          "hardware_interface::RobotHW class. The robot has: %s",
+          getHardwareInterfaceType().c_str(), names.empty() ? "none" : names.c_str());
       return false;
     }
     hw->clearClaims();

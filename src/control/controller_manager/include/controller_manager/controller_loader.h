@@ -18,7 +18,9 @@ class ControllerLoader : public ControllerLoaderInterface
 {
 public:
   ControllerLoader(const std::string& package, const std::string& base_class)
-    : ControllerLoaderInterface(base_class), package_(package), base_class_(base_class)
+    : ControllerLoaderInterface(base_class)
+    , package_(package)
+    , base_class_(base_class)
   {
     reload();
   }

@@ -14,8 +14,8 @@ class JointPositionController : public PidOfAJoint
 public:
   struct Commands
   {
-    double position_ = 0.0;      // rad or m
-    double velocity_ = 0.0;      // rad/s or m/s
+    double position_ = 0.0;  // rad or m
+    double velocity_ = 0.0;  // rad/s or m/s
     bool has_velocity_ = false;
   };
 

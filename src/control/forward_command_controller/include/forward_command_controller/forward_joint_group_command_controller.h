@@ -24,7 +24,8 @@ public:
   {
     if (!n.getParam("joints", joint_names_) || joint_names_.empty())
     {
-      ROS_ERROR_STREAM("Failed to getParam 'joints' (namespace: " << n.getNamespace() << "): a list of names that is not empty");
+      ROS_ERROR_STREAM("Failed to getParam 'joints' (namespace: " << n.getNamespace()
+                                                                  << "): a list of names that is not empty");
       return false;
     }
     n_joints_ = joint_names_.size();

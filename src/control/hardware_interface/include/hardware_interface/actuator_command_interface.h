@@ -17,7 +17,8 @@ public:
 
   /// \throws HardwareInterfaceException the pointer is null.
   ActuatorHandle(const ActuatorStateHandle& state, double* cmd)
-    : ActuatorStateHandle(state), cmd_(internal::required(cmd, state.getName(), "Command"))
+    : ActuatorStateHandle(state)
+    , cmd_(internal::required(cmd, state.getName(), "Command"))
   {
   }
 

@@ -25,23 +25,24 @@ public:
   }
 
   /// With the position of an absolute encoder, and a torque sensor's reading.
-  ActuatorStateHandle(const std::string& name, const double* pos, const double* vel, const double* eff, const double* absolute_pos,
-                   const double* torque_sensor)
+  ActuatorStateHandle(const std::string& name, const double* pos, const double* vel, const double* eff,
+                      const double* absolute_pos, const double* torque_sensor)
     : ActuatorStateHandle(name, pos, vel, eff)
   {
     absolute_pos_ = internal::required(absolute_pos, name, "Absolute data position");
     torque_sensor_ = internal::required(torque_sensor, name, "Torque sensor");
   }
 
-  ActuatorStateHandle(const std::string& name, const double* pos, const double* vel, const double* eff, const double* absolute_pos)
+  ActuatorStateHandle(const std::string& name, const double* pos, const double* vel, const double* eff,
+                      const double* absolute_pos)
     : ActuatorStateHandle(name, pos, vel, eff)
   {
     absolute_pos_ = internal::required(absolute_pos, name, "Absolute data position");
   }
 
   /// The last argument only tells this constructor from the one before.
-  ActuatorStateHandle(const std::string& name, const double* pos, const double* vel, const double* eff, const double* torque_sensor,
-                   bool /*torque sensor*/)
+  ActuatorStateHandle(const std::string& name, const double* pos, const double* vel, const double* eff,
+                      const double* torque_sensor, bool /*torque sensor*/)
     : ActuatorStateHandle(name, pos, vel, eff)
   {
     torque_sensor_ = internal::required(torque_sensor, name, "Torque sensor");

@@ -13,8 +13,11 @@ namespace hardware_interface
 struct ControllerInfo
 {
   ControllerInfo() = default;
-  ControllerInfo(const std::string& controller, const std::string& controller_type, const std::vector<InterfaceResources>& claimed)
-    : name(controller), type(controller_type), claimed_resources(claimed)
+  ControllerInfo(const std::string& controller, const std::string& controller_type,
+                 const std::vector<InterfaceResources>& claimed)
+    : name(controller)
+    , type(controller_type)
+    , claimed_resources(claimed)
   {
   }
 

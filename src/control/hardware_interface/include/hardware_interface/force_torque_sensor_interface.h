@@ -14,7 +14,10 @@ class ForceTorqueSensorHandle
 public:
   ForceTorqueSensorHandle() = default;
   ForceTorqueSensorHandle(const std::string& name, const std::string& frame_id, const double* force, const double* torque)
-    : name_(name), frame_id_(frame_id), force_(force), torque_(torque)
+    : name_(name)
+    , frame_id_(frame_id)
+    , force_(force)
+    , torque_(torque)
   {
   }
 

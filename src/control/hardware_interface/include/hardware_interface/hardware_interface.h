@@ -51,7 +51,8 @@ template <class T>
 inline T* filled(T* data, const std::string& handle)
 {
   if (!data)
-    throw HardwareInterfaceException("The handle '" + handle + "' is empty: take one out of a hardware interface by getHandle()");
+    throw HardwareInterfaceException("The handle '" + handle +
+                                     "' is empty: take one out of a hardware interface by getHandle()");
   return data;
 }
 

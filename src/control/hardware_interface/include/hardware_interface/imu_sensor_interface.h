@@ -25,13 +25,13 @@ public:
     {
     }
 
-    std::string name;            ///< of the sensor
-    std::string frame_id;        ///< tf frame of the measurements
-    double* orientation;         ///< x y z w
+    std::string name;      ///< of the sensor
+    std::string frame_id;  ///< tf frame of the measurements
+    double* orientation;   ///< x y z w
     double* orientation_covariance;
-    double* angular_velocity;    ///< rad/s
+    double* angular_velocity;  ///< rad/s
     double* angular_velocity_covariance;
-    double* linear_acceleration; ///< m/s^2
+    double* linear_acceleration;  ///< m/s^2
     double* linear_acceleration_covariance;
   };
 
@@ -48,8 +48,9 @@ public:
   }
 
   ImuSensorHandle(const std::string& name, const std::string& frame_id, const double* orientation,
-                  const double* orientation_covariance, const double* angular_velocity, const double* angular_velocity_covariance,
-                  const double* linear_acceleration, const double* linear_acceleration_covariance)
+                  const double* orientation_covariance, const double* angular_velocity,
+                  const double* angular_velocity_covariance, const double* linear_acceleration,
+                  const double* linear_acceleration_covariance)
     : name_(name)
     , frame_id_(frame_id)
     , orientation_(orientation)

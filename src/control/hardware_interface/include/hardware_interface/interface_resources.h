@@ -11,7 +11,9 @@ namespace hardware_interface
 struct InterfaceResources
 {
   InterfaceResources() = default;
-  InterfaceResources(const std::string& type, const std::set<std::string>& names) : hardware_interface(type), resources(names) {}
+  InterfaceResources(const std::string& type, const std::set<std::string>& names) : hardware_interface(type), resources(names)
+  {
+  }
 
   std::string hardware_interface;
   std::set<std::string> resources;

@@ -17,7 +17,8 @@ public:
 
   /// \throws HardwareInterfaceException the pointer is null.
   JointHandle(const JointStateHandle& state, double* cmd)
-    : JointStateHandle(state), cmd_(internal::required(cmd, state.getName(), "Command"))
+    : JointStateHandle(state)
+    , cmd_(internal::required(cmd, state.getName(), "Command"))
   {
   }
 

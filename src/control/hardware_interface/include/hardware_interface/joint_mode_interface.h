@@ -37,8 +37,8 @@ public:
   /// A word for messages.
   std::string getModeName(JointCommandModes mode) const
   {
-    static const char* const words[] = { "not_operational", "position",  "velocity", "effort",
-                                         "other", "emergency_stop", "switching", "error" };
+    static const char* const words[] = { "not_operational", "position",       "velocity",  "effort",
+                                         "other",           "emergency_stop", "switching", "error" };
     const int index = static_cast<int>(mode) + 1;
     return index >= 0 && index < 8 ? words[index] : "unknown";
   }

@@ -40,8 +40,8 @@ public:
   }
 
   /// The last argument only tells this constructor from the one before.
-  JointStateHandle(const std::string& name, const double* pos, const double* vel, const double* eff, const double* torque_sensor,
-                   bool /*torque sensor*/)
+  JointStateHandle(const std::string& name, const double* pos, const double* vel, const double* eff,
+                   const double* torque_sensor, bool /*torque sensor*/)
     : JointStateHandle(name, pos, vel, eff)
   {
     torque_sensor_ = internal::required(torque_sensor, name, "Torque sensor");

@@ -14,7 +14,8 @@ public:
 
   /// \throws HardwareInterfaceException a pointer is null.
   PosVelAccJointHandle(const JointStateHandle& state, double* cmd_pos, double* cmd_vel, double* cmd_acc)
-    : PosVelJointHandle(state, cmd_pos, cmd_vel), cmd_acc_(internal::required(cmd_acc, state.getName(), "Command acceleration"))
+    : PosVelJointHandle(state, cmd_pos, cmd_vel)
+    , cmd_acc_(internal::required(cmd_acc, state.getName(), "Command acceleration"))
   {
   }
 

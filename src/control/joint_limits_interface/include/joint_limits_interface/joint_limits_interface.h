@@ -24,10 +24,7 @@ inline T saturate(const T value, const T low, const T high)
   return std::min(std::max(value, low), high);
 }
 
-inline double infinite()
-{
-  return std::numeric_limits<double>::infinity();
-}
+inline double infinite() { return std::numeric_limits<double>::infinity(); }
 
 /// \throws JointLimitsInterfaceException the limit is not there
 inline void need(bool has, const hardware_interface::JointHandle& joint, const char* kind)
@@ -125,7 +122,8 @@ public:
   /// \throws JointLimitsInterfaceException there are no velocity limits
   PositionJointSoftLimitsHandle(const hardware_interface::JointHandle& jh, const JointLimits& limits,
                                 const SoftJointLimits& soft_limits)
-    : internal::PositionLimitHandle(jh, limits), soft_limits_(soft_limits)
+    : internal::PositionLimitHandle(jh, limits)
+    , soft_limits_(soft_limits)
   {
     internal::need(limits.has_velocity_limits, jh, "velocity");
   }
@@ -176,7 +174,8 @@ public:
   /// \throws JointLimitsInterfaceException there are no velocity or effort limits
   EffortJointSoftLimitsHandle(const hardware_interface::JointHandle& jh, const JointLimits& limits,
                               const SoftJointLimits& soft_limits)
-    : internal::LimitHandle(jh, limits), soft_limits_(soft_limits)
+    : internal::LimitHandle(jh, limits)
+    , soft_limits_(soft_limits)
   {
     internal::need(limits.has_velocity_limits, jh, "velocity");
     internal::need(limits.has_effort_limits, jh, "effort");
@@ -233,7 +232,8 @@ public:
   VelocityJointSoftLimitsHandle() = default;
   VelocityJointSoftLimitsHandle(const hardware_interface::JointHandle& jh, const JointLimits& limits,
                                 const SoftJointLimits& soft_limits)
-    : internal::LimitHandle(jh, limits), soft_limits_(soft_limits)
+    : internal::LimitHandle(jh, limits)
+    , soft_limits_(soft_limits)
   {
   }
 

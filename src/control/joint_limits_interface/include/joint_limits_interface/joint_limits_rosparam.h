@@ -40,7 +40,8 @@ inline bool getJointLimits(const std::string& joint_name, const ros::NodeHandle&
     return false;
   }
   const ros::NodeHandle own(nh, name);
-  if (internal::has_limits(own, "position", limits.has_position_limits, std::string("min_position"), std::string("max_position")))
+  if (internal::has_limits(own, "position", limits.has_position_limits, std::string("min_position"),
+                           std::string("max_position")))
   {
     limits.has_position_limits = true;
     own.getParam("min_position", limits.min_position);

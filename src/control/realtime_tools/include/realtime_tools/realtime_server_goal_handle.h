@@ -23,7 +23,9 @@ public:
 
   RealtimeServerGoalHandle(GoalHandle& gh, const ResultPtr& preallocated_result = ResultPtr(),
                            const FeedbackPtr& preallocated_feedback = FeedbackPtr())
-    : gh_(gh), preallocated_result_(preallocated_result), preallocated_feedback_(preallocated_feedback)
+    : gh_(gh)
+    , preallocated_result_(preallocated_result)
+    , preallocated_feedback_(preallocated_feedback)
   {
     if (!preallocated_result_)
       preallocated_result_.reset(new Result);

@@ -16,9 +16,12 @@ class DifferentialTransmission : public Transmission
 public:
   /// \throws TransmissionInterfaceException not two numbers each, or a reduction of 0
   DifferentialTransmission(const std::vector<double>& actuator_reduction, const std::vector<double>& joint_reduction,
-     const std::vector<double>& joint_offset = std::vector<double>(2, 0.0),
-     bool ignore_transmission_for_absolute_encoders = false)
-    : actuator_(actuator_reduction), joint_(joint_reduction), offset_(joint_offset), ignore_(ignore_transmission_for_absolute_encoders)
+                           const std::vector<double>& joint_offset = std::vector<double>(2, 0.0),
+                           bool ignore_transmission_for_absolute_encoders = false)
+    : actuator_(actuator_reduction)
+    , joint_(joint_reduction)
+    , offset_(joint_offset)
+    , ignore_(ignore_transmission_for_absolute_encoders)
   {
     if (actuator_.size() != 2 || joint_.size() != 2 || offset_.size() != 2)
       throw TransmissionInterfaceException("Reduction and offset vectors must have size 2.");

@@ -16,8 +16,10 @@ class FourBarLinkageTransmission : public Transmission
 public:
   /// \throws TransmissionInterfaceException not two numbers each, or a reduction of 0
   FourBarLinkageTransmission(const std::vector<double>& actuator_reduction, const std::vector<double>& joint_reduction,
-     const std::vector<double>& joint_offset = std::vector<double>(2, 0.0))
-    : actuator_(actuator_reduction), joint_(joint_reduction), offset_(joint_offset)
+                             const std::vector<double>& joint_offset = std::vector<double>(2, 0.0))
+    : actuator_(actuator_reduction)
+    , joint_(joint_reduction)
+    , offset_(joint_offset)
   {
     if (actuator_.size() != 2 || joint_.size() != 2 || offset_.size() != 2)
       throw TransmissionInterfaceException("Reduction and offset vectors must have size 2.");
@@ -86,8 +88,7 @@ private:
   }
   Two effortToJoint(const Two& a) const
   {
-    return Two{ { joint_[0] * a[0] * actuator_[0],
-                  joint_[1] * (a[1] * actuator_[1] - a[0] * actuator_[0] * joint_[0]) } };
+    return Two{ { joint_[0] * a[0] * actuator_[0], joint_[1] * (a[1] * actuator_[1] - a[0] * actuator_[0] * joint_[0]) } };
   }
   Two toActuator(const Two& j) const
   {

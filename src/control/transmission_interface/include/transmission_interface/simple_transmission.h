@@ -14,7 +14,9 @@ class SimpleTransmission : public Transmission
 {
 public:
   /// \throws TransmissionInterfaceException a reduction of 0
-  explicit SimpleTransmission(const double reduction, const double joint_offset = 0.0) : reduction_(reduction), offset_(joint_offset)
+  explicit SimpleTransmission(const double reduction, const double joint_offset = 0.0)
+    : reduction_(reduction)
+    , offset_(joint_offset)
   {
     if (reduction_ == 0.0)
       throw TransmissionInterfaceException("Transmission reduction ratio cannot be zero.");

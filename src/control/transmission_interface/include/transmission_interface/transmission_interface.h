@@ -19,14 +19,19 @@ public:
 
 protected:
   /// \throws TransmissionInterfaceException there is no transmission, nothing to do, a size that does not fit, or a null pointer
-  TransmissionHandle(const std::string& name, Transmission* transmission, const ActuatorData& actuator_data, const JointData& joint_data)
-    : name_(name), transmission_(transmission), actuator_data_(actuator_data), joint_data_(joint_data)
+  TransmissionHandle(const std::string& name, Transmission* transmission, const ActuatorData& actuator_data,
+                     const JointData& joint_data)
+    : name_(name)
+    , transmission_(transmission)
+    , actuator_data_(actuator_data)
+    , joint_data_(joint_data)
   {
     if (!transmission_)
       throw TransmissionInterfaceException("Unspecified transmission.");
     const ActuatorData& a = actuator_data;
     const JointData& j = joint_data;
-    if (a.position.empty() && a.velocity.empty() && a.effort.empty() && j.position.empty() && j.velocity.empty() && j.effort.empty())
+    if (a.position.empty() && a.velocity.empty() && a.effort.empty() && j.position.empty() && j.velocity.empty() &&
+        j.effort.empty())
       throw TransmissionInterfaceException("All data vectors are empty. Transmission instance can't do anything!.");
     check("Actuator position", a.position, transmission_->numActuators());
     check("Actuator velocity", a.velocity, transmission_->numActuators());
@@ -100,7 +105,7 @@ class ActuatorToJointPositionHandle : public TransmissionHandle
 {
 public:
   ActuatorToJointPositionHandle(const std::string& name, Transmission* transmission, const ActuatorData& actuator_data,
-    const JointData& joint_data)
+                                const JointData& joint_data)
     : TransmissionHandle(name, transmission, actuator_data, joint_data)
   {
   }
@@ -112,7 +117,7 @@ class ActuatorToJointVelocityHandle : public TransmissionHandle
 {
 public:
   ActuatorToJointVelocityHandle(const std::string& name, Transmission* transmission, const ActuatorData& actuator_data,
-    const JointData& joint_data)
+                                const JointData& joint_data)
     : TransmissionHandle(name, transmission, actuator_data, joint_data)
   {
   }
@@ -124,7 +129,7 @@ class ActuatorToJointEffortHandle : public TransmissionHandle
 {
 public:
   ActuatorToJointEffortHandle(const std::string& name, Transmission* transmission, const ActuatorData& actuator_data,
-    const JointData& joint_data)
+                              const JointData& joint_data)
     : TransmissionHandle(name, transmission, actuator_data, joint_data)
   {
   }
@@ -136,7 +141,7 @@ class JointToActuatorPositionHandle : public TransmissionHandle
 {
 public:
   JointToActuatorPositionHandle(const std::string& name, Transmission* transmission, const ActuatorData& actuator_data,
-    const JointData& joint_data)
+                                const JointData& joint_data)
     : TransmissionHandle(name, transmission, actuator_data, joint_data)
   {
   }
@@ -148,7 +153,7 @@ class JointToActuatorVelocityHandle : public TransmissionHandle
 {
 public:
   JointToActuatorVelocityHandle(const std::string& name, Transmission* transmission, const ActuatorData& actuator_data,
-    const JointData& joint_data)
+                                const JointData& joint_data)
     : TransmissionHandle(name, transmission, actuator_data, joint_data)
   {
   }
@@ -160,7 +165,7 @@ class JointToActuatorEffortHandle : public TransmissionHandle
 {
 public:
   JointToActuatorEffortHandle(const std::string& name, Transmission* transmission, const ActuatorData& actuator_data,
-    const JointData& joint_data)
+                              const JointData& joint_data)
     : TransmissionHandle(name, transmission, actuator_data, joint_data)
   {
   }

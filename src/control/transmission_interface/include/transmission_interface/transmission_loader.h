@@ -49,8 +49,8 @@ protected:
 
   // Numbers and words of an <actuator> or <joint>.
 
-  static ParseStatus getActuatorReduction(const TiXmlElement& parent, const std::string& actuator, const std::string& transmission,
-                                          bool required, double& reduction)
+  static ParseStatus getActuatorReduction(const TiXmlElement& parent, const std::string& actuator,
+                                          const std::string& transmission, bool required, double& reduction)
   {
     return number(parent, "mechanicalReduction", "actuator '" + actuator, transmission, required, reduction);
   }
@@ -59,8 +59,8 @@ protected:
   {
     return number(parent, "mechanicalReduction", "joint '" + joint, transmission, required, reduction);
   }
-  static ParseStatus getJointOffset(const TiXmlElement& parent, const std::string& joint, const std::string& transmission, bool required,
-                                    double& offset)
+  static ParseStatus getJointOffset(const TiXmlElement& parent, const std::string& joint, const std::string& transmission,
+                                    bool required, double& offset)
   {
     return number(parent, "offset", "joint '" + joint, transmission, required, offset);
   }
@@ -69,8 +69,8 @@ protected:
   {
     return text(parent, "role", "actuator '" + actuator, transmission, required, role);
   }
-  static ParseStatus getJointRole(const TiXmlElement& parent, const std::string& joint, const std::string& transmission, bool required,
-                                  std::string& role)
+  static ParseStatus getJointRole(const TiXmlElement& parent, const std::string& joint, const std::string& transmission,
+                                  bool required, std::string& role)
   {
     return text(parent, "role", "joint '" + joint, transmission, required, role);
   }
@@ -79,13 +79,13 @@ private:
   static bool hasCount(const TransmissionInfo& info, const char* what, std::size_t has, unsigned int expected)
   {
     if (has != expected)
-      ROS_ERROR_STREAM("Invalid description for transmission '" << info.name_ << "' of type '" << info.type_ << "'. Expected " << expected
-                                                                << " " << what << ", got " << has << ".");
+      ROS_ERROR_STREAM("Invalid description for transmission '" << info.name_ << "' of type '" << info.type_ << "'. Expected "
+                                                                << expected << " " << what << ", got " << has << ".");
     return has == expected;
   }
 
-  static ParseStatus text(const TiXmlElement& parent, const char* tag, const std::string& whose, const std::string& transmission,
-                          bool required, std::string& result)
+  static ParseStatus text(const TiXmlElement& parent, const char* tag, const std::string& whose,
+                          const std::string& transmission, bool required, std::string& result)
   {
     const TiXmlElement* element = parent.FirstChildElement(tag);
     if (!element || !element->GetText())
@@ -98,8 +98,8 @@ private:
     return SUCCESS;
   }
 
-  static ParseStatus number(const TiXmlElement& parent, const char* tag, const std::string& whose, const std::string& transmission,
-                            bool required, double& result)
+  static ParseStatus number(const TiXmlElement& parent, const char* tag, const std::string& whose,
+                            const std::string& transmission, bool required, double& result)
   {
     std::string written;
     const ParseStatus status = text(parent, tag, whose, transmission, required, written);

@@ -31,8 +31,10 @@ void printPositions(const sensor_msgs::JointState::ConstPtr& state) {
 int main(int argc, char** argv) {
   ros::init(argc, argv, "arm_controller");
   if (argc != 1 + static_cast<int>(kJoints)) {
-    ROS_INFO("Repeat the command with the right number of the desired joint positions... "
-             "(arm_controller_node J0 J1 J2 J3: four angles in rad, got %d)", argc - 1);
+    ROS_INFO(
+        "Repeat the command with the right number of the desired joint positions... "
+        "(arm_controller_node J0 J1 J2 J3: four angles in rad, got %d)",
+        argc - 1);
     return EXIT_FAILURE;
   }
   std::array<std_msgs::Float64, kJoints> commands;

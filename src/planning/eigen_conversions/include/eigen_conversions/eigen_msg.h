@@ -50,8 +50,7 @@ void matrixEigenToMsg(const Eigen::MatrixBase<Derived>& e, std_msgs::Float64Mult
   m.data.clear();
   m.data.reserve(e.size());
   for (Eigen::Index row = 0; row < e.rows(); ++row)
-    for (Eigen::Index column = 0; column < e.cols(); ++column)
-      m.data.push_back(e.coeff(row, column));
+    for (Eigen::Index column = 0; column < e.cols(); ++column) m.data.push_back(e.coeff(row, column));
 }
 
 }  // namespace tf

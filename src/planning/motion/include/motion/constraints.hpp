@@ -16,7 +16,7 @@ struct JointConstraint
 
 struct PositionConstraint
 {
-  std::string link, frame;  // frame "" is the model frame
+  std::string link, frame;           // frame "" is the model frame
   Vector3 offset = Vector3::Zero();  // of the point in the link
   std::vector<ShapePtr> shapes;
   std::vector<Transform> poses;  // in the frame
@@ -70,7 +70,7 @@ public:
 
   struct Frame
   {
-    int link = -1;  // -1: does not move
+    int link = -1;                           // -1: does not move
     Transform pose = Transform::Identity();  // in the link or in the model frame
     Transform at(const RobotState& state) const { return link < 0 ? pose : state.linkPose(link) * pose; }
   };

@@ -11,13 +11,13 @@ namespace motion
 {
 struct IkOptions
 {
-  double timeout = 0.005;    // s
-  double tolerance = 1e-5;   // norm of the pose error (m and rad together)
-  int max_restarts = -1;     // tries after the first, from random states; -1: until time is up
+  double timeout = 0.005;   // s
+  double tolerance = 1e-5;  // norm of the pose error (m and rad together)
+  int max_restarts = -1;    // tries after the first, from random states; -1: until time is up
   std::size_t solutions = 1;
   bool return_approximate = false;
-  std::vector<double> consistency;            // largest distance of each variable from the seed; empty: any
-  std::function<bool(const double*)> valid;   // group values; asked for each solution
+  std::vector<double> consistency;           // largest distance of each variable from the seed; empty: any
+  std::function<bool(const double*)> valid;  // group values; asked for each solution
   std::uint64_t random_seed = 0;
   const std::atomic<bool>* cancelled = nullptr;
 };
@@ -67,7 +67,7 @@ private:
   RobotModelPtr model_;
   const JointModelGroup& group_;
   std::vector<double> lower_, upper_;
-  std::vector<char> turns_;    // may be shifted by whole turns when done, so that its limits do not matter on the way
+  std::vector<char> turns_;  // may be shifted by whole turns when done, so that its limits do not matter on the way
   std::vector<char> prismatic_;
   std::vector<int> column_of_joint_;
 };

@@ -20,7 +20,7 @@ public:
   void insert(const Vector3& origin, const std::vector<Vector3>& occupied, const std::vector<Vector3>& known,
               const std::vector<Vector3>& beyond);
   void clear();
-  void assign(const OcTreeShape& other);  // takes over resolution and contents
+  void assign(const OcTreeShape& other);             // takes over resolution and contents
   std::shared_ptr<const OcTreeShape> shape() const;  // as an octree, with the log-odds of each cell
   double resolution() const;
   std::size_t cells() const;

@@ -26,10 +26,10 @@ struct PlanRequest
   int attempts = 1;
   std::optional<std::uint64_t> seed;
   bool simplify = true, interpolate = true, hybridize = true;
-  double segment_fraction = 0.01;           // of the space's extent, between checked states
+  double segment_fraction = 0.01;          // of the space's extent, between checked states
   double maximum_waypoint_distance = 0.0;  // 0 = as far apart as states are checked
   int minimum_waypoints = 2;
-  bool closely = false;  // for planClosely: the path is looked at all along, not only at states `segment_fraction` apart
+  bool closely = false;    // for planClosely: the path is looked at all along, not only at states `segment_fraction` apart
   std::string projection;  // "joints(a,b)" or "link(l)"
   int goal_samples = 10;
   int threads = 0;  // 0 = up to four
@@ -61,7 +61,7 @@ struct PlanResult
 {
   PlanStatus status = PlanStatus::Failed;
   std::string message;
-  std::vector<std::vector<double>> path;  // group values
+  std::vector<std::vector<double>> path;        // group values
   double planning_time = 0, simplify_time = 0;  // s
   std::size_t states_checked = 0;
   int attempts = 0, goals = 0;
@@ -75,7 +75,8 @@ PlanResult plan(const PlanningScene& scene, const RobotState& start, const PlanR
 
 // As `plan`, and the path is looked at closely in the end: a planner looks at states that are `segment_fraction` apart, and a path
 // may cut a corner between them. One that does is made of shorter steps.
-PlanResult planClosely(const PlanningScene& scene, const RobotState& start, const PlanRequest& request, const CancelFlag& cancel);
+PlanResult planClosely(const PlanningScene& scene, const RobotState& start, const PlanRequest& request,
+                       const CancelFlag& cancel);
 
 // The first way point after which the straight line to the next one touches something; -1 if none does.
 int firstHit(const PlanningScene& scene, const RobotState& start, const JointModelGroup& group,

@@ -48,7 +48,7 @@ struct JointModel
   JointType type = JointType::Fixed;
   bool continuous = false;
   int index = 0;
-  int parent_link = -1, child_link = -1;  // -1: the frame outside the robot
+  int parent_link = -1, child_link = -1;     // -1: the frame outside the robot
   Transform origin = Transform::Identity();  // of the joint in the parent link
   Vector3 axis = Vector3::UnitZ();
   int first_variable = 0, variable_count = 0;
@@ -126,8 +126,7 @@ public:
   };
 
   // Throws ModelError. `srdf` may be empty: a robot without groups.
-  static std::shared_ptr<const RobotModel> load(const std::string& urdf, const std::string& srdf,
-                                                const Options& options);
+  static std::shared_ptr<const RobotModel> load(const std::string& urdf, const std::string& srdf, const Options& options);
   // The same of a URDF that is parsed already.
   static std::shared_ptr<RobotModel> load(const std::shared_ptr<urdf::ModelInterface>& urdf, const Srdf& srdf,
                                           const Options& options);

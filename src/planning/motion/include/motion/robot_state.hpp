@@ -47,7 +47,7 @@ public:
     return positions_.data();
   }
   std::vector<double> velocities, efforts, accelerations;  // empty or one per variable
-  void setVariable(int variable, double value);  // joints that mimic it follow
+  void setVariable(int variable, double value);            // joints that mimic it follow
   void setGroup(const JointModelGroup& group, const double* values);
   void getGroup(const JointModelGroup& group, double* values) const;
   void setJoint(const JointModel& joint, const double* values);

@@ -45,10 +45,7 @@ std::string listed(const std::vector<std::string>& names);
 [[noreturn]] void throwUnknown(const std::string& kind, const std::string& name, const std::string& where,
                                const std::vector<std::string>& known);
 
-inline double wrapAngle(double angle)
-{
-  return std::remainder(angle, 2.0 * M_PI);
-}
+inline double wrapAngle(double angle) { return std::remainder(angle, 2.0 * M_PI); }
 
 // Rotation vector (rad) of a rotation matrix; exact near zero and near pi.
 Vector3 rotationVector(const Eigen::Matrix3d& rotation);

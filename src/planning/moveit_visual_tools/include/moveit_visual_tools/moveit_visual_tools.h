@@ -37,8 +37,7 @@ class MoveItVisualTools : public rviz_visual_tools::RvizVisualTools {
   MoveItVisualTools();
   MoveItVisualTools(const std::string& base_frame, const std::string& marker_topic,
                     planning_scene_monitor::PlanningSceneMonitorPtr psm);
-  MoveItVisualTools(const std::string& base_frame,
-                    const std::string& marker_topic = rviz_visual_tools::RVIZ_MARKER_TOPIC,
+  MoveItVisualTools(const std::string& base_frame, const std::string& marker_topic = rviz_visual_tools::RVIZ_MARKER_TOPIC,
                     moveit::core::RobotModelConstPtr robot_model = moveit::core::RobotModelConstPtr());
 
   void setRobotStateTopic(const std::string& robot_state_topic) { robot_state_topic_ = robot_state_topic; }
@@ -56,10 +55,8 @@ class MoveItVisualTools : public rviz_visual_tools::RvizVisualTools {
   bool processCollisionObjectMsg(const moveit_msgs::CollisionObject& msg,
                                  const rviz_visual_tools::colors& color = rviz_visual_tools::GREEN);
   bool processAttachedCollisionObjectMsg(const moveit_msgs::AttachedCollisionObject& msg);
-  bool moveCollisionObject(const Eigen::Isometry3d& pose, const std::string& name,
-                           const rviz_visual_tools::colors& color);
-  bool moveCollisionObject(const geometry_msgs::Pose& pose, const std::string& name,
-                           const rviz_visual_tools::colors& color);
+  bool moveCollisionObject(const Eigen::Isometry3d& pose, const std::string& name, const rviz_visual_tools::colors& color);
+  bool moveCollisionObject(const geometry_msgs::Pose& pose, const std::string& name, const rviz_visual_tools::colors& color);
 
   bool loadSharedRobotState();
   /// A state to work with; at the default values to begin with.
@@ -68,8 +65,7 @@ class MoveItVisualTools : public rviz_visual_tools::RvizVisualTools {
   moveit::core::RobotModelConstPtr getRobotModel();
 
   bool loadEEMarker(const moveit::core::JointModelGroup* ee_jmg, const std::vector<double>& ee_joint_pos = {});
-  void loadTrajectoryPub(const std::string& display_planned_path_topic = DISPLAY_PLANNED_PATH_TOPIC,
-                         bool blocking = true);
+  void loadTrajectoryPub(const std::string& display_planned_path_topic = DISPLAY_PLANNED_PATH_TOPIC, bool blocking = true);
   void loadRobotStatePub(const std::string& robot_state_topic = "", bool blocking = true);
 
   /// The end effector with its parent link at the pose.
@@ -95,12 +91,11 @@ class MoveItVisualTools : public rviz_visual_tools::RvizVisualTools {
                         const std::string& ns = "end_effector");
 
   /// @param animate_speed s between two pictures
-  bool publishGrasps(const std::vector<moveit_msgs::Grasp>& possible_grasps,
-                     const moveit::core::JointModelGroup* ee_jmg, double animate_speed = 0.1);
+  bool publishGrasps(const std::vector<moveit_msgs::Grasp>& possible_grasps, const moveit::core::JointModelGroup* ee_jmg,
+                     double animate_speed = 0.1);
   bool publishAnimatedGrasps(const std::vector<moveit_msgs::Grasp>& possible_grasps,
                              const moveit::core::JointModelGroup* ee_jmg, double animate_speed = 0.01);
-  bool publishAnimatedGrasp(const moveit_msgs::Grasp& grasp, const moveit::core::JointModelGroup* ee_jmg,
-                            double animate_speed);
+  bool publishAnimatedGrasp(const moveit_msgs::Grasp& grasp, const moveit::core::JointModelGroup* ee_jmg, double animate_speed);
   bool publishIKSolutions(const std::vector<trajectory_msgs::JointTrajectoryPoint>& ik_solutions,
                           const moveit::core::JointModelGroup* arm_jmg, double display_time = 0.4);
 
@@ -113,29 +108,26 @@ class MoveItVisualTools : public rviz_visual_tools::RvizVisualTools {
   bool publishCollisionFloor(double z = 0.0, const std::string& plane_name = "Floor",
                              const rviz_visual_tools::colors& color = rviz_visual_tools::GREEN);
   bool publishCollisionBlock(const geometry_msgs::Pose& block_pose, const std::string& block_name = "block",
-                             double block_size = 0.1,
-                             const rviz_visual_tools::colors& color = rviz_visual_tools::GREEN);
+                             double block_size = 0.1, const rviz_visual_tools::colors& color = rviz_visual_tools::GREEN);
   bool publishCollisionCuboid(const Eigen::Vector3d& point1, const Eigen::Vector3d& point2, const std::string& name,
                               const rviz_visual_tools::colors& color = rviz_visual_tools::GREEN);
-  bool publishCollisionCuboid(const geometry_msgs::Point& point1, const geometry_msgs::Point& point2,
-                              const std::string& name,
+  bool publishCollisionCuboid(const geometry_msgs::Point& point1, const geometry_msgs::Point& point2, const std::string& name,
                               const rviz_visual_tools::colors& color = rviz_visual_tools::GREEN);
   /// width along x, depth along y, height along z
-  bool publishCollisionCuboid(const Eigen::Isometry3d& pose, double width, double depth, double height,
-                              const std::string& name, const rviz_visual_tools::colors& color);
+  bool publishCollisionCuboid(const Eigen::Isometry3d& pose, double width, double depth, double height, const std::string& name,
+                              const rviz_visual_tools::colors& color);
   bool publishCollisionCuboid(const geometry_msgs::Pose& pose, double width, double depth, double height,
                               const std::string& name, const rviz_visual_tools::colors& color);
   bool publishCollisionCuboid(const Eigen::Isometry3d& pose, const Eigen::Vector3d& size, const std::string& name,
                               const rviz_visual_tools::colors& color) {
     return publishCollisionCuboid(pose, size.x(), size.y(), size.z(), name, color);
   }
-  bool publishCollisionCuboid(const geometry_msgs::Pose& pose, const geometry_msgs::Vector3& size,
-                              const std::string& name, const rviz_visual_tools::colors& color) {
+  bool publishCollisionCuboid(const geometry_msgs::Pose& pose, const geometry_msgs::Vector3& size, const std::string& name,
+                              const rviz_visual_tools::colors& color) {
     return publishCollisionCuboid(pose, size.x, size.y, size.z, name, color);
   }
-  bool publishCollisionCylinder(const geometry_msgs::Point& a, const geometry_msgs::Point& b,
-                                const std::string& object_name, double radius,
-                                const rviz_visual_tools::colors& color = rviz_visual_tools::GREEN);
+  bool publishCollisionCylinder(const geometry_msgs::Point& a, const geometry_msgs::Point& b, const std::string& object_name,
+                                double radius, const rviz_visual_tools::colors& color = rviz_visual_tools::GREEN);
   bool publishCollisionCylinder(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const std::string& object_name,
                                 double radius, const rviz_visual_tools::colors& color = rviz_visual_tools::GREEN);
   bool publishCollisionCylinder(const Eigen::Isometry3d& object_pose, const std::string& object_name, double radius,
@@ -143,10 +135,8 @@ class MoveItVisualTools : public rviz_visual_tools::RvizVisualTools {
   bool publishCollisionCylinder(const geometry_msgs::Pose& object_pose, const std::string& object_name, double radius,
                                 double height, const rviz_visual_tools::colors& color = rviz_visual_tools::GREEN);
   bool publishCollisionMesh(const geometry_msgs::Pose& object_pose, const std::string& object_name,
-                            const std::string& mesh_path,
-                            const rviz_visual_tools::colors& color = rviz_visual_tools::GREEN);
-  bool publishCollisionMesh(const Eigen::Isometry3d& object_pose, const std::string& object_name,
-                            const std::string& mesh_path,
+                            const std::string& mesh_path, const rviz_visual_tools::colors& color = rviz_visual_tools::GREEN);
+  bool publishCollisionMesh(const Eigen::Isometry3d& object_pose, const std::string& object_name, const std::string& mesh_path,
                             const rviz_visual_tools::colors& color = rviz_visual_tools::GREEN);
   bool publishCollisionMesh(const Eigen::Isometry3d& object_pose, const std::string& object_name,
                             const shape_msgs::Mesh& mesh_msg,
@@ -157,8 +147,8 @@ class MoveItVisualTools : public rviz_visual_tools::RvizVisualTools {
   bool publishCollisionGraph(const graph_msgs::GeometryGraph& graph, const std::string& object_name, double radius,
                              const rviz_visual_tools::colors& color = rviz_visual_tools::GREEN);
   /// 0.1 m thick, standing on z, turned by angle about the vertical.
-  void getCollisionWallMsg(double x, double y, double z, double angle, double width, double height,
-                           const std::string& name, moveit_msgs::CollisionObject& collision_obj);
+  void getCollisionWallMsg(double x, double y, double z, double angle, double width, double height, const std::string& name,
+                           moveit_msgs::CollisionObject& collision_obj);
   bool publishCollisionWall(double x, double y, double angle = 0.0, double width = 2.0, double height = 1.5,
                             const std::string& name = "wall",
                             const rviz_visual_tools::colors& color = rviz_visual_tools::GREEN);
@@ -166,8 +156,7 @@ class MoveItVisualTools : public rviz_visual_tools::RvizVisualTools {
                             const std::string& name = "wall",
                             const rviz_visual_tools::colors& color = rviz_visual_tools::GREEN);
   bool publishCollisionTable(double x, double y, double z, double angle, double width, double height, double depth,
-                             const std::string& name,
-                             const rviz_visual_tools::colors& color = rviz_visual_tools::GREEN);
+                             const std::string& name, const rviz_visual_tools::colors& color = rviz_visual_tools::GREEN);
   bool publishWorkspaceParameters(const moveit_msgs::WorkspaceParameters& params);
 
   /// @return whether the state collides
@@ -175,15 +164,14 @@ class MoveItVisualTools : public rviz_visual_tools::RvizVisualTools {
                                 const planning_scene::PlanningScene* planning_scene,
                                 const rviz_visual_tools::colors& highlight_link_color = rviz_visual_tools::RED,
                                 const rviz_visual_tools::colors& contact_point_color = rviz_visual_tools::PURPLE);
-  bool publishContactPoints(const moveit::core::RobotState& robot_state,
-                            const planning_scene::PlanningScene* planning_scene,
+  bool publishContactPoints(const moveit::core::RobotState& robot_state, const planning_scene::PlanningScene* planning_scene,
                             const rviz_visual_tools::colors& color = rviz_visual_tools::RED);
   bool publishContactPoints(const collision_detection::CollisionResult::ContactMap& contacts,
                             const planning_scene::PlanningScene* planning_scene,
                             const rviz_visual_tools::colors& color = rviz_visual_tools::RED);
 
-  bool publishTrajectoryPoint(const trajectory_msgs::JointTrajectoryPoint& trajectory_pt,
-                              const std::string& planning_group, double display_time = 0.1);
+  bool publishTrajectoryPoint(const trajectory_msgs::JointTrajectoryPoint& trajectory_pt, const std::string& planning_group,
+                              double display_time = 0.1);
   /// @param blocking wait as long as the animation lasts
   bool publishTrajectoryPath(const std::vector<moveit::core::RobotStatePtr>& trajectory,
                              const moveit::core::JointModelGroup* jmg, double speed = 0.01, bool blocking = false);
@@ -191,15 +179,14 @@ class MoveItVisualTools : public rviz_visual_tools::RvizVisualTools {
   bool publishTrajectoryPath(const robot_trajectory::RobotTrajectory& trajectory, bool blocking = false);
   bool publishTrajectoryPath(const moveit_msgs::RobotTrajectory& trajectory_msg,
                              const moveit::core::RobotStateConstPtr& robot_state, bool blocking = false);
-  bool publishTrajectoryPath(const moveit_msgs::RobotTrajectory& trajectory_msg,
-                             const moveit::core::RobotState& robot_state, bool blocking = false);
-  bool publishTrajectoryPath(const moveit_msgs::RobotTrajectory& trajectory_msg,
-                             const moveit_msgs::RobotState& robot_state, bool blocking = false);
+  bool publishTrajectoryPath(const moveit_msgs::RobotTrajectory& trajectory_msg, const moveit::core::RobotState& robot_state,
+                             bool blocking = false);
+  bool publishTrajectoryPath(const moveit_msgs::RobotTrajectory& trajectory_msg, const moveit_msgs::RobotState& robot_state,
+                             bool blocking = false);
   void publishTrajectoryPath(const moveit_msgs::DisplayTrajectory& display_trajectory_msg);
 
   /// The way of a link, of the tips of the group when none is given.
-  bool publishTrajectoryLine(const moveit_msgs::RobotTrajectory& trajectory_msg,
-                             const moveit::core::LinkModel* ee_parent_link,
+  bool publishTrajectoryLine(const moveit_msgs::RobotTrajectory& trajectory_msg, const moveit::core::LinkModel* ee_parent_link,
                              const moveit::core::JointModelGroup* arm_jmg,
                              const rviz_visual_tools::colors& color = rviz_visual_tools::LIME_GREEN);
   bool publishTrajectoryLine(const robot_trajectory::RobotTrajectoryPtr& robot_trajectory,
@@ -208,8 +195,7 @@ class MoveItVisualTools : public rviz_visual_tools::RvizVisualTools {
   bool publishTrajectoryLine(const robot_trajectory::RobotTrajectory& robot_trajectory,
                              const moveit::core::LinkModel* ee_parent_link,
                              const rviz_visual_tools::colors& color = rviz_visual_tools::LIME_GREEN);
-  bool publishTrajectoryLine(const moveit_msgs::RobotTrajectory& trajectory_msg,
-                             const moveit::core::JointModelGroup* arm_jmg,
+  bool publishTrajectoryLine(const moveit_msgs::RobotTrajectory& trajectory_msg, const moveit::core::JointModelGroup* arm_jmg,
                              const rviz_visual_tools::colors& color = rviz_visual_tools::LIME_GREEN);
   bool publishTrajectoryLine(const robot_trajectory::RobotTrajectoryPtr& robot_trajectory,
                              const moveit::core::JointModelGroup* arm_jmg,
@@ -224,8 +210,7 @@ class MoveItVisualTools : public rviz_visual_tools::RvizVisualTools {
   /// Show states with the joint virtual_joint, which has to be a floating one, at the offset.
   void enableRobotStateRootOffet(const Eigen::Isometry3d& offset);
   void disableRobotStateRootOffet();
-  bool publishRobotState(const trajectory_msgs::JointTrajectoryPoint& trajectory_pt,
-                         const moveit::core::JointModelGroup* jmg,
+  bool publishRobotState(const trajectory_msgs::JointTrajectoryPoint& trajectory_pt, const moveit::core::JointModelGroup* jmg,
                          const rviz_visual_tools::colors& color = rviz_visual_tools::DEFAULT);
   bool publishRobotState(const std::vector<double>& joint_positions, const moveit::core::JointModelGroup* jmg,
                          const rviz_visual_tools::colors& color = rviz_visual_tools::DEFAULT);

@@ -24,8 +24,7 @@ class IMarkerSimple {
  public:
   /// Serves the marker on `~<name>`; scale in m, the pose in parent_frame.
   explicit IMarkerSimple(const std::string& name = "imarker", double scale = 0.2,
-                         const geometry_msgs::Pose& initial_pose = identity(),
-                         const std::string& parent_frame = "world");
+                         const geometry_msgs::Pose& initial_pose = identity(), const std::string& parent_frame = "world");
 
   /// Where the marker was dragged to last, in its parent frame.
   geometry_msgs::Pose& getPose();

@@ -86,9 +86,18 @@ struct RandomPoseBounds {
   RandomPoseBounds(double x_min = 0.0, double x_max = 1.0, double y_min = 0.0, double y_max = 1.0, double z_min = 0.0,
                    double z_max = 1.0, double elevation_min = 0.0, double elevation_max = M_PI, double azimuth_min = 0.0,
                    double azimuth_max = 2 * M_PI, double angle_min = 0.0, double angle_max = 2 * M_PI)
-      : x_min_(x_min), x_max_(x_max), y_min_(y_min), y_max_(y_max), z_min_(z_min), z_max_(z_max),
-        elevation_min_(elevation_min), elevation_max_(elevation_max), azimuth_min_(azimuth_min),
-        azimuth_max_(azimuth_max), angle_min_(angle_min), angle_max_(angle_max) {}
+      : x_min_(x_min),
+        x_max_(x_max),
+        y_min_(y_min),
+        y_max_(y_max),
+        z_min_(z_min),
+        z_max_(z_max),
+        elevation_min_(elevation_min),
+        elevation_max_(elevation_max),
+        azimuth_min_(azimuth_min),
+        azimuth_max_(azimuth_max),
+        angle_min_(angle_min),
+        angle_max_(angle_max) {}
 };
 
 /// Edge lengths of generateRandomCuboid, m.
@@ -167,8 +176,8 @@ class RvizVisualTools {
 
   bool publishSphere(const Eigen::Isometry3d& pose, colors color = BLUE, scales scale = MEDIUM,
                      const std::string& ns = "Sphere", std::size_t id = 0);
-  bool publishSphere(const Eigen::Vector3d& point, colors color = BLUE, scales scale = MEDIUM,
-                     const std::string& ns = "Sphere", std::size_t id = 0);
+  bool publishSphere(const Eigen::Vector3d& point, colors color = BLUE, scales scale = MEDIUM, const std::string& ns = "Sphere",
+                     std::size_t id = 0);
   bool publishSphere(const Eigen::Vector3d& point, colors color, double scale, const std::string& ns = "Sphere",
                      std::size_t id = 0);
   bool publishSphere(const geometry_msgs::Point& point, colors color = BLUE, scales scale = MEDIUM,
@@ -179,10 +188,10 @@ class RvizVisualTools {
                      std::size_t id = 0);
   bool publishSphere(const geometry_msgs::Pose& pose, colors color, const geometry_msgs::Vector3 scale,
                      const std::string& ns = "Sphere", std::size_t id = 0);
-  bool publishSphere(const geometry_msgs::Pose& pose, const std_msgs::ColorRGBA& color,
-                     const geometry_msgs::Vector3 scale, const std::string& ns = "Sphere", std::size_t id = 0);
-  bool publishSphere(const Eigen::Isometry3d& pose, const std_msgs::ColorRGBA& color,
-                     const geometry_msgs::Vector3 scale, const std::string& ns = "Sphere", std::size_t id = 0);
+  bool publishSphere(const geometry_msgs::Pose& pose, const std_msgs::ColorRGBA& color, const geometry_msgs::Vector3 scale,
+                     const std::string& ns = "Sphere", std::size_t id = 0);
+  bool publishSphere(const Eigen::Isometry3d& pose, const std_msgs::ColorRGBA& color, const geometry_msgs::Vector3 scale,
+                     const std::string& ns = "Sphere", std::size_t id = 0);
   bool publishSphere(const Eigen::Vector3d& point, const std_msgs::ColorRGBA& color, const geometry_msgs::Vector3 scale,
                      const std::string& ns = "Sphere", std::size_t id = 0);
   bool publishSphere(const geometry_msgs::PoseStamped& pose, colors color, const geometry_msgs::Vector3 scale,
@@ -196,8 +205,8 @@ class RvizVisualTools {
                       const std::string& ns = "Spheres");
   bool publishSpheres(const std::vector<geometry_msgs::Point>& points, colors color = BLUE, double scale = 0.1,
                       const std::string& ns = "Spheres");
-  bool publishSpheres(const std::vector<geometry_msgs::Point>& points, colors color,
-                      const geometry_msgs::Vector3& scale, const std::string& ns = "Spheres");
+  bool publishSpheres(const std::vector<geometry_msgs::Point>& points, colors color, const geometry_msgs::Vector3& scale,
+                      const std::string& ns = "Spheres");
   bool publishSpheres(const EigenSTL::vector_Vector3d& points, const std::vector<colors>& colors, scales scale = MEDIUM,
                       const std::string& ns = "Spheres");
   bool publishSpheres(const std::vector<geometry_msgs::Point>& points, const std::vector<std_msgs::ColorRGBA>& colors,
@@ -206,24 +215,21 @@ class RvizVisualTools {
   /// A length of 0 makes the arrow ten times as long as thick.
   bool publishXArrow(const Eigen::Isometry3d& pose, colors color = RED, scales scale = MEDIUM, double length = 0.0);
   bool publishXArrow(const geometry_msgs::Pose& pose, colors color = RED, scales scale = MEDIUM, double length = 0.0);
-  bool publishXArrow(const geometry_msgs::PoseStamped& pose, colors color = RED, scales scale = MEDIUM,
-                     double length = 0.0);
+  bool publishXArrow(const geometry_msgs::PoseStamped& pose, colors color = RED, scales scale = MEDIUM, double length = 0.0);
   bool publishYArrow(const Eigen::Isometry3d& pose, colors color = GREEN, scales scale = MEDIUM, double length = 0.0);
   bool publishYArrow(const geometry_msgs::Pose& pose, colors color = GREEN, scales scale = MEDIUM, double length = 0.0);
-  bool publishYArrow(const geometry_msgs::PoseStamped& pose, colors color = GREEN, scales scale = MEDIUM,
-                     double length = 0.0);
+  bool publishYArrow(const geometry_msgs::PoseStamped& pose, colors color = GREEN, scales scale = MEDIUM, double length = 0.0);
   bool publishZArrow(const Eigen::Isometry3d& pose, colors color = BLUE, scales scale = MEDIUM, double length = 0.0,
                      std::size_t id = 0);
   bool publishZArrow(const geometry_msgs::Pose& pose, colors color = BLUE, scales scale = MEDIUM, double length = 0.0);
-  bool publishZArrow(const geometry_msgs::PoseStamped& pose, colors color = BLUE, scales scale = MEDIUM,
-                     double length = 0.0);
+  bool publishZArrow(const geometry_msgs::PoseStamped& pose, colors color = BLUE, scales scale = MEDIUM, double length = 0.0);
   bool publishZArrow(const geometry_msgs::PoseStamped& pose, colors color, scales scale, double length, std::size_t id);
   bool publishArrow(const Eigen::Isometry3d& pose, colors color = BLUE, scales scale = MEDIUM, double length = 0.0,
                     std::size_t id = 0);
   bool publishArrow(const geometry_msgs::Pose& pose, colors color = BLUE, scales scale = MEDIUM, double length = 0.0,
                     std::size_t id = 0);
-  bool publishArrow(const geometry_msgs::PoseStamped& pose, colors color = BLUE, scales scale = MEDIUM,
-                    double length = 0.0, std::size_t id = 0);
+  bool publishArrow(const geometry_msgs::PoseStamped& pose, colors color = BLUE, scales scale = MEDIUM, double length = 0.0,
+                    std::size_t id = 0);
   bool publishArrow(const geometry_msgs::Point& start, const geometry_msgs::Point& end, colors color = BLUE,
                     scales scale = MEDIUM, std::size_t id = 0);
 
@@ -238,8 +244,7 @@ class RvizVisualTools {
 
   bool publishLine(const Eigen::Isometry3d& point1, const Eigen::Isometry3d& point2, colors color = BLUE,
                    scales scale = MEDIUM);
-  bool publishLine(const Eigen::Vector3d& point1, const Eigen::Vector3d& point2, colors color = BLUE,
-                   scales scale = MEDIUM);
+  bool publishLine(const Eigen::Vector3d& point1, const Eigen::Vector3d& point2, colors color = BLUE, scales scale = MEDIUM);
   bool publishLine(const Eigen::Vector3d& point1, const Eigen::Vector3d& point2, colors color, double radius);
   bool publishLine(const Eigen::Vector3d& point1, const Eigen::Vector3d& point2, const std_msgs::ColorRGBA& color,
                    scales scale = MEDIUM);
@@ -247,10 +252,10 @@ class RvizVisualTools {
                    double radius);
   bool publishLine(const geometry_msgs::Point& point1, const geometry_msgs::Point& point2, colors color = BLUE,
                    scales scale = MEDIUM);
-  bool publishLine(const geometry_msgs::Point& point1, const geometry_msgs::Point& point2,
-                   const std_msgs::ColorRGBA& color, scales scale = MEDIUM);
-  bool publishLine(const geometry_msgs::Point& point1, const geometry_msgs::Point& point2,
-                   const std_msgs::ColorRGBA& color, const geometry_msgs::Vector3& scale);
+  bool publishLine(const geometry_msgs::Point& point1, const geometry_msgs::Point& point2, const std_msgs::ColorRGBA& color,
+                   scales scale = MEDIUM);
+  bool publishLine(const geometry_msgs::Point& point1, const geometry_msgs::Point& point2, const std_msgs::ColorRGBA& color,
+                   const geometry_msgs::Vector3& scale);
   /// As many of each.
   bool publishLines(const EigenSTL::vector_Vector3d& aPoints, const EigenSTL::vector_Vector3d& bPoints,
                     const std::vector<colors>& colors, scales scale = MEDIUM);
@@ -262,8 +267,7 @@ class RvizVisualTools {
   /// A path is made of cylinders; it needs two points.
   bool publishPath(const std::vector<geometry_msgs::Pose>& path, colors color = RED, scales scale = MEDIUM,
                    const std::string& ns = "Path");
-  bool publishPath(const std::vector<geometry_msgs::Point>& path, colors color, scales scale,
-                   const std::string& ns = "Path");
+  bool publishPath(const std::vector<geometry_msgs::Point>& path, colors color, scales scale, const std::string& ns = "Path");
   bool publishPath(const EigenSTL::vector_Isometry3d& path, colors color, scales scale, const std::string& ns = "Path");
   bool publishPath(const EigenSTL::vector_Vector3d& path, colors color, scales scale, const std::string& ns = "Path");
   bool publishPath(const std::vector<geometry_msgs::Point>& path, colors color = RED, double radius = 0.01,
@@ -279,33 +283,29 @@ class RvizVisualTools {
   bool publishPolygon(const geometry_msgs::Polygon& polygon, colors color = RED, scales scale = MEDIUM,
                       const std::string& ns = "Polygon");
 
-  bool publishWireframeCuboid(const Eigen::Isometry3d& pose, double depth, double width, double height,
-                              colors color = BLUE, const std::string& ns = "Wireframe Cuboid", std::size_t id = 0);
-  bool publishWireframeCuboid(const Eigen::Isometry3d& pose, const Eigen::Vector3d& min_point,
-                              const Eigen::Vector3d& max_point, colors color = BLUE,
+  bool publishWireframeCuboid(const Eigen::Isometry3d& pose, double depth, double width, double height, colors color = BLUE,
                               const std::string& ns = "Wireframe Cuboid", std::size_t id = 0);
+  bool publishWireframeCuboid(const Eigen::Isometry3d& pose, const Eigen::Vector3d& min_point, const Eigen::Vector3d& max_point,
+                              colors color = BLUE, const std::string& ns = "Wireframe Cuboid", std::size_t id = 0);
   bool publishWireframeRectangle(const Eigen::Isometry3d& pose, double height, double width, colors color = BLUE,
                                  scales scale = MEDIUM, std::size_t id = 0);
-  bool publishWireframeRectangle(const Eigen::Isometry3d& pose, const Eigen::Vector3d& p1_in,
-                                 const Eigen::Vector3d& p2_in, const Eigen::Vector3d& p3_in,
-                                 const Eigen::Vector3d& p4_in, colors color, scales scale);
+  bool publishWireframeRectangle(const Eigen::Isometry3d& pose, const Eigen::Vector3d& p1_in, const Eigen::Vector3d& p2_in,
+                                 const Eigen::Vector3d& p3_in, const Eigen::Vector3d& p4_in, colors color, scales scale);
 
-  bool publishAxisLabeled(const Eigen::Isometry3d& pose, const std::string& label, scales scale = MEDIUM,
-                          colors color = WHITE);
+  bool publishAxisLabeled(const Eigen::Isometry3d& pose, const std::string& label, scales scale = MEDIUM, colors color = WHITE);
   bool publishAxisLabeled(const geometry_msgs::Pose& pose, const std::string& label, scales scale = MEDIUM,
                           colors color = WHITE);
   bool publishAxis(const geometry_msgs::Pose& pose, scales scale = MEDIUM, const std::string& ns = "Axis");
   bool publishAxis(const Eigen::Isometry3d& pose, scales scale = MEDIUM, const std::string& ns = "Axis");
   bool publishAxis(const geometry_msgs::Pose& pose, double length, double radius = 0.01, const std::string& ns = "Axis");
   bool publishAxis(const Eigen::Isometry3d& pose, double length, double radius = 0.01, const std::string& ns = "Axis");
-  bool publishAxisPath(const EigenSTL::vector_Isometry3d& path, scales scale = MEDIUM,
-                       const std::string& ns = "Axis Path");
+  bool publishAxisPath(const EigenSTL::vector_Isometry3d& path, scales scale = MEDIUM, const std::string& ns = "Axis Path");
   bool publishAxisPath(const EigenSTL::vector_Isometry3d& path, double length = 0.1, double radius = 0.01,
                        const std::string& ns = "Axis Path");
 
   /// Along the z axis of the pose. What is called radius is the diameter in RViz, as it always was.
-  bool publishCylinder(const Eigen::Vector3d& point1, const Eigen::Vector3d& point2, colors color = BLUE,
-                       scales scale = MEDIUM, const std::string& ns = "Cylinder");
+  bool publishCylinder(const Eigen::Vector3d& point1, const Eigen::Vector3d& point2, colors color = BLUE, scales scale = MEDIUM,
+                       const std::string& ns = "Cylinder");
   bool publishCylinder(const Eigen::Vector3d& point1, const Eigen::Vector3d& point2, colors color, double radius = 0.01,
                        const std::string& ns = "Cylinder");
   bool publishCylinder(const Eigen::Vector3d& point1, const Eigen::Vector3d& point2, const std_msgs::ColorRGBA& color,
@@ -320,24 +320,24 @@ class RvizVisualTools {
   /// @param file_name a URL that RViz can open: file:///... or package://...
   bool publishMesh(const Eigen::Isometry3d& pose, const std::string& file_name, colors color = CLEAR, double scale = 1,
                    const std::string& ns = "mesh", std::size_t id = 0);
-  bool publishMesh(const geometry_msgs::Pose& pose, const std::string& file_name, colors color = CLEAR,
-                   double scale = 1, const std::string& ns = "mesh", std::size_t id = 0);
+  bool publishMesh(const geometry_msgs::Pose& pose, const std::string& file_name, colors color = CLEAR, double scale = 1,
+                   const std::string& ns = "mesh", std::size_t id = 0);
   bool publishMesh(const Eigen::Isometry3d& pose, const shape_msgs::Mesh& mesh, colors color = CLEAR, double scale = 1,
                    const std::string& ns = "mesh", std::size_t id = 0);
-  bool publishMesh(const geometry_msgs::Pose& pose, const shape_msgs::Mesh& mesh, colors color = CLEAR,
-                   double scale = 1, const std::string& ns = "mesh", std::size_t id = 0);
+  bool publishMesh(const geometry_msgs::Pose& pose, const shape_msgs::Mesh& mesh, colors color = CLEAR, double scale = 1,
+                   const std::string& ns = "mesh", std::size_t id = 0);
 
   bool publishGraph(const graph_msgs::GeometryGraph& graph, colors color, double radius);
 
   /// @param static_id take the place of the text that was given before
   bool publishText(const Eigen::Isometry3d& pose, const std::string& text, colors color = WHITE, scales scale = MEDIUM,
                    bool static_id = true);
-  bool publishText(const Eigen::Isometry3d& pose, const std::string& text, colors color,
-                   const geometry_msgs::Vector3 scale, bool static_id = true);
-  bool publishText(const geometry_msgs::Pose& pose, const std::string& text, colors color = WHITE,
-                   scales scale = MEDIUM, bool static_id = true);
-  bool publishText(const geometry_msgs::Pose& pose, const std::string& text, colors color,
-                   const geometry_msgs::Vector3 scale, bool static_id = true);
+  bool publishText(const Eigen::Isometry3d& pose, const std::string& text, colors color, const geometry_msgs::Vector3 scale,
+                   bool static_id = true);
+  bool publishText(const geometry_msgs::Pose& pose, const std::string& text, colors color = WHITE, scales scale = MEDIUM,
+                   bool static_id = true);
+  bool publishText(const geometry_msgs::Pose& pose, const std::string& text, colors color, const geometry_msgs::Vector3 scale,
+                   bool static_id = true);
 
   static geometry_msgs::Pose convertPose(const Eigen::Isometry3d& pose);
   static void convertPoseSafe(const Eigen::Isometry3d& pose, geometry_msgs::Pose& pose_msg);
@@ -357,8 +357,8 @@ class RvizVisualTools {
   /// @throws std::invalid_argument unless there are six numbers
   static Eigen::Isometry3d convertFromXYZRPY(const std::vector<double>& transform6, EulerConvention convention = XYZ);
   static void convertToXYZRPY(const Eigen::Isometry3d& pose, std::vector<double>& xyzrpy);
-  static void convertToXYZRPY(const Eigen::Isometry3d& pose, double& x, double& y, double& z, double& roll,
-                              double& pitch, double& yaw);
+  static void convertToXYZRPY(const Eigen::Isometry3d& pose, double& x, double& y, double& z, double& roll, double& pitch,
+                              double& yaw);
 
   static void generateRandomPose(geometry_msgs::Pose& pose, RandomPoseBounds pose_bounds = RandomPoseBounds());
   static void generateRandomPose(Eigen::Isometry3d& pose, RandomPoseBounds pose_bounds = RandomPoseBounds());
@@ -421,8 +421,8 @@ class RvizVisualTools {
   std::vector<visualization_msgs::Marker*> kinds();
   std_msgs::Header header() const;
   geometry_msgs::Vector3 cube(double edge) const;
-  bool addArrow(const std_msgs::Header& header, const geometry_msgs::Pose& pose, colors color, scales scale,
-                double length, std::size_t id);
+  bool addArrow(const std_msgs::Header& header, const geometry_msgs::Pose& pose, colors color, scales scale, double length,
+                std::size_t id);
   bool addSphere(const std_msgs::Header& header, const geometry_msgs::Pose& pose, const std_msgs::ColorRGBA& color,
                  const geometry_msgs::Vector3& scale, const std::string& ns, std::size_t id);
   bool addPlane(const geometry_msgs::Pose& pose, const Eigen::Vector3d& u, const Eigen::Vector3d& v, colors color,

@@ -11,10 +11,10 @@
 namespace compressed_depth_image_transport {
 
 struct Settings {
-  std::string format = "png";        // or "rvl"
-  double depth_max = 10.0;           // m; farther is unknown
+  std::string format = "png";         // or "rvl"
+  double depth_max = 10.0;            // m; farther is unknown
   double depth_quantization = 100.0;  // m, where one step of a float image is 1 m
-  int png_level = 1;                 // 1 to 9
+  int png_level = 1;                  // 1 to 9
 };
 
 // 16UC1 (mm) as it is; 32FC1 (m) as 16 bits of inverse depth.

@@ -41,7 +41,10 @@ inline octomath::Quaternion quaternionTfToOctomap(const tf::Quaternion& q)
   return { static_cast<float>(q.w()), static_cast<float>(q.x()), static_cast<float>(q.y()), static_cast<float>(q.z()) };
 }
 
-inline tf::Pose poseOctomapToTf(const pose6d& X) { return tf::Pose(quaternionOctomapToTf(X.rot()), pointOctomapToTf(X.trans())); }
+inline tf::Pose poseOctomapToTf(const pose6d& X)
+{
+  return tf::Pose(quaternionOctomapToTf(X.rot()), pointOctomapToTf(X.trans()));
+}
 inline pose6d poseTfToOctomap(const tf::Pose& X)
 {
   return pose6d(pointTfToOctomap(X.getOrigin()), quaternionTfToOctomap(X.getRotation()));

@@ -36,7 +36,8 @@ std::string trim(const char* text) { return trim(std::string(text)); }
 std::string lowercase(const std::string& text)
 {
   std::string result = text;
-  std::transform(result.begin(), result.end(), result.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(result.begin(), result.end(), result.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return result;
 }
 
@@ -98,8 +99,8 @@ void Console::Clear() { console().reset(); }
 void Console::ConsoleStream::Prefix(const std::string& label, const std::string& file, unsigned int line, int colour)
 {
   const std::size_t slash = file.find_last_of('/');
-  *this << "\033[1;" << colour << "m" << label << " [" << (slash == std::string::npos ? file : file.substr(slash + 1)) << ":" << line
-        << "]\033[0m ";
+  *this << "\033[1;" << colour << "m" << label << " [" << (slash == std::string::npos ? file : file.substr(slash + 1)) << ":"
+        << line << "]\033[0m ";
 }
 
 Console::ConsoleStream& Console::ColorMsg(const std::string& label, const std::string& file, unsigned int line, int colour)

@@ -54,12 +54,14 @@ struct Reader
         element->AddAttribute(each->Name(), "string", "", false);
       if (!element->GetAttribute(each->Name())->SetFromString(each->Value()))
         return fail(ErrorCode::ATTRIBUTE_INVALID,
-                    "Unable to read attribute[" + std::string(each->Name()) + "] of element[" + xml.Name() + "]", xml.GetLineNum());
+                    "Unable to read attribute[" + std::string(each->Name()) + "] of element[" + xml.Name() + "]",
+                    xml.GetLineNum());
     }
     for (const ParamPtr& each : element->GetAttributes())
       if (each->GetRequired() && !each->GetSet())
         return fail(ErrorCode::ATTRIBUTE_MISSING,
-                    "Required attribute[" + each->GetKey() + "] in element[" + xml.Name() + "] is not specified in SDF.", xml.GetLineNum());
+                    "Required attribute[" + each->GetKey() + "] in element[" + xml.Name() + "] is not specified in SDF.",
+                    xml.GetLineNum());
     return true;
   }
 
@@ -71,8 +73,9 @@ struct Reader
     if (!element->Described() && !element->GetValue())
       element->AddValue("string", text, true);
     if (element->GetValue() && !element->GetValue()->SetFromString(text))
-      return fail(ErrorCode::ELEMENT_INVALID, "Element <" + std::string(xml.Name()) + "> has the value '" + text + "', which is no " +
-                                                  element->GetValue()->GetTypeName(),
+      return fail(ErrorCode::ELEMENT_INVALID,
+                  "Element <" + std::string(xml.Name()) + "> has the value '" + text + "', which is no " +
+                      element->GetValue()->GetTypeName(),
                   xml.GetLineNum());
     return true;
   }
@@ -125,7 +128,8 @@ bool read_document(const std::string& text, const std::string& source, const SDF
     top = xml.FirstChildElement("gazebo");
   if (!top)
     return refuse(errors, ErrorCode::ELEMENT_MISSING,
-                  "There is no <sdf> in it; a robot's description (URDF) is not read here: spawn it, or write it as SDF.", source);
+                  "There is no <sdf> in it; a robot's description (URDF) is not read here: spawn it, or write it as SDF.",
+                  source);
   if (!top->Attribute("version"))
     return refuse(errors, ErrorCode::ATTRIBUTE_MISSING, "<sdf> has no version.", source);
   if (!sdf->Root())
@@ -196,7 +200,10 @@ void addURIPath(const std::string& uri, const std::string& path)
 
 void setFindCallback(std::function<std::string(const std::string&)> callback) { find_callback() = callback; }
 
-SDF::SDF() { init(SDFPtr(this, [](SDF*) {})); }
+SDF::SDF()
+{
+  init(SDFPtr(this, [](SDF*) {}));
+}
 
 std::string& SDF::version()
 {
@@ -286,7 +293,10 @@ SDFPtr readFile(const std::string& file)
   return sdf;
 }
 
-bool readString(const std::string& text, SDFPtr sdf, Errors& errors) { return read_document(text, "<data-string>", sdf, errors); }
+bool readString(const std::string& text, SDFPtr sdf, Errors& errors)
+{
+  return read_document(text, "<data-string>", sdf, errors);
+}
 
 bool readString(const std::string& text, SDFPtr sdf)
 {

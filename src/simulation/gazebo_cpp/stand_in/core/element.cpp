@@ -203,12 +203,13 @@ std::set<std::string> Element::GetElementTypeNames() const
   return names;
 }
 
-std::map<std::string, std::size_t> Element::CountNamedElements(const std::string& type, const std::vector<std::string>& ignored) const
+std::map<std::string, std::size_t> Element::CountNamedElements(const std::string& type,
+                                                               const std::vector<std::string>& ignored) const
 {
   std::map<std::string, std::size_t> counts;
   for (const ElementPtr& each : elements_)
-    if ((type.empty() || each->GetName() == type) && std::find(ignored.begin(), ignored.end(), each->GetName()) == ignored.end() &&
-        each->HasAttribute("name"))
+    if ((type.empty() || each->GetName() == type) &&
+        std::find(ignored.begin(), ignored.end(), each->GetName()) == ignored.end() && each->HasAttribute("name"))
       ++counts[each->Get<std::string>("name")];
   return counts;
 }

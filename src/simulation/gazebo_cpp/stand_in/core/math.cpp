@@ -79,7 +79,10 @@ unsigned int Rand::Seed() { return chance().used; }
 double Rand::DblUniform(double min, double max) { return draw(std::uniform_real_distribution<double>(min, max)); }
 double Rand::DblNormal(double mean, double sigma) { return draw(std::normal_distribution<double>(mean, sigma)); }
 std::int32_t Rand::IntUniform(int min, int max) { return draw(std::uniform_int_distribution<std::int32_t>(min, max)); }
-std::int32_t Rand::IntNormal(int mean, int sigma) { return static_cast<std::int32_t>(draw(std::normal_distribution<double>(mean, sigma))); }
+std::int32_t Rand::IntNormal(int mean, int sigma)
+{
+  return static_cast<std::int32_t>(draw(std::normal_distribution<double>(mean, sigma)));
+}
 
 // ----- colours
 
@@ -178,7 +181,8 @@ std::istream& operator>>(std::istream& in, Color& c)
 
 // ----- boxes
 
-std::tuple<bool, double> AxisAlignedBox::IntersectDist(const Vector3d& origin, const Vector3d& direction, double min, double max) const
+std::tuple<bool, double> AxisAlignedBox::IntersectDist(const Vector3d& origin, const Vector3d& direction, double min,
+                                                       double max) const
 {
   const Vector3d along = direction.Normalized();
   double near = min, far = max;
@@ -204,7 +208,8 @@ std::tuple<bool, double, Vector3d> AxisAlignedBox::Intersect(const Vector3d& ori
                                                              double max) const
 {
   const auto [met, distance] = IntersectDist(origin, direction, min, max);
-  return met ? std::make_tuple(true, distance, origin + direction.Normalized() * distance) : std::make_tuple(false, 0.0, Vector3d::Zero);
+  return met ? std::make_tuple(true, distance, origin + direction.Normalized() * distance)
+             : std::make_tuple(false, 0.0, Vector3d::Zero);
 }
 
 std::tuple<bool, double, Vector3d> AxisAlignedBox::Intersect(const Line3d& line) const
@@ -249,8 +254,8 @@ Vector3d turned(const Vector3d& v, double cosine, double sine)
 Vector3d earth_centred(double latitude, double longitude, double height)
 {
   const double sine = std::sin(latitude), radius = equator / std::sqrt(1 - eccentricity2 * sine * sine);
-  return Vector3d((radius + height) * std::cos(latitude) * std::cos(longitude), (radius + height) * std::cos(latitude) * std::sin(longitude),
-                  ((1 - eccentricity2) * radius + height) * sine);
+  return Vector3d((radius + height) * std::cos(latitude) * std::cos(longitude),
+                  (radius + height) * std::cos(latitude) * std::sin(longitude), ((1 - eccentricity2) * radius + height) * sine);
 }
 
 Vector3d spherical(const Vector3d& p)
@@ -285,7 +290,8 @@ void SphericalCoordinates::UpdateTransformationMatrix()
 {
   const double sin_lat = std::sin(latitude_.Radian()), cos_lat = std::cos(latitude_.Radian());
   const double sin_lon = std::sin(longitude_.Radian()), cos_lon = std::cos(longitude_.Radian());
-  to_global_ = Matrix3d(-sin_lon, cos_lon, 0, -cos_lon * sin_lat, -sin_lon * sin_lat, cos_lat, cos_lat * cos_lon, cos_lat * sin_lon, sin_lat);
+  to_global_ = Matrix3d(-sin_lon, cos_lon, 0, -cos_lon * sin_lat, -sin_lon * sin_lat, cos_lat, cos_lat * cos_lon,
+                        cos_lat * sin_lon, sin_lat);
   origin_ = earth_centred(latitude_.Radian(), longitude_.Radian(), elevation_);
 }
 
@@ -302,7 +308,8 @@ Vector3d SphericalCoordinates::LocalFromSphericalPosition(const Vector3d& place)
   return PositionTransform(Vector3d(IGN_DTOR(place.X()), IGN_DTOR(place.Y()), place.Z()), SPHERICAL, LOCAL);
 }
 
-Vector3d SphericalCoordinates::PositionTransform(const Vector3d& position, const CoordinateType& in, const CoordinateType& out) const
+Vector3d SphericalCoordinates::PositionTransform(const Vector3d& position, const CoordinateType& in,
+                                                 const CoordinateType& out) const
 {
   const double cosine = std::cos(heading_.Radian()), sine = std::sin(heading_.Radian());
   Vector3d p = position;
@@ -324,7 +331,8 @@ Vector3d SphericalCoordinates::PositionTransform(const Vector3d& position, const
   return out == LOCAL || out == LOCAL2 ? turned(p, cosine, -sine) : p;
 }
 
-Vector3d SphericalCoordinates::VelocityTransform(const Vector3d& velocity, const CoordinateType& in, const CoordinateType& out) const
+Vector3d SphericalCoordinates::VelocityTransform(const Vector3d& velocity, const CoordinateType& in,
+                                                 const CoordinateType& out) const
 {
   if (in == SPHERICAL || out == SPHERICAL)
   {
@@ -347,8 +355,8 @@ Vector3d SphericalCoordinates::VelocityTransform(const Vector3d& velocity, const
 
 bool SphericalCoordinates::operator==(const SphericalCoordinates& other) const
 {
-  return surface_ == other.surface_ && latitude_ == other.latitude_ && longitude_ == other.longitude_ && equal(elevation_, other.elevation_) &&
-         heading_ == other.heading_;
+  return surface_ == other.surface_ && latitude_ == other.latitude_ && longitude_ == other.longitude_ &&
+         equal(elevation_, other.elevation_) && heading_ == other.heading_;
 }
 
 }  // namespace v6

@@ -71,12 +71,14 @@ bool parse(const std::string& key, const std::string& text, char& value)
 
 bool parse(const std::string& key, const std::string& text, int& value)
 {
-  return number(key, text, value, [](const std::string& word) { return std::stoi(word, nullptr, hexadecimal(word) ? 16 : 10); });
+  return number(key, text, value,
+                [](const std::string& word) { return std::stoi(word, nullptr, hexadecimal(word) ? 16 : 10); });
 }
 
 bool parse(const std::string& key, const std::string& text, unsigned int& value)
 {
-  return number(key, text, value, [](const std::string& word) { return std::stoul(word, nullptr, hexadecimal(word) ? 16 : 10); });
+  return number(key, text, value,
+                [](const std::string& word) { return std::stoul(word, nullptr, hexadecimal(word) ? 16 : 10); });
 }
 
 bool parse(const std::string& key, const std::string& text, std::uint64_t& value)
@@ -198,12 +200,21 @@ Reader reader_of(const std::string& type)
 
 }  // namespace
 
-bool valid(const std::string& key, const std::string& type, const std::string& text) { return reader_of(type)(key, text, nullptr); }
+bool valid(const std::string& key, const std::string& type, const std::string& text)
+{
+  return reader_of(type)(key, text, nullptr);
+}
 
 }  // namespace internal
 
-Param::Param(const std::string& key, const std::string& type, const std::string& fallback, bool required, const std::string& description)
-  : key_(key), type_(type), fallback_(fallback), text_(fallback), description_(description), required_(required)
+Param::Param(const std::string& key, const std::string& type, const std::string& fallback, bool required,
+             const std::string& description)
+  : key_(key)
+  , type_(type)
+  , fallback_(fallback)
+  , text_(fallback)
+  , description_(description)
+  , required_(required)
 {
 }
 

@@ -156,13 +156,17 @@ TEST(Shapes, the_earth)
   CHECK(earth.LocalFromSphericalPosition(Vector3d(34.4, -68.8, 350)));
   CHECK(earth.GlobalFromLocalVelocity(Vector3d(1, 2, 3)));
   CHECK(earth.LocalFromGlobalVelocity(Vector3d(1, 2, 3)));
-  const Vector3d places[] = { {}, { 0.61, -1.19, 300 }, { 1.2e6, -5e6, 3.6e6 }, { 100, 200, 30 }, { 100, 200, 30 }, { 100, 200, 30 } };
+  const Vector3d places[] = {
+    {}, { 0.61, -1.19, 300 }, { 1.2e6, -5e6, 3.6e6 }, { 100, 200, 30 }, { 100, 200, 30 }, { 100, 200, 30 }
+  };
   for (int in = 1; in <= 5; ++in)
     for (int out = 1; out <= 5; ++out)
     {
-      CHECK(earth.PositionTransform(places[in], static_cast<Earth::CoordinateType>(in), static_cast<Earth::CoordinateType>(out)));
+      CHECK(
+          earth.PositionTransform(places[in], static_cast<Earth::CoordinateType>(in), static_cast<Earth::CoordinateType>(out)));
       if (in > 1 && out > 1)
-        CHECK(earth.VelocityTransform(Vector3d(1, 2, 3), static_cast<Earth::CoordinateType>(in), static_cast<Earth::CoordinateType>(out)));
+        CHECK(earth.VelocityTransform(Vector3d(1, 2, 3), static_cast<Earth::CoordinateType>(in),
+                                      static_cast<Earth::CoordinateType>(out)));
     }
   CHECK(Earth::Distance(Angle(0.6), Angle(-1.2), Angle(0.61), Angle(-1.1)));
   CHECK(Earth::Convert("EARTH_WGS84"));

@@ -63,8 +63,9 @@ protected:
 
 TEST_F(Sdf, numbers_and_words)
 {
-  for (const char* key : { "a", "i", "exp", "hex", "zero", "big", "plus", "mixed", "word", "e", "e2", "nl", "ineg", "inf", "nan", "s", "b", "bt",
-                           "bT", "bf", "b1", "b0", "c", "ch", "missing", "mix", "ns:x", "name", "filename" })
+  for (const char* key :
+       { "a", "i", "exp", "hex", "zero", "big", "plus", "mixed", "word", "e",       "e2",  "nl",   "ineg", "inf",     "nan",
+         "s", "b", "bt",  "bT",  "bf",   "b1",  "b0",   "c",     "ch",   "missing", "mix", "ns:x", "name", "filename" })
   {
     CHECK(get<double>(key));
     CHECK(get<int>(key));

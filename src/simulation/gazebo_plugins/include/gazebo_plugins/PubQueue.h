@@ -11,7 +11,8 @@
 #include <boost/thread/thread.hpp>
 #include <ros/ros.h>
 
-template <class T> class PubMessagePair
+template <class T>
+class PubMessagePair
 {
 public:
   PubMessagePair(T& message, ros::Publisher& publisher) : msg_(message), pub_(publisher) {}
@@ -20,14 +21,17 @@ public:
 };
 
 /// The queue of one type of message. Made by PubMultiQueue::addPub().
-template <class T> class PubQueue
+template <class T>
+class PubQueue
 {
 public:
   typedef boost::shared_ptr<std::deque<boost::shared_ptr<PubMessagePair<T>>>> QueuePtr;
   typedef boost::shared_ptr<PubQueue<T>> Ptr;
 
   PubQueue(QueuePtr queue, boost::shared_ptr<boost::mutex> lock, std::function<void()> notify)
-    : queue_(std::move(queue)), lock_(std::move(lock)), notify_(std::move(notify))
+    : queue_(std::move(queue))
+    , lock_(std::move(lock))
+    , notify_(std::move(notify))
   {
   }
 
@@ -72,7 +76,8 @@ public:
       thread_.join();
   }
 
-  template <class T> boost::shared_ptr<PubQueue<T>> addPub()
+  template <class T>
+  boost::shared_ptr<PubQueue<T>> addPub()
   {
     const typename PubQueue<T>::QueuePtr messages(new std::deque<boost::shared_ptr<PubMessagePair<T>>>);
     const boost::shared_ptr<PubQueue<T>> queue(

@@ -50,11 +50,13 @@ class GazeboRos
 {
 public:
   /// \param plugin its name, for what is printed
-  GazeboRos(physics::ModelPtr& model, sdf::ElementPtr sdf, const std::string& plugin)
-    : GazeboRos(model->GetName(), sdf, plugin)
+  GazeboRos(physics::ModelPtr& model, sdf::ElementPtr sdf, const std::string& plugin) : GazeboRos(model->GetName(), sdf, plugin)
   {
   }
-  GazeboRos(sensors::SensorPtr sensor, sdf::ElementPtr sdf, const std::string& plugin) : GazeboRos(GetModelName(sensor), sdf, plugin) {}
+  GazeboRos(sensors::SensorPtr sensor, sdf::ElementPtr sdf, const std::string& plugin)
+    : GazeboRos(GetModelName(sensor), sdf, plugin)
+  {
+  }
 
   boost::shared_ptr<ros::NodeHandle>& node() { return node_; }
   const boost::shared_ptr<ros::NodeHandle>& node() const { return node_; }
@@ -93,7 +95,8 @@ public:
       ROS_WARN_NAMED("utils", "%s: <%s> is neither true nor false: '%s'", info(), tag, text.c_str());
   }
 
-  template <class T> void getParameter(T& value, const char* tag, const T& fallback)
+  template <class T>
+  void getParameter(T& value, const char* tag, const T& fallback)
   {
     value = fallback;
     std::ostringstream text;
@@ -102,7 +105,8 @@ public:
       return missing(tag, text.str());
     getParameter<T>(value, tag);
   }
-  template <class T> void getParameter(T& value, const char* tag)
+  template <class T>
+  void getParameter(T& value, const char* tag)
   {
     if (!sdf_->HasElement(tag))
       return;
@@ -110,14 +114,16 @@ public:
     ROS_DEBUG_STREAM_NAMED("utils", info() << ": <" << tag << "> = " << value);
   }
   /// One of some words, each of which stands for a value.
-  template <class T> void getParameter(T& value, const char* tag, const std::map<std::string, T>& options, const T& fallback)
+  template <class T>
+  void getParameter(T& value, const char* tag, const std::map<std::string, T>& options, const T& fallback)
   {
     value = fallback;
     if (!sdf_->HasElement(tag))
       return missing(tag, "the one that it begins with");
     getParameter<T>(value, tag, options);
   }
-  template <class T> void getParameter(T& value, const char* tag, const std::map<std::string, T>& options)
+  template <class T>
+  void getParameter(T& value, const char* tag, const std::map<std::string, T>& options)
   {
     if (!sdf_->HasElement(tag))
       return;

@@ -34,8 +34,9 @@ private:
     if (order->data == "fail")
       fail_ = true;
     else if (order->data == "insert")
-      world_->InsertModelString("<sdf version='1.6'><model name='inserted'><pose>9 0 0.5 0 0 0</pose><link name='l'>"
-                                "<collision name='c'><geometry><box><size>1 1 1</size></box></geometry></collision></link></model></sdf>");
+      world_->InsertModelString(
+          "<sdf version='1.6'><model name='inserted'><pose>9 0 0.5 0 0 0</pose><link name='l'>"
+          "<collision name='c'><geometry><box><size>1 1 1</size></box></geometry></collision></link></model></sdf>");
     else if (order->data == "remove")
       world_->RemoveModel("inserted");
     else if (order->data.substr(0, 3) == "go ")

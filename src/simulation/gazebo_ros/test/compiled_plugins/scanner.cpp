@@ -35,8 +35,12 @@ private:
   void OnScan(ConstLaserScanStampedPtr& message)
   {
     std_msgs::Float64MultiArray values;
-    values.data = { msgs::Convert(message->time()).Double(), sensor_->AngleMin().Radian(), sensor_->AngleMax().Radian(),
-                    1.0 * sensor_->RangeCount(), 1.0 * sensor_->VerticalRangeCount(), sensor_->RangeMax() };
+    values.data = { msgs::Convert(message->time()).Double(),
+                    sensor_->AngleMin().Radian(),
+                    sensor_->AngleMax().Radian(),
+                    1.0 * sensor_->RangeCount(),
+                    1.0 * sensor_->VerticalRangeCount(),
+                    sensor_->RangeMax() };
     values.data.insert(values.data.end(), message->scan().ranges().begin(), message->scan().ranges().end());
     values.data.insert(values.data.end(), message->scan().intensities().begin(), message->scan().intensities().end());
     values_.publish(values);

@@ -27,18 +27,27 @@ class DefaultRobotHWSim : public RobotHWSim
 {
 public:
   bool initSim(const std::string& robot_namespace, ros::NodeHandle model_nh, gazebo::physics::ModelPtr parent_model,
-               const urdf::Model* const urdf_model, std::vector<transmission_interface::TransmissionInfo> transmissions) override;
+               const urdf::Model* const urdf_model,
+               std::vector<transmission_interface::TransmissionInfo> transmissions) override;
   void readSim(ros::Time time, ros::Duration period) override;
   void writeSim(ros::Time time, ros::Duration period) override;
   void eStopActive(const bool active) override;
 
 protected:
-  enum ControlMethod { EFFORT, POSITION, POSITION_PID, VELOCITY, VELOCITY_PID };
+  enum ControlMethod
+  {
+    EFFORT,
+    POSITION,
+    POSITION_PID,
+    VELOCITY,
+    VELOCITY_PID
+  };
 
   /// What the description and the parameters say of a joint; its handle is limited from then on.
   void registerJointLimits(const std::string& joint_name, const hardware_interface::JointHandle& joint_handle,
-                           const ControlMethod ctrl_method, const ros::NodeHandle& joint_limit_nh, const urdf::Model* const urdf_model,
-                           int* const joint_type, double* const lower_limit, double* const upper_limit, double* const effort_limit);
+                           const ControlMethod ctrl_method, const ros::NodeHandle& joint_limit_nh,
+                           const urdf::Model* const urdf_model, int* const joint_type, double* const lower_limit,
+                           double* const upper_limit, double* const effort_limit);
 
   unsigned int n_dof_ = 0;
 

@@ -21,7 +21,8 @@ public:
 
   /// Set up. \param urdf_model null where there is no description \return false to refuse
   virtual bool initSim(const std::string& robot_namespace, ros::NodeHandle model_nh, gazebo::physics::ModelPtr parent_model,
-                       const urdf::Model* const urdf_model, std::vector<transmission_interface::TransmissionInfo> transmissions) = 0;
+                       const urdf::Model* const urdf_model,
+                       std::vector<transmission_interface::TransmissionInfo> transmissions) = 0;
 
   /// Joint states from the simulation to where the handles point.
   virtual void readSim(ros::Time time, ros::Duration period) = 0;

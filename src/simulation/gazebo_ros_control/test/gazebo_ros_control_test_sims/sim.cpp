@@ -11,7 +11,8 @@ class HalvedHWSim : public gazebo_ros_control::DefaultRobotHWSim
 {
 public:
   bool initSim(const std::string& robot_namespace, ros::NodeHandle model_nh, gazebo::physics::ModelPtr model,
-               const urdf::Model* const urdf_model, std::vector<transmission_interface::TransmissionInfo> transmissions) override
+               const urdf::Model* const urdf_model,
+               std::vector<transmission_interface::TransmissionInfo> transmissions) override
   {
     model_nh_ = model_nh;
     if (model_nh.param("fail_in", std::string()) == "initSim")

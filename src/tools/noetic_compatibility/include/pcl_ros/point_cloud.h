@@ -8,7 +8,8 @@
 namespace noetic_compatibility
 {
 // subscribe<Cloud>("points", 1, callback) takes callbacks with Cloud::ConstPtr, too.
-template <typename T> struct HasStdPointers<pcl::PointCloud<T>> : std::true_type
+template <typename T>
+struct HasStdPointers<pcl::PointCloud<T>> : std::true_type
 {
 };
 }  // namespace noetic_compatibility
@@ -18,22 +19,26 @@ namespace ros
 namespace message_traits
 {
 // A pointer to a cloud is sent as the cloud.
-template <typename T> struct MD5Sum<std::shared_ptr<pcl::PointCloud<T>>> : MD5Sum<pcl::PointCloud<T>>
+template <typename T>
+struct MD5Sum<std::shared_ptr<pcl::PointCloud<T>>> : MD5Sum<pcl::PointCloud<T>>
 {
   using MD5Sum<pcl::PointCloud<T>>::value;
   static const char* value(const std::shared_ptr<pcl::PointCloud<T>>&) { return MD5Sum<pcl::PointCloud<T>>::value(); }
 };
-template <typename T> struct DataType<std::shared_ptr<pcl::PointCloud<T>>> : DataType<pcl::PointCloud<T>>
+template <typename T>
+struct DataType<std::shared_ptr<pcl::PointCloud<T>>> : DataType<pcl::PointCloud<T>>
 {
   using DataType<pcl::PointCloud<T>>::value;
   static const char* value(const std::shared_ptr<pcl::PointCloud<T>>&) { return DataType<pcl::PointCloud<T>>::value(); }
 };
-template <typename T> struct MD5Sum<std::shared_ptr<const pcl::PointCloud<T>>> : MD5Sum<pcl::PointCloud<T>>
+template <typename T>
+struct MD5Sum<std::shared_ptr<const pcl::PointCloud<T>>> : MD5Sum<pcl::PointCloud<T>>
 {
   using MD5Sum<pcl::PointCloud<T>>::value;
   static const char* value(const std::shared_ptr<const pcl::PointCloud<T>>&) { return MD5Sum<pcl::PointCloud<T>>::value(); }
 };
-template <typename T> struct DataType<std::shared_ptr<const pcl::PointCloud<T>>> : DataType<pcl::PointCloud<T>>
+template <typename T>
+struct DataType<std::shared_ptr<const pcl::PointCloud<T>>> : DataType<pcl::PointCloud<T>>
 {
   using DataType<pcl::PointCloud<T>>::value;
   static const char* value(const std::shared_ptr<const pcl::PointCloud<T>>&) { return DataType<pcl::PointCloud<T>>::value(); }
@@ -42,23 +47,34 @@ template <typename T> struct DataType<std::shared_ptr<const pcl::PointCloud<T>>>
 
 namespace serialization
 {
-template <typename T> struct Serializer<std::shared_ptr<pcl::PointCloud<T>>>
+template <typename T>
+struct Serializer<std::shared_ptr<pcl::PointCloud<T>>>
 {
-  template <typename Stream> static void write(Stream& stream, const std::shared_ptr<pcl::PointCloud<T>>& cloud) { stream.next(*cloud); }
-  static uint32_t serializedLength(const std::shared_ptr<pcl::PointCloud<T>>& cloud) { return serializationLength(*cloud); }
-};
-template <typename T> struct Serializer<std::shared_ptr<const pcl::PointCloud<T>>>
-{
-  template <typename Stream> static void write(Stream& stream, const std::shared_ptr<const pcl::PointCloud<T>>& cloud)
+  template <typename Stream>
+  static void write(Stream& stream, const std::shared_ptr<pcl::PointCloud<T>>& cloud)
   {
     stream.next(*cloud);
   }
-  static uint32_t serializedLength(const std::shared_ptr<const pcl::PointCloud<T>>& cloud) { return serializationLength(*cloud); }
+  static uint32_t serializedLength(const std::shared_ptr<pcl::PointCloud<T>>& cloud) { return serializationLength(*cloud); }
+};
+template <typename T>
+struct Serializer<std::shared_ptr<const pcl::PointCloud<T>>>
+{
+  template <typename Stream>
+  static void write(Stream& stream, const std::shared_ptr<const pcl::PointCloud<T>>& cloud)
+  {
+    stream.next(*cloud);
+  }
+  static uint32_t serializedLength(const std::shared_ptr<const pcl::PointCloud<T>>& cloud)
+  {
+    return serializationLength(*cloud);
+  }
 };
 }  // namespace serialization
 
 // What a callback asks for by its parameter's type.
-template <typename T> struct ParameterAdapter<const std::shared_ptr<const pcl::PointCloud<T>>&>
+template <typename T>
+struct ParameterAdapter<const std::shared_ptr<const pcl::PointCloud<T>>&>
 {
   typedef pcl::PointCloud<T> Message;
   typedef ros::MessageEvent<Message const> Event;
@@ -66,11 +82,13 @@ template <typename T> struct ParameterAdapter<const std::shared_ptr<const pcl::P
   static const bool is_const = true;
   static Parameter getParameter(const Event& event) { return pcl::pcl_ptr(event.getMessage()); }
 };
-template <typename T> struct ParameterAdapter<std::shared_ptr<const pcl::PointCloud<T>>>
+template <typename T>
+struct ParameterAdapter<std::shared_ptr<const pcl::PointCloud<T>>>
   : ParameterAdapter<const std::shared_ptr<const pcl::PointCloud<T>>&>
 {
 };
-template <typename T> struct ParameterAdapter<const std::shared_ptr<pcl::PointCloud<T>>&>
+template <typename T>
+struct ParameterAdapter<const std::shared_ptr<pcl::PointCloud<T>>&>
 {
   typedef pcl::PointCloud<T> Message;
   typedef ros::MessageEvent<Message const> Event;
@@ -78,8 +96,8 @@ template <typename T> struct ParameterAdapter<const std::shared_ptr<pcl::PointCl
   static const bool is_const = false;
   static Parameter getParameter(const Event& event) { return pcl::pcl_ptr(ros::MessageEvent<Message>(event).getMessage()); }
 };
-template <typename T> struct ParameterAdapter<std::shared_ptr<pcl::PointCloud<T>>>
-  : ParameterAdapter<const std::shared_ptr<pcl::PointCloud<T>>&>
+template <typename T>
+struct ParameterAdapter<std::shared_ptr<pcl::PointCloud<T>>> : ParameterAdapter<const std::shared_ptr<pcl::PointCloud<T>>&>
 {
 };
 }  // namespace ros

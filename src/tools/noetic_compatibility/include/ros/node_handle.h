@@ -33,7 +33,8 @@
 
 namespace noetic_compatibility
 {
-template <typename Message> struct HasStdPointers : std::false_type
+template <typename Message>
+struct HasStdPointers : std::false_type
 {
 };
 
@@ -50,7 +51,8 @@ using SubscribedByCallable =
     typename std::enable_if<HasStdPointers<Message>::value && std::is_class<Callback>::value, ros::Subscriber>::type;
 
 // A received message as whichever pointer a callback wants.
-template <typename Message> class Received
+template <typename Message>
+class Received
 {
 public:
   explicit Received(const boost::shared_ptr<const Message>& message) : message_(message) {}
@@ -65,7 +67,8 @@ private:
   boost::shared_ptr<const Message> message_;
 };
 
-template <typename Message, typename Callback> struct CallWithReceived
+template <typename Message, typename Callback>
+struct CallWithReceived
 {
   Callback callback;
   void operator()(const boost::shared_ptr<const Message>& message) { callback(Received<Message>(message)); }

@@ -53,8 +53,8 @@ template <typename T>
 inline void populateClaims(hardware_interface::RobotHW* robot_hw, ControllerBase::ClaimedResources& claimed)
 {
   if (T* interface = robot_hw->get<T>())
-    claimed.push_back(hardware_interface::InterfaceResources(hardware_interface::internal::demangledTypeName<T>(),
-                                                             interface->getClaims()));
+    claimed.push_back(
+        hardware_interface::InterfaceResources(hardware_interface::internal::demangledTypeName<T>(), interface->getClaims()));
 }
 
 // For each type of the list, in its order; an array's elements are evaluated so.

@@ -21,10 +21,7 @@ inline std::string demangleSymbol(const char* name)
   return result;
 }
 
-inline std::string demangleSymbol(const std::string& name)
-{
-  return demangleSymbol(name.c_str());
-}
+inline std::string demangleSymbol(const std::string& name) { return demangleSymbol(name.c_str()); }
 
 template <class T>
 inline std::string demangledTypeName()

@@ -21,9 +21,15 @@ template <class T>
 struct InterfaceTraits
 {
   template <class C>
-  static std::vector<std::string> names(C* interface, typename C::ResourceManagerType*) { return interface->getNames(); }
+  static std::vector<std::string> names(C* interface, typename C::ResourceManagerType*)
+  {
+    return interface->getNames();
+  }
   template <class C>
-  static std::vector<std::string> names(C*, ...) { return std::vector<std::string>(); }
+  static std::vector<std::string> names(C*, ...)
+  {
+    return std::vector<std::string>();
+  }
 
   template <class C>
   static std::shared_ptr<C> merged(const std::vector<C*>& parts, typename C::ResourceManagerType*)
@@ -36,8 +42,10 @@ struct InterfaceTraits
   template <class C>
   static std::shared_ptr<C> merged(const std::vector<C*>&, ...)
   {
-    ROS_ERROR_STREAM("You cannot register multiple interfaces of the same type which are not of type ResourceManager. There is no "
-                     "established protocol for combining them. (" << demangledTypeName<C>() << ")");
+    ROS_ERROR_STREAM(
+        "You cannot register multiple interfaces of the same type which are not of type ResourceManager. There is no "
+        "established protocol for combining them. ("
+        << demangledTypeName<C>() << ")");
     return std::shared_ptr<C>();
   }
 };

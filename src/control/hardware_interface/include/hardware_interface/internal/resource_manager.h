@@ -50,7 +50,8 @@ public:
       resource_map_.insert(std::make_pair(name, handle));
       return;
     }
-    ROS_WARN_STREAM("Replacing previously registered handle '" << name << "' in '" << internal::demangledTypeName(*this) << "'.");
+    ROS_WARN_STREAM("Replacing previously registered handle '" << name << "' in '" << internal::demangledTypeName(*this)
+                                                               << "'.");
     there->second = handle;
   }
 
@@ -63,8 +64,8 @@ public:
     std::string names;
     for (const auto& entry : resource_map_)
       names += (names.empty() ? "" : ", ") + entry.first;
-    throw std::logic_error("Could not find resource '" + name + "' in '" + internal::demangledTypeName(*this) + "'; it has: " +
-                           (names.empty() ? "none" : names));
+    throw std::logic_error("Could not find resource '" + name + "' in '" + internal::demangledTypeName(*this) +
+                           "'; it has: " + (names.empty() ? "none" : names));
   }
 
   /// Put the handles of \p managers into \p result.

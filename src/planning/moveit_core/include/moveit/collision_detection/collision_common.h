@@ -48,10 +48,7 @@ struct CostSource
 {
   boost::array<double, 3> aabb_min, aabb_max;
   double cost;
-  double getVolume() const
-  {
-    return (aabb_max[0] - aabb_min[0]) * (aabb_max[1] - aabb_min[1]) * (aabb_max[2] - aabb_min[2]);
-  }
+  double getVolume() const { return (aabb_max[0] - aabb_min[0]) * (aabb_max[1] - aabb_min[1]) * (aabb_max[2] - aabb_min[2]); }
   bool operator<(const CostSource& other) const { return cost * getVolume() > other.cost * other.getVolume(); }
 };
 
@@ -83,9 +80,9 @@ struct DistanceRequest
 {
   void enableGroup(const moveit::core::RobotModelConstPtr& robot_model)
   {
-    active_components_only = robot_model->hasJointModelGroup(group_name) ?
-                                 &robot_model->getJointModelGroup(group_name)->getUpdatedLinkModelsSet() :
-                                 nullptr;
+    active_components_only = robot_model->hasJointModelGroup(group_name)
+                                 ? &robot_model->getJointModelGroup(group_name)->getUpdatedLinkModelsSet()
+                                 : nullptr;
   }
   bool enable_nearest_points = false, enable_signed_distance = false;
   DistanceRequestType type = DistanceRequestTypes::GLOBAL;

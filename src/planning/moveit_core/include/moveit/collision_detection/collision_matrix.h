@@ -73,8 +73,7 @@ public:
 
   // Entry or default; false when there is neither.
   bool getAllowedCollision(const std::string& name1, const std::string& name2, DecideContactFn& fn) const;
-  bool getAllowedCollision(const std::string& name1, const std::string& name2,
-                           AllowedCollision::Type& allowed_collision) const;
+  bool getAllowedCollision(const std::string& name1, const std::string& name2, AllowedCollision::Type& allowed_collision) const;
 
   void print(std::ostream& out) const;
 

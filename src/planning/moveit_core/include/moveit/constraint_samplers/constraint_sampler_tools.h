@@ -11,8 +11,7 @@ namespace constraint_samplers
 {
 // A small sphere where the link is in each sample.
 void visualizeDistribution(const ConstraintSamplerPtr& sampler, const moveit::core::RobotState& reference_state,
-                           const std::string& link_name, unsigned int sample_count,
-                           visualization_msgs::MarkerArray& markers);
+                           const std::string& link_name, unsigned int sample_count, visualization_msgs::MarkerArray& markers);
 void visualizeDistribution(const moveit_msgs::Constraints& constr, const planning_scene::PlanningSceneConstPtr& scene,
                            const std::string& group, const std::string& link_name, unsigned int sample_count,
                            visualization_msgs::MarkerArray& markers);

@@ -61,7 +61,8 @@ struct IKSamplingPose
   IKSamplingPose(const kinematic_constraints::OrientationConstraintPtr& oc) : orientation_constraint_(oc) {}
   IKSamplingPose(const kinematic_constraints::PositionConstraintPtr& pc,
                  const kinematic_constraints::OrientationConstraintPtr& oc)
-    : position_constraint_(pc), orientation_constraint_(oc)
+    : position_constraint_(pc)
+    , orientation_constraint_(oc)
   {
   }
   kinematic_constraints::PositionConstraintPtr position_constraint_;
@@ -93,7 +94,8 @@ public:
   bool sample(moveit::core::RobotState& state, const moveit::core::RobotState& reference_state,
               unsigned int max_attempts) override;
   // A pose of the link, in the model frame.
-  bool samplePose(Eigen::Vector3d& pos, Eigen::Quaterniond& quat, const moveit::core::RobotState& ks, unsigned int max_attempts);
+  bool samplePose(Eigen::Vector3d& pos, Eigen::Quaterniond& quat, const moveit::core::RobotState& ks,
+                  unsigned int max_attempts);
   const std::string& getName() const override;
 
 protected:

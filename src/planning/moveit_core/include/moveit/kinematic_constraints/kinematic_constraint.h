@@ -101,7 +101,10 @@ MOVEIT_CLASS_FORWARD(OrientationConstraint);
 class OrientationConstraint : public KinematicConstraint
 {
 public:
-  OrientationConstraint(const moveit::core::RobotModelConstPtr& model) : KinematicConstraint(model) { type_ = ORIENTATION_CONSTRAINT; }
+  OrientationConstraint(const moveit::core::RobotModelConstPtr& model) : KinematicConstraint(model)
+  {
+    type_ = ORIENTATION_CONSTRAINT;
+  }
   bool configure(const moveit_msgs::OrientationConstraint& oc, const moveit::core::Transforms& tf);
   bool equal(const KinematicConstraint& other, double margin) const override;
   void print(std::ostream& out = std::cout) const override;
@@ -124,7 +127,10 @@ MOVEIT_CLASS_FORWARD(PositionConstraint);
 class PositionConstraint : public KinematicConstraint
 {
 public:
-  PositionConstraint(const moveit::core::RobotModelConstPtr& model) : KinematicConstraint(model) { type_ = POSITION_CONSTRAINT; }
+  PositionConstraint(const moveit::core::RobotModelConstPtr& model) : KinematicConstraint(model)
+  {
+    type_ = POSITION_CONSTRAINT;
+  }
   bool configure(const moveit_msgs::PositionConstraint& pc, const moveit::core::Transforms& tf);
   bool equal(const KinematicConstraint& other, double margin) const override;
   void print(std::ostream& out = std::cout) const override;
@@ -146,7 +152,10 @@ MOVEIT_CLASS_FORWARD(VisibilityConstraint);
 class VisibilityConstraint : public KinematicConstraint
 {
 public:
-  VisibilityConstraint(const moveit::core::RobotModelConstPtr& model) : KinematicConstraint(model) { type_ = VISIBILITY_CONSTRAINT; }
+  VisibilityConstraint(const moveit::core::RobotModelConstPtr& model) : KinematicConstraint(model)
+  {
+    type_ = VISIBILITY_CONSTRAINT;
+  }
   bool configure(const moveit_msgs::VisibilityConstraint& vc, const moveit::core::Transforms& tf);
   bool equal(const KinematicConstraint& other, double margin) const override;
 
@@ -180,10 +189,7 @@ public:
     return all_.orientation_constraints;
   }
   const std::vector<moveit_msgs::JointConstraint>& getJointConstraints() const { return all_.joint_constraints; }
-  const std::vector<moveit_msgs::VisibilityConstraint>& getVisibilityConstraints() const
-  {
-    return all_.visibility_constraints;
-  }
+  const std::vector<moveit_msgs::VisibilityConstraint>& getVisibilityConstraints() const { return all_.visibility_constraints; }
   const moveit_msgs::Constraints& getAllConstraints() const { return all_; }
   motion::Constraints given() const;  // all that can be used, as the motion library takes them
   bool empty() const { return constraints_.empty(); }

@@ -30,13 +30,13 @@ moveit_msgs::Constraints constructGoalConstraints(const std::string& link_name, 
 moveit_msgs::Constraints constructGoalConstraints(const std::string& link_name, const geometry_msgs::PoseStamped& pose,
                                                   const std::vector<double>& tolerance_pos,
                                                   const std::vector<double>& tolerance_angle);
-moveit_msgs::Constraints constructGoalConstraints(const std::string& link_name,
-                                                  const geometry_msgs::QuaternionStamped& quat, double tolerance = 1e-2);
+moveit_msgs::Constraints constructGoalConstraints(const std::string& link_name, const geometry_msgs::QuaternionStamped& quat,
+                                                  double tolerance = 1e-2);
 // A point of a link.
 moveit_msgs::Constraints constructGoalConstraints(const std::string& link_name, const geometry_msgs::Point& reference_point,
                                                   const geometry_msgs::PointStamped& goal_point, double tolerance = 1e-3);
-moveit_msgs::Constraints constructGoalConstraints(const std::string& link_name,
-                                                  const geometry_msgs::PointStamped& goal_point, double tolerance = 1e-3);
+moveit_msgs::Constraints constructGoalConstraints(const std::string& link_name, const geometry_msgs::PointStamped& goal_point,
+                                                  double tolerance = 1e-3);
 
 // Frames of attached bodies and subframes become links. False when a frame is not known.
 bool resolveConstraintFrames(const moveit::core::RobotState& state, moveit_msgs::Constraints& constraints);

@@ -100,46 +100,41 @@ public:
                              const KinematicsQueryOptions& options) const;
 
   // A search of `timeout` s.
-  virtual bool searchPositionIK(const geometry_msgs::Pose& ik_pose, const std::vector<double>& ik_seed_state,
-                                double timeout, std::vector<double>& solution,
-                                moveit_msgs::MoveItErrorCodes& error_code,
-                                const KinematicsQueryOptions& options = KinematicsQueryOptions()) const = 0;
-  virtual bool searchPositionIK(const geometry_msgs::Pose& ik_pose, const std::vector<double>& ik_seed_state,
-                                double timeout, const std::vector<double>& consistency_limits,
+  virtual bool searchPositionIK(const geometry_msgs::Pose& ik_pose, const std::vector<double>& ik_seed_state, double timeout,
                                 std::vector<double>& solution, moveit_msgs::MoveItErrorCodes& error_code,
                                 const KinematicsQueryOptions& options = KinematicsQueryOptions()) const = 0;
-  virtual bool searchPositionIK(const geometry_msgs::Pose& ik_pose, const std::vector<double>& ik_seed_state,
-                                double timeout, std::vector<double>& solution, const IKCallbackFn& solution_callback,
+  virtual bool searchPositionIK(const geometry_msgs::Pose& ik_pose, const std::vector<double>& ik_seed_state, double timeout,
+                                const std::vector<double>& consistency_limits, std::vector<double>& solution,
                                 moveit_msgs::MoveItErrorCodes& error_code,
                                 const KinematicsQueryOptions& options = KinematicsQueryOptions()) const = 0;
-  virtual bool searchPositionIK(const geometry_msgs::Pose& ik_pose, const std::vector<double>& ik_seed_state,
-                                double timeout, const std::vector<double>& consistency_limits,
+  virtual bool searchPositionIK(const geometry_msgs::Pose& ik_pose, const std::vector<double>& ik_seed_state, double timeout,
                                 std::vector<double>& solution, const IKCallbackFn& solution_callback,
                                 moveit_msgs::MoveItErrorCodes& error_code,
+                                const KinematicsQueryOptions& options = KinematicsQueryOptions()) const = 0;
+  virtual bool searchPositionIK(const geometry_msgs::Pose& ik_pose, const std::vector<double>& ik_seed_state, double timeout,
+                                const std::vector<double>& consistency_limits, std::vector<double>& solution,
+                                const IKCallbackFn& solution_callback, moveit_msgs::MoveItErrorCodes& error_code,
                                 const KinematicsQueryOptions& options = KinematicsQueryOptions()) const = 0;
   // Of several tips at once; by default of one.
   virtual bool searchPositionIK(const std::vector<geometry_msgs::Pose>& ik_poses, const std::vector<double>& ik_seed_state,
-                                double timeout, const std::vector<double>& consistency_limits,
-                                std::vector<double>& solution, const IKCallbackFn& solution_callback,
-                                moveit_msgs::MoveItErrorCodes& error_code,
+                                double timeout, const std::vector<double>& consistency_limits, std::vector<double>& solution,
+                                const IKCallbackFn& solution_callback, moveit_msgs::MoveItErrorCodes& error_code,
                                 const KinematicsQueryOptions& options = KinematicsQueryOptions(),
                                 const moveit::core::RobotState* context_state = nullptr) const;
 
   virtual bool getPositionFK(const std::vector<std::string>& link_names, const std::vector<double>& joint_angles,
                              std::vector<geometry_msgs::Pose>& poses) const = 0;
 
-  virtual void setValues(const std::string& robot_description, const std::string& group_name,
-                         const std::string& base_frame, const std::string& tip_frame, double search_discretization);
-  virtual void setValues(const std::string& robot_description, const std::string& group_name,
-                         const std::string& base_frame, const std::vector<std::string>& tip_frames,
-                         double search_discretization);
+  virtual void setValues(const std::string& robot_description, const std::string& group_name, const std::string& base_frame,
+                         const std::string& tip_frame, double search_discretization);
+  virtual void setValues(const std::string& robot_description, const std::string& group_name, const std::string& base_frame,
+                         const std::vector<std::string>& tip_frames, double search_discretization);
 
   // A solver overrides one of these. They are tried from the last to the first.
-  virtual bool initialize(const std::string& robot_description, const std::string& group_name,
-                          const std::string& base_frame, const std::string& tip_frame, double search_discretization);
-  virtual bool initialize(const std::string& robot_description, const std::string& group_name,
-                          const std::string& base_frame, const std::vector<std::string>& tip_frames,
-                          double search_discretization);
+  virtual bool initialize(const std::string& robot_description, const std::string& group_name, const std::string& base_frame,
+                          const std::string& tip_frame, double search_discretization);
+  virtual bool initialize(const std::string& robot_description, const std::string& group_name, const std::string& base_frame,
+                          const std::vector<std::string>& tip_frames, double search_discretization);
   virtual bool initialize(const moveit::core::RobotModel& robot_model, const std::string& group_name,
                           const std::string& base_frame, const std::vector<std::string>& tip_frames,
                           double search_discretization);
@@ -200,8 +195,7 @@ protected:
     return false;
   }
 
-  void storeValues(const moveit::core::RobotModel& robot_model, const std::string& group_name,
-                   const std::string& base_frame, const std::vector<std::string>& tip_frames,
-                   double search_discretization);
+  void storeValues(const moveit::core::RobotModel& robot_model, const std::string& group_name, const std::string& base_frame,
+                   const std::vector<std::string>& tip_frames, double search_discretization);
 };
 }  // namespace kinematics

@@ -18,8 +18,9 @@ MOVEIT_CLASS_FORWARD(PlanningRequestAdapter);
 class PlanningRequestAdapter
 {
 public:
-  using PlannerFn = boost::function<bool(const planning_scene::PlanningSceneConstPtr&,
-                                         const planning_interface::MotionPlanRequest&, planning_interface::MotionPlanResponse&)>;
+  using PlannerFn =
+      boost::function<bool(const planning_scene::PlanningSceneConstPtr&, const planning_interface::MotionPlanRequest&,
+                           planning_interface::MotionPlanResponse&)>;
 
   PlanningRequestAdapter() {}
   virtual ~PlanningRequestAdapter() {}

@@ -192,21 +192,23 @@ public:
   bool isStateFeasible(const moveit_msgs::RobotState& state, bool verbose = false) const;
   bool isStateFeasible(const State& state, bool verbose = false) const;
   using ConstraintSet = kinematic_constraints::KinematicConstraintSet;
-  bool isStateConstrained(const moveit_msgs::RobotState& state, const moveit_msgs::Constraints& constr, bool verbose = false) const;
+  bool isStateConstrained(const moveit_msgs::RobotState& state, const moveit_msgs::Constraints& constr,
+                          bool verbose = false) const;
   bool isStateConstrained(const State& state, const moveit_msgs::Constraints& constr, bool verbose = false) const;
   bool isStateConstrained(const moveit_msgs::RobotState& state, const ConstraintSet& constr, bool verbose = false) const;
   bool isStateConstrained(const State& state, const ConstraintSet& constr, bool verbose = false) const;
   // No collision, feasible, and the constraints are met.
   bool isStateValid(const moveit_msgs::RobotState& state, const std::string& group = "", bool verbose = false) const;
   bool isStateValid(const State& state, const std::string& group = "", bool verbose = false) const;
-  bool isStateValid(const moveit_msgs::RobotState& state, const moveit_msgs::Constraints& constr,
-                    const std::string& group = "", bool verbose = false) const;
+  bool isStateValid(const moveit_msgs::RobotState& state, const moveit_msgs::Constraints& constr, const std::string& group = "",
+                    bool verbose = false) const;
   bool isStateValid(const State& state, const moveit_msgs::Constraints& constr, const std::string& group = "",
                     bool verbose = false) const;
   bool isStateValid(const State& state, const ConstraintSet& constr, const std::string& group = "", bool verbose = false) const;
   // All states of a path; those that are not are listed.
   bool isPathValid(const moveit_msgs::RobotState& start_state, const moveit_msgs::RobotTrajectory& trajectory,
-                   const std::string& group = "", bool verbose = false, std::vector<std::size_t>* invalid_index = nullptr) const;
+                   const std::string& group = "", bool verbose = false,
+                   std::vector<std::size_t>* invalid_index = nullptr) const;
   bool isPathValid(const moveit_msgs::RobotState& start_state, const moveit_msgs::RobotTrajectory& trajectory,
                    const moveit_msgs::Constraints& path_constraints, const std::string& group = "", bool verbose = false,
                    std::vector<std::size_t>* invalid_index = nullptr) const;
@@ -214,7 +216,8 @@ public:
                    const std::vector<moveit_msgs::Constraints>& goal_constraints, const std::string& group = "",
                    bool verbose = false, std::vector<std::size_t>* invalid_index = nullptr) const;
   bool isPathValid(const robot_trajectory::RobotTrajectory& trajectory, const moveit_msgs::Constraints& path_constraints,
-                   const std::string& group = "", bool verbose = false, std::vector<std::size_t>* invalid_index = nullptr) const;
+                   const std::string& group = "", bool verbose = false,
+                   std::vector<std::size_t>* invalid_index = nullptr) const;
   bool isPathValid(const robot_trajectory::RobotTrajectory& trajectory, const std::string& group = "", bool verbose = false,
                    std::vector<std::size_t>* invalid_index = nullptr) const;
 

@@ -79,15 +79,14 @@ public:
   {
     getVariableRandomPositions(rng, values, variable_bounds_);
   }
-  void getVariableRandomPositions(random_numbers::RandomNumberGenerator& rng, double* values,
-                                  const Bounds& other_bounds) const;
+  void getVariableRandomPositions(random_numbers::RandomNumberGenerator& rng, double* values, const Bounds& other_bounds) const;
   void getVariableRandomPositionsNearBy(random_numbers::RandomNumberGenerator& rng, double* values, const double* seed,
                                         const double distance) const
   {
     getVariableRandomPositionsNearBy(rng, values, variable_bounds_, seed, distance);
   }
-  void getVariableRandomPositionsNearBy(random_numbers::RandomNumberGenerator& rng, double* values,
-                                        const Bounds& other_bounds, const double* seed, const double distance) const;
+  void getVariableRandomPositionsNearBy(random_numbers::RandomNumberGenerator& rng, double* values, const Bounds& other_bounds,
+                                        const double* seed, const double distance) const;
 
   // ------------------------------------------------------------ bounds
   bool satisfiesPositionBounds(const double* values, double margin = 0.0) const
@@ -137,10 +136,7 @@ public:
   const std::vector<const JointModel*>& getMimicRequests() const { return mimic_requests_; }
   const std::vector<const LinkModel*>& getDescendantLinkModels() const { return descendant_link_models_; }
   const std::vector<const JointModel*>& getDescendantJointModels() const { return descendant_joint_models_; }
-  const std::vector<const JointModel*>& getNonFixedDescendantJointModels() const
-  {
-    return non_fixed_descendant_joint_models_;
-  }
+  const std::vector<const JointModel*>& getNonFixedDescendantJointModels() const { return non_fixed_descendant_joint_models_; }
   bool isPassive() const;
   void setPassive(bool flag);
 

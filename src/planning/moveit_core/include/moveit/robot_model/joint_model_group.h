@@ -153,8 +153,7 @@ public:
   {
     return satisfiesPositionBounds(state, active_joint_models_bounds_, margin);
   }
-  bool satisfiesPositionBounds(const double* state, const JointBoundsVector& active_joint_bounds,
-                               double margin = 0.0) const;
+  bool satisfiesPositionBounds(const double* state, const JointBoundsVector& active_joint_bounds, double margin = 0.0) const;
   double getMaximumExtent() const { return getMaximumExtent(active_joint_models_bounds_); }
   double getMaximumExtent(const JointBoundsVector& active_joint_bounds) const;
   double distance(const double* state1, const double* state2) const;
@@ -163,8 +162,7 @@ public:
   // Can each joint go from the one to the other within dt (s)?
   bool isValidVelocityMove(const std::vector<double>& from_joint_pose, const std::vector<double>& to_joint_pose,
                            double dt) const;
-  bool isValidVelocityMove(const double* from_joint_pose, const double* to_joint_pose, std::size_t array_size,
-                           double dt) const;
+  bool isValidVelocityMove(const double* from_joint_pose, const double* to_joint_pose, std::size_t array_size, double dt) const;
 
   // ------------------------------------------------------------ what kind of group
   const std::vector<std::string>& getSubgroupNames() const { return subgroup_names_; }
@@ -195,10 +193,7 @@ public:
   bool setRedundantJoints(const std::vector<std::string>& joints);
   double getDefaultIKTimeout() const { return group_kinematics_.first.default_ik_timeout_; }
   void setDefaultIKTimeout(double ik_timeout);
-  const std::vector<unsigned int>& getKinematicsSolverJointBijection() const
-  {
-    return group_kinematics_.first.bijection_;
-  }
+  const std::vector<unsigned int>& getKinematicsSolverJointBijection() const { return group_kinematics_.first.bijection_; }
 
   void printGroupInfo(std::ostream& out = std::cout) const;
 

@@ -118,8 +118,7 @@ public:
   {
     return satisfiesPositionBounds(state, active_joint_models_bounds_, margin);
   }
-  bool satisfiesPositionBounds(const double* state, const JointBoundsVector& active_joint_bounds,
-                               double margin = 0.0) const;
+  bool satisfiesPositionBounds(const double* state, const JointBoundsVector& active_joint_bounds, double margin = 0.0) const;
   double getMaximumExtent() const { return getMaximumExtent(active_joint_models_bounds_); }
   double getMaximumExtent(const JointBoundsVector& active_joint_bounds) const;
   double distance(const double* state1, const double* state2) const;

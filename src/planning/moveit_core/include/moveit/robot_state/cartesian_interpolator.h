@@ -30,34 +30,31 @@ class CartesianInterpolator
 {
 public:
   // By a translation; the answer is the distance reached, in m.
-  static double computeCartesianPath(RobotState* start_state, const JointModelGroup* group,
-                                     std::vector<RobotStatePtr>& traj, const LinkModel* link,
-                                     const Eigen::Vector3d& translation, bool global_reference_frame,
+  static double computeCartesianPath(RobotState* start_state, const JointModelGroup* group, std::vector<RobotStatePtr>& traj,
+                                     const LinkModel* link, const Eigen::Vector3d& translation, bool global_reference_frame,
                                      const MaxEEFStep& max_step, const JumpThreshold& jump_threshold,
                                      const GroupStateValidityCallbackFn& validCallback = GroupStateValidityCallbackFn(),
                                      const kinematics::KinematicsQueryOptions& options = kinematics::KinematicsQueryOptions());
-  static double computeCartesianPath(RobotState* start_state, const JointModelGroup* group,
-                                     std::vector<RobotStatePtr>& traj, const LinkModel* link,
-                                     const Eigen::Vector3d& direction, bool global_reference_frame, double distance,
-                                     const MaxEEFStep& max_step, const JumpThreshold& jump_threshold,
+  static double computeCartesianPath(RobotState* start_state, const JointModelGroup* group, std::vector<RobotStatePtr>& traj,
+                                     const LinkModel* link, const Eigen::Vector3d& direction, bool global_reference_frame,
+                                     double distance, const MaxEEFStep& max_step, const JumpThreshold& jump_threshold,
                                      const GroupStateValidityCallbackFn& validCallback = GroupStateValidityCallbackFn(),
                                      const kinematics::KinematicsQueryOptions& options = kinematics::KinematicsQueryOptions())
   {
-    return computeCartesianPath(start_state, group, traj, link, Eigen::Vector3d(distance * direction),
-                                global_reference_frame, max_step, jump_threshold, validCallback, options);
+    return computeCartesianPath(start_state, group, traj, link, Eigen::Vector3d(distance * direction), global_reference_frame,
+                                max_step, jump_threshold, validCallback, options);
   }
   // To a pose, and through poses; of a frame `link_offset` away from the link.
-  static double computeCartesianPath(RobotState* start_state, const JointModelGroup* group,
-                                     std::vector<RobotStatePtr>& traj, const LinkModel* link,
-                                     const Eigen::Isometry3d& target, bool global_reference_frame,
+  static double computeCartesianPath(RobotState* start_state, const JointModelGroup* group, std::vector<RobotStatePtr>& traj,
+                                     const LinkModel* link, const Eigen::Isometry3d& target, bool global_reference_frame,
                                      const MaxEEFStep& max_step, const JumpThreshold& jump_threshold,
                                      const GroupStateValidityCallbackFn& validCallback = GroupStateValidityCallbackFn(),
                                      const kinematics::KinematicsQueryOptions& options = kinematics::KinematicsQueryOptions(),
                                      const Eigen::Isometry3d& link_offset = Eigen::Isometry3d::Identity());
-  static double computeCartesianPath(RobotState* start_state, const JointModelGroup* group,
-                                     std::vector<RobotStatePtr>& traj, const LinkModel* link,
-                                     const EigenSTL::vector_Isometry3d& waypoints, bool global_reference_frame,
-                                     const MaxEEFStep& max_step, const JumpThreshold& jump_threshold,
+  static double computeCartesianPath(RobotState* start_state, const JointModelGroup* group, std::vector<RobotStatePtr>& traj,
+                                     const LinkModel* link, const EigenSTL::vector_Isometry3d& waypoints,
+                                     bool global_reference_frame, const MaxEEFStep& max_step,
+                                     const JumpThreshold& jump_threshold,
                                      const GroupStateValidityCallbackFn& validCallback = GroupStateValidityCallbackFn(),
                                      const kinematics::KinematicsQueryOptions& options = kinematics::KinematicsQueryOptions(),
                                      const Eigen::Isometry3d& link_offset = Eigen::Isometry3d::Identity());

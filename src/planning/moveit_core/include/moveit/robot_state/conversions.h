@@ -16,10 +16,8 @@ bool jointStateToRobotState(const sensor_msgs::JointState& joint_state, RobotSta
 // False, and a line in the log, for an invalid message. With `tf` poses may be in any frame that it knows.
 bool robotStateMsgToRobotState(const Transforms& tf, const moveit_msgs::RobotState& robot_state, RobotState& state,
                                bool copy_attached_bodies = true);
-bool robotStateMsgToRobotState(const moveit_msgs::RobotState& robot_state, RobotState& state,
-                               bool copy_attached_bodies = true);
-void robotStateToRobotStateMsg(const RobotState& state, moveit_msgs::RobotState& robot_state,
-                               bool copy_attached_bodies = true);
+bool robotStateMsgToRobotState(const moveit_msgs::RobotState& robot_state, RobotState& state, bool copy_attached_bodies = true);
+void robotStateToRobotStateMsg(const RobotState& state, moveit_msgs::RobotState& robot_state, bool copy_attached_bodies = true);
 void attachedBodiesToAttachedCollisionObjectMsgs(const std::vector<const AttachedBody*>& attached_bodies,
                                                  std::vector<moveit_msgs::AttachedCollisionObject>& attached_collision_objs);
 void robotStateToJointStateMsg(const RobotState& state, sensor_msgs::JointState& joint_state);

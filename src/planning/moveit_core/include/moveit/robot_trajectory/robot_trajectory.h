@@ -84,8 +84,8 @@ public:
                                          const trajectory_msgs::JointTrajectory& trajectory);
   RobotTrajectory& setRobotTrajectoryMsg(const moveit::core::RobotState& reference_state,
                                          const moveit_msgs::RobotTrajectory& trajectory);
-  RobotTrajectory& setRobotTrajectoryMsg(const moveit::core::RobotState& reference_state,
-                                         const moveit_msgs::RobotState& state, const moveit_msgs::RobotTrajectory& trajectory);
+  RobotTrajectory& setRobotTrajectoryMsg(const moveit::core::RobotState& reference_state, const moveit_msgs::RobotState& state,
+                                         const moveit_msgs::RobotTrajectory& trajectory);
 
   // ------------------------------------------------------------ in between
   void findWayPointIndicesForDurationAfterStart(const double duration, int& before, int& after, double& blend) const;

@@ -21,8 +21,8 @@ namespace moveit_cpp
 MOVEIT_CLASS_FORWARD(PlanningComponent);
 
 // Of those that succeeded the one with the shortest path; else the first.
-planning_interface::MotionPlanResponse
-getShortestSolution(std::vector<planning_interface::MotionPlanResponse> const& solutions);
+planning_interface::MotionPlanResponse getShortestSolution(
+    std::vector<planning_interface::MotionPlanResponse> const& solutions);
 
 class PlanningComponent
 {
@@ -95,10 +95,10 @@ public:
   planning_interface::MotionPlanResponse plan() { return plan(plan_request_parameters_); }
   planning_interface::MotionPlanResponse plan(const PlanRequestParameters& parameters, const bool store_solution = true);
   // Several pipelines side by side; the others are ended once the criterion holds.
-  planning_interface::MotionPlanResponse
-  plan(const MultiPipelinePlanRequestParameters& parameters,
-       const SolutionCallbackFunction& solution_selection_callback = &getShortestSolution,
-       const StoppingCriterionFunction& stopping_criterion_callback = StoppingCriterionFunction());
+  planning_interface::MotionPlanResponse plan(
+      const MultiPipelinePlanRequestParameters& parameters,
+      const SolutionCallbackFunction& solution_selection_callback = &getShortestSolution,
+      const StoppingCriterionFunction& stopping_criterion_callback = StoppingCriterionFunction());
   bool execute(bool blocking = true);  // what was planned last
   planning_interface::MotionPlanResponse const& getLastMotionPlanResponse() { return last_plan_solution_; }
 

@@ -19,17 +19,18 @@
 #include <sensor_msgs/JointState.h>
 #include <tf2_ros/buffer.h>
 
-namespace planning_scene_monitor {
+namespace planning_scene_monitor
+{
 
 using JointStateUpdateCallback = boost::function<void(const sensor_msgs::JointStateConstPtr& joint_state)>;
 
 /// Takes joint states in a thread of its own, so that a program may wait for them without a spinner. Thread-safe.
-class CurrentStateMonitor {
- public:
-  CurrentStateMonitor(const moveit::core::RobotModelConstPtr& robot_model,
-                      const std::shared_ptr<tf2_ros::Buffer>& tf_buffer);
-  CurrentStateMonitor(const moveit::core::RobotModelConstPtr& robot_model,
-                      const std::shared_ptr<tf2_ros::Buffer>& tf_buffer, const ros::NodeHandle& nh);
+class CurrentStateMonitor
+{
+public:
+  CurrentStateMonitor(const moveit::core::RobotModelConstPtr& robot_model, const std::shared_ptr<tf2_ros::Buffer>& tf_buffer);
+  CurrentStateMonitor(const moveit::core::RobotModelConstPtr& robot_model, const std::shared_ptr<tf2_ros::Buffer>& tf_buffer,
+                      const ros::NodeHandle& nh);
   ~CurrentStateMonitor();
   CurrentStateMonitor(const CurrentStateMonitor&) = delete;
   CurrentStateMonitor& operator=(const CurrentStateMonitor&) = delete;
@@ -44,21 +45,26 @@ class CurrentStateMonitor {
 
   // Whether all active joints, of the group or of the robot, have been heard of, since the time or within the age.
   bool haveCompleteState(const std::string& group = "") const { return isComplete(ros::Time(0), nullptr, group); }
-  bool haveCompleteState(const ros::Time& oldest_allowed_update_time, const std::string& group = "") const {
+  bool haveCompleteState(const ros::Time& oldest_allowed_update_time, const std::string& group = "") const
+  {
     return isComplete(oldest_allowed_update_time, nullptr, group);
   }
-  bool haveCompleteState(const ros::Duration& age, const std::string& group = "") const {
+  bool haveCompleteState(const ros::Duration& age, const std::string& group = "") const
+  {
     return isComplete(ros::Time::now() - age, nullptr, group);
   }
-  bool haveCompleteState(std::vector<std::string>& missing_joints, const std::string& group = "") const {
+  bool haveCompleteState(std::vector<std::string>& missing_joints, const std::string& group = "") const
+  {
     return isComplete(ros::Time(0), &missing_joints, group);
   }
   bool haveCompleteState(const ros::Time& oldest_allowed_update_time, std::vector<std::string>& missing_joints,
-                         const std::string& group = "") const {
+                         const std::string& group = "") const
+  {
     return isComplete(oldest_allowed_update_time, &missing_joints, group);
   }
   bool haveCompleteState(const ros::Duration& age, std::vector<std::string>& missing_joints,
-                         const std::string& group = "") const {
+                         const std::string& group = "") const
+  {
     return isComplete(ros::Time::now() - age, &missing_joints, group);
   }
 
@@ -84,7 +90,7 @@ class CurrentStateMonitor {
   /// Take velocities and efforts, too.
   void enableCopyDynamics(bool enabled) { copy_dynamics_ = enabled; }
 
- private:
+private:
   using Joints = std::vector<const moveit::core::JointModel*>;
 
   const Joints& activeJoints(const std::string& group) const;

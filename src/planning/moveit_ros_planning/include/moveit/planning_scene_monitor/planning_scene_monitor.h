@@ -82,7 +82,8 @@ public:
   double getStateUpdateFrequency() const { return state_period_.isZero() ? 0.0 : 1.0 / state_period_.toSec(); }
 
   // ------------------------------------------------------------ what is told to others
-  void startPublishingPlanningScene(SceneUpdateType event, const std::string& planning_scene_topic = MONITORED_PLANNING_SCENE_TOPIC);
+  void startPublishingPlanningScene(SceneUpdateType event,
+                                    const std::string& planning_scene_topic = MONITORED_PLANNING_SCENE_TOPIC);
   void stopPublishingPlanningScene() { publisher_.shutdown(); }
   void setPlanningScenePublishingFrequency(double hz) { publishing_frequency_ = hz; }
   double getPlanningScenePublishingFrequency() const { return publishing_frequency_; }

@@ -17,7 +17,8 @@ public:
   {
     Options(const std::string& robot_description = "robot_description") : robot_description_(robot_description) {}
     Options(const std::string& urdf_string, const std::string& srdf_string)
-      : urdf_string_(urdf_string), srdf_string_(srdf_string)
+      : urdf_string_(urdf_string)
+      , srdf_string_(srdf_string)
     {
     }
     std::string robot_description_;

@@ -15,12 +15,11 @@ std::shared_ptr<tf2_ros::Buffer> getSharedTF();
 /// Null when the parameter holds no robot.
 moveit::core::RobotModelConstPtr getSharedRobotModel(const std::string& robot_description);
 
-planning_scene_monitor::CurrentStateMonitorPtr
-getSharedStateMonitor(const moveit::core::RobotModelConstPtr& robot_model,
-                      const std::shared_ptr<tf2_ros::Buffer>& tf_buffer);
-planning_scene_monitor::CurrentStateMonitorPtr
-getSharedStateMonitor(const moveit::core::RobotModelConstPtr& robot_model,
-                      const std::shared_ptr<tf2_ros::Buffer>& tf_buffer, const ros::NodeHandle& nh);
+planning_scene_monitor::CurrentStateMonitorPtr getSharedStateMonitor(const moveit::core::RobotModelConstPtr& robot_model,
+                                                                     const std::shared_ptr<tf2_ros::Buffer>& tf_buffer);
+planning_scene_monitor::CurrentStateMonitorPtr getSharedStateMonitor(const moveit::core::RobotModelConstPtr& robot_model,
+                                                                     const std::shared_ptr<tf2_ros::Buffer>& tf_buffer,
+                                                                     const ros::NodeHandle& nh);
 
 }  // namespace planning_interface
 }  // namespace moveit

@@ -3,7 +3,8 @@
 
 #include <moveit/move_group_interface/move_group_interface.h>
 
-#warning "moveit/move_group_interface/move_group.h is old: include move_group_interface.h and say MoveGroupInterface, not MoveGroup"
+#warning \
+    "moveit/move_group_interface/move_group.h is old: include move_group_interface.h and say MoveGroupInterface, not MoveGroup"
 
 namespace moveit {
 namespace planning_interface {

@@ -67,8 +67,7 @@ class MoveGroupInterface {
 
   /// Waits for the servers of move_group, for ever when wait_for_servers is zero.
   /// @throws std::runtime_error for a robot or group that is not there, and for servers that do not come in time
-  MoveGroupInterface(const Options& opt,
-                     const std::shared_ptr<tf2_ros::Buffer>& tf_buffer = std::shared_ptr<tf2_ros::Buffer>(),
+  MoveGroupInterface(const Options& opt, const std::shared_ptr<tf2_ros::Buffer>& tf_buffer = std::shared_ptr<tf2_ros::Buffer>(),
                      const ros::WallDuration& wait_for_servers = ros::WallDuration());
   MoveGroupInterface(const Options& opt, const std::shared_ptr<tf2_ros::Buffer>& tf_buffer,
                      const ros::Duration& wait_for_servers);
@@ -103,8 +102,7 @@ class MoveGroupInterface {
 
   bool getInterfaceDescriptions(std::vector<moveit_msgs::PlannerInterfaceDescription>& desc) const;
   bool getInterfaceDescription(moveit_msgs::PlannerInterfaceDescription& desc) const;
-  std::map<std::string, std::string> getPlannerParams(const std::string& planner_id,
-                                                      const std::string& group = "") const;
+  std::map<std::string, std::string> getPlannerParams(const std::string& planner_id, const std::string& group = "") const;
   void setPlannerParams(const std::string& planner_id, const std::string& group,
                         const std::map<std::string, std::string>& params, bool bReplace = false);
   std::string getDefaultPlanningPipelineId() const;
@@ -153,8 +151,7 @@ class MoveGroupInterface {
   bool setJointValueTarget(const geometry_msgs::PoseStamped& eef_pose, const std::string& end_effector_link = "");
   bool setJointValueTarget(const Eigen::Isometry3d& eef_pose, const std::string& end_effector_link = "");
   bool setApproximateJointValueTarget(const geometry_msgs::Pose& eef_pose, const std::string& end_effector_link = "");
-  bool setApproximateJointValueTarget(const geometry_msgs::PoseStamped& eef_pose,
-                                      const std::string& end_effector_link = "");
+  bool setApproximateJointValueTarget(const geometry_msgs::PoseStamped& eef_pose, const std::string& end_effector_link = "");
   bool setApproximateJointValueTarget(const Eigen::Isometry3d& eef_pose, const std::string& end_effector_link = "");
   void setRandomTarget();
   /// A remembered name, or a state of the SRDF.
@@ -203,13 +200,11 @@ class MoveGroupInterface {
                               moveit_msgs::RobotTrajectory& trajectory, bool avoid_collisions = true,
                               moveit_msgs::MoveItErrorCodes* error_code = nullptr);
   double computeCartesianPath(const std::vector<geometry_msgs::Pose>& waypoints, double eef_step, double jump_threshold,
-                              moveit_msgs::RobotTrajectory& trajectory,
-                              const moveit_msgs::Constraints& path_constraints, bool avoid_collisions = true,
-                              moveit_msgs::MoveItErrorCodes* error_code = nullptr);
+                              moveit_msgs::RobotTrajectory& trajectory, const moveit_msgs::Constraints& path_constraints,
+                              bool avoid_collisions = true, moveit_msgs::MoveItErrorCodes* error_code = nullptr);
   double computeCartesianPath(const std::vector<geometry_msgs::Pose>& waypoints, double eef_step,
-                              moveit_msgs::RobotTrajectory& trajectory,
-                              const moveit_msgs::Constraints& path_constraints, bool avoid_collisions = true,
-                              moveit_msgs::MoveItErrorCodes* error_code = nullptr);
+                              moveit_msgs::RobotTrajectory& trajectory, const moveit_msgs::Constraints& path_constraints,
+                              bool avoid_collisions = true, moveit_msgs::MoveItErrorCodes* error_code = nullptr);
 
   /// End whatever moves now, also what others sent.
   void stop();
@@ -222,17 +217,15 @@ class MoveGroupInterface {
 
   moveit_msgs::PickupGoal constructPickupGoal(const std::string& object, std::vector<moveit_msgs::Grasp> grasps,
                                               bool plan_only) const;
-  moveit_msgs::PlaceGoal constructPlaceGoal(const std::string& object,
-                                            std::vector<moveit_msgs::PlaceLocation> locations, bool plan_only) const;
+  moveit_msgs::PlaceGoal constructPlaceGoal(const std::string& object, std::vector<moveit_msgs::PlaceLocation> locations,
+                                            bool plan_only) const;
   /// Down to each pose and back along the end effector.
-  std::vector<moveit_msgs::PlaceLocation>
-  posesToPlaceLocations(const std::vector<geometry_msgs::PoseStamped>& poses) const;
+  std::vector<moveit_msgs::PlaceLocation> posesToPlaceLocations(const std::vector<geometry_msgs::PoseStamped>& poses) const;
 
   moveit::core::MoveItErrorCode pick(const std::string& object, bool plan_only = false) {
     return pick(constructPickupGoal(object, std::vector<moveit_msgs::Grasp>(), plan_only));
   }
-  moveit::core::MoveItErrorCode pick(const std::string& object, const moveit_msgs::Grasp& grasp,
-                                     bool plan_only = false) {
+  moveit::core::MoveItErrorCode pick(const std::string& object, const moveit_msgs::Grasp& grasp, bool plan_only = false) {
     return pick(constructPickupGoal(object, {grasp}, plan_only));
   }
   moveit::core::MoveItErrorCode pick(const std::string& object, std::vector<moveit_msgs::Grasp> grasps,

@@ -40,21 +40,19 @@ class PlanningSceneInterface {
 
   // By name; unknown names are left out. All objects when no name is given, but getObjectPoses gives none then.
   std::map<std::string, geometry_msgs::Pose> getObjectPoses(const std::vector<std::string>& object_ids);
-  std::map<std::string, moveit_msgs::CollisionObject>
-  getObjects(const std::vector<std::string>& object_ids = std::vector<std::string>());
-  std::map<std::string, moveit_msgs::AttachedCollisionObject>
-  getAttachedObjects(const std::vector<std::string>& object_ids = std::vector<std::string>());
+  std::map<std::string, moveit_msgs::CollisionObject> getObjects(
+      const std::vector<std::string>& object_ids = std::vector<std::string>());
+  std::map<std::string, moveit_msgs::AttachedCollisionObject> getAttachedObjects(
+      const std::vector<std::string>& object_ids = std::vector<std::string>());
 
   bool applyCollisionObject(const moveit_msgs::CollisionObject& collision_object);
-  bool applyCollisionObject(const moveit_msgs::CollisionObject& collision_object,
-                            const std_msgs::ColorRGBA& object_color);
+  bool applyCollisionObject(const moveit_msgs::CollisionObject& collision_object, const std_msgs::ColorRGBA& object_color);
   /// A color without an id belongs to the object at the same place of the list.
   bool applyCollisionObjects(
       const std::vector<moveit_msgs::CollisionObject>& collision_objects,
       const std::vector<moveit_msgs::ObjectColor>& object_colors = std::vector<moveit_msgs::ObjectColor>());
   bool applyAttachedCollisionObject(const moveit_msgs::AttachedCollisionObject& attached_collision_object);
-  bool
-  applyAttachedCollisionObjects(const std::vector<moveit_msgs::AttachedCollisionObject>& attached_collision_objects);
+  bool applyAttachedCollisionObjects(const std::vector<moveit_msgs::AttachedCollisionObject>& attached_collision_objects);
 
   /// @param components bits of moveit_msgs/PlanningSceneComponents, 0 for all
   moveit_msgs::PlanningScene getPlanningSceneMsg(uint32_t components);

@@ -90,7 +90,8 @@ private:
   std::weak_ptr<Slot> slot_;
 };
 
-template <typename T> class EventT : public Event
+template <typename T>
+class EventT : public Event
 {
   struct Function : Slot
   {
@@ -153,10 +154,15 @@ public:
     return count;
   }
 
-  template <typename... Arguments> void operator()(const Arguments&... arguments) { Signal(arguments...); }
+  template <typename... Arguments>
+  void operator()(const Arguments&... arguments)
+  {
+    Signal(arguments...);
+  }
 
   /// What a plugin throws ends its connection, with one line.
-  template <typename... Arguments> void Signal(const Arguments&... arguments)
+  template <typename... Arguments>
+  void Signal(const Arguments&... arguments)
   {
     SetSignaled(true);
     const auto functions = all();  // kept while they are called: a callback may connect another

@@ -15,9 +15,13 @@ namespace event
 class GAZEBO_VISIBLE Events
 {
 public:
-#define GZ_EVENT(name, Name, type) \
-  static EventT<type>& name; \
-  template <typename T> static ConnectionPtr Connect##Name(T subscriber) { return name.Connect(subscriber); } \
+#define GZ_EVENT(name, Name, type)                 \
+  static EventT<type>& name;                       \
+  template <typename T>                            \
+  static ConnectionPtr Connect##Name(T subscriber) \
+  {                                                \
+    return name.Connect(subscriber);               \
+  }                                                \
   static void Disconnect##Name(ConnectionPtr connection) { name.Disconnect(connection); }
 
   GZ_EVENT(pause, Pause, void(bool))

@@ -6,10 +6,10 @@
 
 #include <gazebo/util/system.hh>
 
-#define gzthrow(msg) \
-  { \
-    std::ostringstream throwStream; \
-    throwStream << msg << std::endl << std::flush; \
+#define gzthrow(msg)                                                        \
+  {                                                                         \
+    std::ostringstream throwStream;                                         \
+    throwStream << msg << std::endl << std::flush;                          \
     throw gazebo::common::Exception(__FILE__, __LINE__, throwStream.str()); \
   }
 

@@ -21,10 +21,19 @@ namespace gazebo
 
 class Event;
 
-enum PluginType { WORLD_PLUGIN, MODEL_PLUGIN, SENSOR_PLUGIN, SYSTEM_PLUGIN, VISUAL_PLUGIN, GUI_PLUGIN };
+enum PluginType
+{
+  WORLD_PLUGIN,
+  MODEL_PLUGIN,
+  SENSOR_PLUGIN,
+  SYSTEM_PLUGIN,
+  VISUAL_PLUGIN,
+  GUI_PLUGIN
+};
 
 /// What all plugins have. The members of the loader, filename and handleName, are set before Load().
-template <class T> class PluginT : public boost::enable_shared_from_this<T>
+template <class T>
+class PluginT : public boost::enable_shared_from_this<T>
 {
 public:
   typedef boost::shared_ptr<T> TPtr;
@@ -94,7 +103,7 @@ public:
 
 }  // namespace gazebo
 
-#define GZ_REGISTER_PLUGIN_OF(base, classname) \
+#define GZ_REGISTER_PLUGIN_OF(base, classname)              \
   extern "C" GAZEBO_VISIBLE gazebo::base* RegisterPlugin(); \
   gazebo::base* RegisterPlugin() { return new classname(); }
 #define GZ_REGISTER_MODEL_PLUGIN(classname) GZ_REGISTER_PLUGIN_OF(ModelPlugin, classname)

@@ -18,23 +18,38 @@ class GAZEBO_VISIBLE SphericalCoordinates
   using Ign = ignition::math::SphericalCoordinates;
 
 public:
-  enum SurfaceType { EARTH_WGS84 = 1 };
-  enum CoordinateType { SPHERICAL = 1, ECEF, GLOBAL, LOCAL };
+  enum SurfaceType
+  {
+    EARTH_WGS84 = 1
+  };
+  enum CoordinateType
+  {
+    SPHERICAL = 1,
+    ECEF,
+    GLOBAL,
+    LOCAL
+  };
 
   SphericalCoordinates() : ign_(Ign::EARTH_WGS84) {}
   explicit SphericalCoordinates(SurfaceType) : SphericalCoordinates() {}
-  SphericalCoordinates(SurfaceType, const ignition::math::Angle& latitude, const ignition::math::Angle& longitude, double elevation,
-                       const ignition::math::Angle& heading)
+  SphericalCoordinates(SurfaceType, const ignition::math::Angle& latitude, const ignition::math::Angle& longitude,
+                       double elevation, const ignition::math::Angle& heading)
     : ign_(Ign::EARTH_WGS84, latitude, longitude, elevation, heading)
   {
   }
-  ignition::math::Vector3d SphericalFromLocal(const ignition::math::Vector3d& p) const { return ign_.SphericalFromLocalPosition(p); }
+  ignition::math::Vector3d SphericalFromLocal(const ignition::math::Vector3d& p) const
+  {
+    return ign_.SphericalFromLocalPosition(p);
+  }
   ignition::math::Vector3d GlobalFromLocal(const ignition::math::Vector3d& v) const { return ign_.GlobalFromLocalVelocity(v); }
-  ignition::math::Vector3d LocalFromSpherical(const ignition::math::Vector3d& p) const { return ign_.LocalFromSphericalPosition(p); }
+  ignition::math::Vector3d LocalFromSpherical(const ignition::math::Vector3d& p) const
+  {
+    return ign_.LocalFromSphericalPosition(p);
+  }
   ignition::math::Vector3d LocalFromGlobal(const ignition::math::Vector3d& v) const { return ign_.LocalFromGlobalVelocity(v); }
   static SurfaceType Convert(const std::string&) { return EARTH_WGS84; }
-  static double Distance(const ignition::math::Angle& latA, const ignition::math::Angle& lonA, const ignition::math::Angle& latB,
-                         const ignition::math::Angle& lonB)
+  static double Distance(const ignition::math::Angle& latA, const ignition::math::Angle& lonA,
+                         const ignition::math::Angle& latB, const ignition::math::Angle& lonB)
   {
     return Ign::Distance(latA, lonA, latB, lonB);
   }

@@ -19,7 +19,14 @@ public:
   static const Time Zero;
   static const Time Second;
   static const Time Hour;
-  enum FormatOption { DAYS = 0, HOURS = 1, MINUTES = 2, SECONDS = 3, MILLISECONDS = 4 };
+  enum FormatOption
+  {
+    DAYS = 0,
+    HOURS = 1,
+    MINUTES = 2,
+    SECONDS = 3,
+    MILLISECONDS = 4
+  };
 
   Time() = default;
   Time(const timeval& time);
@@ -47,11 +54,11 @@ public:
   Time& operator=(const timeval& time) { return *this = Time(time); }
   Time& operator=(const timespec& time) { return *this = Time(time); }
 
-#define GZ_TIME_ARITHMETIC(op) \
-  Time operator op(const Time& other) const; \
-  const Time& operator op##=(const Time& other) { return *this = *this op other; } \
-  Time operator op(const timeval& other) const { return *this op Time(other); } \
-  Time operator op(const timespec& other) const { return *this op Time(other); } \
+#define GZ_TIME_ARITHMETIC(op)                                                              \
+  Time operator op(const Time& other) const;                                                \
+  const Time& operator op##=(const Time& other) { return *this = *this op other; }          \
+  Time operator op(const timeval& other) const { return *this op Time(other); }             \
+  Time operator op(const timespec& other) const { return *this op Time(other); }            \
   const Time& operator op##=(const timeval& other) { return *this = *this op Time(other); } \
   const Time& operator op##=(const timespec& other) { return *this = *this op Time(other); }
   GZ_TIME_ARITHMETIC(+)
@@ -60,9 +67,9 @@ public:
   GZ_TIME_ARITHMETIC(/)
 #undef GZ_TIME_ARITHMETIC
 
-#define GZ_TIME_COMPARISON(op, expression) \
-  bool operator op(const Time& other) const { return expression; } \
-  bool operator op(const timeval& other) const { return *this op Time(other); } \
+#define GZ_TIME_COMPARISON(op, expression)                                       \
+  bool operator op(const Time& other) const { return expression; }               \
+  bool operator op(const timeval& other) const { return *this op Time(other); }  \
   bool operator op(const timespec& other) const { return *this op Time(other); } \
   bool operator op(double other) const { return *this op Time(other); }
   GZ_TIME_COMPARISON(==, sec == other.sec && nsec == other.nsec)

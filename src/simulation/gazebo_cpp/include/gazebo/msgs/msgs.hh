@@ -17,7 +17,7 @@ namespace gazebo
 namespace msgs
 {
 
-#define GZ_CONVERT(Message, Type) \
+#define GZ_CONVERT(Message, Type)                    \
   GAZEBO_VISIBLE Message Convert(const Type& value); \
   GAZEBO_VISIBLE void Set(Message* message, const Type& value);
 GZ_CONVERT(Vector3d, ignition::math::Vector3d)
@@ -53,7 +53,8 @@ GAZEBO_VISIBLE Any ConvertAny(const common::Time& value);
 
 /// The caller owns it.
 GAZEBO_VISIBLE Request* CreateRequest(const std::string& request, const std::string& data = "");
-GAZEBO_VISIBLE void Init(google::protobuf::Message& message, const std::string& id = "");  // header, stamped, where there is one
+GAZEBO_VISIBLE void Init(google::protobuf::Message& message,
+                         const std::string& id = "");  // header, stamped, where there is one
 GAZEBO_VISIBLE Header* GetHeader(google::protobuf::Message& message);
 GAZEBO_VISIBLE void Stamp(Header* header);
 GAZEBO_VISIBLE void Stamp(Time* time);

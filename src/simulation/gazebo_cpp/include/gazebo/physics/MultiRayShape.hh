@@ -44,7 +44,11 @@ public:
   double GetVerticalScanResolution() const { return vertical_.resolution; }
   ignition::math::Angle VerticalMinAngle() const { return vertical_.min; }
   ignition::math::Angle VerticalMaxAngle() const { return vertical_.max; }
-  template <typename T> event::ConnectionPtr ConnectNewLaserScans(T subscriber) { return scanned_.Connect(subscriber); }
+  template <typename T>
+  event::ConnectionPtr ConnectNewLaserScans(T subscriber)
+  {
+    return scanned_.Connect(subscriber);
+  }
   unsigned int Listeners() const { return scanned_.ConnectionCount(); }
 
 private:

@@ -48,7 +48,12 @@ private:
 class GAZEBO_VISIBLE CylinderShape : public Shape
 {
 public:
-  CylinderShape(CollisionPtr parent, double radius, double length) : Shape(parent, CYLINDER_SHAPE), radius_(radius), length_(length) {}
+  CylinderShape(CollisionPtr parent, double radius, double length)
+    : Shape(parent, CYLINDER_SHAPE)
+    , radius_(radius)
+    , length_(length)
+  {
+  }
   double GetRadius() const { return radius_; }
   double GetLength() const { return length_; }
   double ComputeVolume() const override { return 3.14159265358979323846 * radius_ * radius_ * length_; }
@@ -72,7 +77,9 @@ class GAZEBO_VISIBLE MeshShape : public Shape
 {
 public:
   MeshShape(CollisionPtr parent, const std::string& uri, const ignition::math::Vector3d& scale)
-    : Shape(parent, MESH_SHAPE), uri_(uri), scale_(scale)
+    : Shape(parent, MESH_SHAPE)
+    , uri_(uri)
+    , scale_(scale)
   {
   }
   std::string GetMeshURI() const { return uri_; }

@@ -12,7 +12,8 @@ class GAZEBO_VISIBLE GpuRayPlugin : public SensorPlugin
 {
 public:
   void Load(sensors::SensorPtr sensor, sdf::ElementPtr sdf) override;
-  virtual void OnNewLaserFrame(const float* data, unsigned int width, unsigned int height, unsigned int depth, const std::string& format);
+  virtual void OnNewLaserFrame(const float* data, unsigned int width, unsigned int height, unsigned int depth,
+                               const std::string& format);
 
 protected:
   unsigned int width = 0, height = 0, depth = 0;

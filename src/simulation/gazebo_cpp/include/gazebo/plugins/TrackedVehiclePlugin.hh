@@ -47,7 +47,8 @@ protected:
   virtual void UpdateTrackSurface() = 0;
   void SetLinkMu(const physics::LinkPtr& link);
 
-  template <typename T> void LoadParam(sdf::ElementPtr sdf, const std::string& name, T& target, T otherwise) const
+  template <typename T>
+  void LoadParam(sdf::ElementPtr sdf, const std::string& name, T& target, T otherwise) const
   {
     target = sdf->Get<T>(name, otherwise).first;
   }

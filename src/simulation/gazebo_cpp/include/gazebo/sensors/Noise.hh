@@ -18,7 +18,13 @@ namespace sensors
 class GAZEBO_VISIBLE Noise
 {
 public:
-  enum NoiseType { NONE, CUSTOM, GAUSSIAN, GAUSSIAN_QUANTIZED };
+  enum NoiseType
+  {
+    NONE,
+    CUSTOM,
+    GAUSSIAN,
+    GAUSSIAN_QUANTIZED
+  };
 
   explicit Noise(NoiseType type) : type_(type) {}
   virtual ~Noise() = default;

@@ -42,7 +42,7 @@ public:
   void Restart();  // time has gone back
 
   std::string Name() const { return name_; }
-  std::string ScopedName() const;   // world::model::link::sensor
+  std::string ScopedName() const;                        // world::model::link::sensor
   std::string ParentName() const { return parentName; }  // model::link
   uint32_t ParentId() const { return parentId; }
   uint32_t Id() const { return id_; }
@@ -66,8 +66,8 @@ public:
   const sdf::ElementPtr Element() const { return sdf; }
 
 protected:
-  virtual bool UpdateImpl(bool force) = 0;   // measure
-  bool listened() const;  // to its topic
+  virtual bool UpdateImpl(bool force) = 0;  // measure
+  bool listened() const;                    // to its topic
   std::string topicOf(const std::string& end) const;
   ignition::math::Pose3d worldPose() const;
   ignition::math::Vector3d velocity() const;  // of the sensor's origin, world axes, m/s

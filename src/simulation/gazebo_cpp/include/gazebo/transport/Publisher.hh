@@ -25,7 +25,11 @@ public:
   void WaitForConnection() const { WaitForConnection(common::Time(-1.0)); }
   bool WaitForConnection(const common::Time& timeout) const;  // negative: for ever
   void Publish(const google::protobuf::Message& message, bool block = false) { publish(message, block); }
-  template <typename M> void Publish(M message, bool block = false) { publish(message, block); }
+  template <typename M>
+  void Publish(M message, bool block = false)
+  {
+    publish(message, block);
+  }
   unsigned int GetRemoteSubscriptionCount();
   unsigned int GetOutgoingCount() const;
   std::string GetTopic() const;

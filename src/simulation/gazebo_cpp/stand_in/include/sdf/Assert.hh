@@ -6,8 +6,8 @@
 
 namespace sdf
 {
-[[noreturn]] inline void assertFailed(const std::string& expression, const std::string& function, const char* file, std::int64_t line,
-                                      const std::string& message)
+[[noreturn]] inline void assertFailed(const std::string& expression, const std::string& function, const char* file,
+                                      std::int64_t line, const std::string& message)
 {
   throw AssertionInternalError(file, line, expression, function, message);
 }

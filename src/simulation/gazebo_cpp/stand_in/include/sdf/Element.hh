@@ -111,8 +111,8 @@ public:
   ElementPtr GetNextElement(const std::string& name = "") const;
   std::set<std::string> GetElementTypeNames() const;
   /// How many children of a kind (of all) have which name.
-  std::map<std::string, std::size_t> CountNamedElements(const std::string& type = "",
-                                                        const std::vector<std::string>& ignored = std::vector<std::string>()) const;
+  std::map<std::string, std::size_t> CountNamedElements(
+      const std::string& type = "", const std::vector<std::string>& ignored = std::vector<std::string>()) const;
   bool HasUniqueChildNames(const std::string& type = "") const;
   /// A described child that is not there is made; of others there is none.
   ElementPtr GetElement(const std::string& name);

@@ -36,7 +36,10 @@ public:
   Error() = default;
   Error(ErrorCode code, const std::string& message) : code_(code), message_(message) {}
   Error(ErrorCode code, const std::string& message, const std::string& file) : Error(code, message) { file_ = file; }
-  Error(ErrorCode code, const std::string& message, const std::string& file, int line) : Error(code, message, file) { line_ = line; }
+  Error(ErrorCode code, const std::string& message, const std::string& file, int line) : Error(code, message, file)
+  {
+    line_ = line;
+  }
   ErrorCode Code() const { return code_; }
   std::string Message() const { return message_; }
   std::optional<std::string> FilePath() const { return file_; }

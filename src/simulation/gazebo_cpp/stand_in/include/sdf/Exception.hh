@@ -6,10 +6,10 @@
 
 #include <sdf/Types.hh>
 
-#define sdfthrow(message)                                \
-  {                                                      \
-    std::ostringstream sdfthrow_text;                    \
-    sdfthrow_text << message << std::endl << std::flush; \
+#define sdfthrow(message)                                          \
+  {                                                                \
+    std::ostringstream sdfthrow_text;                              \
+    sdfthrow_text << message << std::endl << std::flush;           \
     throw sdf::Exception(__FILE__, __LINE__, sdfthrow_text.str()); \
   }
 
@@ -22,7 +22,9 @@ class SDFORMAT_VISIBLE Exception
 {
 public:
   Exception() = default;
-  Exception(const char* file, std::int64_t line, std::string message) : file_(file), line_(line), message_(std::move(message)) {}
+  Exception(const char* file, std::int64_t line, std::string message) : file_(file), line_(line), message_(std::move(message))
+  {
+  }
   virtual ~Exception() = default;
   std::string GetErrorFile() const { return file_; }
   std::string GetErrorStr() const { return message_; }

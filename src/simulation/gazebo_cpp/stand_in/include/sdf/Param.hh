@@ -76,7 +76,8 @@ std::string SDFORMAT_VISIBLE name_of(const std::type_info& type);
 class SDFORMAT_VISIBLE Param
 {
 public:
-  Param(const std::string& key, const std::string& type, const std::string& fallback, bool required, const std::string& description = "");
+  Param(const std::string& key, const std::string& type, const std::string& fallback, bool required,
+        const std::string& description = "");
   Param(const std::string& key, const std::string& type, const std::string& fallback, bool required, const std::string& minimum,
         const std::string& maximum, const std::string& description = "");
   Param(const Param& other) = default;

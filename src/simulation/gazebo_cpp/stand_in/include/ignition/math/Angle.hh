@@ -47,10 +47,7 @@ public:
   bool operator<=(const Angle& a) const { return value_ < a.value_ || equal(value_, a.value_); }
   bool operator>(const Angle& a) const { return value_ > a.value_; }
   bool operator>=(const Angle& a) const { return value_ > a.value_ || equal(value_, a.value_); }
-  friend std::ostream& operator<<(std::ostream& out, const Angle& angle)
-  {
-    return out << angle.value_;
-  }
+  friend std::ostream& operator<<(std::ostream& out, const Angle& angle) { return out << angle.value_; }
   friend std::istream& operator>>(std::istream& in, Angle& angle)
   {
     in.setf(std::ios_base::skipws);

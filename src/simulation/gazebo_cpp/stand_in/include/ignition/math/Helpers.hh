@@ -14,12 +14,12 @@
 #define IGN_PI_2 1.57079632679489661923
 #define IGN_PI_4 0.78539816339744830962
 #define IGN_SQRT2 1.41421356237309504880
-#define IGN_RTOD(radian) ((radian) * 180.0 / IGN_PI)
-#define IGN_DTOR(degree) ((degree) * IGN_PI / 180.0)
+#define IGN_RTOD(radian) ((radian)*180.0 / IGN_PI)
+#define IGN_DTOR(degree) ((degree)*IGN_PI / 180.0)
 #define IGN_NORMALIZE(angle) (std::atan2(std::sin(angle), std::cos(angle)))
 #define IGN_FP_VOLATILE
 #define IGN_SPHERE_VOLUME(radius) (4.0 * IGN_PI * std::pow(radius, 3) / 3.0)
-#define IGN_CYLINDER_VOLUME(radius, length) ((length) * IGN_PI * std::pow(radius, 2))
+#define IGN_CYLINDER_VOLUME(radius, length) ((length)*IGN_PI * std::pow(radius, 2))
 #define IGN_BOX_VOLUME(x, y, z) ((x) * (y) * (z))
 #define IGN_BOX_VOLUME_V(size) ((size).X() * (size).Y() * (size).Z())
 #define IGN_DBL_MAX ignition::math::MAX_D
@@ -130,7 +130,8 @@ template <typename T>
 inline bool equal(const T& a, const T& b, const T& epsilon = T(1e-6))
 {
   const T larger = std::max(a, b), smaller = std::min(a, b);
-  return std::isnan(static_cast<double>(a)) || std::isnan(static_cast<double>(b)) ? false : a == b || larger - smaller <= epsilon;
+  return std::isnan(static_cast<double>(a)) || std::isnan(static_cast<double>(b)) ? false
+                                                                                  : a == b || larger - smaller <= epsilon;
 }
 
 template <typename T>

@@ -30,12 +30,16 @@ public:
   bool Collinear(const Vector2<T>& point, double epsilon = 1e-6) const { return equal(CrossProduct(point), 0.0, epsilon); }
   bool Parallel(const Line2& line, double epsilon = 1e-6) const { return equal(CrossProduct(line), 0.0, epsilon); }
   bool Collinear(const Line2& line, double epsilon = 1e-6) const { return Parallel(line, epsilon) && Intersect(line, epsilon); }
-  bool OnSegment(const Vector2<T>& point, double epsilon = 1e-6) const { return Collinear(point, epsilon) && Within(point, epsilon); }
+  bool OnSegment(const Vector2<T>& point, double epsilon = 1e-6) const
+  {
+    return Collinear(point, epsilon) && Within(point, epsilon);
+  }
   /// In the box that the segment spans.
   bool Within(const Vector2<T>& point, double epsilon = 1e-6) const
   {
     for (int i = 0; i < 2; ++i)
-      if (point[i] > std::max(points_[0][i], points_[1][i]) + epsilon || point[i] < std::min(points_[0][i], points_[1][i]) - epsilon)
+      if (point[i] > std::max(points_[0][i], points_[1][i]) + epsilon ||
+          point[i] < std::min(points_[0][i], points_[1][i]) - epsilon)
         return false;
     return true;
   }
@@ -64,7 +68,8 @@ public:
     const double here = cross(start, line.along()) / turn, there = cross(start, along()) / turn;
     if (here < 0 || here > 1 || there < 0 || there > 1)
       return false;
-    point = Vector2<T>(static_cast<T>(points_[0].X() + here * along().X()), static_cast<T>(points_[0].Y() + here * along().Y()));
+    point =
+        Vector2<T>(static_cast<T>(points_[0].X() + here * along().X()), static_cast<T>(points_[0].Y() + here * along().Y()));
     return true;
   }
   T Length() const { return static_cast<T>(std::sqrt(along().SquaredLength())); }
@@ -76,7 +81,10 @@ public:
   bool operator==(const Line2& line) const { return points_[0] == line.points_[0] && points_[1] == line.points_[1]; }
   bool operator!=(const Line2& line) const { return !(*this == line); }
   Vector2<T> operator[](std::size_t index) const { return points_[std::min<std::size_t>(index, 1)]; }
-  friend std::ostream& operator<<(std::ostream& out, const Line2& line) { return out << line.points_[0] << " " << line.points_[1]; }
+  friend std::ostream& operator<<(std::ostream& out, const Line2& line)
+  {
+    return out << line.points_[0] << " " << line.points_[1];
+  }
 
 private:
   Vector2<T> along() const { return points_[1] - points_[0]; }

@@ -48,7 +48,8 @@ public:
   }
   bool Coplanar(const Line3& line, double epsilon = 1e-6) const
   {
-    return std::abs((line.points_[0] - points_[0]).Dot((points_[0] - points_[1]).Cross(line.points_[0] - line.points_[1]))) <= epsilon;
+    return std::abs((line.points_[0] - points_[0]).Dot((points_[0] - points_[1]).Cross(line.points_[0] - line.points_[1]))) <=
+           epsilon;
   }
   bool Parallel(const Line3& line, double epsilon = 1e-6) const
   {
@@ -71,14 +72,18 @@ public:
   bool Within(const Vector3<T>& point, double epsilon = 1e-6) const
   {
     for (int i = 0; i < 3; ++i)
-      if (point[i] > std::max(points_[0][i], points_[1][i]) + epsilon || point[i] < std::min(points_[0][i], points_[1][i]) - epsilon)
+      if (point[i] > std::max(points_[0][i], points_[1][i]) + epsilon ||
+          point[i] < std::min(points_[0][i], points_[1][i]) - epsilon)
         return false;
     return true;
   }
   bool operator==(const Line3& line) const { return points_[0] == line.points_[0] && points_[1] == line.points_[1]; }
   bool operator!=(const Line3& line) const { return !(*this == line); }
   Vector3<T> operator[](std::size_t index) const { return points_[std::min<std::size_t>(index, 1)]; }
-  friend std::ostream& operator<<(std::ostream& out, const Line3& line) { return out << line.points_[0] << " " << line.points_[1]; }
+  friend std::ostream& operator<<(std::ostream& out, const Line3& line)
+  {
+    return out << line.points_[0] << " " << line.points_[1];
+  }
 
 private:
   Vector3<T> points_[2];
@@ -87,7 +92,8 @@ private:
 template <typename T>
 bool Line3<T>::Distance(const Line3& line, Line3& result, double epsilon) const
 {
-  const Vector3<T> mine = points_[1] - points_[0], its = line.points_[1] - line.points_[0], start = points_[0] - line.points_[0];
+  const Vector3<T> mine = points_[1] - points_[0], its = line.points_[1] - line.points_[0],
+                   start = points_[0] - line.points_[0];
   const T a = mine.SquaredLength(), e = its.SquaredLength(), b = mine.Dot(its), c = mine.Dot(start), f = its.Dot(start);
   if (a < epsilon * epsilon || e < epsilon * epsilon)
     return false;

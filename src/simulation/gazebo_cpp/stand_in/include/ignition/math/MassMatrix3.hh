@@ -57,14 +57,14 @@ public:
   }
   bool DiagonalMoments(const Vector3<T>& v) { return SetDiagonalMoments(v); }
   bool OffDiagonalMoments(const Vector3<T>& v) { return SetOffDiagonalMoments(v); }
-#define NOETIC_MOMENT(Name, NAME, field)   \
-  T Name() const { return field; }         \
-  T NAME() const { return field; }         \
-  bool Set##Name(const T& v)               \
-  {                                        \
-    field = v;                             \
-    return IsValid();                      \
-  }                                        \
+#define NOETIC_MOMENT(Name, NAME, field) \
+  T Name() const { return field; }       \
+  T NAME() const { return field; }       \
+  bool Set##Name(const T& v)             \
+  {                                      \
+    field = v;                           \
+    return IsValid();                    \
+  }                                      \
   bool NAME(const T& v) { return Set##Name(v); }
   NOETIC_MOMENT(Ixx, IXX, diagonal_.X())
   NOETIC_MOMENT(Iyy, IYY, diagonal_.Y())
@@ -73,25 +73,23 @@ public:
   NOETIC_MOMENT(Ixz, IXZ, off_.Y())
   NOETIC_MOMENT(Iyz, IYZ, off_.Z())
 #undef NOETIC_MOMENT
-  Matrix3<T> Moi() const
-  {
-    return Matrix3<T>(Ixx(), Ixy(), Ixz(), Ixy(), Iyy(), Iyz(), Ixz(), Iyz(), Izz());
-  }
+  Matrix3<T> Moi() const { return Matrix3<T>(Ixx(), Ixy(), Ixz(), Ixy(), Iyy(), Iyz(), Ixz(), Iyz(), Izz()); }
   Matrix3<T> MOI() const { return Moi(); }
   bool SetMoi(const Matrix3<T>& m)
   {
     const T half = static_cast<T>(0.5);
-    return SetInertiaMatrix(m(0, 0), m(1, 1), m(2, 2), half * (m(0, 1) + m(1, 0)), half * (m(0, 2) + m(2, 0)), half * (m(1, 2) + m(2, 1)));
+    return SetInertiaMatrix(m(0, 0), m(1, 1), m(2, 2), half * (m(0, 1) + m(1, 0)), half * (m(0, 2) + m(2, 0)),
+                            half * (m(1, 2) + m(2, 1)));
   }
   bool MOI(const Matrix3<T>& m) { return SetMoi(m); }
-  bool operator==(const MassMatrix3& m) const
-  {
-    return equal<T>(mass_, m.mass_) && diagonal_ == m.diagonal_ && off_ == m.off_;
-  }
+  bool operator==(const MassMatrix3& m) const { return equal<T>(mass_, m.mass_) && diagonal_ == m.diagonal_ && off_ == m.off_; }
   bool operator!=(const MassMatrix3& m) const { return !(*this == m); }
 
   bool IsPositive(const T tolerance = IGN_MASSMATRIX3_DEFAULT_TOLERANCE<T>) const { return positive(Epsilon(tolerance), true); }
-  bool IsNearPositive(const T tolerance = IGN_MASSMATRIX3_DEFAULT_TOLERANCE<T>) const { return positive(Epsilon(tolerance), false); }
+  bool IsNearPositive(const T tolerance = IGN_MASSMATRIX3_DEFAULT_TOLERANCE<T>) const
+  {
+    return positive(Epsilon(tolerance), false);
+  }
   T Epsilon(const T tolerance = IGN_MASSMATRIX3_DEFAULT_TOLERANCE<T>) const { return Epsilon(diagonal_, tolerance); }
   static T Epsilon(const Vector3<T>& moments, const T tolerance = IGN_MASSMATRIX3_DEFAULT_TOLERANCE<T>)
   {
@@ -124,7 +122,10 @@ public:
     return mass > 0 && length > 0 && radius > 0 && SetMassThen(mass) && SetFromCylinderZ(length, radius, rotation);
   }
   bool SetFromCylinderZ(const T length, const T radius, const Quaternion<T>& rotation);
-  bool SetFromSphere(const T mass, const T radius) { return mass > 0 && radius > 0 && SetMassThen(mass) && SetFromSphere(radius); }
+  bool SetFromSphere(const T mass, const T radius)
+  {
+    return mass > 0 && radius > 0 && SetMassThen(mass) && SetFromSphere(radius);
+  }
   bool SetFromSphere(const T radius);
 
 private:

@@ -59,10 +59,7 @@ public:
   friend Matrix3 operator*(T s, const Matrix3& m) { return m * s; }
   friend Vector3<T> operator*(const Vector3<T>& v, const Matrix3& m) { return m.Transposed() * v; }
 
-  T Determinant() const
-  {
-    return minor(0, 0) * (*this)(0, 0) - minor(0, 1) * (*this)(0, 1) + minor(0, 2) * (*this)(0, 2);
-  }
+  T Determinant() const { return minor(0, 0) * (*this)(0, 0) - minor(0, 1) * (*this)(0, 1) + minor(0, 2) * (*this)(0, 2); }
   Matrix3 Inverse() const
   {
     const T scale = 1 / Determinant();
@@ -116,8 +113,8 @@ void Matrix3<T>::Axis(const Vector3<T>& axis, T angle)
 {
   const T c = static_cast<T>(std::cos(angle)), s = static_cast<T>(std::sin(angle)), rest = 1 - c;
   const T x = axis.X(), y = axis.Y(), z = axis.Z();
-  Set(x * x * rest + c, x * y * rest - z * s, x * z * rest + y * s, x * y * rest + z * s, y * y * rest + c, y * z * rest - x * s,
-      x * z * rest - y * s, y * z * rest + x * s, z * z * rest + c);
+  Set(x * x * rest + c, x * y * rest - z * s, x * z * rest + y * s, x * y * rest + z * s, y * y * rest + c,
+      y * z * rest - x * s, x * z * rest - y * s, y * z * rest + x * s, z * z * rest + c);
 }
 
 template <typename T>

@@ -75,8 +75,8 @@ public:
   Pose3<T> Pose() const { return Pose3<T>(Translation(), Rotation()); }
   bool IsAffine() const
   {
-    return equal((*this)(3, 0), static_cast<T>(0)) && equal((*this)(3, 1), static_cast<T>(0)) && equal((*this)(3, 2), static_cast<T>(0)) &&
-           equal((*this)(3, 3), static_cast<T>(1));
+    return equal((*this)(3, 0), static_cast<T>(0)) && equal((*this)(3, 1), static_cast<T>(0)) &&
+           equal((*this)(3, 2), static_cast<T>(0)) && equal((*this)(3, 3), static_cast<T>(1));
   }
   bool TransformAffine(const Vector3<T>& v, Vector3<T>& result) const
   {
@@ -165,7 +165,8 @@ Matrix4<T> Matrix4<T>::LookAt(const Vector3<T>& eye, const Vector3<T>& target, c
   else
     left.Normalize();
   const Vector3<T> top = front.Cross(left).Normalized();
-  return Matrix4(front.X(), left.X(), top.X(), eye.X(), front.Y(), left.Y(), top.Y(), eye.Y(), front.Z(), left.Z(), top.Z(), eye.Z(), 0, 0, 0, 1);
+  return Matrix4(front.X(), left.X(), top.X(), eye.X(), front.Y(), left.Y(), top.Y(), eye.Y(), front.Z(), left.Z(), top.Z(),
+                 eye.Z(), 0, 0, 0, 1);
 }
 
 typedef Matrix4<int> Matrix4i;

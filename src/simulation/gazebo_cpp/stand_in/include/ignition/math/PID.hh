@@ -14,8 +14,8 @@ inline namespace v6
 class IGNITION_MATH_VISIBLE PID
 {
 public:
-  PID(double p = 0.0, double i = 0.0, double d = 0.0, double imax = -1.0, double imin = 0.0, double cmdMax = -1.0, double cmdMin = 0.0,
-      double cmdOffset = 0.0)
+  PID(double p = 0.0, double i = 0.0, double d = 0.0, double imax = -1.0, double imin = 0.0, double cmdMax = -1.0,
+      double cmdMin = 0.0, double cmdOffset = 0.0)
   {
     Init(p, i, d, imax, imin, cmdMax, cmdMin, cmdOffset);
   }

@@ -18,7 +18,13 @@ template <typename T>
 class Plane
 {
 public:
-  enum PlaneSide { NEGATIVE_SIDE = 0, POSITIVE_SIDE = 1, NO_SIDE = 2, BOTH_SIDE = 3 };
+  enum PlaneSide
+  {
+    NEGATIVE_SIDE = 0,
+    POSITIVE_SIDE = 1,
+    NO_SIDE = 2,
+    BOTH_SIDE = 3
+  };
 
   Plane() = default;
   Plane(const Vector3<T>& normal, T offset = 0.0) : normal_(normal), offset_(offset) {}
@@ -40,7 +46,8 @@ public:
     const T slope = normal_.Dot(direction);
     return std::abs(slope) < 1e-3 ? 0 : (offset_ - normal_.Dot(origin)) / slope;
   }
-  std::optional<Vector3<T>> Intersection(const Vector3<T>& point, const Vector3<T>& gradient, const double& tolerance = 1e-6) const
+  std::optional<Vector3<T>> Intersection(const Vector3<T>& point, const Vector3<T>& gradient,
+                                         const double& tolerance = 1e-6) const
   {
     const T slope = normal_.Dot(gradient);
     if (std::abs(slope) < tolerance)

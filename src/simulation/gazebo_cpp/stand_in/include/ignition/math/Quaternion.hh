@@ -79,7 +79,8 @@ public:
   /// Where a body is that turns so fast (in the axes outside) for a time.
   Quaternion Integrate(const Vector3<T>& velocity, const T time) const;
   static Quaternion Slerp(T t, const Quaternion& p, const Quaternion& q, bool shortest = false);
-  static Quaternion Squad(T t, const Quaternion& p, const Quaternion& a, const Quaternion& b, const Quaternion& q, bool shortest = false)
+  static Quaternion Squad(T t, const Quaternion& p, const Quaternion& a, const Quaternion& b, const Quaternion& q,
+                          bool shortest = false)
   {
     return Slerp(2 * t * (1 - t), Slerp(t, p, q, shortest), Slerp(t, a, b));
   }

@@ -17,13 +17,27 @@ inline namespace v6
 class IGNITION_MATH_VISIBLE SphericalCoordinates
 {
 public:
-  enum SurfaceType { EARTH_WGS84 = 1 };
-  enum CoordinateType { SPHERICAL = 1, ECEF = 2, GLOBAL = 3, LOCAL = 4, LOCAL2 = 5 };
+  enum SurfaceType
+  {
+    EARTH_WGS84 = 1
+  };
+  enum CoordinateType
+  {
+    SPHERICAL = 1,
+    ECEF = 2,
+    GLOBAL = 3,
+    LOCAL = 4,
+    LOCAL2 = 5
+  };
 
   SphericalCoordinates() : SphericalCoordinates(EARTH_WGS84) {}
   explicit SphericalCoordinates(SurfaceType type) : surface_(type) { UpdateTransformationMatrix(); }
   SphericalCoordinates(SurfaceType type, const Angle& latitude, const Angle& longitude, double elevation, const Angle& heading)
-    : surface_(type), latitude_(latitude), longitude_(longitude), heading_(heading), elevation_(elevation)
+    : surface_(type)
+    , latitude_(latitude)
+    , longitude_(longitude)
+    , heading_(heading)
+    , elevation_(elevation)
   {
     UpdateTransformationMatrix();
   }

@@ -37,11 +37,11 @@ public:
   double Celsius() const { return KelvinToCelsius(kelvin_); }
   double Fahrenheit() const { return KelvinToFahrenheit(kelvin_); }
   double operator()() const { return kelvin_; }
-#define NOETIC_TEMPERATURE_OPERATOR(sign)                                                                        \
-  Temperature operator sign(double t) const { return Temperature(kelvin_ sign t); }                              \
-  Temperature operator sign(const Temperature& t) const { return Temperature(kelvin_ sign t.kelvin_); }          \
+#define NOETIC_TEMPERATURE_OPERATOR(sign)                                                                            \
+  Temperature operator sign(double t) const { return Temperature(kelvin_ sign t); }                                  \
+  Temperature operator sign(const Temperature& t) const { return Temperature(kelvin_ sign t.kelvin_); }              \
   friend Temperature operator sign(double t, const Temperature& other) { return Temperature(t sign other.kelvin_); } \
-  const Temperature& operator sign##=(double t) { return *this = *this sign t; }                                 \
+  const Temperature& operator sign##=(double t) { return *this = *this sign t; }                                     \
   const Temperature& operator sign##=(const Temperature& t) { return *this = *this sign t; }
   NOETIC_TEMPERATURE_OPERATOR(+)
   NOETIC_TEMPERATURE_OPERATOR(-)

@@ -103,28 +103,28 @@ public:
   {
     return each([](T a) { return -a; });
   }
-#define NOETIC_COMPONENTS_OPERATOR(sign)                                                   \
-  const V& operator sign##=(const V& v)                                                    \
-  {                                                                                        \
-    for (std::size_t i = 0; i < N; ++i)                                                    \
-      data_[i] sign## = v.data_[i];                                                        \
-    return self();                                                                         \
-  }                                                                                        \
-  const V& operator sign##=(T s)                                                           \
-  {                                                                                        \
-    for (T & a : data_)                                                                    \
-      a sign## = s;                                                                        \
-    return self();                                                                         \
-  }                                                                                        \
-  V operator sign(const V& v) const                                                        \
-  {                                                                                        \
-    V result = self();                                                                     \
-    result sign## = v;                                                                     \
-    return result;                                                                         \
-  }                                                                                        \
-  V operator sign(T s) const                                                               \
-  {                                                                                        \
-    return each([s](T a) { return static_cast<T>(a sign s); });                            \
+#define NOETIC_COMPONENTS_OPERATOR(sign)                        \
+  const V& operator sign##=(const V& v)                         \
+  {                                                             \
+    for (std::size_t i = 0; i < N; ++i)                         \
+      data_[i] sign## = v.data_[i];                             \
+    return self();                                              \
+  }                                                             \
+  const V& operator sign##=(T s)                                \
+  {                                                             \
+    for (T & a : data_)                                         \
+      a sign## = s;                                             \
+    return self();                                              \
+  }                                                             \
+  V operator sign(const V& v) const                             \
+  {                                                             \
+    V result = self();                                          \
+    result sign## = v;                                          \
+    return result;                                              \
+  }                                                             \
+  V operator sign(T s) const                                    \
+  {                                                             \
+    return each([s](T a) { return static_cast<T>(a sign s); }); \
   }
   NOETIC_COMPONENTS_OPERATOR(+)
   NOETIC_COMPONENTS_OPERATOR(-)

@@ -19,7 +19,10 @@ class Grid
 {
 public:
   /// Beyond the end is the last row or column.
-  const T& operator()(std::size_t row, std::size_t column) const { return data_[std::min(row, N - 1) * N + std::min(column, N - 1)]; }
+  const T& operator()(std::size_t row, std::size_t column) const
+  {
+    return data_[std::min(row, N - 1) * N + std::min(column, N - 1)];
+  }
   T& operator()(std::size_t row, std::size_t column) { return data_[std::min(row, N - 1) * N + std::min(column, N - 1)]; }
 
   M operator+(const M& m) const

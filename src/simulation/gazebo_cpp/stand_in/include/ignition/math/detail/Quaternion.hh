@@ -64,7 +64,8 @@ void Quaternion<T>::Euler(T roll, T pitch, T yaw)
 {
   const T cr = std::cos(roll / 2), sr = std::sin(roll / 2), cp = std::cos(pitch / 2), sp = std::sin(pitch / 2);
   const T cy = std::cos(yaw / 2), sy = std::sin(yaw / 2);
-  *this = Quaternion(cr * cp * cy + sr * sp * sy, sr * cp * cy - cr * sp * sy, cr * sp * cy + sr * cp * sy, cr * cp * sy - sr * sp * cy);
+  *this = Quaternion(cr * cp * cy + sr * sp * sy, sr * cp * cy - cr * sp * sy, cr * sp * cy + sr * cp * sy,
+                     cr * cp * sy - sr * sp * cy);
   Normalize();
 }
 
@@ -248,7 +249,8 @@ Quaternion<T> Quaternion<T>::Integrate(const Vector3<T>& velocity, const T time)
   const Vector3<T> half = velocity * (time / 2);
   const T square = half.SquaredLength(), angle = static_cast<T>(std::sqrt(square));
   const bool tiny = square * square / 24 < std::numeric_limits<T>::min();
-  const T w = tiny ? 1 - square / 2 : static_cast<T>(std::cos(angle)), s = tiny ? 1 - square / 6 : static_cast<T>(std::sin(angle) / angle);
+  const T w = tiny ? 1 - square / 2 : static_cast<T>(std::cos(angle)),
+          s = tiny ? 1 - square / 6 : static_cast<T>(std::sin(angle) / angle);
   return Quaternion(w, half.X() * s, half.Y() * s, half.Z() * s) * *this;
 }
 
