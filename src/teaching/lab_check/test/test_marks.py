@@ -138,6 +138,8 @@ def test_the_first_cause_comes_first():
     line, meaning = explain.first_cause(log)
     assert "j9" in line and "transmission" in meaning
     assert explain.excerpt(log)[1] == line
+    cmake = "CMake Error at a.cmake:198 (message):\n  the package 'roscpp' has been found but\n  is not listed\nCall Stack:\n  a.cmake:1"
+    assert explain.error_lines(cmake) == ["CMake Error at a.cmake:198 (message): the package 'roscpp' has been found but is not listed"]
     assert explain.error_lines("[ERROR] [1]: No p gain specified for pid.") == []
 
 

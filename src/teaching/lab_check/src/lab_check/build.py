@@ -69,7 +69,7 @@ def _one_by_one(job: Job, built: Built, timeout: float) -> None:
         else:
             cause = next((line for line in error_lines(built.log[before:])), "its build failed")
             cause = f"it was stopped: {built.broke}" if built.broke else cause
-            built.failed[name] = f"{timeless(cause)[:200]}{'. ' + meaning(cause) if meaning(cause) else ''}"
+            built.failed[name] = f"{timeless(cause)[:300]}{'. ' + meaning(cause) if meaning(cause) else ''}"
             built.broke = ""
     shutil.rmtree(os.path.join(job.home, "catkin_ws", "build"), ignore_errors=True)
     if good:

@@ -192,6 +192,8 @@ def connect(address: str):
     import logging
 
     quiet = {"log_to_driver": False, "logging_level": logging.ERROR}
+    # Ray notes the command line, and fails on a submission's name in it that is no UTF-8.
+    ray._private.utils.get_entrypoint_name = lambda: "lab_check grade"
     try:
         if address == "local":
             ray.init(address="local", include_dashboard=False, **quiet)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from itertools import takewhile
 from typing import List, Tuple
 
 _COLOURS = re.compile(r"\x1b\[[0-9;]*m|\x1b\].*?\x07")
@@ -71,10 +72,14 @@ def lines_of(text: str) -> List[str]:
 
 
 def error_lines(text: str) -> List[str]:
-    """In the order in which they were printed; CMake's with what it says in the next line."""
+    """In the order in which they were printed; CMake's with the sentence that it says in the lines below."""
     lines = lines_of(text)
-    return [f"{line} {lines[i + 1].strip()}" if line.startswith("CMake Error") and i + 1 < len(lines) else line
-            for i, line in enumerate(lines) if _ERROR.search(line) and not _HARMLESS.search(line)]
+    return [_whole(lines, i) for i, line in enumerate(lines) if _ERROR.search(line) and not _HARMLESS.search(line)]
+
+
+def _whole(lines: List[str], index: int) -> str:
+    more = takewhile(lambda line: line.startswith("  "), lines[index + 1 : index + 5]) if lines[index].startswith("CMake Error") else ()
+    return " ".join([lines[index], *(line.strip() for line in more)])
 
 
 def timeless(line: str) -> str:
