@@ -13,8 +13,10 @@ from __future__ import annotations
 import argparse
 import os
 import queue
+import random
 import shutil
 import signal
+import socket
 import subprocess
 import sys
 import tempfile
@@ -150,6 +152,18 @@ def reasons(home: Path) -> Iterator[str]:
                 yield f"{case.get('classname', '')}.{case.get('name', '')}: {' '.join(why.split())[:500]}"
 
 
+def _gazebo_port() -> int:
+    """Free at this moment, and none that the system gives away by itself: for the simulators of one file."""
+    for port in random.sample(range(30000, 32000), 200):
+        with socket.socket() as place:
+            try:
+                place.bind(("", port))
+            except OSError:
+                continue
+            return port
+    return 11345
+
+
 def _listen_to_ctrl_c() -> None:
     """Started in the background of a script, this process ignores SIGINT; what it tests must not inherit that."""
     signal.signal(signal.SIGINT, signal.SIG_DFL)
@@ -159,7 +173,7 @@ def run(job: Job, scratch: Path) -> Result:
     """One file in a session of its own; whatever it leaves behind is ended and counts as a failure."""
     home = Path(tempfile.mkdtemp(prefix=job.package.name + "_", dir=scratch))
     environment = dict(os.environ, ROS_HOME=str(home), ROS_TEST_RESULTS_DIR=str(home / "results"),
-                       PYTHONDONTWRITEBYTECODE="1",
+                       GAZEBO_MASTER_URI=f"http://localhost:{_gazebo_port()}", PYTHONDONTWRITEBYTECODE="1",
                        PYTHONUNBUFFERED="1")  # tests read what nodes print, as it is printed
     if ROOT / "docs" in job.package.parents:  # an example to copy, which is not built here
         environment["ROS_PACKAGE_PATH"] = f"{job.package}:{environment.get('ROS_PACKAGE_PATH', '')}"

@@ -8,6 +8,7 @@
 #include <gazebo/physics/physics.hh>
 #include <gazebo/sensors/SensorManager.hh>
 
+#include "mirror.hpp"
 #include "sdf_text.hpp"
 
 namespace gazebo
@@ -32,6 +33,7 @@ std::string trimmed(std::string text)
 
 template <class F> void LoadedPlugin::call(const char* what, F f)
 {
+  const physics::WorldLock::Without unlocked;
   const internal::Running running(label_, what);
   try
   {

@@ -30,6 +30,35 @@ void refused(const std::string& text)
     internal::Report(false, line);
 }
 
+namespace
+{
+thread_local int held_by_thread = 0;
+}  // namespace
+
+void WorldLock::Take()
+{
+  step_mutex().lock();
+  ++held_by_thread;
+}
+
+void WorldLock::Give()
+{
+  --held_by_thread;
+  step_mutex().unlock();
+}
+
+WorldLock::Without::Without() : held(held_by_thread)
+{
+  while (held_by_thread)
+    Give();
+}
+
+WorldLock::Without::~Without()
+{
+  for (int i = 0; i < held; ++i)
+    Take();
+}
+
 void change(const std::string& who, const std::function<void()>& f)
 {
   const boost::recursive_mutex::scoped_lock lock(step_mutex());
@@ -58,6 +87,8 @@ void Mirror::Start(ode_sim::World* core, const std::string& name, const std::str
   world->text_ = text;
   world->physics_.reset(new PhysicsEngine(world));
   world->physics_->update_rate_ = update_rate;
+  if (began != common::Time::Zero)
+    world->start_ = began;
   world_ = world;
   now_ns_ = core->scene().time_ns;
   transport::set_world(name);
@@ -86,6 +117,7 @@ void Mirror::SetPaused(bool paused)
   if (!world_ || world_->paused_ == paused)
     return;
   world_->paused_ = paused;
+  const WorldLock::Without unlocked;
   event::Events::pause(paused);
 }
 
@@ -93,6 +125,7 @@ void Mirror::WasReset(bool time)
 {
   last_ns_ = world_->core_->scene().time_ns;
   now_ns_ = last_ns_;
+  const WorldLock::Without unlocked;
   if (time)
     event::Events::timeReset();
   else
@@ -212,7 +245,9 @@ void Mirror::Add(const ModelRecord& record)
     const std::lock_guard<std::mutex> lock(world_->models_mutex_);
     world_->models_.push_back(model);
   }
+  const WorldLock::Without unlocked;
   event::Events::addEntity(record.name);
+  topics_->TellOf(*model);
 }
 
 void Mirror::Remove(const std::string& name)
@@ -228,6 +263,7 @@ void Mirror::Remove(const std::string& name)
   for (const LinkPtr& link : model->links_)
     for (const CollisionPtr& collision : link->collisions_)
       number_collision(collision->core_->id, nullptr);
+  const WorldLock::Without unlocked;
   event::Events::deleteEntity(name);
 }
 

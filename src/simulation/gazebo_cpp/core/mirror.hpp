@@ -62,6 +62,23 @@ struct Host
 
 class Topics;
 
+/// The lock of the step, held by the simulator's thread while it changes the world between two steps: threads of plugins do so, too.
+/// It is given back while plugins are called, which may wait for such a thread.
+class GAZEBO_VISIBLE WorldLock
+{
+public:
+  static void Take();
+  static void Give();
+
+  /// While it lives, this thread does not have it.
+  struct GAZEBO_VISIBLE Without
+  {
+    Without();
+    ~Without();
+    int held;
+  };
+};
+
 /// One line for each joint that plugins asked for, and that cannot be made.
 void tell_of_refused_joints(int64_t now_ns);
 
@@ -70,6 +87,7 @@ class GAZEBO_VISIBLE Mirror : public ode_sim::StepObserver
 public:
   static Mirror& Get();
   Host host;
+  common::Time began;  // of the simulator, by the wall's clock; 0: unknown
 
   void Start(ode_sim::World* core, const std::string& name, const std::string& text, double update_rate);
   void Describe(const std::vector<double>& magnetic_field, const std::vector<double>& place);

@@ -12,7 +12,9 @@
 
 #include "loader.hpp"
 #include "mirror.hpp"
+#include "transport.hpp"
 
+PYBIND11_DECLARE_HOLDER_TYPE(T, boost::shared_ptr<T>)
 namespace py = pybind11;
 using gazebo::LoadedPlugin;
 using gazebo::physics::Mirror;
@@ -71,13 +73,11 @@ void add_model(const std::string& name, const std::string& text, int id, const N
 
 void set_host(std::function<void(std::string, Numbers)> insert, std::function<void(std::string)> remove, std::function<void(std::string)> order,
               std::function<void(unsigned int)> step, std::function<void(std::string, double)> parameter,
-              std::function<void(std::string, std::string, std::string)> plugin, bool clock)
+              std::function<void(std::string, std::string, std::string)> plugin)
 {
   auto& host = Mirror::Get().host;
   host.insert = std::move(insert), host.remove = std::move(remove), host.order = std::move(order);
   host.step = std::move(step), host.parameter = std::move(parameter), host.plugin = std::move(plugin);
-  if (clock)
-    host.clock = compiled_plugins::set_time;
 }
 
 void load_system(LoadedPlugin& plugin, std::vector<std::string> words)
@@ -91,16 +91,56 @@ void load_system(LoadedPlugin& plugin, std::vector<std::string> words)
   plugin.LoadSystem(static_cast<int>(kept.size()), pointers.data());
 }
 
+/// For gz: what a program beside the simulator asks of its transport.
+void add_client(py::module_& m)
+{
+  using gazebo::transport::Node;
+  using gazebo::transport::TopicDescription;
+  py::class_<TopicDescription>(m, "TopicDescription")
+      .def_readonly("type", &TopicDescription::type)
+      .def_readonly("publishers", &TopicDescription::publishers)
+      .def_readonly("subscribers", &TopicDescription::subscribers);
+  m.def("join", &gazebo::transport::join, Free());
+  m.def("topic_names", &gazebo::transport::topic_names, Free());
+  m.def("describe_topic", &gazebo::transport::describe_topic, Free());
+  m.def("message_text", &gazebo::transport::message_text);
+  py::class_<gazebo::transport::Subscriber, gazebo::transport::SubscriberPtr>(m, "Subscriber")
+      .def("unsubscribe", &gazebo::transport::Subscriber::Unsubscribe, Free());
+  py::class_<Node, gazebo::transport::NodePtr>(m, "Node")
+      .def(py::init([](const std::string& space) {
+             const gazebo::transport::NodePtr node(new Node);
+             node->Init(space);
+             return node;
+           }),
+           Free())
+      .def("full_name", &Node::DecodeTopicName, Free())
+      .def("subscribe", [](Node& node, const std::string& topic, const std::function<void(py::bytes)>& f) {
+        return node.SubscribeToBytes(topic, [f](const std::string& bytes) {
+          const py::gil_scoped_acquire lock;
+          f(py::bytes(bytes));
+        });
+      });
+}
+
 }  // namespace
 
 PYBIND11_MODULE(_core, m)
 {
   m.doc() = "Gazebo Classic's C++ API over a simulated world: the mirror of its models, and compiled plugins.";
   show_to_all();
+  add_client(m);
+  m.def("serve", [](const std::string& world, std::function<void()> first) {
+    Mirror::Get().began = gazebo::common::Time::GetWallTime();
+    return gazebo::transport::serve(world, std::move(first));
+  }, Free());
+  m.def("ready", &gazebo::transport::ready, Free());
   m.def("start", &start, Free());
   m.def("share_tf", &share_tf, Free());
   m.def("stop", [] { Mirror::Get().Stop(); }, Free());
   m.def("set_host", &set_host);
+  m.def("follow_clock", [] { Mirror::Get().host.clock = compiled_plugins::set_time; });
+  m.def("lock_world", &gazebo::physics::WorldLock::Take, Free());
+  m.def("unlock_world", &gazebo::physics::WorldLock::Give, Free());
   m.def("set_reporter", &gazebo::internal::SetReporter);
   m.def("set_verbose", [](bool on) { gazebo::common::Console::SetQuiet(!on); });
   m.def("add_model", &add_model, Free());

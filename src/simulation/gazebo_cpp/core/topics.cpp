@@ -1,6 +1,7 @@
 #include "topics.hpp"
 
 #include <algorithm>
+#include <thread>
 
 #include "mirror.hpp"
 
@@ -28,9 +29,28 @@ Topics::Topics(const std::string& world) : node_(new transport::Node)
   poses_ = node_->Advertise<msgs::PosesStamped>("~/pose/info");
   local_poses_ = node_->Advertise<msgs::PosesStamped>("~/pose/local/info");
   stats_ = node_->Advertise<msgs::WorldStatistics>("~/world_stats");
+  models_ = node_->Advertise<msgs::Model>("~/model/info");
+  responses_ = node_->Advertise<msgs::Response>("~/response");
   factory_ = node_->Subscribe("~/factory", &Topics::onFactory, this);
   control_ = node_->Subscribe("~/world_control", &Topics::onControl, this);
   request_ = node_->Subscribe("~/request", &Topics::onRequest, this);
+  std::thread([this] { whilePaused(); }).detach();
+}
+
+/// No step publishes then, and who asks is to see that it is paused.
+void Topics::whilePaused()
+{
+  while (true)
+  {
+    std::this_thread::sleep_for(std::chrono::duration<double>(stats_period));
+    const WorldPtr world = Mirror::Get().GetWorld();
+    if (!world || !world->IsPaused() || !(stats_->HasConnections() || poses_->HasConnections() || local_poses_->HasConnections()))
+      continue;
+    const boost::recursive_mutex::scoped_lock lock(step_mutex());
+    const common::Time now = common::Time::GetWallTime();
+    publishPoses(*world, now);
+    publishStats(*world, now);
+  }
 }
 
 void Topics::AddFilter(const std::string& topic, const std::vector<std::string>& collisions)
@@ -85,11 +105,25 @@ void Topics::publishPoses(World& world, const common::Time& now)
   local_poses_->Publish(message);
 }
 
+void Topics::TellOf(Model& model)
+{
+  if (!models_->HasConnections())
+    return;
+  msgs::Model message;
+  model.FillMsg(message);
+  models_->Publish(message);
+}
+
 void Topics::Publish(World& world)
 {
   publishContacts(world);
   const common::Time now = common::Time::GetWallTime();
   publishPoses(world, now);
+  publishStats(world, now);
+}
+
+void Topics::publishStats(World& world, const common::Time& now)
+{
   if ((now - last_stats_).Double() < stats_period || !stats_->HasConnections())
     return;
   last_stats_ = now;
@@ -99,6 +133,7 @@ void Topics::Publish(World& world)
   msgs::Set(message.mutable_pause_time(), world.PauseTime());
   message.set_iterations(world.Iterations());
   message.set_paused(world.IsPaused());
+  message.set_model_count(static_cast<int>(world.ModelCount()));
   stats_->Publish(message);
 }
 
@@ -141,10 +176,52 @@ void Topics::onControl(ConstWorldControlPtr& message)
     world->Reset();
 }
 
+void Topics::respond(const msgs::Request& request, const google::protobuf::Message* message)
+{
+  msgs::Response response;
+  response.set_id(request.id());
+  response.set_request(request.request());
+  response.set_response(message ? "success" : "nonexistent");
+  if (message)
+  {
+    response.set_type(message->GetTypeName());
+    response.set_serialized_data(message->SerializeAsString());
+  }
+  responses_->Publish(response);
+}
+
 void Topics::onRequest(ConstRequestPtr& message)
 {
-  if (message->request() == "entity_delete")
-    Mirror::Get().GetWorld()->RemoveModel(message->data());
+  const WorldPtr world = Mirror::Get().GetWorld();
+  const std::string& what = message->request();
+  if (what == "entity_delete")
+  {
+    world->RemoveModel(message->data());
+    return respond(*message, message.get());
+  }
+  const boost::recursive_mutex::scoped_lock lock(step_mutex());
+  msgs::Model_V list;
+  msgs::Model model;
+  msgs::Link link;
+  const BasePtr found = what == "entity_info" ? world->BaseByName(message->data()) : BasePtr();
+  if (what == "entity_list")
+  {
+    for (const ModelPtr& each : world->Models())
+      each->FillMsg(*list.add_models());
+    respond(*message, &list);
+  }
+  else if (const ModelPtr known = what == "entity_info" ? world->ModelByName(message->data()) : ModelPtr())
+  {
+    known->FillMsg(model);
+    respond(*message, &model);
+  }
+  else if (const LinkPtr part = boost::dynamic_pointer_cast<Link>(found))
+  {
+    part->FillMsg(link);
+    respond(*message, &link);
+  }
+  else if (what == "entity_info")
+    respond(*message, nullptr);
 }
 
 }  // namespace physics

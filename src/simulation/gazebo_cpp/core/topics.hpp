@@ -19,12 +19,16 @@ class Topics
 public:
   explicit Topics(const std::string& world);
   void Publish(World& world);  // after a step
+  void TellOf(Model& model);   // that is new
   void AddFilter(const std::string& topic, const std::vector<std::string>& collisions);
   void RemoveFilter(const std::string& topic);
 
 private:
   void publishContacts(World& world);
   void publishPoses(World& world, const common::Time& now);
+  void publishStats(World& world, const common::Time& now);
+  void whilePaused();
+  void respond(const msgs::Request& request, const google::protobuf::Message* message);
   void onFactory(ConstFactoryPtr& message);
   void onControl(ConstWorldControlPtr& message);
   void onRequest(ConstRequestPtr& message);
@@ -36,7 +40,7 @@ private:
     std::string topic;
   };
   transport::NodePtr node_;
-  transport::PublisherPtr contacts_, poses_, local_poses_, stats_;
+  transport::PublisherPtr contacts_, poses_, local_poses_, stats_, models_, responses_;
   transport::SubscriberPtr factory_, control_, request_;
   std::map<std::string, Filter> filters_;
   common::Time last_poses_, last_stats_;

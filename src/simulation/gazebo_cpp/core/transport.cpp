@@ -1,131 +1,23 @@
-// Topics within the process. Messages are handed on by one thread, in the order in which they were published.
+// Nodes, publishers and subscribers, as plugins and programs see them.
 #include <gazebo/transport/transport.hh>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
-#include <condition_variable>
-#include <deque>
-#include <mutex>
-#include <thread>
+#include <cstdlib>
+#include <set>
 
 #include <gazebo/common/Console.hh>
-#include <gazebo/common/Event.hh>
 
+#include "network.hpp"
+#include "post.hpp"
 #include "transport.hpp"
 
 namespace gazebo
 {
 namespace transport
 {
-
-using Message = boost::shared_ptr<google::protobuf::Message const>;
-
-struct Subscription
-{
-  std::string topic, type;
-  std::function<void(const Message&)> callback;
-  const char* owner = internal::CurrentPlugin();
-  std::atomic<bool> on{ true };
-  std::mutex running;  // held while the callback runs
-};
-
-struct Topic
-{
-  std::string name, type;
-  std::vector<std::shared_ptr<Subscription>> subscriptions;
-  MessagePtr last;
-  unsigned int publishers = 0;
-};
-
 namespace
 {
-
-struct Delivery
-{
-  std::shared_ptr<Subscription> to;
-  Message message;
-};
-
-/// All topics, and the thread that delivers. Left where it is at the end.
-struct Post
-{
-  std::mutex mutex;
-  std::condition_variable changed;
-  std::map<std::string, std::shared_ptr<Topic>> topics;
-  std::deque<Delivery> queue;
-  std::string world = "default";
-  std::atomic<uint64_t> sent{ 0 }, done{ 0 };
-  std::thread::id thread;
-  bool running = false;
-
-  std::shared_ptr<Topic> topic(const std::string& name)
-  {
-    auto& found = topics[name];
-    if (!found)
-      found = std::make_shared<Topic>(), found->name = name;
-    return found;
-  }
-
-  void send(const std::shared_ptr<Subscription>& to, const Message& message)
-  {
-    if (!running)
-    {
-      running = true;
-      std::thread([this] { deliver(); }).detach();
-    }
-    queue.push_back({ to, message });
-    ++sent;
-    changed.notify_all();
-  }
-
-  void deliver()
-  {
-    thread = std::this_thread::get_id();
-    while (true)
-    {
-      Delivery next;
-      {
-        std::unique_lock<std::mutex> lock(mutex);
-        changed.wait(lock, [&] { return !queue.empty(); });
-        next = std::move(queue.front());
-        queue.pop_front();
-      }
-      hand_over(next);
-      ++done;
-      const std::lock_guard<std::mutex> lock(mutex);
-      changed.notify_all();
-    }
-  }
-
-  static void hand_over(const Delivery& next)
-  {
-    const std::lock_guard<std::mutex> lock(next.to->running);
-    if (!next.to->on)
-      return;
-    const internal::Running running(next.to->owner, "callback of a topic");
-    try
-    {
-      next.to->callback(next.message);
-    }
-    catch (const std::exception& error)
-    {
-      next.to->on = false;
-      internal::Failed(next.to->owner, ("callback of " + next.to->topic).c_str(), error.what());
-    }
-    catch (...)
-    {
-      next.to->on = false;
-      internal::Failed(next.to->owner, ("callback of " + next.to->topic).c_str(), nullptr);
-    }
-  }
-};
-
-Post& post()
-{
-  static Post* one = new Post;
-  return *one;
-}
 
 std::atomic<uint32_t> ids{ 1 };
 
@@ -133,15 +25,15 @@ std::atomic<uint32_t> ids{ 1 };
 
 void set_world(const std::string& name)
 {
-  const std::lock_guard<std::mutex> lock(post().mutex);
-  post().world = name;
+  const std::lock_guard<std::mutex> lock(Post::Get().mutex);
+  Post::Get().world = name;
 }
 
 bool wanted(const std::string& topic)
 {
-  const std::lock_guard<std::mutex> lock(post().mutex);
-  const auto found = post().topics.find(topic);
-  return found != post().topics.end() && !found->second->subscriptions.empty();
+  const std::lock_guard<std::mutex> lock(Post::Get().mutex);
+  const auto found = Post::Get().topics.find(topic);
+  return found != Post::Get().topics.end() && found->second->Heard();
 }
 
 // -- Publisher ----------------------------------------------------------------------------------------------------------------------
@@ -154,8 +46,11 @@ Publisher::Publisher(std::shared_ptr<Topic> topic, const std::string& type, unsi
 
 Publisher::~Publisher()
 {
-  const std::lock_guard<std::mutex> lock(post().mutex);
-  --topic_->publishers;
+  {
+    const std::lock_guard<std::mutex> lock(Post::Get().mutex);
+    --topic_->publishers;
+  }
+  Network::Get().Refresh(topic_->name);
 }
 
 void Publisher::Fini() {}
@@ -163,27 +58,27 @@ std::string Publisher::GetTopic() const { return topic_->name; }
 
 bool Publisher::HasConnections() const
 {
-  const std::lock_guard<std::mutex> lock(post().mutex);
-  return !topic_->subscriptions.empty();
+  const std::lock_guard<std::mutex> lock(Post::Get().mutex);
+  return topic_->Heard();
 }
 
-unsigned int Publisher::GetRemoteSubscriptionCount() { return 0; }
+unsigned int Publisher::GetRemoteSubscriptionCount() { return static_cast<unsigned int>(topic_->listeners); }
 
 bool Publisher::WaitForConnection(const common::Time& timeout) const
 {
-  std::unique_lock<std::mutex> lock(post().mutex);
-  const auto there = [&] { return !topic_->subscriptions.empty(); };
+  std::unique_lock<std::mutex> lock(Post::Get().mutex);
+  const auto there = [&] { return topic_->Heard(); };
   if (timeout >= common::Time::Zero)
-    return post().changed.wait_for(lock, std::chrono::duration<double>(timeout.Double()), there);
-  post().changed.wait(lock, there);
+    return Post::Get().changed.wait_for(lock, std::chrono::duration<double>(timeout.Double()), there);
+  Post::Get().changed.wait(lock, there);
   return true;
 }
 
-unsigned int Publisher::GetOutgoingCount() const { return static_cast<unsigned int>(post().sent - post().done); }
+unsigned int Publisher::GetOutgoingCount() const { return static_cast<unsigned int>(Post::Get().Sent() - Post::Get().Done()); }
 MessagePtr Publisher::GetPrevMsgPtr() const
 {
-  const std::lock_guard<std::mutex> lock(post().mutex);
-  return topic_->last;
+  const std::lock_guard<std::mutex> lock(Post::Get().mutex);
+  return topic_->published;
 }
 std::string Publisher::GetPrevMsg() const
 {
@@ -198,6 +93,11 @@ void Publisher::publish(const google::protobuf::Message& message, bool block)
     gzerr << "topic " << topic_->name << " takes " << type_ << ", not " << message.GetTypeName() << "; it is not sent" << std::endl;
     return;
   }
+  if (!message.IsInitialized())
+  {
+    gzerr << "topic " << topic_->name << ": a message without " << message.InitializationErrorString() << " is not sent" << std::endl;
+    return;
+  }
   const common::Time now = common::Time::GetWallTime();
   if (period_ > 0 && (now - last_).Double() < period_)
     return;
@@ -205,14 +105,14 @@ void Publisher::publish(const google::protobuf::Message& message, bool block)
   const MessagePtr copy(message.New());
   copy->CopyFrom(message);
   uint64_t sent = 0;
-  std::unique_lock<std::mutex> lock(post().mutex);
-  topic_->last = copy;
-  for (const auto& subscription : topic_->subscriptions)
-    if (post().queue.size() < 100000)  // who never gets on with its callback must not take all memory
-      post().send(subscription, copy);
-  sent = post().sent;
-  if (block && std::this_thread::get_id() != post().thread)
-    post().changed.wait_for(lock, std::chrono::seconds(1), [&] { return post().done >= sent; });
+  std::unique_lock<std::mutex> lock(Post::Get().mutex);
+  topic_->published = copy;
+  Post::Get().Spread(*topic_, { copy, nullptr, "" });
+  if (topic_->listeners)
+    Network::Get().Send(topic_, copy, limit_);
+  sent = Post::Get().Sent();
+  if (block && !Post::Get().Here())
+    Post::Get().changed.wait_for(lock, std::chrono::seconds(1), [&] { return Post::Get().Done() >= sent; });
 }
 
 // -- Subscriber ---------------------------------------------------------------------------------------------------------------------
@@ -223,11 +123,12 @@ void Subscriber::Unsubscribe() const
 {
   subscription_->on = false;
   {
-    const std::lock_guard<std::mutex> lock(post().mutex);
-    auto& all = post().topic(subscription_->topic)->subscriptions;
+    const std::lock_guard<std::mutex> lock(Post::Get().mutex);
+    auto& all = Post::Get().Find(subscription_->topic)->subscriptions;
     all.erase(std::remove(all.begin(), all.end(), subscription_), all.end());
   }
-  if (std::this_thread::get_id() != post().thread)
+  Network::Get().Refresh(subscription_->topic);
+  if (!Post::Get().Here())
     const std::lock_guard<std::mutex> done(subscription_->running);
 }
 
@@ -238,8 +139,15 @@ Node::~Node() = default;
 
 void Node::Init(const std::string& space)
 {
-  const std::lock_guard<std::mutex> lock(post().mutex);
-  space_ = space.empty() || space == "default" ? post().world : space;
+  if (!space.empty() && space != "default")
+  {
+    space_ = space;
+    return;
+  }
+  const bool client = Network::Get().Client();
+  const std::list<std::string> spaces = client ? Network::Get().Spaces(std::chrono::seconds(1)) : std::list<std::string>();
+  const std::lock_guard<std::mutex> lock(Post::Get().mutex);
+  space_ = spaces.empty() ? Post::Get().World() : spaces.front();
 }
 
 void Node::Fini() { space_.clear(); }
@@ -249,7 +157,7 @@ std::string Node::DecodeTopicName(const std::string& topic)
   std::string name = topic;
   const std::size_t at = name.find('~');
   if (at != std::string::npos)
-    name.replace(at, 1, "/gazebo/" + (space_.empty() ? post().world : space_));
+    name.replace(at, 1, "/gazebo/" + (space_.empty() ? Post::Get().World() : space_));
   for (std::size_t twice; (twice = name.find("//")) != std::string::npos;)
     name.erase(twice, 1);
   return name;
@@ -266,12 +174,25 @@ std::string Node::GetMsgType(const std::string& topic) const { return getTopicMs
 PublisherPtr Node::Advertise(const std::string& topic, const std::string& type, unsigned int limit, double hz)
 {
   const std::string name = DecodeTopicName(topic);
-  const std::lock_guard<std::mutex> lock(post().mutex);
-  const auto found = post().topic(name);
-  if (!found->type.empty() && found->type != type)
-    gzerr << "topic " << name << " has messages of type " << found->type << "; it is advertised with " << type << ", too" << std::endl;
-  found->type = type;
-  return PublisherPtr(new Publisher(found, type, limit, hz));
+  PublisherPtr made;
+  {
+    const std::lock_guard<std::mutex> lock(Post::Get().mutex);
+    const auto found = Post::Get().Find(name);
+    if (!found->type.empty() && found->type != type)
+      gzerr << "topic " << name << " has messages of type " << found->type << "; it is advertised with " << type << ", too" << std::endl;
+    found->type = type;
+    made.reset(new Publisher(found, type, limit, hz));
+  }
+  Network::Get().Refresh(name);
+  return made;
+}
+
+void Node::publishOnce(const std::string& topic, const google::protobuf::Message& message)
+{
+  const PublisherPtr publisher = Advertise(topic, message.GetTypeName());
+  if (Network::Get().Client())  // who is to hear it is another process, which has yet to connect
+    publisher->WaitForConnection(common::Time(5, 0));
+  publisher->Publish(message);
 }
 
 SubscriberPtr Node::listen(const std::string& topic, const std::string& type, Raw callback, bool latching)
@@ -279,61 +200,103 @@ SubscriberPtr Node::listen(const std::string& topic, const std::string& type, Ra
   const auto added = std::make_shared<Subscription>();
   added->topic = DecodeTopicName(topic);
   added->type = type;
+  added->latching = latching;
   const std::string name = added->topic;
-  added->callback = [callback, type, name](const Message& message) {
-    if (type.empty() || message->GetTypeName() == type)
-      callback(message);
-    else
-      gzerr << "topic " << name << " brings " << message->GetTypeName() << ", its subscriber wants " << type << std::endl;
+  bool said = false;
+  added->callback = [callback, type, name, said](const Parcel& parcel) mutable {
+    static const std::string none;
+    const std::string& brought = parcel.message ? parcel.message->GetTypeName() : parcel.type;
+    if (type.empty() || brought == type)
+      return callback(parcel.message, parcel.bytes ? *parcel.bytes : none);
+    if (!said)
+      gzerr << "topic " << name << " brings " << brought << ", its subscriber wants " << type << std::endl;
+    said = true;
   };
-  const std::lock_guard<std::mutex> lock(post().mutex);
-  const auto found = post().topic(name);
-  found->subscriptions.push_back(added);
-  if (latching && found->last)
-    post().send(added, found->last);
-  post().changed.notify_all();
+  {
+    const std::lock_guard<std::mutex> lock(Post::Get().mutex);
+    const auto found = Post::Get().Find(name);
+    found->subscriptions.push_back(added);
+    if (latching && (found->last.message || found->last.bytes))
+      Post::Get().Send(added, found->last);
+    Post::Get().changed.notify_all();
+  }
+  Network::Get().Refresh(name);
   return SubscriberPtr(new Subscriber(added));
 }
 
 // -- free functions -----------------------------------------------------------------------------------------------------------------
 
-bool init(const std::string&, unsigned int, uint32_t) { return true; }
+bool get_master_uri(std::string& host, unsigned int& port)
+{
+  const std::string problem = master_uri(host, port);
+  if (!problem.empty())
+    internal::Report(false, problem + ", which is taken instead");
+  return problem.empty() && std::getenv("GAZEBO_MASTER_URI");
+}
+
+bool init(const std::string& host, unsigned int port, uint32_t iterations)
+{
+  std::string name = host;
+  if (host.empty())
+    get_master_uri(name, port);
+  const std::string problem = Network::Get().Join(name, port, iterations);
+  if (!problem.empty())
+    internal::Report(true, problem);
+  return problem.empty();
+}
+
 void run() {}
 void stop() {}
-void fini() {}
-bool is_stopped() { return false; }
+void fini() { Network::Get().Leave(); }
+bool is_stopped() { return !Network::Get().Running(); }
 void clear_buffers() {}
 void pause_incoming(bool) {}
-bool waitForNamespaces(const common::Time&) { return true; }
+bool waitForNamespaces(const common::Time& most)
+{
+  return !Network::Get().Client() || !Network::Get().Spaces(std::chrono::duration<double>(most.Double())).empty();
+}
+
 void get_topic_namespaces(std::list<std::string>& namespaces)
 {
-  const std::lock_guard<std::mutex> lock(post().mutex);
-  namespaces.assign(1, post().world);
+  namespaces = Network::Get().Spaces(std::chrono::seconds(0));
+  const std::lock_guard<std::mutex> lock(Post::Get().mutex);
+  if (namespaces.empty())
+    namespaces.assign(1, Post::Get().World());
 }
 
 std::map<std::string, std::list<std::string>> getAdvertisedTopics()
 {
-  std::map<std::string, std::list<std::string>> found;
-  const std::lock_guard<std::mutex> lock(post().mutex);
-  for (const auto& topic : post().topics)
-    if (topic.second->publishers)
-      found[topic.second->type].push_back(topic.first);
-  return found;
+  std::map<std::string, std::set<std::string>> found;
+  for (const msgs::Publish& each : Network::Get().Publishers())
+    found[each.msg_type()].insert(each.topic());
+  {
+    const std::lock_guard<std::mutex> lock(Post::Get().mutex);
+    for (const auto& topic : Post::Get().topics)
+      if (topic.second->publishers)
+        found[topic.second->type].insert(topic.first);
+  }
+  std::map<std::string, std::list<std::string>> lists;
+  for (const auto& each : found)
+    lists[each.first].assign(each.second.begin(), each.second.end());
+  return lists;
 }
 
 std::list<std::string> getAdvertisedTopics(const std::string& type) { return getAdvertisedTopics()[type]; }
 
 std::string getTopicMsgType(const std::string& topic)
 {
-  const std::lock_guard<std::mutex> lock(post().mutex);
-  const auto found = post().topics.find(topic);
-  return found == post().topics.end() ? "" : found->second->type;
+  for (const msgs::Publish& each : Network::Get().Publishers())
+    if (each.topic() == topic)
+      return each.msg_type();
+  const std::lock_guard<std::mutex> lock(Post::Get().mutex);
+  const auto found = Post::Get().topics.find(topic);
+  return found == Post::Get().topics.end() ? "" : found->second->type;
 }
 
 void requestNoReply(NodePtr node, const std::string& request, const std::string& data)
 {
   const std::unique_ptr<msgs::Request> message(msgs::CreateRequest(request, data));
-  node->Advertise<msgs::Request>("~/request")->Publish(*message);
+  node->Publish("~/request", *message);
 }
 
 void requestNoReply(const std::string& world, const std::string& request, const std::string& data)

@@ -160,19 +160,43 @@ def bridge(server, clock: bool) -> "Bridge":
     """
     global _bridge
     if _bridge is None:
-        _bridge = Bridge(getattr(server, "_server", server), clock)
+        _bridge = Bridge(getattr(server, "_server", server))
+    if clock:
+        _core.follow_clock()
     return _bridge
+
+
+def offer_transport(server) -> None:
+    """Let other processes reach Gazebo's own topics (``gz topic``, programs that are its clients), at GAZEBO_MASTER_URI.
+
+    The mirror of the world, which publishes them, is made when the first of them asks.
+    """
+    if _core is None:
+        return
+    problem = _core.serve(server.description.name, lambda: server._calls.put((lambda: bridge(server, False), Future())))
+    if problem:
+        rospy.logwarn("Gazebo's transport: %s", problem)
+
+
+class _WorldLock:
+    """The lock that threads of compiled plugins take to change the world; whoever waits for it lets Python go on."""
+
+    def __enter__(self) -> None:
+        _core.lock_world()
+
+    def __exit__(self, *_) -> None:
+        _core.unlock_world()
 
 
 class Bridge:
     """Keeps the mirror of the world up to date, and does for C++ what only the server can do."""
 
-    def __init__(self, server, clock: bool):
+    def __init__(self, server):
         self._server = server
         world, description = server.world, server.description
         _core.set_reporter(lambda error, line: (rospy.logerr if error else rospy.logwarn)("%s", line))
         _core.set_verbose(rospy.get_param("/gazebo/verbose", False) is True)
-        _core.set_host(self._insert, self._remove, self._order, self._step, self._parameter, self._plugin, clock)
+        _core.set_host(self._insert, self._remove, self._order, self._step, self._parameter, self._plugin)
         _core.start(world.core.address, description.name, sdf_writer.world_text(description),
                     world.physics.real_time_update_rate, description.magnetic_field, description.spherical_coordinates)
         for model in world.models.values():
@@ -182,6 +206,8 @@ class Bridge:
         server.stepped.connect(lambda: _core.set_paused(server.paused))
         server.went_back.connect(lambda: self._went_back(world))
         _core.set_paused(server.paused)
+        server.between_steps = _WorldLock()
+        _core.ready()
 
     # -- from the server to C++
 

@@ -1,8 +1,8 @@
-"""``gz``: what students type to ask or change a running simulator. It talks to the node ``/gazebo`` by its services."""
+"""``gz``: what students type to ask or change a running simulator. It talks to the node ``/gazebo`` by its
+services; ``gz topic`` is about Gazebo's own transport."""
 from __future__ import annotations
 
 import argparse
-import os
 import sys
 import time
 from typing import Any, List
@@ -19,6 +19,7 @@ from ode_sim.description import DescriptionError, load_world, read_model
 from std_srvs.srv import Empty
 
 from gazebo_ros.command_line import VERSION, Failure
+from gazebo_ros.gz_topic import topic
 from gazebo_ros.srv import StepWorld
 
 
@@ -135,19 +136,6 @@ def joint(options: argparse.Namespace) -> None:
              rospy.Duration(-1))
 
 
-def topic(options: argparse.Namespace) -> None:
-    """List, show or measure the topics of the simulator, which are ROS topics here."""
-    if options.list:
-        system = rosgraph.Master(rospy.get_name()).getSystemState()
-        print("\n".join(sorted(name for name, nodes in system[0] if "/gazebo" in nodes)))
-        return
-    for word, name in (("echo", options.echo), ("info", options.info), ("hz", options.hz)):
-        if name:
-            limit = ["timeout", "--foreground", f"{options.duration:g}"] if options.duration else []
-            os.execvp((limit or ["rostopic"])[0], [*limit, "rostopic", word, name])
-    raise Failure("say what: -l lists, -e TOPIC shows messages, -i TOPIC who sends them, -z TOPIC how often")
-
-
 def log(_options: argparse.Namespace) -> None:
     """Not here: rosbag records and plays."""
     raise Failure("logs of world states are not written here; rosbag record /gazebo/model_states records, and the same "
@@ -205,8 +193,11 @@ def parser() -> argparse.ArgumentParser:
     add("-f", "--force", type=float, help="N or Nm")
     add = command(topic).add_argument
     add("-l", "--list", action="store_true")
-    for short, name in (("e", "echo"), ("i", "info"), ("z", "hz")):
+    for short, name in (("e", "echo"), ("i", "info"), ("z", "hz"), ("b", "bw")):
         add(f"-{short}", f"--{name}", metavar="TOPIC")
+    add("-v", "--view", nargs="?", const=True, metavar="TOPIC", help="no window for them here")
+    add("-u", "--unformatted", action="store_true", help="each message in one line")
+    add("-w", "--world-name", default="", help="what ~ stands for, behind /gazebo/; without it: the world that runs")
     add("-d", "--duration", type=float, help="s of showing or measuring; without it: until Ctrl-C")
     add = command(log).add_argument
     add("-d", "--record", metavar="0|1", help="accepted, to say what to do instead")
@@ -220,7 +211,7 @@ def main(arguments: List[str]) -> int:
     """Exit code: 0 done, 1 refused, 2 wrong options."""
     options = parser().parse_args(arguments)
     try:
-        if options.run not in (sdf, log, helps):
+        if options.run not in (sdf, log, helps, topic):
             if not rosgraph.is_master_online():
                 raise Failure(f"no ROS master at {rosgraph.get_master_uri()}; start the simulator first")
             node_signals.init_node("gz", anonymous=True, disable_rostime=True)

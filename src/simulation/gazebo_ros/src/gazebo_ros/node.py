@@ -77,6 +77,7 @@ def _run() -> int:
     sim_time = bool(rospy.get_param("/use_sim_time", True))
     master_watch.on_return(lambda: _use_sim_time(sim_time))
     server = make_server(options, sim_time)
+    compiled.offer_transport(server)
     master_watch.watch()
     ending.follow(server)
     gc.collect()

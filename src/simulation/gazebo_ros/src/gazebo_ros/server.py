@@ -5,8 +5,9 @@ import queue
 import threading
 import time
 from concurrent.futures import Future
+from contextlib import nullcontext
 from dataclasses import dataclass, field
-from typing import Any, Callable, Dict, Iterable, List, Optional, Tuple, Type, Union
+from typing import Any, Callable, ContextManager, Dict, Iterable, List, Optional, Tuple, Type, Union
 
 import rospy
 from ode_sim.description import model as d
@@ -95,6 +96,7 @@ class Server:
         self._request: Optional[Future] = None
         self._stopping = False
         self._ended = False
+        self.between_steps: ContextManager[Any] = nullcontext()  # held while the world is changed; compiled plugins' threads take it, too
         self._calls: queue.SimpleQueue = queue.SimpleQueue()
         self._thread: Optional[int] = None
         self._before = CallbackList()
@@ -231,10 +233,11 @@ class Server:
         with _SLEEPERS:
             _SLEEPERS.notify_all()
 
-    @staticmethod
-    def _run_call(f: Callable[[], Any], future: Future) -> None:
+    def _run_call(self, f: Callable[[], Any], future: Future) -> None:
         try:
-            future.set_result(f())
+            with self.between_steps:
+                result = f()
+            future.set_result(result)
         except Exception as error:  # raised again in the thread that called
             future.set_exception(error)
 

@@ -29,6 +29,7 @@ public:
   unsigned int GetMaxContacts();
   virtual void SetMaxContacts(unsigned int most);
   bool IsPlaceable() const { return !IsStatic(); }
+  virtual void FillMsg(msgs::Collision& message);
   std::shared_ptr<ode_sim::Shape> Core() const { return core_; }
 
 private:

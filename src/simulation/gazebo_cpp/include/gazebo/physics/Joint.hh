@@ -91,6 +91,7 @@ public:
   Pose3d ParentWorldPose() const;
   Pose3d AnchorErrorPose() const { return WorldPose() - ParentWorldPose(); }
   double GetInertiaRatio(unsigned int index) const;
+  virtual void FillMsg(msgs::Joint& message);
   template <typename T> event::ConnectionPtr ConnectJointUpdate(T subscriber)
   {
     return event::Events::ConnectWorldUpdateBegin([subscriber](const common::UpdateInfo&) { subscriber(); });

@@ -99,6 +99,7 @@ public:
   void MoveFrame(const ignition::math::Pose3d& from, const ignition::math::Pose3d& to, bool preserve_velocity = false);
   Vector3d WorldWindLinearVel() const { return {}; }
   Vector3d RelativeWindLinearVel() const { return {}; }
+  virtual void FillMsg(msgs::Link& message);
   std::shared_ptr<ode_sim::Link> Core() const { return core_; }
 
 protected:

@@ -63,6 +63,7 @@ public:
   bool RemoveJoint(const std::string& name);
   void SetWindMode(bool) {}
   bool WindMode() const { return false; }
+  virtual void FillMsg(msgs::Model& message);
   boost::shared_ptr<Model> shared_from_this();
 
 protected:

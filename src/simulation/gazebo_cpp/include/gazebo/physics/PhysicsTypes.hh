@@ -17,6 +17,14 @@
 
 namespace gazebo
 {
+namespace msgs
+{
+class Collision;
+class Joint;
+class Link;
+class Model;
+}  // namespace msgs
+
 namespace physics
 {
 #define GZ_PHYSICS(name) \

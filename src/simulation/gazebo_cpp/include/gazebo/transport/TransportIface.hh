@@ -11,6 +11,11 @@ namespace gazebo
 namespace transport
 {
 
+GAZEBO_VISIBLE bool get_master_uri(std::string& host, unsigned int& port);
+
+/// Become a client of the simulator at host:port, or at GAZEBO_MASTER_URI. Does nothing in the simulator itself.
+/// \param iterations s that it may take to be there
+/// \return whether there is one
 GAZEBO_VISIBLE bool init(const std::string& host = "", unsigned int port = 0, uint32_t iterations = 30);
 GAZEBO_VISIBLE void run();
 GAZEBO_VISIBLE void stop();
