@@ -46,9 +46,9 @@ void fill(const Shape& shape, msgs::Geometry& message)
 msgs::Joint::Type type_of(const Joint& joint)
 {
   const std::pair<Base::EntityType, msgs::Joint::Type> types[] = {
-    { Base::SLIDER_JOINT, msgs::Joint::PRISMATIC },     { Base::FIXED_JOINT, msgs::Joint::FIXED },
-    { Base::BALL_JOINT, msgs::Joint::BALL },            { Base::UNIVERSAL_JOINT, msgs::Joint::UNIVERSAL },
-    { Base::HINGE2_JOINT, msgs::Joint::REVOLUTE2 },     { Base::SCREW_JOINT, msgs::Joint::SCREW },
+    { Base::SLIDER_JOINT, msgs::Joint::PRISMATIC }, { Base::FIXED_JOINT, msgs::Joint::FIXED },
+    { Base::BALL_JOINT, msgs::Joint::BALL },        { Base::UNIVERSAL_JOINT, msgs::Joint::UNIVERSAL },
+    { Base::HINGE2_JOINT, msgs::Joint::REVOLUTE2 }, { Base::SCREW_JOINT, msgs::Joint::SCREW },
     { Base::GEARBOX_JOINT, msgs::Joint::GEARBOX }
   };
   for (const auto& type : types)

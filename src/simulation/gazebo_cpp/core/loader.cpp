@@ -31,7 +31,8 @@ std::string trimmed(std::string text)
 
 }  // namespace
 
-template <class F> void LoadedPlugin::call(const char* what, F f)
+template <class F>
+void LoadedPlugin::call(const char* what, F f)
 {
   const physics::WorldLock::Without unlocked;
   const internal::Running running(label_, what);
@@ -49,7 +50,8 @@ template <class F> void LoadedPlugin::call(const char* what, F f)
   }
 }
 
-LoadedPlugin::LoadedPlugin(const std::string& library, const std::string& file, const std::string& name, const std::string& label)
+LoadedPlugin::LoadedPlugin(const std::string& library, const std::string& file, const std::string& name,
+                           const std::string& label)
   : label_(strdup(label.c_str()))  // never freed: handlers of signals and threads of plugins read it
 {
   void* handle = nullptr;
@@ -59,8 +61,9 @@ LoadedPlugin::LoadedPlugin(const std::string& library, const std::string& file, 
   compiled_plugins::remember(library);
   void* const entry = dlsym(handle, "RegisterPlugin");
   if (!entry)
-    throw std::runtime_error("the library " + library +
-                             " is no plugin: its source has to end with GZ_REGISTER_MODEL_PLUGIN(Class), or ..._WORLD_, ..._SENSOR_");
+    throw std::runtime_error(
+        "the library " + library +
+        " is no plugin: its source has to end with GZ_REGISTER_MODEL_PLUGIN(Class), or ..._WORLD_, ..._SENSOR_");
   // Of whichever kind, the first base is a PluginT; those differ in their template argument alone.
   ModelPlugin* made = nullptr;
   call("constructor", [&] { made = reinterpret_cast<ModelPlugin* (*)()>(entry)(); });
@@ -71,11 +74,21 @@ LoadedPlugin::LoadedPlugin(const std::string& library, const std::string& file, 
   void* const object = made;
   switch (kind_)
   {
-    case MODEL_PLUGIN: model_.reset(made); break;
-    case WORLD_PLUGIN: world_.reset(static_cast<WorldPlugin*>(object)); break;
-    case SENSOR_PLUGIN: sensor_.reset(static_cast<SensorPlugin*>(object)); break;
-    case SYSTEM_PLUGIN: system_.reset(static_cast<SystemPlugin*>(object)); break;
-    default: throw std::runtime_error(std::string("is a ") + kind_name(kind_) + " plugin: there is nothing here that it could draw on");
+    case MODEL_PLUGIN:
+      model_.reset(made);
+      break;
+    case WORLD_PLUGIN:
+      world_.reset(static_cast<WorldPlugin*>(object));
+      break;
+    case SENSOR_PLUGIN:
+      sensor_.reset(static_cast<SensorPlugin*>(object));
+      break;
+    case SYSTEM_PLUGIN:
+      system_.reset(static_cast<SystemPlugin*>(object));
+      break;
+    default:
+      throw std::runtime_error(std::string("is a ") + kind_name(kind_) +
+                               " plugin: there is nothing here that it could draw on");
   }
 }
 
@@ -120,8 +133,9 @@ void LoadedPlugin::LoadSensor(const std::string& name, int index, const std::str
     wrong_kind(kind_, "sensor");
   const sensors::SensorPtr sensor = sensors::SensorManager::Instance()->GetSensor(name);
   if (!sensor)
-    throw std::runtime_error("sensors of this type are not there in C++, but for rays, contacts, IMU, GPS, altimeter and magnetometer; "
-                             "in Python they are (gazebo_ros.plugin)");
+    throw std::runtime_error(
+        "sensors of this type are not there in C++, but for rays, contacts, IMU, GPS, altimeter and magnetometer; "
+        "in Python they are (gazebo_ros.plugin)");
   const sdf::ElementPtr element = plugin_element(sensor->Element(), index, text);
   call("Load()", [&] { sensor_->Load(sensor, element); });
   call("Init()", [&] { sensor_->Init(); });

@@ -11,25 +11,30 @@ namespace transport
 namespace
 {
 
-template <typename M> bool same(const M& a, const M& b)
+template <typename M>
+bool same(const M& a, const M& b)
 {
   return a.topic() == b.topic() && a.host() == b.host() && a.port() == b.port();
 }
 
-template <typename M> bool read(M& message, const msgs::Packet& packet)
+template <typename M>
+bool read(M& message, const msgs::Packet& packet)
 {
   return message.ParsePartialFromString(packet.serialized_data()) && message.IsInitialized();
 }
 
 /// The one of the client, or of nobody in particular.
-template <typename Entries> typename Entries::const_iterator of(const Entries& entries, int client)
+template <typename Entries>
+typename Entries::const_iterator of(const Entries& entries, int client)
 {
   return std::find_if(entries.begin(), entries.end(), [&](const auto& each) { return each.first == client; });
 }
 
-template <typename Entries, typename M> void drop(Entries& entries, const M& message)
+template <typename Entries, typename M>
+void drop(Entries& entries, const M& message)
 {
-  entries.erase(std::remove_if(entries.begin(), entries.end(), [&](const auto& each) { return same(each.second, message); }), entries.end());
+  entries.erase(std::remove_if(entries.begin(), entries.end(), [&](const auto& each) { return same(each.second, message); }),
+                entries.end());
 }
 
 msgs::GzString_V strings(const std::vector<std::string>& all)

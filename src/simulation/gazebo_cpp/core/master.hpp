@@ -26,7 +26,8 @@ public:
   void Handle(int client, const msgs::Packet& packet);
 
 private:
-  template <typename M> using Entries = std::vector<std::pair<int, M>>;
+  template <typename M>
+  using Entries = std::vector<std::pair<int, M>>;
   void all(const std::string& type, const google::protobuf::Message& message);
   void advertise(int client, const msgs::Publish& publisher);
   void unadvertise(const msgs::Publish& publisher);

@@ -157,15 +157,17 @@ ShapePtr make_shape(const CollisionPtr& collision, const CollisionRecord& r)
 
 Base::EntityType type_of(const std::string& type)
 {
-  static const std::map<std::string, Base::EntityType> types = {
-    { "prismatic", Base::SLIDER_JOINT }, { "fixed", Base::FIXED_JOINT }, { "ball", Base::BALL_JOINT },
-    { "universal", Base::UNIVERSAL_JOINT }, { "revolute2", Base::HINGE2_JOINT }
-  };
+  static const std::map<std::string, Base::EntityType> types = { { "prismatic", Base::SLIDER_JOINT },
+                                                                 { "fixed", Base::FIXED_JOINT },
+                                                                 { "ball", Base::BALL_JOINT },
+                                                                 { "universal", Base::UNIVERSAL_JOINT },
+                                                                 { "revolute2", Base::HINGE2_JOINT } };
   const auto found = types.find(type);
   return found == types.end() ? Base::HINGE_JOINT : found->second;
 }
 
-template <class T, class Items> T* with_id(const Items& items, int id)
+template <class T, class Items>
+T* with_id(const Items& items, int id)
 {
   for (const auto& item : items)
     if (item->id == id)
@@ -325,7 +327,8 @@ WorldPtr get_world(const std::string& name)
 {
   const WorldPtr world = Mirror::Get().GetWorld();
   if (!world || (!name.empty() && name != world->Name()))
-    gzthrow("there is no world" << (name.empty() ? "" : " named '" + name + "'") << (world ? "; it is '" + world->Name() + "'" : ""));
+    gzthrow("there is no world" << (name.empty() ? "" : " named '" + name + "'")
+                                << (world ? "; it is '" + world->Name() + "'" : ""));
   return world;
 }
 

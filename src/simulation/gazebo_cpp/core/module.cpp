@@ -47,8 +47,8 @@ void share_tf()
       return;
 }
 
-void start(std::uintptr_t core, const std::string& name, const std::string& text, double update_rate, const Numbers& magnetic_field,
-           const Numbers& place)
+void start(std::uintptr_t core, const std::string& name, const std::string& text, double update_rate,
+           const Numbers& magnetic_field, const Numbers& place)
 {
   Mirror::Get().Start(reinterpret_cast<ode_sim::World*>(core), name, text, update_rate);
   Mirror::Get().Describe(magnetic_field, place);
@@ -71,8 +71,9 @@ void add_model(const std::string& name, const std::string& text, int id, const N
   Mirror::Get().Add(model);
 }
 
-void set_host(std::function<void(std::string, Numbers)> insert, std::function<void(std::string)> remove, std::function<void(std::string)> order,
-              std::function<void(unsigned int)> step, std::function<void(std::string, double)> parameter,
+void set_host(std::function<void(std::string, Numbers)> insert, std::function<void(std::string)> remove,
+              std::function<void(std::string)> order, std::function<void(unsigned int)> step,
+              std::function<void(std::string, double)> parameter,
               std::function<void(std::string, std::string, std::string)> plugin)
 {
   auto& host = Mirror::Get().host;
@@ -129,14 +130,18 @@ PYBIND11_MODULE(_core, m)
   m.doc() = "Gazebo Classic's C++ API over a simulated world: the mirror of its models, and compiled plugins.";
   show_to_all();
   add_client(m);
-  m.def("serve", [](const std::string& world, std::function<void()> first) {
-    Mirror::Get().began = gazebo::common::Time::GetWallTime();
-    return gazebo::transport::serve(world, std::move(first));
-  }, Free());
+  m.def(
+      "serve",
+      [](const std::string& world, std::function<void()> first) {
+        Mirror::Get().began = gazebo::common::Time::GetWallTime();
+        return gazebo::transport::serve(world, std::move(first));
+      },
+      Free());
   m.def("ready", &gazebo::transport::ready, Free());
   m.def("start", &start, Free());
   m.def("share_tf", &share_tf, Free());
-  m.def("stop", [] { Mirror::Get().Stop(); }, Free());
+  m.def(
+      "stop", [] { Mirror::Get().Stop(); }, Free());
   m.def("set_host", &set_host);
   m.def("follow_clock", [] { Mirror::Get().host.clock = compiled_plugins::set_time; });
   m.def("lock_world", &gazebo::physics::WorldLock::Take, Free());
@@ -144,9 +149,12 @@ PYBIND11_MODULE(_core, m)
   m.def("set_reporter", &gazebo::internal::SetReporter);
   m.def("set_verbose", [](bool on) { gazebo::common::Console::SetQuiet(!on); });
   m.def("add_model", &add_model, Free());
-  m.def("remove_model", [](const std::string& name) { Mirror::Get().Remove(name); }, Free());
-  m.def("set_paused", [](bool paused) { Mirror::Get().SetPaused(paused); }, Free());
-  m.def("was_reset", [](bool time) { Mirror::Get().WasReset(time); }, Free());
+  m.def(
+      "remove_model", [](const std::string& name) { Mirror::Get().Remove(name); }, Free());
+  m.def(
+      "set_paused", [](bool paused) { Mirror::Get().SetPaused(paused); }, Free());
+  m.def(
+      "was_reset", [](bool time) { Mirror::Get().WasReset(time); }, Free());
   py::class_<LoadedPlugin, std::shared_ptr<LoadedPlugin>>(m, "Plugin")
       .def(py::init<const std::string&, const std::string&, const std::string&, const std::string&>(), Free())
       .def("load_model", &LoadedPlugin::LoadModel, Free())

@@ -45,19 +45,22 @@ std::string Network::Serve(const std::string& world, unsigned int port, std::fun
     return "";
   master_listens_ = listen_on(port);
   if (master_listens_ < 0)
-    return "port " + std::to_string(port) + " is taken, maybe by another simulator: gz topic and programs that are clients of Gazebo reach "
-           "that one. For both, each with a port of its own: export GAZEBO_MASTER_URI=http://localhost:" + std::to_string(port + 1);
+    return "port " + std::to_string(port) +
+           " is taken, maybe by another simulator: gz topic and programs that are clients of Gazebo reach "
+           "that one. For both, each with a port of its own: export GAZEBO_MASTER_URI=http://localhost:" +
+           std::to_string(port + 1);
   serves_ = true;
   first_ = std::move(first);
-  master_.reset(new Master({ world, "/gazebo" }, [this](int client, const std::string& type, const google::protobuf::Message& message) {
-    const std::string packet = msgs::Package(type, message);
-    const auto found = connections_.find(client);
-    msgs::Packet own;
-    if (found != connections_.end())
-      found->second.link->Send(framed(packet));
-    else if (client == 0 && ReadMessage(own, packet))
-      onPacket(own);
-  }));
+  master_.reset(
+      new Master({ world, "/gazebo" }, [this](int client, const std::string& type, const google::protobuf::Message& message) {
+        const std::string packet = msgs::Package(type, message);
+        const auto found = connections_.find(client);
+        msgs::Packet own;
+        if (found != connections_.end())
+          found->second.link->Send(framed(packet));
+        else if (client == 0 && ReadMessage(own, packet))
+          onPacket(own);
+      }));
   start();
   master_->Add(0);
   {
@@ -226,7 +229,8 @@ std::list<std::string> Network::Spaces(const std::chrono::duration<double>& pati
   return spaces_;
 }
 
-bool Network::Ask(const std::string& request, const std::string& data, const std::string& answer, google::protobuf::Message& message)
+bool Network::Ask(const std::string& request, const std::string& data, const std::string& answer,
+                  google::protobuf::Message& message)
 {
   const std::unique_ptr<msgs::Request> asked(msgs::CreateRequest(request, data));
   std::unique_lock<std::mutex> lock(mutex_);

@@ -26,7 +26,8 @@ namespace transport
 {
 
 /// \return whether the data is a whole message
-template <typename M> bool ReadMessage(M& message, const std::string& data)
+template <typename M>
+bool ReadMessage(M& message, const std::string& data)
 {
   return message.ParsePartialFromString(data) && message.IsInitialized();
 }
@@ -57,13 +58,19 @@ public:
 
 private:
   using Clock = std::chrono::steady_clock;
-  enum class Kind { to_master, of_master, listener, source };
+  enum class Kind
+  {
+    to_master,
+    of_master,
+    listener,
+    source
+  };
   struct Connection
   {
     Kind kind;
     std::unique_ptr<Link> link;
-    std::shared_ptr<Topic> topic;  // of a listener, when it has said which; of a source
-    msgs::Publish publisher;       // of a source
+    std::shared_ptr<Topic> topic;                      // of a listener, when it has said which; of a source
+    msgs::Publish publisher;                           // of a source
     Clock::time_point end = Clock::time_point::max();  // of a source that is no longer announced
   };
   struct Outgoing
@@ -114,7 +121,7 @@ private:
   std::map<std::string, Announced> announced_;
   std::list<msgs::Publish> publishers_;
   std::list<std::string> spaces_;
-  bool greeted_ = false;  // by the master
+  bool greeted_ = false;                        // by the master
   std::map<std::string, std::string> answers_;  // of the master, by the type of the packet
   std::vector<std::string> reports_;            // lines for the user, said when nothing is locked
 

@@ -13,10 +13,16 @@ namespace transport
 namespace
 {
 
-constexpr std::size_t busy = 1000;  // messages that subscribers of this process have not got to: no more are read until they have
-constexpr int busy_pause = 10;      // ms
+constexpr std::size_t busy =
+    1000;                       // messages that subscribers of this process have not got to: no more are read until they have
+constexpr int busy_pause = 10;  // ms
 const std::chrono::seconds last_words(2), greeting(4);
-enum : int { wake_id = -1, listens_id = -2, master_listens_id = -3 };
+enum : int
+{
+  wake_id = -1,
+  listens_id = -2,
+  master_listens_id = -3
+};
 
 bool same(const msgs::Publish& a, const msgs::Publish& b)
 {
@@ -76,7 +82,8 @@ int Network::collect(std::vector<pollfd>& fds, std::vector<int>& ids)
     const bool rests = (full && connection.kind == Kind::source) || held_.count(each.first);
     paused = paused || (full && connection.kind == Kind::source);
     next = std::min(next, connection.end);
-    watch(connection.link->Fd(), each.first, static_cast<short>((rests ? 0 : POLLIN) | (connection.link->HasToSend() ? POLLOUT : 0)));
+    watch(connection.link->Fd(), each.first,
+          static_cast<short>((rests ? 0 : POLLIN) | (connection.link->HasToSend() ? POLLOUT : 0)));
   }
   if (paused)
     return busy_pause;
@@ -245,7 +252,8 @@ void Network::onPacket(const msgs::Packet& packet)
     publishers_.push_back(publisher);
   else if (type == "publisher_del" && ReadMessage(publisher, data))
     publishers_.remove_if([&](const msgs::Publish& each) { return same(each, publisher); });
-  else if ((type == "publisher_subscribe" || type == "publisher_advertise" || type == "publisher_update") && ReadMessage(publisher, data))
+  else if ((type == "publisher_subscribe" || type == "publisher_advertise" || type == "publisher_update") &&
+           ReadMessage(publisher, data))
     onPublisher(publisher);
   else if (type == "unadvertise" && ReadMessage(publisher, data))
     onUnadvertised(publisher);
@@ -260,12 +268,13 @@ void Network::onPublisher(const msgs::Publish& publisher)
   if (own(publisher) || known == announced_.end() || !known->second.heard)
     return;
   for (const auto& each : connections_)
-    if (each.second.kind == Kind::source && each.second.end == Clock::time_point::max() && same(each.second.publisher, publisher))
+    if (each.second.kind == Kind::source && each.second.end == Clock::time_point::max() &&
+        same(each.second.publisher, publisher))
       return;
   const int fd = connect_to(publisher.host(), publisher.port(), false);
   if (fd < 0)
     return reports_.push_back("topic " + publisher.topic() + ": who publishes it at " + publisher.host() + ":" +
-                                       std::to_string(publisher.port()) + " cannot be reached");
+                              std::to_string(publisher.port()) + " cannot be reached");
   add(fd, Kind::source, Link::large);
   Connection& connection = connections_.at(next_ - 1);
   connection.publisher = publisher;

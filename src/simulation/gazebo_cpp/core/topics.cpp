@@ -44,7 +44,8 @@ void Topics::whilePaused()
   {
     std::this_thread::sleep_for(std::chrono::duration<double>(stats_period));
     const WorldPtr world = Mirror::Get().GetWorld();
-    if (!world || !world->IsPaused() || !(stats_->HasConnections() || poses_->HasConnections() || local_poses_->HasConnections()))
+    if (!world || !world->IsPaused() ||
+        !(stats_->HasConnections() || poses_->HasConnections() || local_poses_->HasConnections()))
       continue;
     const boost::recursive_mutex::scoped_lock lock(step_mutex());
     const common::Time now = common::Time::GetWallTime();
@@ -63,7 +64,8 @@ void Topics::RemoveFilter(const std::string& topic) { filters_.erase(topic); }
 void Topics::publishContacts(World& world)
 {
   const bool all = contacts_->HasConnections();
-  const bool some = std::any_of(filters_.begin(), filters_.end(), [](const auto& f) { return f.second.publisher->HasConnections(); });
+  const bool some =
+      std::any_of(filters_.begin(), filters_.end(), [](const auto& f) { return f.second.publisher->HasConnections(); });
   if (!all && !some)
     return;
   const std::vector<Contact*>& contacts = world.Physics()->GetContactManager()->GetContacts();

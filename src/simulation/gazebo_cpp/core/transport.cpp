@@ -39,7 +39,11 @@ bool wanted(const std::string& topic)
 // -- Publisher ----------------------------------------------------------------------------------------------------------------------
 
 Publisher::Publisher(std::shared_ptr<Topic> topic, const std::string& type, unsigned int limit, double hz)
-  : topic_(std::move(topic)), type_(type), limit_(limit), period_(hz > 0 ? 1 / hz : 0), id_(ids++)
+  : topic_(std::move(topic))
+  , type_(type)
+  , limit_(limit)
+  , period_(hz > 0 ? 1 / hz : 0)
+  , id_(ids++)
 {
   ++topic_->publishers;
 }
@@ -90,12 +94,14 @@ void Publisher::publish(const google::protobuf::Message& message, bool block)
 {
   if (message.GetTypeName() != type_)
   {
-    gzerr << "topic " << topic_->name << " takes " << type_ << ", not " << message.GetTypeName() << "; it is not sent" << std::endl;
+    gzerr << "topic " << topic_->name << " takes " << type_ << ", not " << message.GetTypeName() << "; it is not sent"
+          << std::endl;
     return;
   }
   if (!message.IsInitialized())
   {
-    gzerr << "topic " << topic_->name << ": a message without " << message.InitializationErrorString() << " is not sent" << std::endl;
+    gzerr << "topic " << topic_->name << ": a message without " << message.InitializationErrorString() << " is not sent"
+          << std::endl;
     return;
   }
   const common::Time now = common::Time::GetWallTime();
@@ -179,7 +185,8 @@ PublisherPtr Node::Advertise(const std::string& topic, const std::string& type, 
     const std::lock_guard<std::mutex> lock(Post::Get().mutex);
     const auto found = Post::Get().Find(name);
     if (!found->type.empty() && found->type != type)
-      gzerr << "topic " << name << " has messages of type " << found->type << "; it is advertised with " << type << ", too" << std::endl;
+      gzerr << "topic " << name << " has messages of type " << found->type << "; it is advertised with " << type << ", too"
+            << std::endl;
     found->type = type;
     made.reset(new Publisher(found, type, limit, hz));
   }

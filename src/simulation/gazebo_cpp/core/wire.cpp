@@ -22,8 +22,8 @@ namespace
 {
 
 constexpr std::size_t header_length = 8;
-constexpr std::size_t most_waiting = 1 << 26;   // bytes that one slow listener may hold
-constexpr std::size_t most_at_once = 1 << 20;   // bytes that are read in one turn
+constexpr std::size_t most_waiting = 1 << 26;  // bytes that one slow listener may hold
+constexpr std::size_t most_at_once = 1 << 20;  // bytes that are read in one turn
 
 /// Of a header; npos if it is none.
 std::size_t length_of(const char* header)
@@ -35,7 +35,10 @@ std::size_t length_of(const char* header)
   return end == digits + header_length && !std::strpbrk(digits, "-+xX") ? length : std::string::npos;
 }
 
-bool not_now() { return errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR || errno == EINPROGRESS || errno == ENOTCONN; }
+bool not_now()
+{
+  return errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR || errno == EINPROGRESS || errno == ENOTCONN;
+}
 
 std::string text_of(const in_addr& address)
 {

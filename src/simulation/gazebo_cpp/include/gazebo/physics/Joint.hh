@@ -26,7 +26,20 @@ class GAZEBO_VISIBLE Joint : public Base
   using Pose3d = ignition::math::Pose3d;
 
 public:
-  enum Attribute { FUDGE_FACTOR, SUSPENSION_ERP, SUSPENSION_CFM, STOP_ERP, STOP_CFM, ERP, CFM, FMAX, VEL, HI_STOP, LO_STOP };
+  enum Attribute
+  {
+    FUDGE_FACTOR,
+    SUSPENSION_ERP,
+    SUSPENSION_CFM,
+    STOP_ERP,
+    STOP_CFM,
+    ERP,
+    CFM,
+    FMAX,
+    VEL,
+    HI_STOP,
+    LO_STOP
+  };
 
   explicit Joint(BasePtr parent) : Base(parent) { AddType(JOINT); }
   ~Joint() override;
@@ -92,7 +105,8 @@ public:
   Pose3d AnchorErrorPose() const { return WorldPose() - ParentWorldPose(); }
   double GetInertiaRatio(unsigned int index) const;
   virtual void FillMsg(msgs::Joint& message);
-  template <typename T> event::ConnectionPtr ConnectJointUpdate(T subscriber)
+  template <typename T>
+  event::ConnectionPtr ConnectJointUpdate(T subscriber)
   {
     return event::Events::ConnectWorldUpdateBegin([subscriber](const common::UpdateInfo&) { subscriber(); });
   }

@@ -54,7 +54,8 @@ public:
   virtual void AddForce(const Vector3d& force);
   virtual void AddRelativeForce(const Vector3d& force);
   virtual void AddForceAtWorldPosition(const Vector3d& force, const Vector3d& position);
-  virtual void AddForceAtRelativePosition(const Vector3d& force, const Vector3d& position);  // link axes, from the centre of mass
+  virtual void AddForceAtRelativePosition(const Vector3d& force,
+                                          const Vector3d& position);  // link axes, from the centre of mass
   virtual void AddLinkForce(const Vector3d& force, const Vector3d& offset = Vector3d::Zero);  // link frame
   virtual void AddTorque(const Vector3d& torque);
   virtual void AddRelativeTorque(const Vector3d& torque);

@@ -48,7 +48,8 @@ public:
   void SetJointPositions(const std::map<std::string, double>& positions);
   void SetEnabled(bool enabled);
   void SetLinkWorldPose(const ignition::math::Pose3d& pose, std::string link);
-  void SetLinkWorldPose(const ignition::math::Pose3d& pose, const LinkPtr& link);  // the whole model moves, so that the link is there
+  void SetLinkWorldPose(const ignition::math::Pose3d& pose,
+                        const LinkPtr& link);  // the whole model moves, so that the link is there
   void SetAutoDisable(bool disable);
   bool GetAutoDisable() const;
   ignition::math::Vector3d Scale() const { return ignition::math::Vector3d::One; }

@@ -28,7 +28,7 @@ class Model;
 namespace physics
 {
 #define GZ_PHYSICS(name) \
-  class name; \
+  class name;            \
   typedef boost::shared_ptr<name> name##Ptr;
 GZ_PHYSICS(Base)
 GZ_PHYSICS(Contact)

@@ -40,19 +40,25 @@ public:
   unsigned int GetId() const { return id_; }
   std::string GetMsgType(const std::string& topic) const;
 
-  template <typename M> PublisherPtr Advertise(const std::string& topic, unsigned int limit = 1000, double hz = 0)
+  template <typename M>
+  PublisherPtr Advertise(const std::string& topic, unsigned int limit = 1000, double hz = 0)
   {
     return Advertise(topic, M().GetTypeName(), limit, hz);
   }
   PublisherPtr Advertise(const std::string& topic, const std::string& type, unsigned int limit = 1000, double hz = 0);
-  template <typename M> void Publish(const std::string& topic, const google::protobuf::Message& message) { publishOnce(topic, message); }
+  template <typename M>
+  void Publish(const std::string& topic, const google::protobuf::Message& message)
+  {
+    publishOnce(topic, message);
+  }
   void Publish(const std::string& topic, const google::protobuf::Message& message) { publishOnce(topic, message); }
 
   template <typename M, typename T>
   SubscriberPtr Subscribe(const std::string& topic, void (T::*method)(const boost::shared_ptr<M const>&), T* object,
                           bool latching = false)
   {
-    return subscribe<M>(topic, [object, method](const boost::shared_ptr<M const>& message) { (object->*method)(message); }, latching);
+    return subscribe<M>(
+        topic, [object, method](const boost::shared_ptr<M const>& message) { (object->*method)(message); }, latching);
   }
   template <typename M>
   SubscriberPtr Subscribe(const std::string& topic, void (*function)(const boost::shared_ptr<M const>&), bool latching = false)
@@ -62,25 +68,32 @@ public:
   template <typename T>
   SubscriberPtr Subscribe(const std::string& topic, void (T::*method)(const std::string&), T* object, bool latching = false)
   {
-    return listen(topic, "", [object, method](const auto& message, const std::string& bytes) {
-      (object->*method)(message ? message->SerializeAsString() : bytes);
-    }, latching);
+    return listen(
+        topic, "",
+        [object, method](const auto& message, const std::string& bytes) {
+          (object->*method)(message ? message->SerializeAsString() : bytes);
+        },
+        latching);
   }
   SubscriberPtr Subscribe(const std::string& topic, void (*function)(const std::string&), bool latching = false)
   {
     return SubscribeToBytes(topic, function, latching);
   }
-  SubscriberPtr SubscribeToBytes(const std::string& topic, std::function<void(const std::string&)> function, bool latching = false)
+  SubscriberPtr SubscribeToBytes(const std::string& topic, std::function<void(const std::string&)> function,
+                                 bool latching = false)
   {
-    return listen(topic, "", [function](const auto& message, const std::string& bytes) {
-      function(message ? message->SerializeAsString() : bytes);
-    }, latching);
+    return listen(
+        topic, "",
+        [function](const auto& message, const std::string& bytes) { function(message ? message->SerializeAsString() : bytes); },
+        latching);
   }
 
 private:
-  template <typename M, typename F> SubscriberPtr subscribe(const std::string& topic, F function, bool latching)
+  template <typename M, typename F>
+  SubscriberPtr subscribe(const std::string& topic, F function, bool latching)
   {
-    const auto handed = [function](const boost::shared_ptr<google::protobuf::Message const>& message, const std::string& bytes) {
+    const auto handed = [function](const boost::shared_ptr<google::protobuf::Message const>& message,
+                                   const std::string& bytes) {
       boost::shared_ptr<M const> own = boost::dynamic_pointer_cast<M const>(message);
       if (!own)  // from another process, or of the same name and compiled by somebody else
       {

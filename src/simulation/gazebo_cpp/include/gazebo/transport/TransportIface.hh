@@ -31,7 +31,8 @@ GAZEBO_VISIBLE std::string getTopicMsgType(const std::string& topic);
 GAZEBO_VISIBLE void requestNoReply(const std::string& world, const std::string& request, const std::string& data = "");
 GAZEBO_VISIBLE void requestNoReply(NodePtr node, const std::string& request, const std::string& data = "");
 
-template <typename M> void publish(const std::string& topic, const google::protobuf::Message& message)
+template <typename M>
+void publish(const std::string& topic, const google::protobuf::Message& message)
 {
   const NodePtr node(new Node);
   node->Init();
