@@ -62,6 +62,26 @@ def test_robots_of_parts():
     assert CompiledRobotHW(twin(parent)).get(JointStateInterface).names() == ["a", "b"]
 
 
+def test_interfaces_in_cpp_of_a_robot_in_python():
+    joint = JointHandle(JointStateHandle("a"))
+
+    class Mixed(RobotHW):
+        asked = 0
+
+        def compiled_part(self):
+            self.asked += 1
+            return twin(robot(EffortJointInterface(joint)))
+
+    mixed = Mixed()
+    mixed.register_interface(JointStateInterface(joint.state))
+    assert twin(mixed) is twin(mixed) and mixed.asked == 1
+    view = CompiledRobotHW(twin(mixed))
+    assert view.interface_names() == ["hardware_interface::EffortJointInterface", "hardware_interface::JointStateInterface"]
+    view.get(EffortJointInterface).get_handle("a").command = 3.0
+    assert joint.command == 3.0
+    assert mixed.get(EffortJointInterface) is None  # Python's controllers do not see it
+
+
 def test_the_numbers_outlive_the_robot():
     view = CompiledRobotHW(twin(robot(EffortJointInterface(JointHandle(JointStateHandle("a"))))))
     gc.collect()

@@ -61,6 +61,9 @@ def twin(robot: RobotHW) -> Robot:
         return robot.core
     if robot._twin is None:
         robot._twin = _Twin()
+        part = robot.compiled_part()
+        if part is not None:
+            robot._twin.robot.add_manager(part, part)
     known = robot._twin
     for type_name, interface in robot._interfaces.items():
         if not Robot.knows(type_name):

@@ -90,6 +90,11 @@ class RobotHW:
             names.update(child.interface_names())
         return sorted(names)
 
+    def compiled_part(self) -> Any:
+        """A ``compiled.Robot`` with interfaces of a third party in C++, which compiled controllers find beside those registered here;
+        None if there are none. Asked once, when the first compiled controller is loaded."""
+        return None
+
     # -- life ---------------------------------------------------------------------------------------------------------
 
     def init(self, root_nh, robot_hw_nh) -> bool:

@@ -4,7 +4,7 @@ from __future__ import annotations
 import math
 import os
 import time as clock
-from typing import Callable, Dict, List, Tuple
+from typing import Any, Callable, Dict, List, Tuple
 
 import can
 import rospkg
@@ -124,6 +124,7 @@ class RmRobotHW(RobotHW):
         self._warned_warm = set()
         self._next_publish = 0.0
         self._guard = None
+        self._part: Any = None  # an RmControlPart, once a compiled controller is loaded
 
     def init(self, root_nh, robot_hw_nh) -> bool:
         """Set up from parameters.
@@ -199,9 +200,21 @@ class RmRobotHW(RobotHW):
         self._limits.register_handle(EffortJointSoftLimitsHandle(joint, limits, soft) if soft
                                      else EffortJointSaturationHandle(joint, limits))
 
+    def compiled_part(self) -> Any:
+        """The interfaces of rm_common."""
+        try:
+            from rm_hw.rm_control import RmControlPart
+        except ImportError:  # built without what compiled controllers need
+            return None
+        self._part = RmControlPart([actuator for actuator, _, _ in self._actuators], self._imus)
+        return self._part.robot
+
     def read(self, time: float, period: float) -> None:
         """Frames to joint states; all joint efforts are set to zero, so that a joint without controller gets none."""
         now = clock.monotonic()
+        part = self._part
+        if part is not None:
+            part.take()
         for bus in self._buses:
             bus.read(now)
         for actuator, state, _ in self._actuators:
@@ -210,6 +223,8 @@ class RmRobotHW(RobotHW):
                 report("error" if actuator.halted else "info", line)
             self._watch_temperature(actuator)
             state.position, state.velocity, state.effort = actuator.position, actuator.velocity, actuator.effort
+        if part is not None:
+            part.show()
         self._transmissions.actuator_to_joint_state.propagate()
         for joint in self._joints:
             joint.command = 0.0

@@ -48,6 +48,11 @@ class Imu:
             (0.0, 0.0, 0.0), _diagonal(config.linear_acceleration_covariance))
         self._stamp: Optional[float] = None
 
+    @property
+    def stamp(self) -> float:
+        """s since the epoch at which the last angular velocity was received; 0 before the first."""
+        return self._stamp or 0.0
+
     def on_gyro(self, gyro: ImuGyro, stamp: float) -> None:
         """Take an angular velocity received at ``stamp`` (s): turn the orientation by it."""
         k, offset = self.config.angular_vel_coeff, self.config.angular_vel_offset
