@@ -1,4 +1,4 @@
-"""The controller manager of a robot whose main program is C++; called by core/manager.cpp, which has begun the interpreter."""
+"""The controller manager of a robot written in C++; called by core/manager.cpp, which has begun the interpreter where there was none."""
 from __future__ import annotations
 
 import os
@@ -11,30 +11,36 @@ if TYPE_CHECKING:
 #: s after which a thread of Python that computes lets the control loop in
 _SWITCH_INTERVAL = 0.0002
 
+_own_node = False  # rospy's node was begun here
+
 
 def make(robot: int, namespace: str, node: str, node_namespace: str) -> "ControllerManager":
     """A controller manager in ``namespace``, which is absolute, for the C++ robot at an address.
 
-    :param node, node_namespace: of the process; rospy's node has ``_controller_manager`` behind that name.
+    :param node, node_namespace: of the process; rospy's node has ``_controller_manager`` behind that name. In a process that is one
+        of rospy already (the simulator) they do not count.
     """
-    sys.argv = [node]
-    os.environ["ROS_NAMESPACE"] = node_namespace
+    if "rospy" not in sys.modules:
+        sys.argv = [node]
+        os.environ["ROS_NAMESPACE"] = node_namespace
     import rospy  # reads both when it is imported
     from hardware_interface._robots import Robot
     from hardware_interface.compiled import CompiledRobotHW
 
     from .manager import ControllerManager
+    global _own_node
     if not rospy.core.is_initialized():
         sys.setswitchinterval(_SWITCH_INTERVAL)
         rospy.init_node(f"{node}_controller_manager", disable_signals=True)
+        _own_node = True
     return ControllerManager(CompiledRobotHW(Robot(robot, None)), namespace)
 
 
 def end(manager: "ControllerManager", last: bool) -> None:
-    """Stop and free the controllers; with the last manager of the process rospy's node ends too."""
+    """Stop and free the controllers; with the last manager of the process rospy's node ends too, if make() has begun it."""
     import rospy
     manager.shutdown()
-    if last:
+    if last and _own_node:
         rospy.signal_shutdown("the robot's program ends")
 
 
