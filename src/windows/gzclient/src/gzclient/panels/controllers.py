@@ -83,10 +83,8 @@ class ControllersPanel(Panel):
         if command is None:
             return
         publisher = rospy.Publisher(f"{listed.manager}/{listed.name}/{command.topic}", command.cls, queue_size=1)
-        sliders = []
-        for slider in command.sliders:
-            made = self.gui.add_slider(f"{listed.name} {slider.label}", slider.low, slider.high, (slider.high - slider.low) / 1000, slider.now)
-            sliders.append(made)
+        sliders = [self.gui.add_slider(f"{listed.name} {slider.label}", slider.low, slider.high,
+                                       (slider.high - slider.low) / 1000, slider.now) for slider in command.sliders]
         sent = _Sent(listed, command, publisher, tuple(sliders))
         for made in sliders:
             self.on_update(made, lambda _: self._send(sent))
