@@ -2,6 +2,7 @@
 """Robots from their URDF in other engines, each joint held by a PD in Python at every 1 ms step. One line of JSON.
 
 usage: other_engines.py pybullet|mujoco ROBOT STEPS
+       other_engines.py mujoco pile STEPS        the 100 boxes of physics.py
 """
 import json
 import os
@@ -75,6 +76,19 @@ def mujoco(file, joints, steps):
     return timed(step, steps, lambda: [data.qpos[i] for i, _, _ in places])
 
 
+def mujoco_pile(steps):
+    import mujoco as engine
+    from physics import PILE
+    bodies = "".join(f'<body pos="{x} {y} {z}"><freejoint/><geom type="box" size="0.05 0.05 0.05" mass="1"/></body>' for x, y, z in PILE)
+    model = engine.MjModel.from_xml_string('<mujoco><option timestep="0.001" gravity="0 0 -9.8"/><worldbody>'
+                                           f'<geom type="plane" size="10 10 1"/>{bodies}</worldbody></mujoco>')
+    data, contacts, start = engine.MjData(model), 0, time.process_time()
+    for _ in range(steps):
+        engine.mj_step(model, data)
+        contacts += data.ncon
+    return {"us per step": (time.process_time() - start) / steps * 1e6, "contacts": contacts / steps}
+
+
 def gain(inertia):
     """(N m per rad, N m per rad/s). :param inertia: kg m2"""
     return inertia * BANDWIDTH ** 2, 2.0 * inertia * BANDWIDTH
@@ -95,6 +109,9 @@ def timed(step, steps, positions):
 
 
 def main():
+    if sys.argv[1:3] == ["mujoco", "pile"]:
+        print(json.dumps(mujoco_pile(int(sys.argv[3]))))
+        return
     engine, robot = sys.argv[1], ROBOTS[sys.argv[2]]
     with tempfile.TemporaryDirectory() as folder:
         file = os.path.join(folder, "robot.urdf")

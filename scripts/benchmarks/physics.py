@@ -4,6 +4,7 @@
 usage: physics.py [--json FILE]
 """
 import argparse
+import importlib.util
 import json
 import math
 import os
@@ -21,10 +22,13 @@ import ode_sim  # noqa: E402
 from physics_models import arm, box, diff_drive, ground  # noqa: E402
 
 
+PILE = [(0.15 * (i % 3) + 0.01 * (i % 7), 0.15 * (i // 3 % 3), 0.1 + 0.12 * (i // 9)) for i in range(100)]  # m, of boxes of 1 kg, 0.1 m
+
+
 def per_step(world, steps):
-    start = time.perf_counter()
+    start = time.process_time()
     world.step(steps)
-    return (time.perf_counter() - start) / steps * 1e6
+    return (time.process_time() - start) / steps * 1e6
 
 
 def motor_arm(steps=4000):
@@ -55,8 +59,8 @@ def boxes(steps=1500):
     """Cost of a falling step, its contacts, how many boxes sleep in the end, cost of a step asleep."""
     world = ode_sim.World()
     world.spawn(ground())
-    for i in range(100):
-        world.spawn(box(f"box{i}", (0.15 * (i % 3) + 0.01 * (i % 7), 0.15 * (i // 3 % 3), 0.1 + 0.12 * (i // 9))))
+    for i, place in enumerate(PILE):
+        world.spawn(box(f"box{i}", place))
     cost = contacts = 0.0
     for _ in range(0, steps, 10):
         cost += per_step(world, 10) * 10 / steps
@@ -98,6 +102,18 @@ def bare(kind, steps, joints=6):
         return tuple(float(word) for word in output.split())
 
 
+def pile_elsewhere(ours, steps=1500):
+    """The same boxes in MuJoCo, where scripts/setup --bench has installed it."""
+    if importlib.util.find_spec("mujoco") is None:
+        return {}
+    run = subprocess.run([sys.executable, os.path.join(HERE, "other_engines.py"), "mujoco", "pile", str(steps)], check=True,
+                         capture_output=True, text=True)
+    found = json.loads(run.stdout[run.stdout.rindex("{"):])
+    return {"100 falling boxes: MuJoCo (us/step)": found["us per step"],
+            "100 falling boxes: MuJoCo, contacts per step": found["contacts"],
+            "100 falling boxes: ode_sim / MuJoCo": ours / found["us per step"]}
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--json", metavar="FILE")
@@ -119,6 +135,7 @@ def main():
         "100 boxes asleep (us/step)": sleeping,
         "360 rays among 41 shapes (us)": rays(),
     }
+    figures.update(pile_elsewhere(our_boxes))
     for name, value in figures.items():
         print(f"{name:70s} {value:10.2f}")
     if options.json:
