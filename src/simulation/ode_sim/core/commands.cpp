@@ -105,7 +105,7 @@ bool World::set_joint_position(Joint& j, int axis, double q) {
   if (j.axis_count == 0) return false;
   bool loop = false;
   refresh();
-  const auto beyond = links_beyond(j, &loop);
+  const auto& beyond = links_beyond(j, &loop);
   if (loop) return false;
   Axis& a = j.axes[axis];
   q = std::min(std::max(q, a.lower), a.upper);

@@ -248,6 +248,7 @@ class CarryPass {
 // What position drives of floating clusters carry feels that they move, as what hangs on a moving hand does; the cluster itself does
 // not feel it (no recoil).
 void follow_drives(Scene& scene, StepState& state) {
+  if (scene.carried.empty()) return;
   bool any = false;
   for (auto& m : scene.models) {
     if (!m->has_drives || state.of(*m).jump) continue;

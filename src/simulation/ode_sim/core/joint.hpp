@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
+#include <vector>
 
 #include "math.hpp"
 #include "ode.hpp"
@@ -89,6 +90,7 @@ struct Joint {
   double sign = 1;                     // -1 when the parent is ODE's first body
   bool sane = true;                    // what is beyond has inertias that bodies of its size can have
   double inverse_inertia[2] = {0, 0};  // about the axis, of the two bodies taken alone
+  std::vector<Link*> beyond;           // what links_beyond has found
   double borne[12] = {};               // by each row in the last step, as `solver: gazebo` starts from it
 
   // The child's link is one body with the parent's for the time being.

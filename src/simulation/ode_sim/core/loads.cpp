@@ -8,45 +8,53 @@ namespace ode_sim {
 
 namespace {
 
-// Once for each link, however many joints bear it.
-void find_momentum(const Link& l, LinkStep& step) {
-  step.momentum = l.velocity_at(l.com_W()) * l.mass;
-  step.spin = rotate(l.X_WL.q, l.inertia * rotate(conjugate(l.X_WL.q), l.w));
+// Once for each link, however many joints bear it; all about one point, so that those of a joint are sums.
+void find_momentum(const Link& l, LinkStep& step, const Vec3& origin) {
+  const Vec3 com = l.com_W();
+  step.momentum = l.velocity_at(com) * l.mass;
+  step.spin = rotate(l.X_WL.q, l.inertia * rotate(conjugate(l.X_WL.q), l.w)) + cross(com - origin, step.momentum);
 }
 
-void momentum(const StepState& state, const Load& load, Vec3& linear, Vec3& spin) {
-  linear = spin = {};
-  for (const Link* l : load.links) {
+void find_forces(const Scene& scene, const Link& l, LinkStep& step, const Vec3& origin) {
+  step.force = (l.gravity ? scene.settings.gravity * l.mass : Vec3{}) + l.force;
+  step.torque = cross(l.com_W() - origin, step.force) + l.torque;
+}
+
+// The sum of forces or momenta of the links, and of their moments, which come about the origin, about the anchor.
+void sum(const StepState& state, const Load& load, Vec3 LinkStep::*what, Vec3 LinkStep::*moment, Vec3& total, Vec3& about) {
+  total = about = {};
+  for (const Link* l : *load.links) {
     const LinkStep& step = state.of(*l);
-    linear += step.momentum;
-    spin += step.spin + cross(l->com_W() - load.anchor, step.momentum);
+    total += step.*what;
+    about += step.*moment;
   }
+  about = about - cross(load.anchor - state.origin, total);
 }
 
 Load load_beyond(const Scene& scene, StepState& state, Joint& j) {
   Load load;
   bool loop = false;
-  load.links = links_beyond(j, &loop);
-  if (loop) load.links.clear();
+  load.links = &links_beyond(j, &loop);
+  if (loop) load.links = nullptr;
+  if (loop) return load;
   load.anchor = j.frame_W().p;
-  for (Link* l : load.links) {
+  if (state.weighed.empty()) state.origin = j.child->X_WL.p;
+  for (Link* l : *load.links) {
     LinkStep& step = state.of(*l);
-    if (!step.weighed) {
-      step.weighed = true;
-      state.weighed.push_back(l);
-      find_momentum(*l, step);
-    }
-    const Vec3 f = (l->gravity ? scene.settings.gravity * l->mass : Vec3{}) + l->force;
-    load.force += f;
-    load.torque += cross(l->com_W() - load.anchor, f) + l->torque;
+    if (step.weighed) continue;
+    step.weighed = true;
+    state.weighed.push_back(l);
+    find_momentum(*l, step, state.origin);
+    find_forces(scene, *l, step, state.origin);
   }
-  momentum(state, load, load.momentum, load.spin);
+  sum(state, load, &LinkStep::force, &LinkStep::torque, load.force, load.torque);
+  sum(state, load, &LinkStep::momentum, &LinkStep::spin, load.momentum, load.spin);
   return load;
 }
 
 // What contacts and welds give the load, about its anchor.
 void add_outer_forces(const Scene& scene, const StepState& state, const Load& load, Vec3& force, Vec3& torque) {
-  auto beyond = [&](const Link* l) { return std::find(load.links.begin(), load.links.end(), l) != load.links.end(); };
+  auto beyond = [&](const Link* l) { return std::find(load.links->begin(), load.links->end(), l) != load.links->end(); };
   for (auto& c : state.contacts) {
     const bool a = beyond(c.a->link), b = beyond(c.b->link);
     if (c.feedback < 0 || a == b) continue;
@@ -67,9 +75,9 @@ void add_outer_forces(const Scene& scene, const StepState& state, const Load& lo
 
 void read_load(const Scene& scene, const StepState& state, Joint& j, const Load& load) {
   j.feedback = {};
-  if (load.links.empty()) return;
+  if (!load.links) return;
   Vec3 linear, spin, force = load.force, torque = load.torque;
-  momentum(state, load, linear, spin);
+  sum(state, load, &LinkStep::momentum, &LinkStep::spin, linear, spin);
   add_outer_forces(scene, state, load, force, torque);
   force = -force;
   torque = -torque;
@@ -94,7 +102,7 @@ void weigh(const Scene& scene, StepState& state, Model& model) {
 
 // ... and after it.
 void read_loads(const Scene& scene, StepState& state) {
-  for (Link* l : state.weighed) find_momentum(*l, state.of(*l));
+  for (Link* l : state.weighed) find_momentum(*l, state.of(*l), state.origin);
   for (auto& [joint, load] : state.loads)
     if (joint->drive == DriveMode::Locked) read_load(scene, state, *joint, load);
 }

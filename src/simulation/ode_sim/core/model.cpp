@@ -5,9 +5,10 @@
 
 namespace ode_sim {
 
-std::vector<Link*> links_beyond(Joint& joint, bool* loop) {
+const std::vector<Link*>& links_beyond(Joint& joint, bool* loop) {
   const int visit = ++joint.model->visits;
-  std::vector<Link*> out{joint.child};
+  std::vector<Link*>& out = joint.beyond;
+  out.assign(1, joint.child);
   joint.child->visit = visit;
   if (loop) *loop = false;
   for (size_t i = 0; i < out.size(); ++i)

@@ -164,8 +164,9 @@ inline Cluster& cluster_of(const Link& link) { return link.model->clusters[link.
 dBodyID body_of(const Link* link);
 // Pose of the link in its body's frame; in the world when it has none.
 Pose X_BL(const Link& link);
-// Links beyond a joint: those reached from its child without crossing it. `loop` tells whether they lead back.
-std::vector<Link*> links_beyond(Joint& joint, bool* loop = nullptr);
+// Links beyond a joint: those reached from its child without crossing it. `loop` tells whether they lead back. In memory of the joint, until
+// it is asked again.
+const std::vector<Link*>& links_beyond(Joint& joint, bool* loop = nullptr);
 // The mass of all, and whether the links beyond each joint could be real bodies of their size: radius of gyration against reach.
 void judge_masses(Model& model);
 

@@ -98,13 +98,14 @@ void bind_world(py::module_& m) {
   world
       .def_property("iterations", [](World& w) { return w.scene().iterations; }, [](World& w, uint64_t n) { w.scene().iterations = n; })
       .def_property("time_ns", [](World& w) { return w.scene().time_ns; }, [](World& w, int64_t t) { w.scene().time_ns = t; })
+      .def_property_readonly("next_time_ns", [](World& w) { return w.scene().next_time_ns(); })
       .def_property_readonly("counters", [](World& w) -> Counters& { return w.scene().counters; },
                              py::return_value_policy::reference_internal)
       .def_property_readonly("address", [](World& w) { return reinterpret_cast<uintptr_t>(&w); })  // for compiled plugins
       .def("add_model", &World::add_model)
       .def("remove_model", &World::remove_model)
       .def("refresh", &World::refresh)
-      .def("step", &World::step, py::call_guard<py::gil_scoped_release>())
+      .def("step", [](World& w, int n) { return w.step(n), w.scene().messages.any(); }, py::call_guard<py::gil_scoped_release>())
       .def("take_messages", [](World& w) { return w.scene().messages.take(); })
       .def("save", [](World& w) { return py::bytes(w.save()); })
       .def("restore", [](World& w, py::bytes data, const std::vector<int>& welds) { w.restore(data, welds); })

@@ -1,5 +1,6 @@
 // All that lasts from step to step, as plain data. The phases of a step are functions of a Scene and a StepState.
 #pragma once
+#include <cmath>
 #include <map>
 #include <memory>
 #include <string>
@@ -38,6 +39,7 @@ class Messages {
     const std::string line = (who.empty() ? "" : who + ": ") + text;
     if (counts_[line]++ == 0) unread_.push_back(line);
   }
+  bool any() const { return !unread_.empty(); }
   std::vector<std::string> take() { return std::exchange(unread_, {}); }
 
  private:
@@ -49,6 +51,7 @@ struct Scene {
   Settings settings;
   uint64_t iterations = 0;
   int64_t time_ns = 0;
+  int64_t next_time_ns() const { return time_ns + std::llround(settings.dt * 1e9); }  // of the state that the next step makes
   Counters counters;
   Messages messages;
 

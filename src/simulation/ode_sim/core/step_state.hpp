@@ -17,7 +17,8 @@ struct Accelerations {
 struct LinkStep {
   bool weighed = false;  // part of some load: forces of its contacts are wanted
   int node = -1;         // of the island search, where it has a kinematic body
-  Vec3 momentum, spin;   // of a weighed link; angular momentum about its CoM
+  Vec3 momentum, spin;   // of a weighed link; angular momentum about StepState::origin
+  Vec3 force, torque;    // gravity and wrenches on a weighed link, about the same
   Accelerations own;     // of the link origin
 };
 
@@ -31,7 +32,7 @@ struct ClusterStep {
 
 // What hangs beyond a joint, as it was before the step.
 struct Load {
-  std::vector<Link*> links;  // empty: not wanted, or the links lead back
+  const std::vector<Link*>* links;  // null: they lead back
   Vec3 anchor;               // of the joint
   Vec3 momentum, spin;       // spin: angular momentum about the anchor
   Vec3 force, torque;        // gravity and wrenches, about the anchor
@@ -76,6 +77,7 @@ struct StepState {
   std::vector<ModelStep> models;
   std::vector<std::pair<Joint*, Load>> loads;  // beyond position drives that are watched
   std::vector<Link*> weighed;                  // each link of the loads once
+  Vec3 origin;                                 // what they are weighed about: where the first of them was before the step
 
   std::vector<std::pair<Shape*, Shape*>> pairs;  // whose bounding boxes overlap
   std::vector<Contact> contacts;

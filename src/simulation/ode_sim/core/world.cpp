@@ -177,8 +177,8 @@ void World::renumber(const Model* fresh) {
 void World::step(int n) {
   const OdeScope scope;
   for (int i = 0; i < n; ++i) {
-    const auto dt_ns = static_cast<int64_t>(std::llround(scene_.settings.dt * 1e9));
-    if (observer) observer->before(scene_.time_ns + dt_ns);
+    const int64_t then = scene_.next_time_ns();
+    if (observer) observer->before(then);
     try {
       step_once(scene_, state_);
     } catch (const OdeFailure& failure) {
@@ -186,8 +186,8 @@ void World::step(int n) {
       abandon_step(scene_, state_);
     }
     ++scene_.iterations;
-    scene_.time_ns += dt_ns;
-    if (observer) observer->after(scene_.time_ns);
+    scene_.time_ns = then;
+    if (observer) observer->after(then);
   }
 }
 

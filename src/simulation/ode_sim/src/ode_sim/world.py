@@ -269,25 +269,26 @@ class World:
         """Advance by ``n`` steps. Without callbacks all of them are one call into the core."""
         if n < 0:
             raise ValueError(f"cannot step {n} times")
-        done = 0
+        done, told = 0, False
         while done < n:
             if not self.before_step and not self.after_step:
                 many = min(n - done, _MOST_STEPS)
-                self.core.step(many)
+                told |= self.core.step(many)
                 done += many
             else:
                 # Sim time is advanced first: a controller sees the time of the state that it produces.
-                self._time_ns = self.core.time_ns + round(self.core.dt * 1e9)
+                self._time_ns = self.core.next_time_ns
                 try:
                     for callback in list(self.before_step):
                         callback(self)
                 finally:
                     self._time_ns = None
-                self.core.step(1)
+                told |= self.core.step(1)
                 done += 1
                 for callback in list(self.after_step):
                     callback(self)
-        self.messages += self.core.take_messages()
+        if told:
+            self.messages += self.core.take_messages()
 
     def reset(self) -> None:
         """Time 0, every model with its joints as it was spawned, everything at rest, random numbers from the start."""
