@@ -15,6 +15,9 @@
 #include <moveit/robot_state/attached_body.h>
 #include <moveit/transforms/transforms.h>
 
+// Rows of one-line functions, and the macros that make them, are read as tables.
+// clang-format off
+
 namespace moveit
 {
 namespace core
