@@ -54,8 +54,8 @@ void bind_welds(WorldClass& world) {
       .def("detach_all", &World::unweld_all)
       .def("welds", &World::welds)
       .def("attached", [](World& w, int id) { return w.find_weld(id) != nullptr; })
-      .def("tie_pose", [](World& w, int id) { return out(weld_of(w, id).X_PC); })
-      .def("set_tie_pose", [](World& w, int id, T7 X) { weld_of(w, id).X_PC = in(X); });
+      .def("weld_pose", [](World& w, int id) { return out(weld_of(w, id).X_PC); })
+      .def("set_weld_pose", [](World& w, int id, T7 X) { weld_of(w, id).X_PC = in(X); });
 }
 
 py::array_t<ContactRecord> contacts(World& w) {

@@ -193,7 +193,7 @@ def test_any_number_given_to_any_setter(bad):
     world.spawn(ground())
     robot, arm_ = world.spawn(diff_drive()), world.spawn(arm(3, at=(2, 0, 0)))
     thing = world.spawn(box("thing", at=(2, 0, 0.8)))
-    tie = world.attach(arm_.links["link2"], thing.links["link"])
+    weld = world.attach(arm_.links["link2"], thing.links["link"])
     link, joint, driven = robot.links["base"], robot.joints["left"], arm_.joints["j1"]
     surface = next(iter(link.collisions.values())).surface
     calls = [
@@ -205,7 +205,7 @@ def test_any_number_given_to_any_setter(bad):
         lambda: joint.set_limits(bad, bad),
         lambda: joint.set_limits(-1, bad), lambda: joint.set_limits(bad, 1), lambda: setattr(joint, "damping", bad),
         lambda: setattr(joint, "friction", bad), lambda: joint.follow(driven, bad, 0.0), lambda: joint.follow(driven, 1.0, bad),
-        lambda: setattr(tie, "pose", Pose((bad, 0, 0))), lambda: setattr(world, "gravity", (0, bad, 0))]
+        lambda: setattr(weld, "pose", Pose((bad, 0, 0))), lambda: setattr(world, "gravity", (0, bad, 0))]
     calls += [lambda name=name: joint.set_param(name, bad) for name in
               ("fmax", "vel", "hi_stop", "lo_stop", "stop_erp", "stop_cfm", "friction", "damping")]
     calls += [lambda name=name: setattr(surface, name, bad) for name in

@@ -406,11 +406,11 @@ class Attachment:
 
         :raises RuntimeError: it has let go.
         """
-        return pose_of(self._core.tie_pose(self._id))
+        return pose_of(self._core.weld_pose(self._id))
 
     @pose.setter
     def pose(self, pose: Pose) -> None:
-        self._core.set_tie_pose(self._id, flat(pose, f"pose of attached link {self.child.scoped_name}"))
+        self._core.set_weld_pose(self._id, flat(pose, f"pose of attached link {self.child.scoped_name}"))
 
     def detach(self) -> None:
         """Let go; nothing happens if it has let go already."""
