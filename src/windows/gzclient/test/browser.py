@@ -90,7 +90,8 @@ class Browser:
         def still():
             first = self.scene()
             time.sleep(2.0 / FRAMES)
-            return first != before and first == self.scene()
+            return first == self.scene()
+        wait(lambda: self.scene() != before, "a scene that looks otherwise")
         wait(still, "a scene at rest")
 
     def downloaded(self, ending):

@@ -352,6 +352,8 @@ class Clicks(unittest.TestCase):
         for kind in ("Collisions", "Centres of mass", "Inertias", "Joints", "Link frames", "Labels", "Contacts"):
             page.check(kind)
         wait(lambda: streams("/gazebo/view_contacts"), "contacts are asked for")
+        page.check("Contacts")  # the arrows of forces need not be at rest
+        wait(lambda: not streams("/gazebo/view_contacts"), "contacts are not asked for any more")
         page.click("TF")
         page.check("TF frames")
         cube = Marker(type=Marker.CUBE, ns="test", scale=Vector3(1.0, 1.0, 1.0), color=ColorRGBA(1.0, 1.0, 0.0, 1.0))
