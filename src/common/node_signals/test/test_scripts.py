@@ -28,7 +28,8 @@ LAUNCHED = {"gzserver", "spawn_model", "spawner", "unspawner"}
 
 def scripts():
     """Every Python script that a package of the workspace installs."""
-    found = [path for pattern in ("scripts/*", "bin/*") for path in SOURCES.rglob(pattern) if path.is_file()]
+    found = [path for pattern in ("scripts/*", "bin/*") for path in SOURCES.rglob(pattern)
+             if path.is_file() and "test" not in path.relative_to(SOURCES).parts]
     return sorted(path for path in found if path.read_bytes()[:40].startswith(b"#!/usr/bin/env python3"))
 
 
