@@ -2,14 +2,14 @@
 from __future__ import annotations
 
 import threading
-from typing import Any, Dict, List, Optional, Sequence
+from typing import Dict, Optional, Sequence
 
 import rospy
 from moveit_msgs.msg import RobotTrajectory
 from sensor_msgs.msg import JointState
 
-from moveit_core.controller_manager import Completion, ControllerHandle, ControllerManager, ExecutionStatus
-from moveit_simple_controller_manager.manager import read_controller_list
+from moveit_core.controller_manager import Completion, ControllerHandle, ExecutionStatus
+from moveit_simple_controller_manager.manager import ListedControllers, read_controller_list
 from node_signals.parameters import number_or
 
 _LAST_POINT_TIME = 0.5
@@ -117,7 +117,7 @@ class FakeHandle(ControllerHandle):
         return False
 
 
-class FakeControllerManager(ControllerManager):
+class FakeControllerManager(ListedControllers):
     """The controllers of ``controller_list``; all are active, whatever is asked."""
 
     def __init__(self, model, namespace: str = "~"):
@@ -126,8 +126,6 @@ class FakeControllerManager(ControllerManager):
                                           latch=True)
         name = namespace + "fake_interpolating_controller_rate"
         rate = number_or(name, rospy.get_param(name, 10.0), 10.0)
-        self._entries: Dict[str, Dict[str, Any]] = {}
-        self._handles: Dict[str, FakeHandle] = {}
         for entry in read_controller_list(namespace):
             kind = str(entry.get("type", "last point"))
             if kind not in ("interpolate", "via points", "last point"):
@@ -135,8 +133,7 @@ class FakeControllerManager(ControllerManager):
                              "point. last point is "
                              "used", kind, entry["name"])
                 kind = "last point"
-            self._entries[entry["name"]] = entry
-            self._handles[entry["name"]] = FakeHandle(entry["name"], entry["joints"], self._publisher, kind, rate)
+            self.add(entry, FakeHandle(entry["name"], entry["joints"], self._publisher, kind, rate))
         self._initial()
 
     def _initial(self) -> None:
@@ -161,18 +158,6 @@ class FakeControllerManager(ControllerManager):
             message = JointState(name=sorted(values), position=[values[joint] for joint in sorted(values)])
             message.header.stamp = rospy.Time.now()
             self._publisher.publish(message)
-
-    def controllers(self) -> List[str]:
-        return sorted(self._handles)
-
-    def joints(self, controller: str) -> List[str]:
-        return self._entries[controller]["joints"]
-
-    def handle(self, controller: str) -> Optional[ControllerHandle]:
-        return self._handles.get(controller)
-
-    def is_default(self, controller: str) -> bool:
-        return bool(self._entries[controller].get("default", False))
 
     def switch(self, activate: Sequence[str], deactivate: Sequence[str]) -> bool:
         return True

@@ -50,23 +50,17 @@ def action_topic(name: str, action_ns: str) -> str:
     return name.rstrip("/") + ("/" + action_ns.strip("/") if action_ns else "")
 
 
-class SimpleControllerManager(ControllerManager):
-    """All controllers of the list count as active; none can be switched."""
+class ListedControllers(ControllerManager):
+    """Those of ``controller_list``, as :meth:`add` has them."""
 
     def __init__(self, model, namespace: str = "~"):
         super().__init__(model, namespace)
         self._entries: Dict[str, Dict[str, Any]] = {}
         self._handles: Dict[str, ControllerHandle] = {}
-        for entry in read_controller_list(namespace, ("name", "joints", "action_ns", "type")):
-            kind = str(entry["type"])
-            if kind not in HANDLES:
-                rospy.logerr("Unknown controller type: %s of controller '%s'; there are: %s", kind, entry["name"],
-                             ", ".join(HANDLES))
-                continue
-            topic = action_topic(entry["name"], str(entry["action_ns"]))
-            self._entries[entry["name"]] = entry
-            self._handles[entry["name"]] = HANDLES[kind](entry["name"], topic, entry)
-        rospy.loginfo("Returned %d controllers in list", len(self._handles))
+
+    def add(self, entry: Dict[str, Any], handle: ControllerHandle) -> None:
+        self._entries[entry["name"]] = entry
+        self._handles[entry["name"]] = handle
 
     def controllers(self) -> List[str]:
         return sorted(self._handles)
@@ -79,6 +73,22 @@ class SimpleControllerManager(ControllerManager):
 
     def is_default(self, controller: str) -> bool:
         return bool(self._entries[controller].get("default", False))
+
+
+class SimpleControllerManager(ListedControllers):
+    """All controllers of the list count as active; none can be switched."""
+
+    def __init__(self, model, namespace: str = "~"):
+        super().__init__(model, namespace)
+        for entry in read_controller_list(namespace, ("name", "joints", "action_ns", "type")):
+            kind = str(entry["type"])
+            if kind not in HANDLES:
+                rospy.logerr("Unknown controller type: %s of controller '%s'; there are: %s", kind, entry["name"],
+                             ", ".join(HANDLES))
+                continue
+            topic = action_topic(entry["name"], str(entry["action_ns"]))
+            self.add(entry, HANDLES[kind](entry["name"], topic, entry))
+        rospy.loginfo("Returned %d controllers in list", len(self._handles))
 
     def limits(self, controller: str) -> Dict[str, float]:
         entry, result = self._entries[controller], {}
