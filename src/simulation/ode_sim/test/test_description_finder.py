@@ -27,8 +27,9 @@ def test_model_paths_in_gazebos_order(home, monkeypatch):
     monkeypatch.setenv("GAZEBO_MODEL_PATH", f"{home}/first::{home}/second")
     finder = ResourceFinder([home / "exported"], stock=str(home / "stock"))
     assert finder.model_paths == [f"{home}/home/.gazebo/models", f"{home}/first", f"{home}/second", f"{home}/exported",
+                                  f"{home}/home/model_editor_models", f"{home}/home/building_editor_models",
                                   f"{home}/stock/models"]
-    for folder in ("stock/models", "exported", "second", "first", "home/.gazebo/models"):
+    for folder in ("stock/models", "home/model_editor_models", "exported", "second", "first", "home/.gazebo/models"):
         expected = touch(home / folder / "m/mesh.dae")
         assert finder.find("model://m/mesh.dae") == expected  # each new one hides the ones before
 

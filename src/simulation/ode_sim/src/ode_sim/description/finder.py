@@ -11,6 +11,8 @@ from ode_sim.description.xmlsource import parse_xml, read_bytes, text_of
 
 STOCK_VARIABLE = "ODE_SIM_STOCK_PATH"
 _NEWEST_SDF = (1, 7)
+#: Where the editors of Gazebo's window save; it puts these folders on its model path.
+_EDITORS = ("~/model_editor_models", "~/building_editor_models")
 
 
 def _entries(variable: str) -> List[str]:
@@ -46,7 +48,7 @@ class ResourceFinder:
     :param package_path: ``f(package name) -> directory or None``; by default a search below ROS_PACKAGE_PATH.
     :param stock: directory with the simulator's own ``models``, ``worlds`` and ``media``, searched last so that a
         course's own model of the same name wins; by default $ODE_SIM_STOCK_PATH, else the package ``gazebo_ros``.
-    :param environment: read GAZEBO_MODEL_PATH, GAZEBO_RESOURCE_PATH and ~/.gazebo/models.
+    :param environment: read GAZEBO_MODEL_PATH, GAZEBO_RESOURCE_PATH, ~/.gazebo/models and what the window's editors saved.
     """
 
     def __init__(self, model_paths: Optional[Iterable[str]] = None, resource_paths: Optional[Iterable[str]] = None,
@@ -60,6 +62,7 @@ class ResourceFinder:
         resources = _entries("GAZEBO_RESOURCE_PATH") if environment else []
         models += [str(path) for path in model_paths or ()]
         resources += [str(path) for path in resource_paths or ()]
+        models += [os.path.expanduser(path) for path in _EDITORS] if environment else []
         if self.stock:
             models.append(os.path.join(self.stock, "models"))
             resources.append(self.stock)

@@ -203,6 +203,10 @@ class Page:
             self._each(lambda panel: panel.on_frame(frame))
             self._complete()
 
+    def models_changed(self) -> None:
+        """A model was saved. Any thread."""
+        self.later(lambda: self._each(lambda panel: panel.on_models()))
+
     def redraw(self) -> None:
         """All anew, after a change of how things are drawn. Drawing thread."""
         self.drawing.redraw(self.world)

@@ -8,18 +8,19 @@ from dataclasses import replace
 from typing import Callable, List, Optional, Tuple
 
 import numpy as np
-from ode_sim.description import DescriptionError, model as d, read_sdf_model
+from ode_sim.description import DescriptionError, ResourceFinder, model as d, read_sdf_model
 from ode_sim.description.sdf_writer import model_text
 from ode_sim.math3 import Pose
 from ode_sim.viewer.panels.base import free_name
 from ode_sim.viewer.shapes import shape_model
 from ode_sim.viewer.simulation import Refused
 
+from gzclient.modelling import meshes
+
 #: As upstream's editor names it, in the home folder.
 FOLDER = "model_editor_models"
 JOINTS = ("revolute", "prismatic", "fixed", "ball", "universal", "revolute2", "screw")
 AXES = {"revolute": 1, "prismatic": 1, "screw": 1, "universal": 2, "revolute2": 2}
-MESHES = (".stl", ".obj", ".dae")
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_. -]{0,80}")
 _MOST_STEPS = 200  # that can be undone
 _MOST_LINKS = 500
@@ -115,10 +116,10 @@ class Draft:
     # ------------------------------------------------------------------------------------------ joints, plugins
 
     def add_joint(self, kind: str, parent: str, child: str, axis: d.Vec3 = (0.0, 0.0, 1.0),
-                  limits: Tuple[float, float] = (-1e16, 1e16)) -> str:
-        """At the child's origin; its name.
+                  limits: Tuple[float, float] = (-1e16, 1e16), anchor: d.Vec3 = (0.0, 0.0, 0.0)) -> str:
+        """Its name.
 
-        :param axis: in the child's frame. :param limits: rad or m
+        :param axis, anchor: in the child's frame, m. :param limits: rad or m
         :raises Refused: no such links, or the child hangs on another one already
         """
         if kind not in JOINTS:
@@ -128,6 +129,8 @@ class Draft:
         self.link(child)
         if parent == child:
             raise Refused("A joint joins two links: click on the parent, then on the child.")
+        if not all(np.isfinite(value) for value in anchor):
+            raise Refused("A joint is at a place of the child.")
         if not np.linalg.norm(axis) > 1e-9 or not limits[0] <= limits[1]:
             raise Refused("An axis has a direction, and the lower limit is below the upper one.")
         above = {joint.child: joint.parent for joint in self.model.joints}
@@ -141,7 +144,7 @@ class Draft:
         unit = tuple(float(v) for v in np.asarray(axis, float) / np.linalg.norm(axis))
         axes = tuple(d.Axis(unit if number == 0 else _across(unit), *map(float, limits))
                      for number in range(AXES.get(kind, 0)))
-        self._set(joints=self.model.joints + (d.Joint(name, kind, parent, child, axes=axes),))
+        self._set(joints=self.model.joints + (d.Joint(name, kind, parent, child, Pose(anchor), axes),))
         return name
 
     def add_plugin(self, name: str, filename: str, parameters: str) -> None:
@@ -171,26 +174,36 @@ class Draft:
         return model_text(replace(self.model, name=name, pose=Pose()))
 
     def save(self, name: str) -> str:
-        """``model.sdf`` and ``model.config``; the folder."""
-        target, text = path_of(name), self.text(checked_name(name))
+        """``model.sdf``, ``model.config`` and its meshes, which are those of the folder from then on; the folder.
+
+        :raises Refused: there is nothing in it, or it cannot be written
+        """
+        target = path_of(name)
+        self.text(name)
         try:
             os.makedirs(target, exist_ok=True)
+            self.model = meshes.gather(self.model, target, name, folder())
+            text = self.text(name)
             for file, content in (("model.sdf", text), ("model.config", _config(name))):
                 with open(os.path.join(target, file), "w", encoding="utf-8") as stream:
                     stream.write(content)
         except OSError as error:
             raise Refused(f"{error.filename or target}: {error.strerror or error}") from error
+        except DescriptionError as error:  # a mesh has gone
+            raise Refused(str(error)) from error
         return target
 
     @classmethod
-    def load(cls, name: str) -> "Draft":
+    def load(cls, name: str, finder: Optional[ResourceFinder] = None) -> "Draft":
         """A model that was saved.
 
+        :param finder: of the meshes that it names
         :raises Refused: it cannot be read
         """
+        file = os.path.join(path_of(name), "model.sdf")
         try:
-            with open(os.path.join(path_of(name), "model.sdf"), encoding="utf-8") as stream:
-                model, _ = read_sdf_model(stream.read())
+            with open(file, encoding="utf-8") as stream:
+                model, _ = read_sdf_model(stream.read(), finder=finder, file=file)
         except (OSError, UnicodeDecodeError, DescriptionError) as error:
             raise Refused(f"{name}: {error}") from error
         return cls(replace(model, pose=Pose()))
@@ -225,36 +238,15 @@ def keep_mesh(model: str, file: str, content: bytes) -> d.Mesh:
 
     :raises Refused: it is no mesh
     """
-    from ode_sim.mesh import load_visual
-    base = checked_name(os.path.basename(file))
-    if not base.lower().endswith(MESHES):
-        raise Refused(f"{base}: a mesh is one of {', '.join(MESHES)}")
-    target = os.path.join(path_of(model), "meshes", base)
-    try:
-        os.makedirs(os.path.dirname(target), exist_ok=True)
-        with open(target, "wb") as stream:
-            stream.write(content)
-        load_visual(target, (1.0, 1.0, 1.0), "", False)
-    except Exception as error:  # whatever a broken file makes a parser raise
-        if os.path.exists(target):
-            os.remove(target)
-        raise Refused(f"{base} cannot be read: {error}") from error
-    return d.Mesh(target, "file://" + target)
+    return meshes.keep(path_of(model), checked_name(os.path.basename(file)), content)
 
 
 def _body(name: str, shape: d.Geometry, mass: float) -> d.Link:
-    """Its inertia is that of the shape, a mesh's that of its box."""
-    solid = d.Box(_extent(shape)) if isinstance(shape, d.Mesh) else shape
-    link = shape_model(name, solid, mass).links[0]
-    return replace(link, name=name, collisions=(d.Collision("collision", Pose(), shape),),
-                   visuals=(replace(link.visuals[0], geometry=shape),))
-
-
-def _extent(mesh: d.Mesh) -> Tuple[float, float, float]:
-    from ode_sim.mesh import load_visual
-    parts = load_visual(mesh.path, mesh.scale, mesh.submesh, mesh.center)
-    points = np.concatenate([vertices for vertices, *_ in parts])
-    return tuple(float(max(side, 1e-3)) for side in np.ptp(points, axis=0))
+    """Its inertia is that of the shape."""
+    solid = shape_model(name, d.Box() if isinstance(shape, d.Mesh) else shape, mass).links[0]
+    inertial = meshes.inertial(shape, mass) if isinstance(shape, d.Mesh) else solid.inertial
+    return replace(solid, name=name, inertial=inertial, collisions=(d.Collision("collision", Pose(), shape),),
+                   visuals=(replace(solid.visuals[0], geometry=shape),))
 
 
 def _across(axis: d.Vec3) -> d.Vec3:

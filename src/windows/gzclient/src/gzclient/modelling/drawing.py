@@ -88,7 +88,8 @@ class ModelSketch:
         for number, joint in enumerate(model.joints):
             if joint.child in self._links and joint.axes:
                 node = self._links[joint.child][1][0].name
-                tips = np.array([[(0.0, 0.0, 0.0), tuple(_AXIS * 1.5 * v for v in axis.xyz)] for axis in joint.axes])
+                begin = np.asarray(joint.pose.p)
+                tips = np.array([(begin, begin + 1.5 * _AXIS * np.asarray(axis.xyz)) for axis in joint.axes])
                 self._joints.append(self._scene.add_arrows(f"{node}/joint{number}", tips.astype(np.float32),
                                                            (230, 60, 30), shaft_radius=0.012, head_radius=0.03,
                                                            head_length=0.07))

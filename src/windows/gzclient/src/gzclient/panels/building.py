@@ -363,6 +363,7 @@ class BuildingPanel(Panel):
         self._plan.document["name"] = files.checked_name(self._name.value.strip())
         target, self._left = files.save(self._plan.document), ()
         self._saved.options = tuple(files.names()) or (_NONE,)
+        self.page.models_changed()
         self._note.content = note(f"saved in {target}")
 
     def _open_now(self) -> None:

@@ -74,6 +74,7 @@ class ModelPanel(Panel):
         with gui.add_folder("Joint"):
             self._kind = gui.add_dropdown("Type", JOINTS)
             self._axis = gui.add_vector3("Axis", (0.0, 0.0, 1.0), step=0.1, hint="in the child's frame")
+            self._anchor = gui.add_vector3("Anchor (m)", (0.0, 0.0, 0.0), step=0.05, hint="in the child's frame")
             self._limits = gui.add_vector2("Limits", (-_MOST_LIMIT, _MOST_LIMIT), step=0.1,
                                            hint=f"rad or m; from {_MOST_LIMIT:g} on there is none")
             self._join = gui.add_checkbox("Join by clicks", False, hint="on the parent, then on the child")
@@ -95,7 +96,7 @@ class ModelPanel(Panel):
             event, self._draft.undo if event.target.value == "Undo" else self._draft.redo))
         self._save.on_click(lambda event: self._act(event, self._save_now))
         self._open.on_click(lambda event: self._act(event, lambda: self._take(
-            Draft.load(self._saved.value) if event.target.value == "Open model" else Draft())))
+            Draft.load(self._saved.value, page.simulation.finder()) if event.target.value == "Open model" else Draft())))
         self._put.on_click(lambda event: self._act(event, self._put_into_world))
 
     # ------------------------------------------------------------------------------------------ drawing
@@ -155,7 +156,8 @@ class ModelPanel(Panel):
         (parent, child), self._ends = self._ends, []
         low, high = (float(value) for value in self._limits.value)
         self._draft.add_joint(self._kind.value, parent, child, tuple(map(float, self._axis.value)),
-                              (low if low > -_MOST_LIMIT else -_LIMITLESS, high if high < _MOST_LIMIT else _LIMITLESS))
+                              (low if low > -_MOST_LIMIT else -_LIMITLESS, high if high < _MOST_LIMIT else _LIMITLESS),
+                              tuple(map(float, self._anchor.value)))
 
     def _move(self, event: Any, link: str, position: tuple, wxyz: tuple) -> None:
         """The gizmo; one step of the history for each drag."""
@@ -203,6 +205,7 @@ class ModelPanel(Panel):
         self._draft.model = replace(self._draft.model, static=bool(self._static.value))
         target = self._draft.save(self._name.value.strip())
         self._saved.options = tuple(draft.names()) or (_NONE,)
+        self.page.models_changed()
         self.page.later(lambda: setattr(self._note, "content", note(f"saved in {target}")))
 
     def _take(self, made: Draft) -> None:

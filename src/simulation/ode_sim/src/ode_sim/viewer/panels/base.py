@@ -29,6 +29,9 @@ class Panel:
     def on_move(self, frame: Frame) -> None:
         """For every frame that is drawn, up to thirty a second. Drawing thread."""
 
+    def on_models(self) -> None:
+        """An editor has saved: the model path has other models. Drawing thread."""
+
     def on_absent(self) -> None:
         """The simulator has gone. Drawing thread."""
 

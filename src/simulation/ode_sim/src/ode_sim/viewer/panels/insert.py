@@ -43,6 +43,10 @@ class InsertPanel(Panel):
     def on_world(self, world: WorldRecord) -> None:
         if not self._asked:
             self._asked = True
+            self.on_models()
+
+    def on_models(self) -> None:
+        if self._asked:
             threading.Thread(target=self._look, name="model path", daemon=True).start()  # many folders, perhaps
 
     def _look(self) -> None:
