@@ -40,7 +40,9 @@ no file every_lab/launch/other.launch|holds nothing like 'no such thing'|1 joint
 no service /forbid|/gain is 2.5, not 2.6|no parameter /loss|no transform from odom to moon|pole is 0.5 m from|controller boom is not loaded
 160x120 pixels, not 640x480|0.00% of the picture|robot::pole fills 0.00%|no 'trophy' in the simulator|less than 100000 times
 3 models are there|no model in the simulator has a joint 'boom'|joint mast should reach 0.5|joint mast moved by|J of work
-had to be refused|success is False|ended with code 0; it should end with 2|crashed on a wrong argument|could not be started
+had to be refused|success is False|ended with code 0; it should end with 2|argument instead of refusing it: RuntimeError: as it was told
+on a wrong argument instead of refusing it: nothing|did not say what is wrong with it, nor how it is used (it last printed: root 0.000)
+(it last printed: Usage: picky.py NUMBER)|ended with code 0; it should end with 2 (it last printed: Usage|could not be started
 robot moved by|prize is|0 of 1 points were passed|came within|touched robot|1 error lines, the first: [ERROR]|ended with code 0; it should
 nobody listens to /cmd_well; your nodes subscribe to /cmd_vel"""
 

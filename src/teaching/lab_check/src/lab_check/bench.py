@@ -151,6 +151,8 @@ class Bench:
         end = time.monotonic() + _LEAVING
         while program.running and time.monotonic() < end:
             time.sleep(0.02)
+        if program.running:  # on a busy machine it may be at its end yet
+            self.nodes.settle(_UNCONNECTED)
 
     def watch_contacts(self, on: bool) -> None:
         self._ask(self._contacts, on)

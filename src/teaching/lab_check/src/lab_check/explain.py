@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
+import signal
 from itertools import takewhile
-from typing import List, Tuple
+from typing import List, Optional, Tuple
 
 _COLOURS = re.compile(r"\x1b\[[0-9;]*m|\x1b\].*?\x07")
 _ERROR = re.compile(
@@ -13,6 +14,15 @@ _ERROR = re.compile(
 )
 # What happens whenever a program is ended, and what upstream prints as an error although nothing is wrong.
 _HARMLESS = re.compile(r"No p gain specified|escalating to SIG|make.*\*\*\* \[.*(Makefile|all)|Error 2$")
+# What a program says that does not take its arguments. 'error' counts where a line begins: nodes print errors of their tracking, too.
+_REFUSAL = re.compile(
+    r"\[ ?(ERROR|FATAL)\]|(^|[\]:] *)error\b|\b(usage|synopsis|invalid|illegal|wrong|bad|missing|unknown|unrecogni[sz]ed|expect(s|ed)?|must"
+    r"|can(no|'|)t|can not|could not|failed to|not (a|an|enough|allowed|valid)|out of range|too (few|many|large|small|big)|requires?"
+    r"|refused?|rejected)\b",
+    re.IGNORECASE,
+)
+# Signals by which a program ends that did something it may not; abort is how C++ ends at an exception that nobody catches.
+_CRASHES = frozenset(map(int, (signal.SIGILL, signal.SIGTRAP, signal.SIGABRT, signal.SIGBUS, signal.SIGFPE, signal.SIGSEGV, signal.SIGSYS)))
 _MEANINGS: List[Tuple[re.Pattern, str]] = [
     (re.compile(pattern), meaning)
     for pattern, meaning in (
@@ -80,6 +90,16 @@ def error_lines(text: str) -> List[str]:
 def _whole(lines: List[str], index: int) -> str:
     more = takewhile(lambda line: line.startswith("  "), lines[index + 1 : index + 5]) if lines[index].startswith("CMake Error") else ()
     return " ".join([lines[index], *(line.strip() for line in more)])
+
+
+def refusal(text: str) -> str:
+    """The first line by which a program says that it does not take its arguments, '' when there is none."""
+    return next((line for line in lines_of(text) if _REFUSAL.search(timeless(line))), "")
+
+
+def crashed(code: Optional[int], text: str) -> bool:
+    """Whether a program that ended with ``code`` crashed: by a signal, which a shell and bwrap tell as 128 + its number, or in Python."""
+    return code is not None and (code < 0 or code - 128 in _CRASHES) or "Traceback (most recent call last)" in text
 
 
 def timeless(line: str) -> str:

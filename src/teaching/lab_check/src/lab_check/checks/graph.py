@@ -12,7 +12,7 @@ import rospy
 
 from ..bench import Sample
 from ..commands import CommandError, find_topic
-from ..explain import error_lines, timeless
+from ..explain import crashed, error_lines, refusal, timeless
 from .base import Check, names
 
 
@@ -227,10 +227,9 @@ class ExitCheck(Check):
         if "Couldn't find executable" in said or "[rosrun]" in said:
             return False, f"the program could not be started: {last}", {}
         if self.wanted.get("refused"):
-            if program.running:
-                return False, "the program took a wrong argument and went on, instead of refusing it", {}
-            if program.code is not None and program.code < 0 or "Segmentation" in said or "Traceback" in said:
-                return False, f"the program crashed on a wrong argument instead of refusing it: {last}", {}
+            taken = self._taken(program, said, last)
+            if taken:
+                return False, taken, {}
         if "code" in self.wanted and program.code != self.wanted["code"]:
             how = "still runs" if program.running else f"ended with code {program.code}"
             return False, f"the program {how}; it should end with {self.wanted['code']} (it last printed: {last})", {}
@@ -239,6 +238,20 @@ class ExitCheck(Check):
         if not set(self.wanted) & {"code", "refused", "says"} and not program.running and program.code:
             return False, f"the program ended with code {program.code}: {last}", {}
         return True, "the program did as it should" + (f": {last}" if self.wanted.get("refused") else ""), {}
+
+    def _taken(self, program, said: str, last: str) -> str:
+        """Why a wrong argument was not refused; '' when it was: by an exit code that is not 0, or by what the program said.
+
+        Many programs print how they are used and end with 0; one that ends with 0 and says nothing has taken the argument for a good one.
+        """
+        if program.running:
+            return "the program took a wrong argument and went on, instead of refusing it"
+        if crashed(program.code, said):
+            return f"the program crashed on a wrong argument instead of refusing it: {last}"
+        if program.code == 0 and not (re.search(self.wanted["says"], said) if "says" in self.wanted else refusal(said)):
+            return ("the program took a wrong argument: it ended with code 0 and did not say what is wrong with it, nor how it is used "
+                    f"(it last printed: {last})")
+        return ""
 
 
 class AnswerCheck(Check):
