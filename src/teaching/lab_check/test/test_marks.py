@@ -131,6 +131,27 @@ def test_reports_agree_and_let_no_markup_through(tmp_path):
     assert report.marks(again) == report.marks(a_result())
 
 
+def test_a_checker_that_failed_gives_no_marks_at_all(tmp_path):
+    (tmp_path / "spec.yaml").write_text("title: t\ntasks: [{name: 'T & U', points: 10, launch: '', expect: [{file: {path: x}}]}]\n")
+    sheet, result = spec.load(tmp_path / "spec.yaml"), a_result()
+    result.fault = "the disk is full"
+    report.write(result, sheet, tmp_path)
+    answer = json.loads((tmp_path / "results.json").read_text())
+    assert "score" not in answer and "tests" not in answer and "the disk is full" in answer["output"]
+    suite = ET.parse(tmp_path / "junit.xml").getroot()
+    assert suite.get("failures") == "0" and suite.get("errors") == "1" and suite.find("testcase/error").get("message") == "the disk is full"
+    page = (tmp_path / "report.html").read_text()
+    assert "<b>not examined</b>" in page and "5</b> of 10 points" not in page
+    book = store.Store(tmp_path / "class.sqlite")
+    for name in ("a", "b"):
+        book.enlist(name, tmp_path / name, "1")
+    book.failed("a", "its worker was killed by signal 9")
+    gradebook.write(sheet, book, tmp_path)
+    assert (tmp_path / "gradebook.csv").read_text().splitlines()[1:] == ["a,,,,not examined: its worker was killed by signal 9",
+                                                                         "b,,,,not examined yet (waiting)"]
+    assert "not examined: its worker was killed by signal 9" in (tmp_path / "gradebook.html").read_text()
+
+
 def test_the_first_cause_comes_first():
     log = "\n".join(
         ["fine", "[ERROR] [1.0]: Could not find joint 'j9' in the robot", "more", "[ERROR] [2.0]: later", "process has died [pid 3]"]
@@ -153,6 +174,29 @@ def test_what_was_said_since_a_mark():
     late = said.total
     said.add(b"the end")
     assert said.text(late) == "the end" and said.text(mark).startswith("after\n") and "bytes left out" in said.text(mark)
+
+
+REFUSALS = ["Usage: node j1 j2", "usage: arm_node [-h]", "[ERROR] [1795390434.5]: four angles, please", "Error: 3 angles",
+            "Invalid argument", "[ INFO] [1795390434.5, 2.1]: error: no angle", "angle 9 is out of range", "'abc' is not a number",
+            "can't read 'abc'", "fine\n\x1b[31m[FATAL] [1.0]: no\x1b[0m", "You must give four angles"]
+WORK = ["", "moving to 0 0 0 0", "[ INFO] [1.0]: position error 0.01", "[ WARN] [1.0]: slow", "tracking error: 0.2",
+        "[ INFO] [1.0]: can open"]
+
+
+@pytest.mark.parametrize("said", REFUSALS)
+def test_a_program_says_that_it_does_not_take_its_arguments(said):
+    assert explain.refusal(said) and not explain.crashed(0, said)
+
+
+@pytest.mark.parametrize("said", WORK)
+def test_what_a_program_says_while_it_works_is_no_refusal(said):
+    assert not explain.refusal(said)
+
+
+def test_which_exit_codes_are_crashes():
+    """-11 where the program was our child, 139 where a shell or bwrap stood between; 255 is what return -1 gives, and no crash."""
+    assert [code for code in (0, 1, 2, 127, 130, 255, -11, 134, 136, 139) if explain.crashed(code, "")] == [-11, 134, 136, 139]
+    assert explain.crashed(1, "Traceback (most recent call last):\n  ...\nValueError: x") and not explain.crashed(None, "")
 
 
 # ---------------------------------------------------------------------------------------------- descriptions

@@ -78,7 +78,8 @@ def check(arguments: Optional[List[str]] = None) -> int:
         print(f"note: {note}")
     if result.fault:
         print(f"lab_check: the checker itself failed: {result.fault}", file=sys.stderr)
-    print(f"{result.points:g} of {result.of:g} points in {result.seconds:.1f} s; {readable(str(out / 'report.html'))}")
+    marks = "not examined" if result.fault else f"{result.points:g} of {result.of:g} points in {result.seconds:.1f} s"
+    print(f"{marks}; {readable(str(out / 'report.html'))}")
     return 4 if result.fault else int(result.points < result.of)
 
 

@@ -27,7 +27,7 @@ def write(spec: Spec, store: Store, out: pathlib.Path) -> None:
         writer = csv.writer(file)
         writer.writerow(["submission", "points", "of", *tasks, "remark"])
         for row in rows:
-            writer.writerow([safe(row["name"]), row["points"], row["of"], *_marks(results[row["name"]], tasks), safe(row["why"] or "")])
+            writer.writerow([safe(row["name"]), row["points"], row["of"], *_marks(results[row["name"]], tasks), safe(_remark(row))])
     for name, text in (
         ("gradebook.html", _page(spec, rows, results, tasks, near)),
         ("comparison.html", _comparison(spec, results, tasks)),
@@ -38,6 +38,11 @@ def write(spec: Spec, store: Store, out: pathlib.Path) -> None:
 def safe(text: str) -> str:
     """A name that begins as a formula does would be one in a spreadsheet."""
     return "'" + text if text[:1] in tuple("=+-@\t\r") else text
+
+
+def _remark(row) -> str:
+    """What stands in the place of marks."""
+    return {"done": "", "failed": f"not examined: {row['why']}"}.get(row["state"], f"not examined yet ({row['why'] or row['state']})")
 
 
 def _marks(result: Optional[Result], tasks: List[str]) -> List:
@@ -51,7 +56,7 @@ def _page(spec: Spec, rows, results, tasks: List[str], near: List[Pair]) -> str:
     for row in rows:
         name, result = row["name"], results[row["name"]]
         if result is None:
-            lines.append(f"<tr><td>{html.escape(name)}<td colspan={len(tasks) + 1}>{html.escape(row['why'] or row['state'])}")
+            lines.append(f"<tr><td>{html.escape(name)}<td colspan={len(tasks) + 1}>{html.escape(_remark(row))}")
             continue
         cells = "".join(f"<td class=n style='background:{_colour(task.points, task.of)}'>{task.points:g}" for task in result.tasks)
         lines.append(

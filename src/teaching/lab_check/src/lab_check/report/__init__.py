@@ -4,11 +4,11 @@ from __future__ import annotations
 import json
 import pathlib
 import xml.etree.ElementTree as ET
+from dataclasses import replace
 
 from ..outcome import Result
 from ..spec import Spec
 from .page import page
-
 
 
 def write(result: Result, spec: Spec, out: pathlib.Path) -> None:
@@ -27,6 +27,9 @@ def marks(result: Result) -> str:
 
 
 def junit(result: Result) -> bytes:
+    """Where the checker itself failed one error, and no task failed."""
+    if result.fault:
+        result = replace(result, tasks=[])
     failed = [task for task in result.tasks if task.points < task.of or not all(v.passed for v in task.verdicts)]
     suite = ET.Element("testsuite", name=clean(result.title), tests=str(len(result.tasks) + bool(result.fault)), failures=str(len(failed)),
                        errors=str(int(bool(result.fault))), skipped="0", time=f"{result.seconds:.1f}")
@@ -48,11 +51,12 @@ def clean(text: str) -> str:
 
 
 def gradescope(result: Result) -> dict:
+    """results.json; without a score where the checker itself failed: Gradescope then tells of a failed autograder instead of giving 0."""
+    if result.fault:
+        return {"execution_time": round(result.seconds), "output": f"The checker itself failed, ask your teacher: {result.fault}",
+                "stdout_visibility": "hidden"}
     tests = [{"name": task.name, "score": task.points, "max_score": task.of, "status": "passed" if task.points >= task.of else "failed",
               "output": "\n".join(("+ " if v.passed else "- ") + v.reason for v in task.verdicts), "visibility": "visible"}
              for task in result.tasks]
-    answer = {"score": result.points, "execution_time": round(result.seconds), "output": "\n".join(result.notes), "tests": tests,
-              "stdout_visibility": "hidden"}
-    if result.fault:
-        answer["output"] = f"The checker itself failed, ask your teacher: {result.fault}"
-    return answer
+    return {"score": result.points, "execution_time": round(result.seconds), "output": "\n".join(result.notes), "tests": tests,
+            "stdout_visibility": "hidden"}

@@ -28,7 +28,7 @@ def page(result: Result, spec: Spec, out: pathlib.Path) -> str:
     title = f"{result.title}: {os.path.basename(result.submission)}"
     parts = [
         f"<h1>{_e(result.title)}</h1><p class=note>{_e(os.path.basename(result.submission))}</p>",
-        f"<p class=marks><b>{result.points:g}</b> of {result.of:g} points</p>",
+        f"<p class=marks>{'<b>not examined</b>' if result.fault else f'<b>{result.points:g}</b> of {result.of:g} points'}</p>",
     ]
     if result.fault:
         parts.append(
