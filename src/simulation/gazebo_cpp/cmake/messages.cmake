@@ -44,3 +44,11 @@ file(WRITE ${PROJECT_BINARY_DIR}/MessageTypes.hh.new
   "${text}\n${typedefs}\nnamespace gazebo\n{\nnamespace msgs\n{\n${in_namespace}}\n}\n")
 configure_file(${PROJECT_BINARY_DIR}/MessageTypes.hh.new ${generated}/MessageTypes.hh COPYONLY)
 install(FILES ${generated}/MessageTypes.hh DESTINATION ${CATKIN_GLOBAL_INCLUDE_DESTINATION}/gazebo/msgs)
+
+# Upstream's include folder ends with the version, and packages with messages of their own (underwater vehicles, multicopters) look for the
+# one that matches gazebo-[0-9.]+ to find these protos.
+set(versioned include/gazebo-11)
+file(MAKE_DIRECTORY ${CATKIN_DEVEL_PREFIX}/${versioned})
+execute_process(COMMAND ${CMAKE_COMMAND} -E create_symlink ../gazebo ${CATKIN_DEVEL_PREFIX}/${versioned}/gazebo)
+install(CODE "file(MAKE_DIRECTORY \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${versioned}\")
+  execute_process(COMMAND ${CMAKE_COMMAND} -E create_symlink ../gazebo \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${versioned}/gazebo\")")
