@@ -114,8 +114,17 @@ class Browser:
     # ------------------------------------------------------------------------------------------ doing
 
     def _find(self, path, what):
+        """The first that is seen, of several; tabs that are not open have their controls, too."""
+        from selenium.common.exceptions import StaleElementReferenceException
         from selenium.webdriver.common.by import By
-        return wait(lambda: next(iter(self.driver.find_elements(By.XPATH, path)), None), what)
+
+        def found():
+            elements = self.driver.find_elements(By.XPATH, path)
+            try:
+                return next((element for element in elements[:-1] if element.is_displayed()), elements[-1] if elements else None)
+            except StaleElementReferenceException:
+                return None
+        return wait(found, what)
 
     def _press(self, path, what):
         """Where it is, with the mouse; again when it was drawn anew under the hand."""
@@ -138,6 +147,10 @@ class Browser:
         self._press(f"//button[normalize-space(.)={quoted}]|//*[@role='tab'][normalize-space(.)={quoted}]",
                     f"button {label}")
 
+    def button(self, label):
+        """A button of that label, where a tab has it as well."""
+        self._press(f"//button[not(@role='tab')][normalize-space(.)='{label}']", f"button {label}")
+
     def check(self, label):
         """The box of that label."""
         self._press(self._input(label, "checkbox"), f"box {label}")
@@ -146,13 +159,21 @@ class Browser:
         """A folder of that label."""
         self._press(f"//*[text()='{label}']", f"folder {label}")
 
-    def fill(self, label, value):
-        """A field of that label, by its keys, left by Enter."""
+    def fill(self, label, value, part=1):
+        """A field of that label, by its keys, left by Enter.
+
+        :param part: of a vector, from 1
+        """
         from selenium.webdriver.common.keys import Keys
-        self._press(self._input(label), f"field {label}")  # once a folder that unfolds shows it
-        element = self._find(self._input(label), f"field {label}")
+        self._press(self._input(label, part=part), f"field {label}")  # once a folder that unfolds shows it
+        element = self._find(self._input(label, part=part), f"field {label}")
         element.send_keys(Keys.CONTROL, "a")
         element.send_keys(str(value), Keys.ENTER)
+
+    def upload(self, label, file):
+        """A file through the button of that label, as the dialog of the browser gives it."""
+        path = f"//button[normalize-space(.)='{label}']/preceding-sibling::input[@type='file']"
+        self._find(path, f"upload {label}").send_keys(file)
 
     def place(self, label):
         """(x, y) in CSS pixels of the middle of a button, which is scrolled to."""
@@ -171,9 +192,9 @@ class Browser:
         self._press(f"//*[@role='option'][normalize-space(.)='{value}']", f"entry {value}")
 
     @staticmethod
-    def _input(label, kind=""):
+    def _input(label, kind="", part=1):
         only = f"[@type='{kind}']" if kind else "[not(@type='hidden')]"  # a slider has one that is not seen
-        return f"//label[normalize-space(.)='{label}']/following::input{only}[1]"
+        return f"//label[normalize-space(.)='{label}']/following::*[self::input or self::textarea]{only}[{part}]"
 
     # ------------------------------------------------------------------------------------------ the scene
 

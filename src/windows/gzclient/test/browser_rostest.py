@@ -3,128 +3,32 @@
 import math
 import os
 import re
-import signal
-import subprocess
 import sys
-import tempfile
-import unittest
 
 import numpy as np
-import rosgraph
 import rospy
 import rostest
 from controller_manager_msgs.msg import ControllerState, HardwareInterfaceResources
 from controller_manager_msgs.srv import ListControllers, SwitchController, SwitchControllerResponse
-from gazebo_msgs.srv import GetModelState, GetPhysicsProperties, GetWorldProperties, SpawnModel
-from gazebo_ros.srv import DescribeWorld
+from gazebo_msgs.srv import SpawnModel
 from geometry_msgs.msg import Pose, Twist, Vector3
-from ode_sim.description.exchange import loads
-from ode_sim.math3 import quat_to_rpy
-from ode_sim.viewer import simulation  # noqa: F401  how a world is described
 from ode_sim.viewer.porter import entitled
 from std_msgs.msg import ColorRGBA, Float64
 from visualization_msgs.msg import Marker
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from browser import PATIENCE, Browser, missing, wait  # noqa: E402
+from browser import Browser, wait  # noqa: E402
+from session import FIELD, HERE, Session, call, material, names, paused, position, sides, sim_time, streams, world, yaw  # noqa: E402
 
-HERE = os.path.dirname(os.path.realpath(__file__))
 EVIL = "<img src=x onerror=document.title='owned'>"
 OLD = "<sdf version='1.6'><model name='old'><static>1</static>" + "".join(f"""<link name='{name}'><collision name='{name}_Collision'>
     <pose>0 0 1.25 0 -0 0</pose><geometry><box><size>4 0.15 2.5</size></box></geometry></collision></link>"""
     for name in ("Wall_0", "Roof_0")) + "</model></sdf>"
-FIELD = 0.9  # rad, ode_sim.viewer.eye
 # of mbot_gazebo's room.world, between the middles of its walls; one stands askew
 CORNERS = ((-2.75, -2.45), (5.6, -2.45), (5.6, 2.4), (-0.75, 2.4), (-0.75, 0.05), (-5.6, 0.05), (-5.6, -1.8), (-5.6, -2.4))
 
 
-def call(name, service, *arguments):
-    rospy.wait_for_service(f"/gazebo/{name}", PATIENCE)
-    return rospy.ServiceProxy(f"/gazebo/{name}", service)(*arguments)
-
-
-def names():
-    return call("get_world_properties", GetWorldProperties).model_names
-
-
-def position(name):
-    p = call("get_model_state", GetModelState, name, "").pose.position
-    return np.array((p.x, p.y, p.z))
-
-
-def yaw(name):
-    q = call("get_model_state", GetModelState, name, "").pose.orientation
-    return quat_to_rpy((q.x, q.y, q.z, q.w))[2]
-
-
-def sim_time():
-    return call("get_world_properties", GetWorldProperties).sim_time
-
-
-def world():
-    return loads(call("describe_world", DescribeWorld).world)
-
-
-def material(name):
-    return world().model(name).description.links[0].visuals[0].material
-
-
-def sides(name):
-    """Of a box, m."""
-    model = world().model(name)
-    return model and tuple(round(side, 6) for side in model.description.links[0].collisions[0].geometry.size)
-
-
-def paused():
-    return call("get_physics_properties", GetPhysicsProperties).pause
-
-
-def streams(topic="/gazebo/view"):
-    """Whether the server sends frames to anybody."""
-    return any(name == topic for name, _ in rosgraph.Master(rospy.get_name()).getSystemState()[1])
-
-
-class Clicks(unittest.TestCase):
-    """One page, in the order of the tests' names."""
-
-    @classmethod
-    def setUpClass(cls):
-        if missing():
-            raise unittest.SkipTest(f"not installed: {missing()} (apt install chromium chromium-driver)")
-        cls.home = tempfile.TemporaryDirectory(prefix="home_", ignore_cleanup_errors=True)
-        cls.server = cls.start("rosrun", "gazebo_ros", "gzserver", "-u", os.path.join(HERE, "table.world"))
-        call("get_world_properties", GetWorldProperties)
-        cls.client = cls.start("rosrun", "gazebo_ros", "gzclient", "--port", "0")
-        address = cls.client.stdout.readline().split()[-1]
-        assert not streams(), "nobody looks yet"
-        cls.page = Browser(address)
-
-    @classmethod
-    def start(cls, *words):
-        environment = {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY")}
-        return subprocess.Popen(words, text=True, start_new_session=True, env={**environment, "HOME": cls.home.name},
-                                stdout=subprocess.PIPE)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.page.close()
-        for process in (cls.client, cls.server):
-            os.killpg(process.pid, signal.SIGINT)
-            process.wait(PATIENCE)
-        cls.home.cleanup()
-
-    def setUp(self):
-        self.page.driver.get_log("browser")
-
-    def tearDown(self):
-        if self._testMethodName.startswith("test_9"):
-            return
-        if os.environ.get("BROWSER_SHOTS"):
-            self.page.shot(os.path.join(os.environ["BROWSER_SHOTS"], f"{self._testMethodName}.png"))
-        usual = ("Unable to preventDefault inside passive event listener",  # three.js's own, at every press on the scene
-                 "Tried to update non-existent component")  # viser's own, of a control that goes while it is set
-        self.assertEqual([line for line in self.page.complaints() if not any(word in line for word in usual)], [])
-
+class Clicks(Session):
     def test_1_play_and_pause(self):
         page = self.page
         page.see("Iterations", "paused", EVIL)  # a name with markup in it, as text
@@ -462,8 +366,7 @@ class Clicks(unittest.TestCase):
             wait(paused, "pause from the first page")
 
     def test_8_the_server_ends_and_a_robot_drives_in_the_room_that_was_drawn(self):
-        os.killpg(self.server.pid, signal.SIGINT)
-        self.server.wait(PATIENCE)
+        self.end(self.server)
         self.page.see("no simulator answers")
         file = os.path.join(self.home.name, "building_editor_models", "room", "room.world")
         type(self).server = self.start("roslaunch", "gazebo_ros", "empty_world.launch", f"world_name:={file}", "gui:=false")

@@ -1,6 +1,8 @@
 """What the sliders of a controller send."""
 import numpy as np
 import pytest
+from control_msgs.msg import GripperCommandActionGoal
+from four_wheel_steering_msgs.msg import FourWheelSteering
 from geometry_msgs.msg import Twist
 from ode_sim.description import model as d, read_model
 from ode_sim.viewer.simulation import Frame, ModelRecord, WorldRecord
@@ -47,8 +49,25 @@ def test_a_drive_wants_to_be_told_again_and_again():
     assert (made.linear.x, made.angular.z) == (0.5, -1.0)
 
 
+def test_four_wheels_are_steered_at_both_axles():
+    command = command_of("four_wheel_steering_controller/FourWheelSteeringController", ("a", "b", "c", "d"), {})
+    made = command.make((0.5, 0.3, -0.2), ())
+    assert (command.topic, command.cls, command.lasting) == ("cmd_four_wheel_steering", FourWheelSteering, False)
+    assert (made.speed, made.front_steering_angle, made.rear_steering_angle) == (0.5, 0.3, -0.2)
+
+
+def test_a_gripper_is_sent_to_a_place_with_the_force_of_its_joint():
+    for kind in ("position_controllers", "effort_controllers"):
+        assert sliders(f"{kind}/GripperActionController", ("lift",)) == [("lift", 0.0, 0.5, 0.1)]
+    made = command_of("effort_controllers/GripperActionController", ("turn",), KNOWN)
+    assert (made.topic, made.cls, made.lasting) == ("gripper_cmd/goal", GripperCommandActionGoal, True)
+    goal = made.make([0.7], [0.5]).goal.command
+    assert (goal.position, goal.max_effort) == (0.7, 30.0)
+
+
 @pytest.mark.parametrize("kind, names", (("joint_state_controller/JointStateController", ()), ("x/Y", NAMES),
-                                         ("position_controllers/JointPositionController", ("gone",))))
+                                         ("position_controllers/JointPositionController", ("gone",)),
+                                         ("position_controllers/GripperActionController", ("gone",))))
 def test_others_have_no_sliders(kind, names):
     assert command_of(kind, names, KNOWN) is None
 

@@ -7,6 +7,8 @@ from functools import partial
 from typing import Any, Callable, Dict, Optional, Sequence, Tuple
 
 import rospy
+from control_msgs.msg import GripperCommandActionGoal
+from four_wheel_steering_msgs.msg import FourWheelSteering
 from geometry_msgs.msg import Twist, Vector3
 from ode_sim.description import model as d
 from ode_sim.viewer.panels.joints import range_of
@@ -17,7 +19,10 @@ from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 _FORWARD = re.compile(r"(?:position|velocity|effort)_controllers/Joint(Group)?(Position|Velocity|Effort)Controller")
 _TRAJECTORY = re.compile(r"\w+_controllers/JointTrajectoryController")
 _DRIVES = ("diff_drive_controller/DiffDriveController", "ackermann_steering_controller/AckermannSteeringController")
+_FOUR_WHEELS = "four_wheel_steering_controller/FourWheelSteeringController"
+_GRIPPER = re.compile(r"(?:position|effort)_controllers/GripperActionController")
 _FASTEST = ((1.0, "forward (m/s)"), (2.0, "left (rad/s)"))  # of a drive
+_STEERED = ((1.0, "forward (m/s)"), (0.6, "front wheels (rad)"), (0.6, "rear wheels (rad)"))
 _MODES = {"Position": "position", "Velocity": "velocity", "Effort": "force"}
 _LARGEST_FORCE = 100.0  # N m, N
 _CALM = 0.5  # of the fastest that a joint may move
@@ -73,10 +78,19 @@ def command_of(kind: str, names: Sequence[str], known: Known) -> Optional[Comman
     :param kind: its type, as the controller manager lists it. :param names: of its joints, in its own order
     """
     if kind in _DRIVES:
-        return Command("cmd_vel", Twist, tuple(Slider(label, -most, most, 0.0) for most, label in _FASTEST),
-                       lambda values, _: Twist(Vector3(values[0], 0.0, 0.0), Vector3(0.0, 0.0, values[1])), lasting=False)
+        return Command("cmd_vel", Twist, _about_zero(_FASTEST), lambda values, _: Twist(
+            Vector3(values[0], 0.0, 0.0), Vector3(0.0, 0.0, values[1])), lasting=False)
+    if kind == _FOUR_WHEELS:
+        return Command("cmd_four_wheel_steering", FourWheelSteering, _about_zero(_STEERED), lambda values, _: FourWheelSteering(
+            speed=values[0], front_steering_angle=values[1], rear_steering_angle=values[2]), lasting=False)
+    if not names or any(name not in known for name in names):
+        return None
+    if _GRIPPER.fullmatch(kind):
+        joint = known[names[0]][0]
+        return Command("gripper_cmd/goal", GripperCommandActionGoal, (_slider(names[0], *known[names[0]], "position"),), partial(
+            _grip, range_of(joint, "force", _LARGEST_FORCE)[1]))
     forward = _FORWARD.fullmatch(kind)
-    if not names or any(name not in known for name in names) or not (forward or _TRAJECTORY.fullmatch(kind)):
+    if not forward and not _TRAJECTORY.fullmatch(kind):
         return None
     mode = _MODES[forward.group(2)] if forward else "position"
     sliders = tuple(_slider(name, *known[name], mode) for name in names)
@@ -90,6 +104,17 @@ def command_of(kind: str, names: Sequence[str], known: Known) -> Optional[Comman
 def _slider(name: str, joint: d.Joint, position: float, mode: str) -> Slider:
     low, high = range_of(joint, mode, _LARGEST_FORCE)
     return Slider(name, low, high, min(high, max(low, position)) if mode == "position" else 0.0)
+
+
+def _about_zero(controls: Sequence[Tuple[float, str]]) -> Tuple[Slider, ...]:
+    return tuple(Slider(label, -most, most, 0.0) for most, label in controls)
+
+
+def _grip(force: float, values: Sequence[float], _: Sequence[float]) -> GripperCommandActionGoal:
+    """A goal, which takes the place of the one before. With all the ``force`` (N, N m) that the joint may use: 0 is none."""
+    goal = GripperCommandActionGoal()
+    goal.goal.command.position, goal.goal.command.max_effort = values[0], force
+    return goal
 
 
 def _motion(names: Sequence[str], speeds: Sequence[float], values: Sequence[float], now: Sequence[float]) -> JointTrajectory:

@@ -1,6 +1,7 @@
 """The model in the page: its links, to be clicked and moved by a gizmo, and its joints."""
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any, Callable, Dict, List, Tuple
 
 import numpy as np
@@ -12,6 +13,20 @@ _PICKED = (255, 170, 0)
 _AXIS = 0.3  # m
 
 
+@dataclass(frozen=True)
+class _Drawn:
+    """``nodes``: that of the link's frame, those below it. ``painted``: what is seen of it, and its colour."""
+
+    link: d.Link
+    nodes: List[Any]
+    painted: List[Tuple[Any, Tuple[int, int, int]]]
+
+    def pick(self, on: bool) -> None:
+        self.nodes[0].show_axes = on
+        for node, colour in self.painted:
+            node.color = _PICKED if on else colour
+
+
 class ModelSketch:
     """Drawing thread. ``on_click(event, link)``; ``on_move(event, link, position, wxyz, phase)`` of the gizmo."""
 
@@ -19,7 +34,7 @@ class ModelSketch:
         self._scene = scene
         self._on_click = on_click
         self._assets = Assets()
-        self._links: Dict[str, Tuple[Any, List[Any]]] = {}  # name -> (what it shows, nodes)
+        self._links: Dict[str, _Drawn] = {}
         self._joints: List[Any] = []
         self._serial = 0
         self._picked = ""
@@ -39,41 +54,45 @@ class ModelSketch:
     def place(self, link: str, pose: d.Pose) -> None:
         """While a hand moves it."""
         if link in self._links:
-            node = self._links[link][1][0]
+            node = self._links[link].nodes[0]
             node.position, node.wxyz = pose.p, wxyz(pose.q)
 
     def show(self, model: d.Model, picked: str, movable: bool = True) -> None:
         """:param movable: by the gizmo; it would be in the way of a click on the link."""
-        wanted = {link.name: (link, link.name == picked) for link in model.links}
-        for name in [name for name, (content, _) in self._links.items() if wanted.get(name) != content]:
-            for node in reversed(self._links.pop(name)[1]):
+        wanted = {link.name: link for link in model.links}
+        for name in [name for name, drawn in self._links.items() if wanted.get(name) != drawn.link]:
+            for node in reversed(self._links.pop(name).nodes):
                 take_away(node)
-        for name, content in wanted.items():
+        for name, link in wanted.items():
             if name not in self._links:
-                self._links[name] = (content, self._draw(*content))
+                self._links[name] = self._draw(link)
+        for name in {picked, self._picked} & set(self._links):  # drawn anew they would miss the next click
+            self._links[name].pick(name == picked)
         self._show_joints(model)
         self._picked = picked
         self._gizmo.visible = movable and picked in wanted
         if picked in wanted:
-            pose = wanted[picked][0].pose
+            pose = wanted[picked].pose
             self._gizmo.position, self._gizmo.wxyz = pose.p, wxyz(pose.q)
 
-    def _draw(self, link: d.Link, picked: bool) -> List[Any]:
+    def _draw(self, link: d.Link) -> "_Drawn":
         self._serial += 1
-        root = self._scene.add_frame(f"/model/{self._serial}", show_axes=picked, axes_length=_AXIS, axes_radius=0.006,
+        root = self._scene.add_frame(f"/model/{self._serial}", show_axes=False, axes_length=_AXIS, axes_radius=0.006,
                                      position=link.pose.p, wxyz=wxyz(link.pose.q))
-        nodes = [root]
+        drawn = _Drawn(link, [root], [])
         for number, visual in enumerate(link.visuals):
             for part_number, part in enumerate(self._assets.parts(visual, link.name)):
-                mesh = self._assets.meshes[part.key]
-                nodes.append(self._scene.add_mesh_simple(
+                mesh, colour = self._assets.meshes[part.key], rgb255(part.look.diffuse)
+                node = self._scene.add_mesh_simple(
                     f"{root.name}/{number}_{part_number}", np.asarray(mesh.vertices, np.float32),
                     np.asarray(mesh.triangles, np.uint32), side="double", position=part.pose.p, wxyz=wxyz(part.pose.q),
-                    color=_PICKED if picked else rgb255(part.look.diffuse), scale=tuple(map(float, part.scale)),
-                    opacity=part.look.alpha if part.look.alpha < 0.995 else None))
-                nodes[-1].on_click(lambda event, name=link.name: self._on_click(event, name))
-        nodes.append(self._scene.add_label(f"{root.name}/name", link.name))
-        return nodes
+                    color=colour, scale=tuple(map(float, part.scale)),
+                    opacity=part.look.alpha if part.look.alpha < 0.995 else None)
+                node.on_click(lambda event, name=link.name: self._on_click(event, name))
+                drawn.nodes.append(node)
+                drawn.painted.append((node, colour))
+        drawn.nodes.append(self._scene.add_label(f"{root.name}/name", link.name))
+        return drawn
 
     def _show_joints(self, model: d.Model) -> None:
         for node in self._joints:
@@ -87,7 +106,7 @@ class ModelSketch:
                 "/model_joints", np.array(lines, np.float32), colors=(40, 40, 40), thickness=0.01))
         for number, joint in enumerate(model.joints):
             if joint.child in self._links and joint.axes:
-                node = self._links[joint.child][1][0].name
+                node = self._links[joint.child].nodes[0].name
                 begin = np.asarray(joint.pose.p)
                 tips = np.array([(begin, begin + 1.5 * _AXIS * np.asarray(axis.xyz)) for axis in joint.axes])
                 self._joints.append(self._scene.add_arrows(f"{node}/joint{number}", tips.astype(np.float32),

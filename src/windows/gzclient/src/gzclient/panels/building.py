@@ -12,7 +12,7 @@ from ode_sim.description.materials import NAMES
 from ode_sim.description.model import one_line
 from ode_sim.math3 import Pose
 from ode_sim.viewer.eye import put_eye
-from ode_sim.viewer.panels.base import Panel, note
+from ode_sim.viewer.panels.base import Panel, counted, note
 from ode_sim.viewer.simulation import Refused
 from PIL import Image
 
@@ -169,7 +169,7 @@ class BuildingPanel(Panel):
         self._level.value = str(plan.level)
         self._busy = False
         walls = sum(len(level.walls) for level in building.levels) if building is not None else 0
-        said = f"{_counted(walls, 'wall')} on {_counted(plan.levels, 'level')}" if walls else "nothing is drawn yet"
+        said = f"{counted(walls, 'wall')} on {counted(plan.levels, 'level')}" if walls else "nothing is drawn yet"
         if self._left:
             said += one_line(f"; not understood, and lost when it is saved under this name: {', '.join(self._left)}", 300)
         self._note.content = note(said)
@@ -428,7 +428,3 @@ class BuildingPanel(Panel):
         self._scale.value = 0.0
         self._show_picture()
         self._refresh()
-
-
-def _counted(number: int, thing: str) -> str:
-    return f"{number} {thing}" if number == 1 else f"{number} {thing}s"

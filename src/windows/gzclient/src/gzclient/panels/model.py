@@ -7,7 +7,7 @@ from typing import Any, Callable, List, Optional
 from ode_sim.description import model as d
 from ode_sim.math3 import Pose
 from ode_sim.viewer.eye import put_eye
-from ode_sim.viewer.panels.base import Panel, note
+from ode_sim.viewer.panels.base import Panel, counted, note
 from ode_sim.viewer.simulation import Refused
 
 from gzclient.modelling import draft
@@ -44,8 +44,8 @@ class ModelPanel(Panel):
             self._plugin = gui.add_text("Plugin name", "")
             self._library = gui.add_text("File name", "", hint="libgazebo_ros_p3d.so")
             self._parameters = gui.add_text("Parameters (XML)", "", multiline=True)
-            self.on_click(gui.add_button("Add plugin"), lambda: self._draft.add_plugin(
-                self._plugin.value, self._library.value, self._parameters.value))
+            gui.add_button("Add plugin").on_click(lambda event: self._act(event, lambda: self._draft.add_plugin(
+                self._plugin.value, self._library.value, self._parameters.value)))
         self._name = gui.add_text("Model name", "my_model", hint=f"saved into ~/{draft.FOLDER}/NAME")
         self._static = gui.add_checkbox("Static", False)
         self._save = gui.add_button("Save model", hint="model.sdf, model.config")
@@ -140,7 +140,8 @@ class ModelPanel(Panel):
             with self.page.server.atomic():
                 self._sketch.show(model, self._picked, not self._join.value)
         self._joint.options = tuple(joint.name for joint in model.joints) or ("(none)",)
-        self._note.content = note(f"{len(model.links)} links, {len(model.joints)} joints, {len(model.plugins)} plugins"
+        parts = ((model.links, "link"), (model.joints, "joint"), (model.plugins, "plugin"))
+        self._note.content = note(", ".join(counted(len(some), thing) for some, thing in parts)
                                   + (f"; joint of {self._ends[0]} and ...?" if self._ends else ""))
         self._folder.label = f"Link {self._picked}" if self._picked else "No link is picked"
 

@@ -54,6 +54,11 @@ def note(text: object) -> str:
     return f"<div style='padding:0 0.6em;font-size:0.8em'>{escaped(text)}</div>"
 
 
+def counted(number: int, thing: str) -> str:
+    """``1 wall``, ``2 walls``."""
+    return f"{number} {thing}" if number == 1 else f"{number} {thing}s"
+
+
 def free_name(name: str, taken: Any) -> str:
     """``name``, or ``name_0``, ``name_1`` ... as Gazebo's window names what it inserts."""
     if name not in taken:
