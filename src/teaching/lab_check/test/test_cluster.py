@@ -60,7 +60,8 @@ def test_a_spec_travels_with_what_it_names(course):
 def test_an_unfit_node_says_why(monkeypatch):
     monkeypatch.setattr(sandbox, "check", lambda: (_ for _ in ()).throw(sandbox.SandboxError("bwrap is not installed")))
     monkeypatch.setenv("CMAKE_PREFIX_PATH", "")
-    _, said = node.faults("of yesterday", False)
+    _, said, sent = node.faults("of yesterday", False, b"parcel")
+    assert sent == b"parcel"
     assert any("not of yesterday" in line and "same version" in line for line in said)
     assert any("no workspace is sourced" in line for line in said)
     monkeypatch.undo()

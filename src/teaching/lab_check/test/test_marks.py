@@ -6,11 +6,12 @@ import os
 import pathlib
 import subprocess
 import tarfile
+import tempfile
 import xml.etree.ElementTree as ET
 import zipfile
 
 import pytest
-from lab_check import explain, faults, gradebook, grade, report, similar, spec, staging, store, supervise
+from lab_check import engines, explain, faults, gradebook, grade, report, scratch, similar, spec, staging, store, supervise
 from lab_check.checks.files import complain, insane
 from lab_check.outcome import Result, TaskResult, Verdict, failed_task, share
 
@@ -148,7 +149,7 @@ def test_a_checker_that_failed_gives_no_marks_at_all(tmp_path):
     book.failed("a", "its worker was killed by signal 9")
     gradebook.write(sheet, book, tmp_path)
     assert (tmp_path / "gradebook.csv").read_text().splitlines()[1:] == ["a,,,,not examined: its worker was killed by signal 9",
-                                                                         "b,,,,not examined yet (waiting)"]
+                                                                         "b,,,,not examined yet"]
     assert "not examined: its worker was killed by signal 9" in (tmp_path / "gradebook.html").read_text()
 
 
@@ -224,7 +225,8 @@ def test_descriptions_that_cannot_be():
 class FakePool:
     """Workers that need no time; ``deaths`` says how often the worker of a submission dies."""
 
-    def __init__(self, deaths):
+    def __init__(self, deaths, why="its worker was killed by signal 9"):
+        self.why = why
         self.running, self.deaths, self.begun, self.workers = {}, dict(deaths), [], 2
 
     def start(self, name, path):
@@ -237,7 +239,7 @@ class FakePool:
     def take(self, name):
         del self.running[name]
         self.deaths[name] = self.deaths.get(name, 0) - 1
-        return "its worker was killed by signal 9" if self.deaths[name] >= 0 else a_result()
+        return self.why if self.deaths[name] >= 0 else a_result()
 
 
 def test_a_dead_worker_is_replaced_once_and_what_is_done_stays_done(tmp_path):
@@ -254,6 +256,26 @@ def test_a_dead_worker_is_replaced_once_and_what_is_done_stays_done(tmp_path):
     pool = FakePool({})
     grade.run(book, pool, lines.append)
     assert sorted(pool.begun) == ["b", "c"] and book.counts() == {"done": 3}
+
+
+def test_what_never_began_was_no_try(tmp_path):
+    book = store.Store(tmp_path / "class.sqlite")
+    book.enlist("a", tmp_path / "a", "1")
+    pool = FakePool({"a": 5}, engines.NotBegun("the node was gone before it began"))
+    grade.run(book, pool, lambda line: None)
+    assert book.counts() == {"done": 1} and len(pool.begun) == 6
+
+
+def test_what_was_killed_leaves_no_folder_for_long(tmp_path, monkeypatch):
+    monkeypatch.setattr(tempfile, "gettempdir", lambda: str(tmp_path))
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    (tmp_path / "lab_x.killed").mkdir()
+    (tmp_path / "lab_x.killed" / "rest").write_text("x")
+    with scratch.folder("lab_x.") as mine:
+        assert mine.is_dir() and (tmp_path / "lab_x.killed").exists()  # it might be new
+        scratch.sweep("lab_x.", young=-1.0)
+        assert mine.is_dir() and not (tmp_path / "lab_x.killed").exists()
+    assert not list(tmp_path.iterdir())
 
 
 def test_gradebook(tmp_path):

@@ -10,12 +10,11 @@ import signal
 import socket
 import subprocess
 import sys
-import tempfile
 import uuid
 from dataclasses import asdict
 from typing import Optional
 
-from . import report, sandbox
+from . import report, sandbox, scratch
 from .job import Job
 from .outcome import Result
 from .spec import Spec
@@ -57,21 +56,26 @@ def check(spec: Spec, submission: pathlib.Path, out: pathlib.Path, unsafe: bool 
     :param out: reports go there; what an earlier examination left there goes
     :raises sandbox.SandboxError: this machine cannot shut it in
     """
-    platform = sandbox.Platform.here()
+    sandbox.Platform.here()
     if out.is_dir():
         for name in ("result.json", "report.html", "report.json", "junit.xml", "results.json", "build.log", "pictures", ".examiner.log"):
             path = out / name
             shutil.rmtree(path) if path.is_dir() else path.unlink(missing_ok=True)
     out.mkdir(parents=True, exist_ok=True)
     keep_bytecode()
-    scratch = tempfile.mkdtemp(prefix="lab_check.")
-    os.chmod(scratch, 0o755)
+    with scratch.folder("lab_check.") as place:
+        result = _examine(spec, submission, out, place, unsafe, films, port)
+    report.write(result, spec, out)
+    return result
+
+
+def _examine(spec: Spec, submission: pathlib.Path, out: pathlib.Path, place: pathlib.Path, unsafe: bool, films: bool, port: int) -> Result:
+    """:param place: what the submission writes to lies there"""
+    os.chmod(place, 0o755)
     limits = {name: spec.limit(name) for name in spec.data["limits"]}
-    job = Job(spec.data, str(spec.path.parent), os.path.abspath(submission), scratch, str(out.resolve()), unsafe,
-              free_port(port) if unsafe else 11311, limits, asdict(platform), f"LAB_CHECK_RUN={uuid.uuid4().hex}", films=films)
-    if not unsafe:
-        # What stands between this submission and the other files of its owner: nothing of them is bound into the inner wall.
-        job.platform = asdict(platform)
+    job = Job(spec.data, str(spec.path.parent), os.path.abspath(submission), str(place), str(out.resolve()), unsafe,
+              free_port(port) if unsafe else 11311, limits, asdict(sandbox.Platform.here()), f"LAB_CHECK_RUN={uuid.uuid4().hex}",
+              films=films)
     job_file = out / ".job"
     job.save(job_file)
     words = [sys.executable, "-m", "lab_check.examiner", str(job_file)]
@@ -79,13 +83,10 @@ def check(spec: Spec, submission: pathlib.Path, out: pathlib.Path, unsafe: bool 
     patience = STRETCH * (spec.data["build"]["timeout"] * 2 + sessions * (limits["time"] + 90))
     try:
         fault = _run(words if unsafe else sandbox.outer_words() + words, out, patience)
-        result = _read(out, fault, spec, submission)
+        return _read(out, fault, spec, submission)
     finally:
-        shutil.rmtree(scratch, ignore_errors=True)
         for name in (".job", ".job.json"):
             (out / name).unlink(missing_ok=True)
-    report.write(result, spec, out)
-    return result
 
 
 def _run(words, out: pathlib.Path, patience: float) -> str:

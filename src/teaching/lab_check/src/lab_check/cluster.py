@@ -1,20 +1,24 @@
 """The engine for a cluster: one task of Ray for each submission, on the nodes that are fit for it."""
 from __future__ import annotations
 
-import os
 import pathlib
+import re
 import shutil
 import socket
+import tempfile
 from dataclasses import dataclass
 from typing import Any, Callable, Dict, List, Tuple, Union
 
-from . import node, parcel
-from .engines import Engine, How, Pool, outcome
+from . import access, node, parcel
+from .engines import Engine, How, NotBegun, Pool, outcome
 from .errors import LabError
 from .outcome import Result
 from .spec import Spec
 
 _LOOK = 60.0  # s that a node has to answer
+_TAKEN = ".taken."  # before the name of a folder for reports on their way
+_FETCH = 300.0  # s in which the reports of one that ended have to arrive
+_SENT = 200_000  # bytes that a node is sent and sends back: Ray passes what is smaller than 100 kB in another way
 
 
 class ClusterError(LabError, RuntimeError):
@@ -23,16 +27,18 @@ class ClusterError(LabError, RuntimeError):
 
 @dataclass
 class Node:
-    """``slots``: examinations at a time, one a core; ``busy``: numbers of those that are taken."""
+    """``slots``: examinations at a time, one a core; ``busy``: numbers of those that are taken; ``given``: how many it got."""
 
     name: str
     slots: int
     busy: set
     alive: bool = True
+    given: int = 0
 
     def take(self) -> int:
         slot = min(set(range(self.slots)) - self.busy)
         self.busy.add(slot)
+        self.given += 1
         return slot
 
 
@@ -54,6 +60,8 @@ class Cluster(Engine):
     def __init__(self, spec: Spec, out: pathlib.Path, how: How, workers: int, address: str, show: Callable[[str], None]):
         self._ray = connect(address)
         self._out, self._how = out, how
+        for left in out.glob(f"{_TAKEN}*"):  # by one that was killed
+            shutil.rmtree(left, ignore_errors=True)
         self._most = spec.limit("input")
         self._spec_parcel, self._spec_path = parcel.pack_spec(spec)
         self.running: Dict[str, Task] = {}
@@ -71,20 +79,21 @@ class Cluster(Engine):
     def _fit_nodes(self, show: Callable[[str], None]) -> Dict[str, Node]:
         ray = self._ray
         version, asked = node.platform_version(), {}
-        look = ray.remote(num_cpus=0, max_retries=0)(node.faults)
+        look, sent = ray.remote(num_cpus=0, max_retries=0)(node.faults), ray.put(bytes(_SENT))
         for entry in ray.nodes():
             slots = int(entry["Resources"].get("CPU", 0))
             if entry["Alive"] and slots:
-                reference = look.options(scheduling_strategy=self._on(entry["NodeID"])).remote(version, self._how.unsafe)
+                reference = look.options(scheduling_strategy=self._on(entry["NodeID"])).remote(version, self._how.unsafe, sent)
                 asked[reference] = (entry["NodeID"], entry["NodeManagerAddress"], slots)
         found: Dict[str, Node] = {}
         for reference, (identity, address, slots) in asked.items():
             try:
-                name, said = ray.get(reference, timeout=_LOOK)
+                name, said, _ = ray.get(reference, timeout=_LOOK)
             except ray.exceptions.GetTimeoutError:
                 name, said = address, [f"it did not answer within {_LOOK:.0f} s"]
             except ray.exceptions.RayError as error:
-                name, said = address, [_reason(error) + "; there, source noetic_labs' setup.bash and type rosrun lab_check ray start"]
+                cure = "; there, source noetic_labs' setup.bash and type rosrun lab_check ray start"
+                name, said = address, [_reason(error) + (cure if "No module named" in str(error) else "")]
             if said:
                 show(f"node {name} ({address}) is left out: {'; '.join(said)}")
             else:
@@ -99,16 +108,22 @@ class Cluster(Engine):
         return NodeAffinitySchedulingStrategy(node_id=identity, soft=False)
 
     def start(self, name: str, path: pathlib.Path) -> None:
+        """
+        :raises ClusterError: no node, or no cluster, is left
+        """
         shutil.rmtree(self._out / name, ignore_errors=True)
         try:
-            submission = self._ray.put(parcel.pack(path, self._most))
+            submission = parcel.pack(path, self._most)
         except (parcel.TooLarge, OSError):
             self._here.start(name, path)
             self.running[name] = Task(None, "", 0)
             return
         identity, slot = self._place(self._last.get(name, ""))
         work = self._remote.options(scheduling_strategy=self._on(identity))
-        reference = work.remote(path.name, submission, self._shared, self._spec_path, self._how, slot)
+        try:
+            reference = work.remote(path.name, self._ray.put(submission), self._shared, self._spec_path, self._how, slot)
+        except self._ray.exceptions.RayError as error:
+            raise ClusterError(f"the cluster takes no work any more ({_reason(error)}); the same command goes on from here") from None
         self.running[name] = Task(reference, identity, slot)
         self._last[name] = identity
 
@@ -119,7 +134,7 @@ class Cluster(Engine):
         return min(self._wanted or slots, slots)
 
     def _look(self) -> None:
-        """Which nodes live.
+        """Which nodes live. Without a head Ray waits for it, and after a minute ends the whole process: :class:`lab_check.apart.Apart`.
 
         :raises ClusterError: the head does not answer
         """
@@ -129,14 +144,14 @@ class Cluster(Engine):
             raise ClusterError(f"the cluster's head does not answer any more ({_first_line(error)}); "
                                "the same command goes on from here") from None
         for identity, n in self._nodes.items():
-            n.alive = identity in alive
+            n.alive = n.alive and identity in alive
 
     def _place(self, last: str) -> Tuple[str, int]:
         """A slot on the emptiest node, rather not where the submission's worker died before."""
         free = [identity for identity, n in self._nodes.items() if n.alive and len(n.busy) < n.slots]
         if not free:
             raise ClusterError("no node of the cluster is left that can examine; the same command goes on from here")
-        identity = min(free, key=lambda i: (i == last, len(self._nodes[i].busy) / self._nodes[i].slots))
+        identity = min(free, key=lambda i: (i == last, len(self._nodes[i].busy) / self._nodes[i].slots, self._nodes[i].given))
         return identity, self._nodes[identity].take()
 
     def ended(self) -> List[str]:
@@ -152,13 +167,20 @@ class Cluster(Engine):
         n = self._nodes[task.node]
         n.busy.discard(task.slot)
         try:
-            code, reports = self._ray.get(task.reference)
+            code, reports = self._ray.get(task.reference, timeout=_FETCH)
+        except self._ray.exceptions.RayTaskError as error:
+            return f"the checker itself failed on {n.name}: {_reason(error)}"
+        except self._ray.exceptions.TaskUnschedulableError:
+            n.alive = False
+            return NotBegun(f"the node {n.name} was gone before it began")
         except self._ray.exceptions.RayError as error:
-            return f"its worker on {n.name} died: {_reason(error)}"
-        parcel.unpack(reports, self._out / "_taken")
-        shutil.rmtree(self._out / name, ignore_errors=True)
-        (self._out / "_taken" / "out").rename(self._out / name)
-        (self._out / "_taken").rmdir()
+            n.alive = n.alive and not isinstance(error, self._ray.exceptions.NodeDiedError)
+            return f"its worker on {n.name} died: {_reason(error)}" if n.alive else f"the node {n.name} on which it was examined is gone"
+        self._out.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryDirectory(prefix=_TAKEN, dir=self._out) as folder:
+            parcel.unpack(reports, pathlib.Path(folder))
+            shutil.rmtree(self._out / name, ignore_errors=True)
+            pathlib.Path(folder, "out").rename(self._out / name)
         return outcome(self._out / name, code)
 
     def end(self) -> None:
@@ -172,19 +194,18 @@ class Cluster(Engine):
             self._ray.shutdown()
 
 
-def bring_token() -> None:
-    """Where this user has a token, ``ray start --head`` asks for it, but neither ``ray.init`` nor Ray's other commands bring it
-    by themselves: here they do. Before Ray is imported; who has set RAY_AUTH_MODE is heard."""
-    if (pathlib.Path.home() / ".ray" / "auth_token").exists():
-        os.environ.setdefault("RAY_AUTH_MODE", "token")
-
-
 def connect(address: str):
     """Ray, connected.
 
-    :raises ClusterError: it is not installed, or nobody answers
+    :raises ClusterError: it is not installed, nobody answers, or there is no token for it
     """
-    bring_token()
+    try:
+        where = address if address in ("local", "auto") else _knock(address)
+    except (OSError, ValueError) as error:  # Ray itself would go on asking for minutes
+        raise _nobody(address, error) from None
+    if address != "local" and not access.agree(where):
+        raise ClusterError(f"the cluster at '{address}' asks for a token, and {access.token_file()} is not it: "
+                           "copy that file from the machine of its head")
     try:
         import ray
     except ImportError:
@@ -192,35 +213,47 @@ def connect(address: str):
     import logging
 
     quiet = {"log_to_driver": False, "logging_level": logging.ERROR}
-    # Ray notes the command line, and fails on a submission's name in it that is no UTF-8.
+    # Ray notes the command line, and fails on a submission's name in it that is no UTF-8. It would print the log of each node that died.
     ray._private.utils.get_entrypoint_name = lambda: "lab_check grade"
+    ray._private.worker.print_to_stdstream = lambda *_, **__: None
     try:
         if address == "local":
             ray.init(address="local", include_dashboard=False, **quiet)
         else:
-            if address != "auto":
-                address = address if ":" in address else f"{address}:6379"
-                _knock(address)  # Ray itself would go on asking for minutes
-            ray.init(address=address, **quiet)
+            ray.init(address=where, **quiet)
     except Exception as error:  # Ray raises bare ones, too, such as of a node that does not start within 30 s
-        raise ClusterError(f"no Ray cluster answers at '{address}' ({_first_line(error)}); start one: rosrun lab_check ray start --head, "
-                           "and on each other machine rosrun lab_check ray start --address HOST:6379") from None
+        raise _nobody(address, error) from None
     return ray
 
 
-def _knock(address: str) -> None:
-    """
+def _nobody(address: str, error: BaseException) -> ClusterError:
+    return ClusterError(f"no Ray cluster answers at '{address}' ({_first_line(error)}); start one: rosrun lab_check ray start --head, "
+                        "and on each other machine rosrun lab_check ray start --address HOST:6379")
+
+
+def _knock(address: str) -> str:
+    """The address, with a port.
+
     :raises OSError: nobody listens there
-    :raises ValueError: it has no port
+    :raises ValueError: its port is no number
     """
+    address = address if ":" in address else f"{address}:6379"
     host, _, port = address.rpartition("://")[2].rpartition(":")
     socket.create_connection((host, int(port)), timeout=5.0).close()
+    return address
+
+
+# What Ray adds to its errors: colours, and advice to whoever develops with it.
+_ADVICE = re.compile(r"\x1b\[[0-9;]*m|To see information about where this ObjectRef [^\n]*?`ray\.init\(\)`\."
+                     r"|Check cluster logs \([^)]*\)[^\n]*?failure\.")
 
 
 def _reason(error: BaseException) -> str:
-    """The last line of Ray's text that says something; its traces are of no use to a teacher."""
-    lines = [line.strip() for line in str(error).splitlines() if line.strip()]
-    return (lines[-1] if type(error).__name__.startswith("RayTaskError") else lines[0] if lines else type(error).__name__)[:300]
+    """All that Ray says, in one line; of an error inside a task that error, without the trace."""
+    cause = getattr(error, "cause", None)
+    cause = error if cause is None else cause
+    text = " ".join(_ADVICE.sub("", str(cause)).split())
+    return f"{type(cause).__name__}: {text}"[:800]
 
 
 def _first_line(error: BaseException) -> str:

@@ -56,6 +56,10 @@ def outcome(out: pathlib.Path, code: int) -> Union[Result, str]:
     return f"the checker itself failed: {result.fault}" if result.fault else result
 
 
+class NotBegun(str):
+    """Why there is no result, where the examination never began: that was no try."""
+
+
 class Engine(abc.ABC):
     """``running``: names of what is under way; ``workers``: how many may be."""
 

@@ -10,8 +10,9 @@ import time
 from typing import Callable, Dict, List, Optional
 
 from . import gradebook
+from .apart import Apart, Lost
 from .cluster import Cluster, ClusterError
-from .engines import Engine, How, Pool
+from .engines import Engine, How, NotBegun, Pool
 from .outcome import Result, readable
 from .spec import Spec
 from .store import Store, fingerprint
@@ -46,8 +47,8 @@ def run(store: Store, engine: Engine, show: Callable[[str], None]) -> None:
             if isinstance(taken, Result):
                 store.done(name, taken)
                 outcome = f"{taken.points:g} of {taken.of:g}"
-            elif store.tries(name) < TRIES:
-                store.waits_again(name, taken)
+            elif isinstance(taken, NotBegun) or store.tries(name) < TRIES:
+                store.waits_again(name, taken, tried=not isinstance(taken, NotBegun))
                 waiting.append(name)
                 show(f"{name}: {taken}; it is tried again")
                 continue
@@ -67,7 +68,8 @@ def engine_for(spec: Spec, out: pathlib.Path, options: argparse.Namespace) -> En
     """
     how = How(options.unsafe, not options.no_films, options.port)
     if options.address:
-        return Cluster(spec, out, how, options.workers or 0, options.address, lambda line: print(f"lab_check: {line}", file=sys.stderr))
+        return Apart(Cluster, (spec, out, how, options.workers or 0, options.address), "the cluster, or its head,",
+                     lambda line: print(f"lab_check: {line}", file=sys.stderr))
     return Pool(lambda name: spec.path, out, how, options.workers or max(1, os.cpu_count() or 1))
 
 
@@ -88,25 +90,29 @@ def main(arguments: Optional[List[str]] = None) -> int:
         allowed(options.unsafe)
     out = options.out.resolve()
     try:
-        out.mkdir(parents=True, exist_ok=True)
-        store = Store(out / "class.sqlite")
-        enlist(store, spec, options)
-        engine = engine_for(spec, out, options)
-        try:
-            run(store, engine, lambda line: print(line, flush=True))
-        finally:
-            engine.end()
-            gradebook.write(spec, store, out)
+        return _examine(spec, out, options)
     except KeyboardInterrupt:
         print("\nlab_check: interrupted; the same command goes on from here", file=sys.stderr)
         return 130
-    except ClusterError as error:
+    except (ClusterError, Lost) as error:
         print(f"lab_check: {error}", file=sys.stderr)
         return 3
     except (OSError, sqlite3.Error) as error:  # a full disk, a folder that may not be written to
         print(f"lab_check: {out}: {getattr(error, 'strerror', None) or error}; when that is mended, the same command goes on from here",
               file=sys.stderr)
         return 5
+
+
+def _examine(spec: Spec, out: pathlib.Path, options: argparse.Namespace) -> int:
+    out.mkdir(parents=True, exist_ok=True)
+    store = Store(out / "class.sqlite")
+    enlist(store, spec, options)
+    engine = engine_for(spec, out, options)
+    try:
+        run(store, engine, lambda line: print(line, flush=True))
+    finally:
+        engine.end()
+        gradebook.write(spec, store, out)
     failed = store.counts().get("failed", 0)
     print(f"{out / 'gradebook.html'}, {out / 'gradebook.csv'}" + (f"; {failed} could not be examined" if failed else ""))
     return 4 if failed else 0

@@ -42,7 +42,9 @@ def safe(text: str) -> str:
 
 def _remark(row) -> str:
     """What stands in the place of marks."""
-    return {"done": "", "failed": f"not examined: {row['why']}"}.get(row["state"], f"not examined yet ({row['why'] or row['state']})")
+    if row["state"] == "done":
+        return ""
+    return "not examined" + ("" if row["state"] == "failed" else " yet") + (f": {row['why']}" if row["why"] else "")
 
 
 def _marks(result: Optional[Result], tasks: List[str]) -> List:

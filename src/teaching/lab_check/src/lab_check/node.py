@@ -8,12 +8,11 @@ import pathlib
 import shutil
 import signal
 import socket
-import subprocess
 import sys
 import tempfile
-from typing import List, Optional, Tuple
+from typing import List, Tuple
 
-from . import parcel, sandbox
+from . import parcel, sandbox, scratch
 from .engines import How, examine
 from .supervise import descendants
 
@@ -36,8 +35,11 @@ def platform_version() -> str:
     return f"{digest.hexdigest()[:12]} on Python {sys.version_info[0]}.{sys.version_info[1]}"
 
 
-def faults(version: str, unsafe: bool) -> Tuple[str, List[str]]:
-    """The name of this machine, and what keeps it from examining: a sentence each, with the cure."""
+def faults(version: str, unsafe: bool, sent: bytes = b"") -> Tuple[str, List[str], bytes]:
+    """The name of this machine, and what keeps it from examining: a sentence each, with the cure.
+
+    :param sent: comes back; what cannot be sent there and back would fail in each examination
+    """
     said = []
     mine = platform_version()
     if mine != version:
@@ -50,7 +52,7 @@ def faults(version: str, unsafe: bool) -> Tuple[str, List[str]]:
         said.append(str(error))
     if shutil.disk_usage(tempfile.gettempdir()).free < 500e6:
         said.append(f"less than 500 MB are free in {tempfile.gettempdir()}")
-    return socket.gethostname(), said
+    return socket.gethostname(), said, sent
 
 
 def examine_parcel(name: str, submission: bytes, spec: bytes, spec_path: str, how: How, worker: int) -> Tuple[int, bytes]:
@@ -59,20 +61,17 @@ def examine_parcel(name: str, submission: bytes, spec: bytes, spec_path: str, ho
     :param name: of the submission's file or folder
     :returns: exit code of ``check``; its reports, packed
     """
-    folder = pathlib.Path(tempfile.mkdtemp(prefix="lab_check_node."))
-    process: Optional[subprocess.Popen] = None
-    try:
+    with scratch.folder("lab_check_node.") as folder:
         parcel.unpack(submission, folder / "submission")
         parcel.unpack(spec, folder / "spec")
         out = folder / "out"
         process = examine(how.words(folder / "spec" / spec_path, folder / "submission" / name, out, worker), out)
-        code = process.wait()
-        return code, parcel.pack(out)
-    finally:
-        if process is not None and process.poll() is None:
-            for pid in descendants(process.pid):
+        try:
+            code = process.wait()
+            return code, parcel.pack(out)
+        finally:
+            for pid in descendants(process.pid) if process.poll() is None else ():
                 try:
                     os.kill(pid, signal.SIGKILL)
                 except OSError:
                     continue
-        shutil.rmtree(folder, ignore_errors=True)

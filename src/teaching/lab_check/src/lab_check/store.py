@@ -59,8 +59,9 @@ class Store:
     def started(self, name: str) -> None:
         self._db.execute("UPDATE submissions SET state = 'running', tries = tries + 1 WHERE name = ?", (name,))
 
-    def waits_again(self, name: str, why: str) -> None:
-        self._db.execute("UPDATE submissions SET state = 'waiting', why = ? WHERE name = ?", (why, name))
+    def waits_again(self, name: str, why: str, tried: bool = True) -> None:
+        back = 0 if tried else 1
+        self._db.execute("UPDATE submissions SET state = 'waiting', why = ?, tries = tries - ? WHERE name = ?", (why, back, name))
 
     def failed(self, name: str, why: str) -> None:
         self._db.execute("UPDATE submissions SET state = 'failed', why = ?, finished = ? WHERE name = ?", (why, time.time(), name))
