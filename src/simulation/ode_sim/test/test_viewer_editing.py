@@ -1,5 +1,6 @@
 """Sizes, inertia, lights and physics, changed in a page without a browser; each a step that can be undone."""
 import asyncio
+import threading
 import types
 
 import numpy as np
@@ -188,6 +189,27 @@ def test_the_solver_is_set(page):
     assert (now.cfm, now.erp, now.max_contacts, now.contact_surface_layer) == (1e-5, 0.3, 7, 0.002)
     np.testing.assert_allclose(physics._soft.value, (1e-5, 0.3))
     assert not client.told
+
+
+def test_a_number_of_the_physics_is_typed_on_while_its_first_keys_are_being_set(page):
+    """Each key comes in a thread of its own; the first ones are not done when the last has come."""
+    client, physics, usual = Client(), panel(page, "PhysicsPanel"), page.simulation.set_physics
+    begun, go_on = threading.Event(), threading.Event()
+
+    def slow(*arguments):
+        begun.set()
+        assert go_on.wait(10.0)
+        usual(*arguments)
+    page.simulation.set_physics = slow
+    first = threading.Thread(target=lambda: use(physics._iterations, client, 7))
+    first.start()
+    assert begun.wait(10.0)
+    physics._iterations._impl.value = 77
+    second = threading.Thread(target=lambda: use(physics._iterations, client, 77))
+    second.start()
+    go_on.set()
+    first.join(), second.join()
+    assert (page.simulation.physics()[0].iters, physics._iterations.value) == (77, 77) and not client.told
 
 
 def test_a_search_is_not_filled_up_by_the_links_of_what_is_picked(page):

@@ -1,9 +1,11 @@
 """Gravity, step, rate and solver of the world."""
 from __future__ import annotations
 
+import threading
 from dataclasses import replace
-from typing import Any, Optional
+from typing import Any, Callable, Dict, Optional
 
+from ode_sim.description import model as d
 from ode_sim.viewer.panels.base import Panel
 from ode_sim.viewer.simulation import WorldRecord
 
@@ -24,10 +26,19 @@ class PhysicsPanel(Panel):
         self._correcting = self.gui.add_number("Contacts: fastest correction (m/s)", 100.0, min=0.0, step=1.0)
         self._layer = self.gui.add_number("Contacts: depth that stays (m)", 0.001, min=0.0, max=0.1, step=0.0005)
         self._contacts = self.gui.add_number("Contacts of a pair at most", 20, min=1, max=1000, step=1)
-        self._controls = (self._gravity, self._step, self._rate, self._iterations, self._sor, self._soft, self._correcting,
-                          self._layer, self._contacts)
-        for control in self._controls:
-            self.on_update(control, lambda _: self._set())
+        self._lock = threading.Lock()  # each key of a number is a call of its own, in a thread of its own
+        self._shown: Dict[Any, Callable[[d.Physics, d.Vec3], Any]] = {
+            self._gravity: lambda physics, gravity: tuple(float(v) for v in gravity),
+            self._step: lambda physics, _: float(physics.max_step_size),
+            self._rate: lambda physics, _: float(physics.real_time_update_rate),
+            self._iterations: lambda physics, _: int(physics.iters),
+            self._sor: lambda physics, _: float(physics.sor),
+            self._soft: lambda physics, _: (float(physics.cfm), float(physics.erp)),
+            self._correcting: lambda physics, _: float(physics.contact_max_correcting_vel),
+            self._layer: lambda physics, _: float(physics.contact_surface_layer),
+            self._contacts: lambda physics, _: int(physics.max_contacts)}
+        for control in self._shown:
+            self.on_update(control, lambda _, control=control: self._set(control))
         self.on_click(self.gui.add_button("Read again"), self._read)
 
     def on_world(self, world: WorldRecord) -> None:
@@ -36,23 +47,22 @@ class PhysicsPanel(Panel):
             self._read()
 
     def _read(self) -> None:
-        physics, gravity = self.simulation.physics()
-        self._gravity.value = tuple(float(v) for v in gravity)
-        self._step.value = float(physics.max_step_size)
-        self._rate.value = float(physics.real_time_update_rate)
-        self._iterations.value = int(physics.iters)
-        self._sor.value, self._soft.value = float(physics.sor), (float(physics.cfm), float(physics.erp))
-        self._correcting.value = float(physics.contact_max_correcting_vel)
-        self._layer.value, self._contacts.value = float(physics.contact_surface_layer), int(physics.max_contacts)
+        with self._lock:
+            physics, gravity = self.simulation.physics()
+            for control, shown in self._shown.items():
+                control.value = shown(physics, gravity)
 
-    def _set(self) -> None:
-        physics, _ = self.simulation.physics()
-        try:
-            self.simulation.set_physics(
-                replace(physics, max_step_size=float(self._step.value), real_time_update_rate=float(self._rate.value),
-                        iters=int(self._iterations.value), sor=float(self._sor.value), cfm=float(self._soft.value[0]),
-                        erp=float(self._soft.value[1]), contact_max_correcting_vel=float(self._correcting.value),
-                        contact_surface_layer=float(self._layer.value), max_contacts=int(self._contacts.value)),
-                tuple(float(v) for v in self._gravity.value))
-        finally:
-            self._read()
+    def _set(self, changed: Any) -> None:
+        """What the fields hold now. None of them is written to: a hand may be typing on in it. What is refused is taken back."""
+        with self._lock:
+            physics, gravity = self.simulation.physics()
+            try:
+                self.simulation.set_physics(
+                    replace(physics, max_step_size=float(self._step.value), real_time_update_rate=float(self._rate.value),
+                            iters=int(self._iterations.value), sor=float(self._sor.value), cfm=float(self._soft.value[0]),
+                            erp=float(self._soft.value[1]), contact_max_correcting_vel=float(self._correcting.value),
+                            contact_surface_layer=float(self._layer.value), max_contacts=int(self._contacts.value)),
+                    tuple(float(v) for v in self._gravity.value))
+            except Exception:
+                changed.value = self._shown[changed](physics, gravity)
+                raise
