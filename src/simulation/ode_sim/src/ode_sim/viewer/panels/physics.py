@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import threading
 from dataclasses import replace
-from typing import Any, Callable, Dict, Optional
+from typing import Any, Callable, Optional, Tuple
 
 from ode_sim.description import model as d
 from ode_sim.viewer.panels.base import Panel
@@ -27,18 +27,18 @@ class PhysicsPanel(Panel):
         self._layer = self.gui.add_number("Contacts: depth that stays (m)", 0.001, min=0.0, max=0.1, step=0.0005)
         self._contacts = self.gui.add_number("Contacts of a pair at most", 20, min=1, max=1000, step=1)
         self._lock = threading.Lock()  # each key of a number is a call of its own, in a thread of its own
-        self._shown: Dict[Any, Callable[[d.Physics, d.Vec3], Any]] = {
-            self._gravity: lambda physics, gravity: tuple(float(v) for v in gravity),
-            self._step: lambda physics, _: float(physics.max_step_size),
-            self._rate: lambda physics, _: float(physics.real_time_update_rate),
-            self._iterations: lambda physics, _: int(physics.iters),
-            self._sor: lambda physics, _: float(physics.sor),
-            self._soft: lambda physics, _: (float(physics.cfm), float(physics.erp)),
-            self._correcting: lambda physics, _: float(physics.contact_max_correcting_vel),
-            self._layer: lambda physics, _: float(physics.contact_surface_layer),
-            self._contacts: lambda physics, _: int(physics.max_contacts)}
-        for control in self._shown:
-            self.on_update(control, lambda _, control=control: self._set(control))
+        self._shown: Tuple[Tuple[Any, Callable[[d.Physics, d.Vec3], Any]], ...] = (
+            (self._gravity, lambda physics, gravity: tuple(float(v) for v in gravity)),
+            (self._step, lambda physics, _: float(physics.max_step_size)),
+            (self._rate, lambda physics, _: float(physics.real_time_update_rate)),
+            (self._iterations, lambda physics, _: int(physics.iters)),
+            (self._sor, lambda physics, _: float(physics.sor)),
+            (self._soft, lambda physics, _: (float(physics.cfm), float(physics.erp))),
+            (self._correcting, lambda physics, _: float(physics.contact_max_correcting_vel)),
+            (self._layer, lambda physics, _: float(physics.contact_surface_layer)),
+            (self._contacts, lambda physics, _: int(physics.max_contacts)))
+        for control, shown in self._shown:
+            self.on_update(control, lambda _, control=control, shown=shown: self._set(control, shown))
         self.on_click(self.gui.add_button("Read again"), self._read)
 
     def on_world(self, world: WorldRecord) -> None:
@@ -49,10 +49,10 @@ class PhysicsPanel(Panel):
     def _read(self) -> None:
         with self._lock:
             physics, gravity = self.simulation.physics()
-            for control, shown in self._shown.items():
+            for control, shown in self._shown:
                 control.value = shown(physics, gravity)
 
-    def _set(self, changed: Any) -> None:
+    def _set(self, changed: Any, shown: Callable[[d.Physics, d.Vec3], Any]) -> None:
         """What the fields hold now. None of them is written to: a hand may be typing on in it. What is refused is taken back."""
         with self._lock:
             physics, gravity = self.simulation.physics()
@@ -64,5 +64,5 @@ class PhysicsPanel(Panel):
                             contact_surface_layer=float(self._layer.value), max_contacts=int(self._contacts.value)),
                     tuple(float(v) for v in self._gravity.value))
             except Exception:
-                changed.value = self._shown[changed](physics, gravity)
+                changed.value = shown(physics, gravity)
                 raise
