@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include <angles/angles.h>
 #include <boost/shared_ptr.hpp>
 #include <control_toolbox/pid.h>
 #include <gazebo/common/common.hh>
@@ -16,6 +17,7 @@
 #include <joint_limits_interface/joint_limits_interface.h>
 #include <joint_limits_interface/joint_limits_rosparam.h>
 #include <joint_limits_interface/joint_limits_urdf.h>
+#include <pluginlib/class_list_macros.h>  // derived classes export themselves without including it
 #include <ros/ros.h>
 
 namespace gazebo_ros_control

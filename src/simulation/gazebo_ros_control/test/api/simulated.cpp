@@ -2,7 +2,6 @@
 #include <gazebo_ros_control/default_robot_hw_sim.h>
 #include <gazebo_ros_control/gazebo_ros_control_plugin.h>
 #include <gazebo_ros_control/robot_hw_sim.h>
-#include <pluginlib/class_list_macros.h>
 
 #if GAZEBO_MAJOR_VERSION != 11
 #error "the version is missing"
@@ -28,6 +27,7 @@ public:
   void readSim(ros::Time time, ros::Duration period) override
   {
     gazebo_ros_control::DefaultRobotHWSim::readSim(time, period);
+    angles::normalize_angle(joint_position_.at(0));
     for (unsigned int i = 0; i < n_dof_; ++i)
     {
       joint_effort_command_[i] = joint_velocity_command_[i] = joint_position_command_[i] = last_joint_position_command_[i] = 0.0;
