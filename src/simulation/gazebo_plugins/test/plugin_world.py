@@ -40,7 +40,7 @@ class PluginWorld(test_support.TestCase):
         answer = self._spawn_sdf_model(name, text, "", Pose(Point(x, y, z), Quaternion(0, 0, 0, 1)), "")
         self.assertTrue(answer.success, answer.status_message)
         if self._after_reset:
-            self.step(5.0)
+            self.step(2.5)  # the slowest sensor, at 1 Hz, has spoken twice
             self._reset()
 
     def step(self, seconds):

@@ -38,26 +38,17 @@ def to_wall(angles):
 class Plugins(PluginWorld):
     # ---------------------------------------------------------------------------------------------------- rays
 
-    def test_rays(self):
-        def tags(topic):
-            return dict(topicName=topic, frameName="scanner")
-        sensors = [
-            ray("plain", plugin("gazebo_ros_laser", **tags("plain"))),
-            ray("gpu", plugin("gazebo_ros_gpu_laser", **tags("gpu")), kind="gpu_ray", samples=90),
-            ray("noisy", plugin("gazebo_ros_laser", **tags("noisy")), noise=0.02, far=10),
-            ray("fine", plugin("gazebo_ros_laser", **tags("fine")), samples=181, resolution=2, low=-0.5, high=0.5, far=10),
-            ray("tall", plugin("gazebo_ros_laser", **tags("tall")), samples=5, low=-0.4, high=0.4, vertical=COVERS, far=10),
-            ray("cloud", plugin("gazebo_ros_block_laser", **tags("cloud")), samples=91, low=-1, high=1, far=10),
-            ray("short", plugin("gazebo_ros_block_laser", gaussianNoise=0.01, **tags("short")), samples=91, low=-1, high=1,
-                near=2.45, far=2.6),
-            ray("range", plugin("gazebo_ros_range", fov=0.3, radiation="infrared", **tags("range")), samples=5, low=-0.1,
-                high=0.1, far=5),
-            ray("blind", plugin("gazebo_ros_range", **tags("blind")), samples=5, low=-0.1, high=0.1, far=1),
-            ray("sonar", plugin("hector_gazebo_ros_sonar", topicName="sonar", frameId="s"), samples=5, low=-0.1, high=0.1,
-                far=5, vertical=COVERS)]
-        self.spawn("scanners", sdf(link("l", extra="".join(sensors)), static=True), *LASER)
+    def scanner(self, library, message_type, **sensor):
+        """The last message of one scanner in the room."""
+        rays = {key: sensor.pop(key) for key in ("samples", "low", "high", "near", "far", "noise", "resolution", "vertical", "kind")
+                if key in sensor}
+        tags = {"topicName": "scan", "frameName": "scanner", **sensor}
+        self.spawn("scanner", sdf(link("l", extra=ray("rays", plugin(library, **tags), **rays)), static=True), *LASER)
+        self.addCleanup(self._delete_model, "scanner")
+        return self.measure("/scan", message_type, seconds=1.0, count=10)
 
-        scan = self.measure("/plain", LaserScan, seconds=1.0, count=10)
+    def test_laser(self):
+        scan = self.scanner("gazebo_ros_laser", LaserScan)
         self.assertEqual((scan.header.frame_id, scan.scan_time, scan.time_increment), ("scanner", 0.0, 0.0))
         angles = scan.angle_min + scan.angle_increment * np.arange(360)
         self.assertAlmostEqual(angles[-1], scan.angle_max, places=5)
@@ -69,34 +60,56 @@ class Plugins(PluginWorld):
         east = inside & (np.abs(np.tan(angles)) * 2.5 < 1.6) & (np.cos(angles) > 0)
         self.assertEqual((set(np.array(scan.intensities)[east]), scan.intensities[0]), ({7.0}, 0.0))
 
-        np.testing.assert_allclose(np.minimum(self.measure("/gpu", LaserScan).ranges, 3.2),
-                                   np.minimum(to_wall(np.linspace(-math.pi, 3.12413936, 90)), 3.2), atol=1e-4)
-        noisy = np.array(self.measure("/noisy", LaserScan).ranges) - expected
-        self.assertAlmostEqual(noisy.std(), 0.02, delta=0.003)
-        self.assertAlmostEqual(noisy.mean(), 0.0, delta=0.004)
-        fine = self.measure("/fine", LaserScan)
+    def test_gpu_laser(self):
+        scan = self.scanner("gazebo_ros_gpu_laser", LaserScan, kind="gpu_ray", samples=90)
+        np.testing.assert_allclose(np.minimum(scan.ranges, 3.2), np.minimum(to_wall(np.linspace(-math.pi, 3.12413936, 90)), 3.2),
+                                   atol=1e-4)
+
+    def test_noise_of_a_laser(self):
+        scan = self.scanner("gazebo_ros_laser", LaserScan, noise=0.02, far=10)
+        noise = np.array(scan.ranges) - to_wall(scan.angle_min + scan.angle_increment * np.arange(360))
+        self.assertAlmostEqual(noise.std(), 0.02, delta=0.003)
+        self.assertAlmostEqual(noise.mean(), 0.0, delta=0.004)
+
+    def test_laser_between_its_rays(self):
+        fine = self.scanner("gazebo_ros_laser", LaserScan, samples=181, resolution=2, low=-0.5, high=0.5, far=10)
         self.assertEqual(len(fine.ranges), 362)
         np.testing.assert_allclose(fine.ranges, to_wall(np.linspace(-0.5, 0.5, 362)), atol=2e-3)
-        tall = np.array(self.measure("/tall", LaserScan).ranges).reshape(3, 5)
+
+    def test_laser_of_several_rows(self):
+        scan = self.scanner("gazebo_ros_laser", LaserScan, samples=5, low=-0.4, high=0.4, vertical=COVERS, far=10)
+        lowest, *others = np.array(scan.ranges).reshape(3, 5)
         level = to_wall(np.linspace(-0.4, 0.4, 5))
-        np.testing.assert_allclose(tall[1:], [level, level / math.cos(0.2)], atol=1e-4)  # lowest row first
-        np.testing.assert_allclose(tall[0], np.minimum(level / math.cos(0.2), 0.5 / math.sin(0.2)), atol=1e-4)
-        cloud = self.measure("/cloud", PointCloud)
+        np.testing.assert_allclose(others, [level, level / math.cos(0.2)], atol=1e-4)
+        np.testing.assert_allclose(lowest, np.minimum(level / math.cos(0.2), 0.5 / math.sin(0.2)), atol=1e-4)
+
+    def test_block_laser(self):
+        cloud = self.scanner("gazebo_ros_block_laser", PointCloud, samples=91, low=-1, high=1, far=10)
         points = np.array([xyz(p) for p in cloud.points])
         np.testing.assert_allclose(np.hypot(*points[:, :2].T), to_wall(np.linspace(-1, 1, 91)), atol=1e-4)
         self.assertEqual(len(cloud.channels[0].values), 91)
         self.assertEqual(cloud.channels[0].values[45], 7.0)  # as bright as the east wall, whatever hokuyoMinIntensity says
-        short = np.linalg.norm([xyz(p) for p in self.measure("/short", PointCloud).points], axis=1)
-        there = to_wall(np.linspace(-1, 1, 91))
+
+    def test_block_laser_that_does_not_reach_the_walls(self):
+        cloud = self.scanner("gazebo_ros_block_laser", PointCloud, samples=91, low=-1, high=1, near=2.45, far=2.6, gaussianNoise=0.01)
+        short, there = np.linalg.norm([xyz(p) for p in cloud.points], axis=1), to_wall(np.linspace(-1, 1, 91))
         missed = there > 2.6
         self.assertTrue(20 < np.count_nonzero(missed) < 80)
         np.testing.assert_allclose(short[missed], 2.6, atol=1e-5)  # at max, without noise
         self.assertGreater(np.abs(short - there)[~missed & (there > 2.45)].max(), 1e-3)
-        near = self.measure("/range", Range)
+
+    def test_range(self):
+        near = self.scanner("gazebo_ros_range", Range, samples=5, low=-0.1, high=0.1, far=5, fov=0.3, radiation="infrared")
         self.assertAlmostEqual(near.range, 2.5, places=4)
         self.assertEqual((near.radiation_type, round(near.field_of_view, 6), near.max_range), (Range.INFRARED, 0.3, 5.0))
-        self.assertEqual(self.measure("/blind", Range).range, 1.0)
-        self.assertAlmostEqual(self.measure("/sonar", Range).range, 2.5, places=4)
+
+    def test_range_of_what_is_too_far(self):
+        self.assertEqual(self.scanner("gazebo_ros_range", Range, samples=5, low=-0.1, high=0.1, far=1).range, 1.0)
+
+    def test_sonar(self):
+        heard = self.scanner("hector_gazebo_ros_sonar", Range, samples=5, low=-0.1, high=0.1, far=5, vertical=COVERS, frameId="s")
+        self.assertEqual(heard.header.frame_id, "s")
+        self.assertAlmostEqual(heard.range, 2.5, places=4)
 
     def test_rays_too_close_and_too_far(self):
         """REP 117: -inf nearer than the near limit, +inf farther than the far limit; the robot's own housing is neither."""
@@ -122,7 +135,7 @@ class Plugins(PluginWorld):
 
     # ---------------------------------------------------------------------------------------------------- motion
 
-    def test_inertial_and_position(self):
+    def turning_and_standing(self):
         """A link without weight that turns with 2 rad/s about z, its sensor 0.5 m off; and one that stands on the floor."""
         body = {"bodyName": "l"}
         sensor = f"""<sensor name="imu" type="imu"><pose>0.5 0 0 0 0 0</pose><update_rate>100</update_rate>
@@ -139,31 +152,49 @@ class Plugins(PluginWorld):
         for name, gravity, x in (("turning", False, 10.0), ("standing", True, 12.0)):
             text = sdf(link("l", mass=2, gravity=gravity, shape=box(0.2, 0.2, 0.2), extra=sensor), plugins)
             self.spawn(name, text.replace("{0}", name), x, 0.0, 0.1 if gravity else 1.0)
+            self.addCleanup(self._delete_model, name)
         spin = ModelState("turning", Pose(Point(10, 0, 1), Quaternion(0, 0, 0, 1)), Twist(Vector3(1, 0, 0), Vector3(0, 0, 2)), "")
         self.step(0.5)
         self._set_model_state(spin)
 
+    def test_imu_sensor(self):
+        self.turning_and_standing()
         self.measure("/turning/imu", Imu, 0.1, 10)
         imu = self.measure("/turning/imu", Imu, 0.1, 10)
         np.testing.assert_allclose(xyz(imu.angular_velocity), (0, 0, 2), atol=1e-3)
         np.testing.assert_allclose(xyz(imu.linear_acceleration), (-2, 0, G), atol=0.02)  # towards the middle: w^2 r
-        state = self._get_model_state("turning", "")
-        self.assertAlmostEqual(yaw_of(imu), yaw_of(state.pose), delta=0.021)
+        self.assertAlmostEqual(yaw_of(imu), yaw_of(self.pose("turning")), delta=0.021)
+        rest = self.measure("/standing/imu", Imu, 0.1, 10)
+        np.testing.assert_allclose(xyz(rest.linear_acceleration), (0, 0, G), atol=0.02)
+        self.assertEqual(rest.header.frame_id, "imu_link")
+
+    def test_imu_sensor_at_a_rate_and_an_angle_of_its_own(self):
+        self.turning_and_standing()
+        slow = self.measure("/standing/slow_imu", Imu, 2.0, 2)  # 1 Hz unless <updateRateHZ> says otherwise
+        self.assertAlmostEqual(yaw_of(slow), 0.5, places=3)
+
+    def test_imu_of_a_model(self):
+        self.turning_and_standing()
+        bare = self.measure("/turning/bare_imu", Imu, 0.01, 0)
+        np.testing.assert_allclose(xyz(bare.angular_velocity), (0, 0, 2), atol=1e-6)
+        np.testing.assert_allclose(xyz(self.measure("/standing/bare_imu", Imu, 0.01, 0).linear_acceleration), 0, atol=0.02)
+
+    def test_p3d(self):
+        self.turning_and_standing()
         truth = self.measure("/turning/truth", Odometry, 0.2, 10)
         self.assertEqual((truth.header.frame_id, truth.child_frame_id), ("map", "l"))
         np.testing.assert_allclose(xyz(truth.twist.twist.linear), (1, 0, 0), atol=1e-6)  # world axes
         np.testing.assert_allclose(xyz(truth.twist.twist.angular), (0, 0, 2), atol=1e-6)
-        bare = self.measure("/turning/bare_imu", Imu, 0.01, 0)
-        np.testing.assert_allclose(xyz(bare.angular_velocity), (0, 0, 2), atol=1e-6)
 
-        rest = self.measure("/standing/imu", Imu, 0.1, 10)
-        np.testing.assert_allclose(xyz(rest.linear_acceleration), (0, 0, G), atol=0.02)
-        self.assertEqual(rest.header.frame_id, "imu_link")
-        slow = self.measure("/standing/slow_imu", Imu, 2.0, 2)  # 1 Hz unless <updateRateHZ> says otherwise
-        self.assertAlmostEqual(yaw_of(slow), 0.5, places=3)
-        np.testing.assert_allclose(xyz(self.measure("/standing/bare_imu", Imu, 0.01, 0).linear_acceleration), 0, atol=0.02)
+    def test_hectors_imu_and_magnetometer(self):
+        self.turning_and_standing()
         hector = self.measure("/standing/hector_imu", Imu, 0.01, 0)
         np.testing.assert_allclose(xyz(hector.linear_acceleration), (0, 0, G), atol=0.02)
+        field = self.measure("/standing/magnetic", MagneticField, 0.01, 0)
+        np.testing.assert_allclose(xyz(field.magnetic_field), (0.5, 0, -math.sin(math.pi / 3)), atol=1e-4)
+
+    def test_hectors_gps(self):
+        self.turning_and_standing()
         fix = self.measure("/standing/fix", NavSatFix, 0.2, 0)
         # reference heading 0: x is north, y west. A degree of latitude there is 110.85 km
         self.assertAlmostEqual((fix.latitude - 30) * 110852, 12.0, delta=0.02)
@@ -171,43 +202,47 @@ class Plugins(PluginWorld):
         self.assertAlmostEqual(fix.altitude, 5.1, places=3)
         velocity = self.measure("/turning/fix_velocity", Vector3Stamped, 0.3, 0)
         np.testing.assert_allclose(xyz(velocity.vector), (1, 0, 0), atol=1e-6)
-        field = self.measure("/standing/magnetic", MagneticField, 0.01, 0)
-        np.testing.assert_allclose(xyz(field.magnetic_field), (0.5, 0, -math.sin(math.pi / 3)), atol=1e-4)
 
     # ---------------------------------------------------------------------------------------------------- forces
 
-    def test_contact_and_force(self):
-        def contact(library, topic):
-            return f"""<sensor name="{topic}" type="contact"><update_rate>50</update_rate><contact><collision>c</collision>
-                </contact>{plugin(library, bumperTopicName=topic, frameName="world")}</sensor>"""
-        self.spawn("load", sdf(link("l", mass=2, shape=box(0.2, 0.2, 0.2), extra=contact("gazebo_ros_bumper", "bumped")
-                                    + contact("gazebo_ros_contact", "touched"))), 20, 0, 0.1)
+    def contact(self, library):
+        sensor = f"""<sensor name="feeler" type="contact"><update_rate>50</update_rate><contact><collision>c</collision></contact>
+            {plugin(library, bumperTopicName="touch", frameName="world")}</sensor>"""
+        self.spawn("load", sdf(link("l", mass=2, shape=box(0.2, 0.2, 0.2), extra=sensor)), 20, 0, 0.1)
+        self.addCleanup(self._delete_model, "load")
+        self.step(1.0)
+        message = self.measure("/touch", ContactsState, 0.1, 5)
+        self.assertEqual(len(message.states), 20)  # one pair in each step since the last message
+        state = message.states[-1]
+        sign = 1 if state.collision1_name == "load::l::c" else -1
+        self.assertEqual({state.collision1_name, state.collision2_name}, {"load::l::c", "floor::link::c"})
+        np.testing.assert_allclose(xyz(state.total_wrench.force) * sign, (0, 0, 2 * G), atol=0.05)
+        np.testing.assert_allclose(xyz(state.contact_normals[0]) * sign, (0, 0, 1), atol=1e-6)
+        self.assertTrue(all(abs(p.z) < 1e-3 for p in state.contact_positions))
+
+    def test_bumper(self):
+        self.contact("gazebo_ros_bumper")
+        self._set_model_state(ModelState("load", Pose(Point(20, 0, 5), Quaternion(0, 0, 0, 1)), Twist(), ""))
+        self.step(0.05)
+        self.assertEqual(self.measure("/touch", ContactsState, 0.1, 5).states, [])
+
+    def test_contact_sensor(self):
+        self.contact("gazebo_ros_contact")
+
+    def test_force_torque_sensor(self):
         hang = joint("bolt", "fixed", "world", "post") + joint(
             "scale", "fixed", "post", "weight", extra="<physics><provide_feedback>true</provide_feedback></physics>")
         self.spawn("scales", sdf(link("post", (0, 0, 1)), link("weight", (0.3, 0, 0.8), mass=3), hang, plugin(
             "gazebo_ros_ft_sensor", jointName="scale", topicName="ft", updateRate=100)), 22, 0)
-        self.spawn("pushed", sdf(link("l", gravity=False), plugin("gazebo_ros_force", bodyName="l", topicName="push")
-                                 + plugin("gazebo_ros_f3d", bodyName="l", topicName="felt")), 24, 0, 1)
         self.step(1.0)
-        for topic in ("/bumped", "/touched"):
-            message = self.measure(topic, ContactsState, 0.1, 5)
-            self.assertEqual(len(message.states), 20)  # one pair in each step since the last message
-            state = message.states[-1]
-            sign = 1 if state.collision1_name == "load::l::c" else -1
-            self.assertEqual({state.collision1_name, state.collision2_name}, {"load::l::c", "floor::link::c"})
-            np.testing.assert_allclose(xyz(state.total_wrench.force) * sign, (0, 0, 2 * G), atol=0.05)
-            np.testing.assert_allclose(xyz(state.contact_normals[0]) * sign, (0, 0, 1), atol=1e-6)
-            self.assertTrue(all(abs(p.z) < 1e-3 for p in state.contact_positions))
-        lifted = ModelState("load", Pose(Point(20, 0, 5), Quaternion(0, 0, 0, 1)), Twist(), "")
-        self._set_model_state(lifted)
-        self.step(0.05)
-        self.assertEqual(self.measure("/bumped", ContactsState, 0.1, 5).states, [])
-
         wrench = self.measure("/ft", WrenchStamped, 0.1, 10)
         self.assertEqual(wrench.header.frame_id, "weight")
         np.testing.assert_allclose(xyz(wrench.wrench.force), (0, 0, 3 * G), atol=0.05)
         np.testing.assert_allclose(xyz(wrench.wrench.torque), 0, atol=0.05)  # about the joint, which is the weight's origin
 
+    def test_force_in_and_force_felt(self):
+        self.spawn("pushed", sdf(link("l", gravity=False), plugin("gazebo_ros_force", bodyName="l", topicName="push")
+                                 + plugin("gazebo_ros_f3d", bodyName="l", topicName="felt")), 24, 0, 1)
         push = Mouth("/push", Wrench)
         push.say(Vector3(0, 2, 0), Vector3(0, 0, 0))
         speed = lambda: self._get_model_state("pushed", "").twist.linear.y  # noqa: E731
