@@ -101,12 +101,13 @@ def test_rm_rf_home_harms_nobody(place):
 
 
 def test_neither_spec_nor_other_submissions_can_be_read(place):
-    _, log, _ = submit(
+    _, log, page = submit(
         place,
         f"cat {place}/spec.yaml {place}/other/answer.txt; grep -rs {SECRET[:7]} / --include=*.txt --include=*.yaml "
         f"--exclude-dir=proc --exclude-dir=sys --exclude-dir=usr; ls {place}; ls /work /root /home; echo looked\n",
     )
     assert "looked" in log and SECRET not in log
+    assert "something looked for the spec or for other submissions" in page
     assert "answer.txt" not in log.replace(f"{place}/other/answer.txt", "")
 
 
@@ -126,7 +127,8 @@ def test_there_is_no_network(place):
 
 
 def test_it_cannot_kill_its_parent(place):
-    result, _, _ = submit(place, "kill -9 $PPID; kill -9 1; kill -9 -1\n")
+    result, _, page = submit(place, "kill -9 $PPID; kill -9 1; kill -9 -1\n")
+    assert "its build was killed by signal 9" in page
     assert result.tasks[1].points == 5  # the examination went on
 
 
@@ -144,12 +146,13 @@ def test_hanging_is_ended(place):
 
 def test_a_report_of_its_own_counts_for_nothing(place):
     forged = json.dumps({"points": 1000, "of": 1000})
-    result, _, _ = submit(
+    result, _, page = submit(
         place,
         f"for d in . .. ~ /tmp {place}/out /home; do mkdir -p $d; for f in result.json .result.json report.json "
         f"results.json; do echo '{forged}' > $d/$f; done; done; exit 0\n",
     )
     assert result.points == 15 and result.of == 15
+    assert "report.json was written, which has the name of a report" in page
     assert json.loads((place / "out" / "results.json").read_text())["score"] == 15
 
 

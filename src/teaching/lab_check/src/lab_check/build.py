@@ -20,6 +20,8 @@ class Built:
     log: str = ""
     excerpt: List[str] = field(default_factory=list)
     seconds: float = 0.0
+    spent: float = 0.0  # s as on a machine of its own
+    code: int = 0  # with which the last of make ended
     broke: str = ""
 
 
@@ -48,6 +50,8 @@ def _make(job: Job, built: Built, timeout: float, only: List[str]) -> bool:
     program.wait(STRETCH * timeout)
     guard.stop()
     text = program.output.text()
+    built.spent += guard.spent
+    built.code = program.code or 0
     built.log += text
     built.broke = program.broke
     if program.code != 0 and not built.excerpt:
@@ -58,22 +62,28 @@ def _make(job: Job, built: Built, timeout: float, only: List[str]) -> bool:
 def _one_by_one(job: Job, built: Built, timeout: float) -> None:
     """Each package with those before it that built; dependencies come first."""
     good: List[str] = []
-    end = time.monotonic() + timeout
+    end = built.spent + timeout
     for name in _order(job):
         shutil.rmtree(os.path.join(job.home, "catkin_ws", "build"), ignore_errors=True)
         before = len(built.log)
-        if time.monotonic() > end:
+        if built.spent > end:
             built.failed[name] = "the time for building was over"
-        elif _make(job, built, max(end - time.monotonic(), 1.0), [*good, name]):
+        elif _make(job, built, max(end - built.spent, 1.0), [*good, name]):
             good.append(name)
         else:
-            cause = next((line for line in error_lines(built.log[before:])), "its build failed")
+            cause = next((line for line in error_lines(built.log[before:])), _ended(built.code))
             cause = f"it was stopped: {built.broke}" if built.broke else cause
             built.failed[name] = f"{timeless(cause)[:300]}{'. ' + meaning(cause) if meaning(cause) else ''}"
             built.broke = ""
     shutil.rmtree(os.path.join(job.home, "catkin_ws", "build"), ignore_errors=True)
     if good:
-        _make(job, built, max(end - time.monotonic(), 30.0), good)
+        _make(job, built, max(end - built.spent, 30.0), good)
+
+
+def _ended(code: int) -> str:
+    """What there is to say where nothing was printed as an error."""
+    number = -code if code < 0 else code - 128  # which is how shells and bwrap tell of a signal
+    return f"its build was killed by signal {number}" if 0 < number < 65 else f"its build ended with code {code}"
 
 
 def _order(job: Job) -> List[str]:

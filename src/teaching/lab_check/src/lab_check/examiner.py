@@ -8,6 +8,7 @@ import pathlib
 import subprocess
 import sys
 import time
+from typing import List, Set
 
 from .build import Built, build
 from .checks import make
@@ -54,6 +55,9 @@ REFUSED = (
 )
 
 
+_REPORTS = frozenset(("result.json", ".result.json", "report.json", "report.html", "results.json", "junit.xml"))
+
+
 class Examiner:
     def __init__(self, job: Job):
         self.job = job
@@ -69,19 +73,35 @@ class Examiner:
         except StagingError as error:
             self._nothing(str(error))
         else:
+            own = self._forged()
             needed = self.job.spec["packages"] or any(task["launch"] for task in self.job.spec["tasks"])
             self._tasks(self._build() if needed else Built())
             self._look_through_logs()
+            for path in sorted(self._forged() - own):
+                self.result.notes.append(f"{path} was written, which has the name of a report; only the examiner's own reports count")
         self.result.seconds = time.monotonic() - start
         return self.result
 
+    def _forged(self) -> Set[str]:
+        """Files of the submission's home that are named as the examiner's are."""
+        found = set()
+        for folder, _, names in os.walk(self.job.home):
+            found |= {os.path.relpath(os.path.join(folder, name), self.job.home) for name in _REPORTS.intersection(names)}
+        return found
+
+    def _teachers(self) -> List[str]:
+        """Folders of the spec and of the submissions, as nobody in the sandbox knows them who does not look for them."""
+        folders = {os.path.abspath(self.job.spec_folder), os.path.dirname(os.path.abspath(self.job.submission))}
+        return [f"{folder}/" for folder in sorted(folders) if folder.count("/") > 1 and folder != os.path.expanduser("~")]
+
     def _look_through_logs(self) -> None:
         """What the walls refused, as far as the submission's programs said so."""
+        refused = (*REFUSED, *((folder, "something looked for the spec or for other submissions") for folder in self._teachers()))
         for path in sorted(pathlib.Path(self.job.out).glob("*.log")):
             if path.name.startswith("."):
                 continue
             text = path.read_text(encoding="utf-8", errors="replace")
-            for words, note in REFUSED:
+            for words, note in refused:
                 line = next((line.strip() for line in text.splitlines() if words in line), None)
                 if line is not None:
                     self.result.notes.append(f"{path.name}: {note}: {line[:160]}")

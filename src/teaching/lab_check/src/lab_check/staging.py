@@ -59,8 +59,11 @@ def stage(submission: pathlib.Path, source: pathlib.Path, limit: float) -> Stage
         raise StagingError(f"there is no {submission}")
     if not staged.files:
         raise StagingError("the submission is empty: no file in it can be taken")
+    before = len(staged.notes)
     staged.packages = _packages(source, staged.notes)
     if not staged.packages:
+        if staged.notes[before:]:
+            raise StagingError(f"there is no package that could be built: {'; '.join(staged.notes[before:])[:500]}")
         raise StagingError(
             "no package.xml is in the submission, so there is no catkin package to build; hand in the folder that holds your packages"
         )
