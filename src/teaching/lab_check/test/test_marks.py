@@ -70,7 +70,7 @@ def test_names_and_manifests_that_are_no_utf8(tmp_path):
     (bad / "package.xml").write_bytes(b"<?xml version='1.0' encoding='utf-8'?><package><name>\xff\xfe</name></package>")
     found = stage(tmp_path / "sub", tmp_path)
     assert list(found.packages) == ["p"] and any("no XML" in note for note in found.notes)
-    with pytest.raises(staging.StagingError, match="no package that could be built: package.xml is no XML that can be read: not well-formed"):
+    with pytest.raises(staging.StagingError, match="no package that could be built: .*package.xml is no XML"):
         stage(bad, tmp_path / "alone")
 
 
