@@ -1,13 +1,14 @@
 // What a library lacks, found out before it is loaded: a function that is missing when it is called ends the process.
 #include <compiled_plugins/guard.h>
+#include "elf_symbols.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <cxxabi.h>
 #include <cstdlib>
 #include <dlfcn.h>
 #include <memory>
+#include <set>
 #include <spawn.h>
 #include <sstream>
 #include <string>
@@ -58,6 +59,23 @@ std::string resolved(const std::string& library)
   return text;
 }
 
+/// Removes from ``missing`` what a library in the same folder defines, and loads that library for all. Upstream's loaders bind
+/// late and share what they load: a plugin that forgot to link a library of its own package finds there what another one brought.
+void supply(const std::string& library, std::set<std::string>& missing)
+{
+  for (const std::string& neighbour : definers(library, missing))
+  {
+    if (!dlopen(neighbour.c_str(), RTLD_LAZY | RTLD_GLOBAL))
+      continue;
+    std::fprintf(stderr,
+                 "[WARN] the library %s calls what %s defines and does not link it; it is loaded with it. Name it in "
+                 "target_link_libraries of its CMakeLists.txt\n",
+                 library.c_str(), neighbour.c_str());
+    for (auto symbol = missing.begin(); symbol != missing.end();)
+      symbol = dlsym(RTLD_DEFAULT, symbol->c_str()) ? missing.erase(symbol) : std::next(symbol);
+  }
+}
+
 }  // namespace
 
 std::string why_not(const std::string& library)
@@ -65,7 +83,8 @@ std::string why_not(const std::string& library)
   if (access(library.c_str(), R_OK) != 0)
     return "the library " + library + " does not exist or cannot be read; is its package built?";
   std::istringstream lines(resolved(library));
-  std::vector<std::string> symbols, absent;
+  std::set<std::string> missing;
+  std::vector<std::string> absent;
   for (std::string line; std::getline(lines, line);)
   {
     const std::string undefined = "undefined symbol: ";
@@ -75,8 +94,8 @@ std::string why_not(const std::string& library)
     {
       std::string name = line.substr(symbol + undefined.size());
       name = name.substr(0, name.find_first_of(" \t,"));
-      if (!dlsym(RTLD_DEFAULT, name.c_str()) && std::find(symbols.begin(), symbols.end(), readable(name)) == symbols.end())
-        symbols.push_back(readable(name));
+      if (!dlsym(RTLD_DEFAULT, name.c_str()))
+        missing.insert(name);
     }
     else if (not_found != std::string::npos)
     {
@@ -90,9 +109,13 @@ std::string why_not(const std::string& library)
     names += (names.empty() ? "" : ", ") + name;
   if (!absent.empty())
     return "the library " + library + " needs " + names + ", which " + (absent.size() == 1 ? "is" : "are") + " not found";
+  supply(library, missing);
+  std::set<std::string> symbols;
+  for (const std::string& name : missing)
+    symbols.insert(readable(name));
   if (symbols.empty())
     return "";
-  return "the library " + library + " lacks the symbol " + symbols.front() +
+  return "the library " + library + " lacks the symbol " + *symbols.begin() +
          (symbols.size() > 1 ? " and " + std::to_string(symbols.size() - 1) + " more" : "") +
          "; link what defines it in its CMakeLists.txt (target_link_libraries), or build the package anew";
 }

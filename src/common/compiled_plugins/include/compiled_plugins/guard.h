@@ -58,7 +58,8 @@ void watch();
 void remember(const std::string& library);
 
 /// Why the library cannot be loaded, in words: not there, a library that it needs is not there, or it lacks symbols that this
-/// process does not have either; "" if it can be. Loads nothing.
+/// process does not have either; "" if it can be. Symbols that a library beside it defines are supplied by loading that one, with a
+/// warning; else nothing is loaded.
 std::string why_not(const std::string& library);
 
 }  // namespace compiled_plugins

@@ -1,0 +1,56 @@
+"""Libraries are judged before they are loaded, and what stands beside them helps out."""
+import subprocess
+import sys
+
+import pytest
+
+PLUGIN = "int help(int); extern \"C\" int answer() { return help(20); }"
+HELPER = "int help(int value) { return 2 * value + 2; }"
+JUDGED = """
+import ctypes, sys
+import compiled_plugins
+said = compiled_plugins.why_not(sys.argv[1])
+print(said or ctypes.CDLL(sys.argv[1]).answer())
+"""
+
+
+def library(path, source):
+    subprocess.run(["c++", "-shared", "-fPIC", "-x", "c++", "-", "-o", str(path)], input=source, text=True, check=True)
+
+
+def judged(path):
+    """What a process of its own says: the reason, or what the plugin answers; and the warnings."""
+    ended = subprocess.run([sys.executable, "-c", JUDGED, str(path)], capture_output=True, text=True, check=True)
+    return ended.stdout.strip(), ended.stderr
+
+
+@pytest.fixture
+def plugin(tmp_path):
+    path = tmp_path / "libplugin.so"
+    library(path, PLUGIN)
+    return path
+
+
+def test_what_nobody_defines_is_told(plugin):
+    (plugin.parent / "libtext.so").write_text("no library")
+    (plugin.parent / "libcut.so").write_bytes(plugin.read_bytes()[:3000])
+    said, _ = judged(plugin)
+    assert "lacks the symbol help(int)" in said and "target_link_libraries" in said
+
+
+def test_a_library_beside_it_supplies_what_it_forgot_to_link(plugin):
+    library(plugin.parent / "libhelper.so", HELPER)
+    said, warned = judged(plugin)
+    assert said == "42"
+    assert warned.count("[WARN]") == 1 and "libhelper.so" in warned and "target_link_libraries" in warned
+
+
+def test_what_two_of_them_define_is_nobodys(plugin):
+    library(plugin.parent / "libone.so", HELPER)
+    library(plugin.parent / "libother.so", HELPER)
+    assert "lacks the symbol help(int)" in judged(plugin)[0]
+
+
+def test_a_whole_library_needs_nothing(tmp_path):
+    library(tmp_path / "libwhole.so", PLUGIN + HELPER)
+    assert judged(tmp_path / "libwhole.so") == ("42", "")
