@@ -1,33 +1,18 @@
 // One command for each actuator.
 #pragma once
 
-#include <string>
-
-#include <hardware_interface/actuator_state_interface.h>
+#include <hardware_interface/internal/command_handle.h>
 #include <hardware_interface/internal/hardware_resource_manager.h>
+#include <hardware_interface/actuator_state_interface.h>
 
 namespace hardware_interface
 {
 
-/// State of a actuator and a pointer to its command, which the robot owns and reads.
-class ActuatorHandle : public ActuatorStateHandle
+/// State of an actuator and a pointer to its command, which the robot owns and reads.
+class ActuatorHandle : public internal::CommandHandle<ActuatorStateHandle>
 {
 public:
-  ActuatorHandle() = default;
-
-  /// \throws HardwareInterfaceException the pointer is null.
-  ActuatorHandle(const ActuatorStateHandle& state, double* cmd)
-    : ActuatorStateHandle(state)
-    , cmd_(internal::required(cmd, state.getName(), "Command"))
-  {
-  }
-
-  void setCommand(double command) { *internal::filled(cmd_, getName()) = command; }
-  double getCommand() const { return *internal::filled(cmd_, getName()); }
-  const double* getCommandPtr() const { return cmd_; }
-
-private:
-  double* cmd_ = nullptr;
+  using internal::CommandHandle<ActuatorStateHandle>::CommandHandle;
 };
 
 /// Base of the interfaces with one command for each actuator; taking a handle claims nothing.
