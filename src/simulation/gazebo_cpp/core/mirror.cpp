@@ -41,6 +41,13 @@ void WorldLock::Take()
   ++held_by_thread;
 }
 
+bool WorldLock::TakeAtOnce()
+{
+  const bool taken = step_mutex().try_lock();
+  held_by_thread += taken;
+  return taken;
+}
+
 void WorldLock::Give()
 {
   --held_by_thread;

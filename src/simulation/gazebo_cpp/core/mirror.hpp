@@ -68,6 +68,8 @@ class GAZEBO_VISIBLE WorldLock
 {
 public:
   static void Take();
+  /// False where a thread of a plugin has it.
+  static bool TakeAtOnce();
   static void Give();
 
   /// While it lives, this thread does not have it.

@@ -18,6 +18,7 @@ PYBIND11_DECLARE_HOLDER_TYPE(T, boost::shared_ptr<T>)
 namespace py = pybind11;
 using gazebo::LoadedPlugin;
 using gazebo::physics::Mirror;
+using gazebo::physics::WorldLock;
 
 namespace
 {
@@ -144,8 +145,16 @@ PYBIND11_MODULE(_core, m)
       "stop", [] { Mirror::Get().Stop(); }, Free());
   m.def("set_host", &set_host);
   m.def("follow_clock", [] { Mirror::Get().host.clock = compiled_plugins::set_time; });
-  m.def("lock_world", &gazebo::physics::WorldLock::Take, Free());
-  m.def("unlock_world", &gazebo::physics::WorldLock::Give, Free());
+  py::class_<WorldLock>(m, "WorldLock")
+      .def(py::init<>())
+      .def("__enter__",
+           [](WorldLock&) {
+             if (WorldLock::TakeAtOnce())  // nearly always: then Python's own lock is not given away for it
+               return;
+             const py::gil_scoped_release free;
+             WorldLock::Take();
+           })
+      .def("__exit__", [](WorldLock&, const py::args&) { WorldLock::Give(); });
   m.def("set_reporter", &gazebo::internal::SetReporter);
   m.def("set_verbose", [](bool on) { gazebo::common::Console::SetQuiet(!on); });
   m.def("add_model", &add_model, Free());

@@ -3,6 +3,7 @@
 import os
 import signal
 import subprocess
+import tempfile
 import unittest
 
 import rosgraph
@@ -46,6 +47,15 @@ class SpawnModel(unittest.TestCase):
         self.assertAlmostEqual(position.z, 3, 6)
         self.assertAlmostEqual(turn.z, turn.w, 6)
         self.assertAlmostEqual(self.sim.joint("elbow").position[0], 0.5, 6)
+
+    def test_what_is_wrong_is_named_by_file_and_line(self):
+        with tempfile.NamedTemporaryFile("w", suffix=".urdf") as file:
+            file.write("<robot name='r'>\n<link name='l'/>\n<joint name='j' type='bent'><parent link='l'/>"
+                       "<child link='l'/></joint>\n</robot>\n")
+            file.flush()
+            code, text = spawn("-urdf", "-file", file.name, "-model", "wrong")
+        self.assertEqual(code, 1, text)
+        self.assertIn(f"{file.name}:3 <joint", text)
 
     def test_database_and_reference_frame_and_unpause(self):
         self.assertTrue(self.sim.physics().pause)

@@ -50,8 +50,12 @@ def test_wrong_options_exit_with_2(arguments):
     assert end.value.code == 2
 
 
+def text_of(arguments):
+    return spawn_model.model_text(parse(arguments))[0]
+
+
 def test_text_of_a_file(robot):
-    root = ET.fromstring(spawn_model.model_text(parse(f"-urdf -file {robot} -model m")))
+    root = ET.fromstring(text_of(f"-urdf -file {robot} -model m"))
     assert root.find("link/visual/geometry/mesh").get("filename") == "package://p/m.stl"
 
 
@@ -60,19 +64,20 @@ def test_the_text_keeps_its_lines_and_comments(tmp_path, option, scheme):
     text = ("<?xml version='1.0' encoding='utf-8'?>\n<!-- two\nlines, Höhe -->\n<robot name='r'>\n<link name='l'/><mesh\n"
             "scale='1 1 1' filename = 'package://p/m.stl'/>\n<note filename='package://p/n'/></robot>\n")
     (tmp_path / "r.urdf").write_text(text, encoding="utf-8")
-    sent = spawn_model.model_text(parse(f"-urdf -file {tmp_path / 'r.urdf'} -model m {option}"))
+    sent, where = spawn_model.model_text(parse(f"-urdf -file {tmp_path / 'r.urdf'} -model m {option}"))
+    assert where == str(tmp_path / "r.urdf")
     assert sent == text.replace("package://p/m.stl", f"{scheme}://p/m.stl")
 
 
 def test_package_to_model(robot):
-    root = ET.fromstring(spawn_model.model_text(parse(f"-urdf -file {robot} -model m -package_to_model")))
+    root = ET.fromstring(text_of(f"-urdf -file {robot} -model m -package_to_model"))
     assert root.find("link/visual/geometry/mesh").get("filename") == "model://p/m.stl"
 
 
 def test_text_of_standard_input_and_the_database(monkeypatch):
     monkeypatch.setattr(sys, "stdin", io.StringIO(ROBOT))
-    assert ET.fromstring(spawn_model.model_text(parse("-urdf -stdin -model m"))).tag == "robot"
-    root = ET.fromstring(spawn_model.model_text(parse("-sdf -database coke_can -model m")))
+    assert ET.fromstring(text_of("-urdf -stdin -model m")).tag == "robot"
+    root = ET.fromstring(text_of("-sdf -database coke_can -model m"))
     assert root.find("world/include/uri").text == "model://coke_can"
 
 

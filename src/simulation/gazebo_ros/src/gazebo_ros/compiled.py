@@ -178,16 +178,6 @@ def offer_transport(server) -> None:
         rospy.logwarn("Gazebo's transport: %s", problem)
 
 
-class _WorldLock:
-    """The lock that threads of compiled plugins take to change the world; whoever waits for it lets Python go on."""
-
-    def __enter__(self) -> None:
-        _core.lock_world()
-
-    def __exit__(self, *_) -> None:
-        _core.unlock_world()
-
-
 class Bridge:
     """Keeps the mirror of the world up to date, and does for C++ what only the server can do."""
 
@@ -206,7 +196,7 @@ class Bridge:
         server.stepped.connect(lambda: _core.set_paused(server.paused))
         server.went_back.connect(lambda: self._went_back(world))
         _core.set_paused(server.paused)
-        server.between_steps = _WorldLock()
+        server.between_steps = _core.WorldLock()  # threads of plugins take it to change the world
         _core.ready()
 
     # -- from the server to C++

@@ -1,6 +1,7 @@
 """The simulator's services as Python functions."""
 from __future__ import annotations
 
+import re
 import time
 from typing import Any, List, Optional
 
@@ -9,8 +10,14 @@ from gazebo_msgs.srv import SetModelConfiguration, SpawnModel
 from geometry_msgs.msg import Pose
 
 
-def _call(what: str, name: str, service: type, *arguments: Any) -> Optional[bool]:
-    """Wait for the service, call it and say how ``what`` went; its ``success``, or None when the call itself failed."""
+_SENT_TEXT = re.compile(r"\btext(?=:\d+)")  # the server's name for a description that it was sent
+
+
+def _call(what: str, name: str, service: type, *arguments: Any, origin: str = "") -> Optional[bool]:
+    """Wait for the service, call it and say how ``what`` went; its ``success``, or None when the call itself failed.
+
+    :param origin: where the description was read, by which its lines are named
+    """
     rospy.loginfo("Waiting for service %s", name)
     rospy.wait_for_service(name)
     try:
@@ -19,22 +26,26 @@ def _call(what: str, name: str, service: type, *arguments: Any) -> Optional[bool
     except rospy.ServiceException as error:
         rospy.logerr("Service call failed: %s", error)
         return None
-    (rospy.loginfo if response.success else rospy.logerr)("%s status: %s", what, response.status_message)
+    status = _SENT_TEXT.sub(lambda _: origin, response.status_message) if origin else response.status_message
+    (rospy.loginfo if response.success else rospy.logerr)("%s status: %s", what, status)
     return response.success
 
 
 def spawn_sdf_model_client(model_name: str, model_xml: str, robot_namespace: str, initial_pose: Pose,
-                           reference_frame: str, gazebo_namespace: str) -> Optional[bool]:
-    """Spawn SDF text. True when it worked, False when the simulator refused, None when the call failed."""
+                           reference_frame: str, gazebo_namespace: str, origin: str = "") -> Optional[bool]:
+    """Spawn SDF text. True when it worked, False when the simulator refused, None when the call failed.
+
+    :param origin: where the text was read: errors name its lines by that
+    """
     return _call("Spawn", gazebo_namespace + "/spawn_sdf_model", SpawnModel, model_name, model_xml, robot_namespace,
-                 initial_pose, reference_frame)
+                 initial_pose, reference_frame, origin=origin)
 
 
 def spawn_urdf_model_client(model_name: str, model_xml: str, robot_namespace: str, initial_pose: Pose,
-                            reference_frame: str, gazebo_namespace: str) -> Optional[bool]:
+                            reference_frame: str, gazebo_namespace: str, origin: str = "") -> Optional[bool]:
     """Spawn URDF text; returns as :func:`spawn_sdf_model_client`."""
     return _call("Spawn", gazebo_namespace + "/spawn_urdf_model", SpawnModel, model_name, model_xml, robot_namespace,
-                 initial_pose, reference_frame)
+                 initial_pose, reference_frame, origin=origin)
 
 
 def set_model_configuration_client(model_name: str, model_param_name: str, joint_names: List[str],

@@ -7,7 +7,7 @@ import re
 import sys
 import threading
 import xml.etree.ElementTree as ET
-from typing import Callable, List
+from typing import Callable, List, Tuple
 
 import rosgraph
 import node_signals
@@ -66,8 +66,9 @@ def pose_of(options: argparse.Namespace) -> Pose:
                            cr * cp * sy - sr * sp * cy, cr * cp * cy + sr * sp * sy))
 
 
-def model_text(options: argparse.Namespace) -> str:
-    """The XML to send, from wherever the options say: to the letter, so that the server names the lines of the file.
+def model_text(options: argparse.Namespace) -> Tuple[str, str]:
+    """The XML to send, from wherever the options say, and what that place is called: to the letter, so that the server's line
+    numbers are the file's.
 
     :raises Failure: not there, or not XML
     """
@@ -99,7 +100,7 @@ def model_text(options: argparse.Namespace) -> str:
         ET.fromstring(text)
     except (ET.ParseError, TypeError, ValueError) as error:
         raise Failure(f"{where} is not well-formed XML: {error}") from error
-    return _PACKAGE.sub(r"\1model://", text) if options.package_to_model else text
+    return _PACKAGE.sub(r"\1model://", text) if options.package_to_model else text, where
 
 
 def wait_for_model(name: str, gazebo_namespace: str) -> None:
@@ -157,14 +158,14 @@ def spawn(options: argparse.Namespace) -> None:
     :raises Failure: it did not work; the simulator's own reason has been logged
     """
     bond = Bond(options) if options.bond else None
-    text = model_text(options)
+    text, where = model_text(options)
     if options.wait:
         wait_for_model(options.wait, options.gazebo_namespace)
     client = gazebo_interface.spawn_urdf_model_client if options.urdf else gazebo_interface.spawn_sdf_model_client
 
     def ask() -> bool:
         return bool(client(options.model, text, options.robot_namespace, pose_of(options), options.reference_frame,
-                           options.gazebo_namespace))
+                           options.gazebo_namespace, origin=where))
     if bond:  # from here on its end waits for the answer, so the simulator must be there
         service = f"{options.gazebo_namespace}/spawn_{'urdf' if options.urdf else 'sdf'}_model"
         rospy.wait_for_service(service)
