@@ -97,7 +97,8 @@ def test_every_change_is_one_step_back():
     lambda m: m.add_joint("revolute", "link", "link"), lambda m: m.add_joint("revolute", "link_0", "link"),
     lambda m: m.add_joint("revolute", "world", "link_0"), lambda m: m.add_joint("glue", "link", "link_0"),
     lambda m: m.add_joint("revolute", "link", "nobody"),
-    lambda m: m.add_joint("ball", "world", "link", anchor=(float("nan"), 0.0, 0.0)), lambda m: m.set_shape("link", d.Box((1.0, 1.0, -1.0)), 1.0),
+    lambda m: m.add_joint("ball", "world", "link", anchor=(float("nan"), 0.0, 0.0)),
+    lambda m: m.set_shape("link", d.Box((1.0, 1.0, -1.0)), 1.0),
     lambda m: m.set_shape("link", d.Box(), float("nan")), lambda m: m.rename_link("link", "link_0"),
     lambda m: m.rename_link("link", "<b>"), lambda m: m.add_plugin("p", "lib.so", "<open>"),
     lambda m: m.add_plugin("", "", ""), lambda m: Draft().text("empty"), lambda m: m.save("../evil"),
@@ -153,7 +154,8 @@ def test_a_model_that_is_saved_under_another_name_takes_along_what_its_meshes_na
     shutil.copytree(tmp_path / "model_editor_models" / "old", tmp_path / "models" / "stock")
     Draft.load("old").save("new")
     assert folder_of(tmp_path, "new") == ["materials", "meshes", "model.config", "model.sdf"]
-    assert folder_of(tmp_path, "new", "meshes") == ["cup.mtl", "cup.obj"] and folder_of(tmp_path, "new", "materials/textures") == ["cup.png"]
+    assert folder_of(tmp_path, "new", "meshes") == ["cup.mtl", "cup.obj"]
+    assert folder_of(tmp_path, "new", "materials/textures") == ["cup.png"]
     shutil.rmtree(tmp_path / "model_editor_models" / "old")
     own, other = Draft.load("new").link("l").visuals
     assert own.geometry.uri == "model://new/meshes/cup.obj" and own.geometry.path and other.geometry.uri == "model://stock/meshes/cup.obj"
