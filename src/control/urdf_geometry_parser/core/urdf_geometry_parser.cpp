@@ -64,7 +64,8 @@ bool UrdfGeometryParser::getJointRadius(const std::string& joint_name, double& r
   if (!turned_by)
     return false;
   const urdf::LinkConstSharedPtr wheel = model_->getLink(turned_by->child_link_name);
-  if (!wheel || !wheel->collision || !wheel->collision->geometry || wheel->collision->geometry->type != urdf::Geometry::CYLINDER)
+  if (!wheel || !wheel->collision || !wheel->collision->geometry ||
+      wheel->collision->geometry->type != urdf::Geometry::CYLINDER)
   {
     ROS_ERROR("wheel link '%s' of joint '%s' needs a collision geometry that is a cylinder", turned_by->child_link_name.c_str(),
               joint_name.c_str());

@@ -30,7 +30,8 @@ struct RobotStateHandle
   std::string name;
   tf2_ros::Buffer* buffer = nullptr;
 };
-class RobotStateInterface : public hardware_interface::HardwareResourceManager<RobotStateHandle, hardware_interface::DontClaimResources>
+class RobotStateInterface
+  : public hardware_interface::HardwareResourceManager<RobotStateHandle, hardware_interface::DontClaimResources>
 {
 };
 
@@ -51,10 +52,13 @@ class ActuatorExtraInterface
 struct RmImuSensorHandle : hardware_interface::ImuSensorHandle
 {
   RmImuSensorHandle() = default;
-  RmImuSensorHandle(const hardware_interface::ImuSensorHandle& imu, ros::Time* stamp) : ImuSensorHandle(imu), time_stamp(stamp) {}
+  RmImuSensorHandle(const hardware_interface::ImuSensorHandle& imu, ros::Time* stamp) : ImuSensorHandle(imu), time_stamp(stamp)
+  {
+  }
   ros::Time* time_stamp = nullptr;
 };
-class RmImuSensorInterface : public hardware_interface::HardwareResourceManager<RmImuSensorHandle, hardware_interface::DontClaimResources>
+class RmImuSensorInterface
+  : public hardware_interface::HardwareResourceManager<RmImuSensorHandle, hardware_interface::DontClaimResources>
 {
 };
 
@@ -72,10 +76,12 @@ struct GpioStateHandle : GpioHandle
 struct GpioCommandHandle : GpioHandle
 {
 };
-class GpioStateInterface : public hardware_interface::HardwareResourceManager<GpioStateHandle, hardware_interface::DontClaimResources>
+class GpioStateInterface
+  : public hardware_interface::HardwareResourceManager<GpioStateHandle, hardware_interface::DontClaimResources>
 {
 };
-class GpioCommandInterface : public hardware_interface::HardwareResourceManager<GpioCommandHandle, hardware_interface::ClaimResources>
+class GpioCommandInterface
+  : public hardware_interface::HardwareResourceManager<GpioCommandHandle, hardware_interface::ClaimResources>
 {
 };
 
@@ -136,7 +142,8 @@ public:
     const auto stamp = std::make_shared<Stamp>();
     kept_.push_back(stamp);
     const auto at = [&](std::size_t i) { return reinterpret_cast<double*>(data.at(i)); };
-    imus_.registerHandle({ hardware_interface::ImuSensorHandle(name, frame_id, at(0), at(1), at(2), at(3), at(4), at(5)), &stamp->time });
+    imus_.registerHandle(
+        { hardware_interface::ImuSensorHandle(name, frame_id, at(0), at(1), at(2), at(3), at(4), at(5)), &stamp->time });
     return stamp;
   }
 
@@ -156,16 +163,16 @@ PYBIND11_MODULE(_rm_control, module)
 {
   module.doc() = "Interfaces of rm_common for compiled controllers.";
   py::class_<Motor, std::shared_ptr<Motor>>(module, "Motor")
-    .def_readwrite("halted", &Motor::halted)
-    .def_readwrite("need_calibration", &Motor::need_calibration)
-    .def_readwrite("calibrated", &Motor::calibrated)
-    .def_readwrite("calibration_reading", &Motor::calibration_reading)
-    .def_readwrite("position", &Motor::position)
-    .def_readwrite("offset", &Motor::offset);
+      .def_readwrite("halted", &Motor::halted)
+      .def_readwrite("need_calibration", &Motor::need_calibration)
+      .def_readwrite("calibrated", &Motor::calibrated)
+      .def_readwrite("calibration_reading", &Motor::calibration_reading)
+      .def_readwrite("position", &Motor::position)
+      .def_readwrite("offset", &Motor::offset);
   py::class_<Stamp, std::shared_ptr<Stamp>>(module, "Stamp").def("set", &Stamp::set, py::arg("seconds"));
   py::class_<Interfaces>(module, "Interfaces")
-    .def(py::init<>())
-    .def_property_readonly("address", &Interfaces::address)
-    .def("add_motor", &Interfaces::add_motor, py::arg("name"))
-    .def("add_imu", &Interfaces::add_imu, py::arg("name"), py::arg("frame_id"), py::arg("data"));
+      .def(py::init<>())
+      .def_property_readonly("address", &Interfaces::address)
+      .def("add_motor", &Interfaces::add_motor, py::arg("name"))
+      .def("add_imu", &Interfaces::add_imu, py::arg("name"), py::arg("frame_id"), py::arg("data"));
 }

@@ -36,10 +36,7 @@ std::vector<std::string> linkNames(const RobotModel& model, const std::vector<in
   return names;
 }
 
-std::string linkName(const RobotModel& model, int index)
-{
-  return index < 0 ? "" : model.links[index].name;
-}
+std::string linkName(const RobotModel& model, int index) { return index < 0 ? "" : model.links[index].name; }
 
 LimitOverride limitOverride(const py::handle& values, const std::string& joint)
 {
@@ -133,7 +130,8 @@ void bindJoint(py::module_& m)
                              [](const Joint& j) -> py::object {
                                if (j.item->mimic < 0)
                                  return py::none();
-                               return py::make_tuple(j.model->joints[j.item->mimic].name, j.item->mimic_factor, j.item->mimic_offset);
+                               return py::make_tuple(j.model->joints[j.item->mimic].name, j.item->mimic_factor,
+                                                     j.item->mimic_offset);
                              })
       .def("__repr__", [](const Joint& j) { return "<joint '" + j.item->name + "' " + j.item->typeName() + ">"; });
   py::class_<Link>(m, "LinkInfo")
@@ -168,16 +166,15 @@ void bindGroup(py::module_& m)
       .def_property_readonly("base_link", [](const Group& g) { return linkName(*g.model, g.item->base_link); })
       .def_property_readonly("tip_link", [](const Group& g) { return linkName(*g.model, g.item->tip_link); })
       .def_property_readonly("tips", [](const Group& g) { return linkNames(*g.model, g.item->tips); })
-      .def_property_readonly("can_ik",
-                             [](const Group& g) {
-                               return g.item->single_variable_joints && !g.item->tips.empty() && g.item->size() > 0;
-                             })
+      .def_property_readonly(
+          "can_ik",
+          [](const Group& g) { return g.item->single_variable_joints && !g.item->tips.empty() && g.item->size() > 0; })
       .def_property_readonly("subgroups", [](const Group& g) { return g.item->subgroups; })
       .def("is_subgroup_of",
            [](const Group& g, const std::string& other) {
              const JointModelGroup& larger = g.model->group(other);
-             return &larger != g.item && std::includes(larger.joints.begin(), larger.joints.end(), g.item->joints.begin(),
-                                                       g.item->joints.end());
+             return &larger != g.item &&
+                    std::includes(larger.joints.begin(), larger.joints.end(), g.item->joints.begin(), g.item->joints.end());
            })
       .def_property_readonly("named_states", [](const Group& g) { return g.item->state_names; })
       .def("named_state",
@@ -189,37 +186,33 @@ void bindGroup(py::module_& m)
            })
       .def_property_readonly("end_effector", [](const Group& g) { return g.item->end_effector; })
       .def_property_readonly("attached_end_effectors", [](const Group& g) { return g.item->attached_end_effectors; })
-      .def("position_limits",
-           [](const Group& g) {
-             std::vector<double> lower, upper;
-             const double inf = std::numeric_limits<double>::infinity();
-             for (int v : g.item->variables)
-             {
-               const VariableBounds& b = g.model->bounds[v];
-               lower.push_back(b.has_position ? b.min_position : -inf);
-               upper.push_back(b.has_position ? b.max_position : inf);
-             }
-             return py::make_tuple(toArray(lower), toArray(upper));
-           },
-           "(lower (n,), upper (n,)) in rad or m, infinite where there is no limit.")
-      .def("__repr__", [](const Group& g) { return "<group '" + g.item->name + "' of " + std::to_string(g.item->size()) + " variables>"; });
+      .def(
+          "position_limits",
+          [](const Group& g) {
+            std::vector<double> lower, upper;
+            const double inf = std::numeric_limits<double>::infinity();
+            for (int v : g.item->variables)
+            {
+              const VariableBounds& b = g.model->bounds[v];
+              lower.push_back(b.has_position ? b.min_position : -inf);
+              upper.push_back(b.has_position ? b.max_position : inf);
+            }
+            return py::make_tuple(toArray(lower), toArray(upper));
+          },
+          "(lower (n,), upper (n,)) in rad or m, infinite where there is no limit.")
+      .def("__repr__",
+           [](const Group& g) { return "<group '" + g.item->name + "' of " + std::to_string(g.item->size()) + " variables>"; });
 }
-}  // namespace
 
-void bindModel(py::module_& m)
+void bindContents(py::class_<Model, ModelPtr>& c)
 {
-  bindSmall(m);
-  bindJoint(m);
-  bindGroup(m);
-  m.def("_load_model", &load);
   auto pairs = [](const std::vector<Srdf::LinkPair>& list) {
     py::list out;
     for (const Srdf::LinkPair& pair : list)
       out.append(py::make_tuple(pair.link1, pair.link2, pair.reason));
     return out;
   };
-  py::class_<Model, ModelPtr>(m, "RobotModel", "A robot as it is described. Never changes; see load_model.")
-      .def_readonly("name", &Model::name)
+  c.def_readonly("name", &Model::name)
       .def_readonly("frame", &Model::frame)
       .def_readonly("warnings", &Model::warnings)
       .def_property_readonly("root_link", [](const Model& r) { return r.links[0].name; })
@@ -241,23 +234,45 @@ void bindModel(py::module_& m)
       .def_property_readonly("virtual_joints", [](const Model& r) { return r.srdf.virtual_joints; })
       .def_property_readonly("disabled_collisions", [pairs](const Model& r) { return pairs(r.srdf.disabled); })
       .def_property_readonly("enabled_collisions", [pairs](const Model& r) { return pairs(r.srdf.enabled); })
-      .def_property_readonly("no_default_collision_links", [](const Model& r) { return r.srdf.no_default_collision; })
-      .def("link", [](const ModelPtr& r, const std::string& name) { return Link{r, &r->link(name)}; })
-      .def("joint", [](const ModelPtr& r, const std::string& name) { return Joint{r, &r->joint(name)}; })
-      .def("group", [](const ModelPtr& r, const std::string& name) { return Group{r, &r->group(name)}; })
+      .def_property_readonly("no_default_collision_links", [](const Model& r) { return r.srdf.no_default_collision; });
+}
+}  // namespace
+
+void bindModel(py::module_& m)
+{
+  bindSmall(m);
+  bindJoint(m);
+  bindGroup(m);
+  m.def("_load_model", &load);
+  py::class_<Model, ModelPtr> c(m, "RobotModel", "A robot as it is described. Never changes; see load_model.");
+  bindContents(c);
+  c.def("link",
+        [](const ModelPtr& r, const std::string& name) {
+          return Link{r, &r->link(name)};
+        })
+      .def("joint",
+           [](const ModelPtr& r, const std::string& name) {
+             return Joint{r, &r->joint(name)};
+           })
+      .def("group",
+           [](const ModelPtr& r, const std::string& name) {
+             return Group{r, &r->group(name)};
+           })
       .def("has_link", [](const Model& r, const std::string& name) { return r.findLink(name) != nullptr; })
       .def("has_joint", [](const Model& r, const std::string& name) { return r.findJoint(name) != nullptr; })
       .def("has_group", [](const Model& r, const std::string& name) { return r.findGroup(name) != nullptr; })
       .def("variable_index", &Model::variable)
       .def("variable_limits", [](const Model& r, const std::string& name) { return r.bounds[r.variable(name)]; })
-      .def("rigidly_connected",
-           [](const Model& r, const std::string& link) {
-             Transform pose;
-             const int parent = r.rigidParent(r.link(link).index, pose);
-             return py::make_tuple(r.links[parent].name, pose);
-           },
-           "(the topmost link that the link is bolted to, the link's Pose in it).")
-      .def("state", [](const ModelPtr& r) { return RobotState(r); }, "A RobotState of default values.")
+      .def(
+          "rigidly_connected",
+          [](const Model& r, const std::string& link) {
+            Transform pose;
+            const int parent = r.rigidParent(r.link(link).index, pose);
+            return py::make_tuple(r.links[parent].name, pose);
+          },
+          "(the topmost link that the link is bolted to, the link's Pose in it).")
+      .def(
+          "state", [](const ModelPtr& r) { return RobotState(r); }, "A RobotState of default values.")
       .def("__repr__", [](const Model& r) { return "<robot '" + r.name + "'>"; });
 }
 }  // namespace motion

@@ -13,10 +13,7 @@ const JointModelGroup* groupOrNull(const RobotState& s, const std::optional<std:
   return name && !name->empty() ? &s.model()->group(*name) : nullptr;
 }
 
-Random randomSource(const std::optional<std::uint64_t>& seed)
-{
-  return seed ? Random(*seed) : Random(std::random_device{}());
-}
+Random randomSource(const std::optional<std::uint64_t>& seed) { return seed ? Random(*seed) : Random(std::random_device{}()); }
 
 // A Python object that may be dropped by a thread without Python's lock.
 std::any kept(const py::object& object)
@@ -35,10 +32,10 @@ py::object kept(const std::any& any)
   return object ? **object : py::object(py::none());
 }
 
-std::shared_ptr<Body> makeBody(const std::string& id, const std::string& link, const std::vector<std::shared_ptr<Shape>>& shapes,
-                               const std::vector<Transform>& shape_poses, const std::optional<Transform>& pose,
-                               const std::vector<std::string>& touch_links, const Subframes& subframes,
-                               const py::object& posture, double weight, const std::string& type)
+std::shared_ptr<Body> makeBody(const std::string& id, const std::string& link,
+                               const std::vector<std::shared_ptr<Shape>>& shapes, const std::vector<Transform>& shape_poses,
+                               const std::optional<Transform>& pose, const std::vector<std::string>& touch_links,
+                               const Subframes& subframes, const py::object& posture, double weight, const std::string& type)
 {
   auto body = std::make_shared<Body>();
   body->id = id;
@@ -116,7 +113,8 @@ void bindBody(py::module_& m)
                                  out.push_back(std::const_pointer_cast<Shape>(s));
                                return out;
                              })
-      .def_property_readonly("touch_links", [](const Body& b) { return std::vector<std::string>(b.touch_links.begin(), b.touch_links.end()); })
+      .def_property_readonly("touch_links",
+                             [](const Body& b) { return std::vector<std::string>(b.touch_links.begin(), b.touch_links.end()); })
       .def_property_readonly("detach_posture", [](const Body& b) { return kept(b.posture); })
       .def("__repr__", [](const Body& b) { return "<attached body '" + b.id + "' on '" + b.link + "'>"; });
 }
@@ -125,7 +123,8 @@ template <std::vector<double> RobotState::*Member>
 void bindOptional(py::class_<RobotState>& c, const char* name)
 {
   c.def_property(
-      name, [](const RobotState& s) -> py::object {
+      name,
+      [](const RobotState& s) -> py::object {
         return (s.*Member).empty() ? py::object(py::none()) : py::object(toArray(s.*Member));
       },
       [name](RobotState& s, const std::optional<Array>& values) {
@@ -150,19 +149,23 @@ void bindValues(py::class_<RobotState>& c)
                throw InvalidInput("variable '" + variable + "': the value is not finite");
              s.setVariable(s.model()->variable(variable), value);
            })
-      .def("as_dict",
-           [](const RobotState& s) {
-             py::dict out;
-             for (std::size_t i = 0; i < s.positions().size(); ++i)
-               out[py::str(s.model()->variables[i])] = s.positions()[i];
-             return out;
-           })
-      .def("set_group",
-           [](RobotState& s, const std::string& group, const Array& values) {
-             const JointModelGroup& g = s.model()->group(group);
-             s.setGroup(g, fromArray(values, g.size(), "values of group '" + group + "'").data());
-           },
-           py::arg("group"), py::arg("values"))
+      .def("as_dict", [](const RobotState& s) {
+        py::dict out;
+        for (std::size_t i = 0; i < s.positions().size(); ++i)
+          out[py::str(s.model()->variables[i])] = s.positions()[i];
+        return out;
+      });
+}
+
+void bindValuesOfParts(py::class_<RobotState>& c)
+{
+  c.def(
+       "set_group",
+       [](RobotState& s, const std::string& group, const Array& values) {
+         const JointModelGroup& g = s.model()->group(group);
+         s.setGroup(g, fromArray(values, g.size(), "values of group '" + group + "'").data());
+       },
+       py::arg("group"), py::arg("values"))
       .def("get_group",
            [](const RobotState& s, const std::string& group) {
              const JointModelGroup& g = s.model()->group(group);
@@ -181,45 +184,54 @@ void bindValues(py::class_<RobotState>& c)
              return toArray(std::vector<double>(s.joint(joint), s.joint(joint) + joint.variable_count));
            })
       .def("set_default", &RobotState::setDefault)
-      .def("set_named", [](RobotState& s, const std::string& group, const std::string& name) { return s.setNamed(s.model()->group(group), name); })
-      .def("randomize",
-           [](RobotState& s, const std::optional<std::string>& group, const std::optional<std::uint64_t>& seed) {
-             Random random = randomSource(seed);
-             s.randomize(groupOrNull(s, group), random);
-           },
-           py::arg("group") = py::none(), py::arg("seed") = py::none())
-      .def("randomize_near",
-           [](RobotState& s, const std::string& group, const RobotState& near, double distance, const std::optional<std::uint64_t>& seed) {
-             Random random = randomSource(seed);
-             s.randomizeNear(s.model()->group(group), near, distance, random);
-           },
-           py::arg("group"), py::arg("near"), py::arg("distance"), py::arg("seed") = py::none());
+      .def("set_named", [](RobotState& s, const std::string& group,
+                           const std::string& name) { return s.setNamed(s.model()->group(group), name); })
+      .def(
+          "randomize",
+          [](RobotState& s, const std::optional<std::string>& group, const std::optional<std::uint64_t>& seed) {
+            Random random = randomSource(seed);
+            s.randomize(groupOrNull(s, group), random);
+          },
+          py::arg("group") = py::none(), py::arg("seed") = py::none())
+      .def(
+          "randomize_near",
+          [](RobotState& s, const std::string& group, const RobotState& near, double distance,
+             const std::optional<std::uint64_t>& seed) {
+            Random random = randomSource(seed);
+            s.randomizeNear(s.model()->group(group), near, distance, random);
+          },
+          py::arg("group"), py::arg("near"), py::arg("distance"), py::arg("seed") = py::none());
 }
 
 void bindComparisons(py::class_<RobotState>& c)
 {
-  c.def("in_bounds",
-           [](const RobotState& s, const std::optional<std::string>& group, double margin) {
-             return s.satisfiesBounds(groupOrNull(s, group), margin);
-           },
-           py::arg("group") = py::none(), py::arg("margin") = 0.0)
+  c.def(
+       "in_bounds",
+       [](const RobotState& s, const std::optional<std::string>& group, double margin) {
+         return s.satisfiesBounds(groupOrNull(s, group), margin);
+       },
+       py::arg("group") = py::none(), py::arg("margin") = 0.0)
       .def("violations", &violations, py::arg("group") = py::none(), py::arg("margin") = 0.0)
-      .def("enforce_bounds",
-           [](RobotState& s, const std::optional<std::string>& group) { s.enforceBounds(groupOrNull(s, group)); },
-           py::arg("group") = py::none())
-      .def("normalize_continuous",
-           [](RobotState& s, const std::optional<std::string>& group) { s.normalizeContinuous(groupOrNull(s, group)); },
-           py::arg("group") = py::none())
-      .def("distance",
-           [](const RobotState& s, const RobotState& other, const std::optional<std::string>& group) {
-             return s.distance(other, groupOrNull(s, group));
-           },
-           py::arg("other"), py::arg("group") = py::none())
-      .def("interpolate",
-           [](const RobotState& s, const RobotState& other, double t, const std::optional<std::string>& group) {
-             return s.interpolate(other, t, groupOrNull(s, group));
-           },
-           py::arg("other"), py::arg("t"), py::arg("group") = py::none());
+      .def(
+          "enforce_bounds",
+          [](RobotState& s, const std::optional<std::string>& group) { s.enforceBounds(groupOrNull(s, group)); },
+          py::arg("group") = py::none())
+      .def(
+          "normalize_continuous",
+          [](RobotState& s, const std::optional<std::string>& group) { s.normalizeContinuous(groupOrNull(s, group)); },
+          py::arg("group") = py::none())
+      .def(
+          "distance",
+          [](const RobotState& s, const RobotState& other, const std::optional<std::string>& group) {
+            return s.distance(other, groupOrNull(s, group));
+          },
+          py::arg("other"), py::arg("group") = py::none())
+      .def(
+          "interpolate",
+          [](const RobotState& s, const RobotState& other, double t, const std::optional<std::string>& group) {
+            return s.interpolate(other, t, groupOrNull(s, group));
+          },
+          py::arg("other"), py::arg("t"), py::arg("group") = py::none());
 }
 
 void bindPoses(py::class_<RobotState>& c)
@@ -236,23 +248,25 @@ void bindPoses(py::class_<RobotState>& c)
              Transform pose;
              return s.frameLink(name, pose) >= 0;
            })
-      .def("frame_link",
-           [](const RobotState& s, const std::string& name) {
-             Transform pose;
-             const int link = s.frameLink(name, pose);
-             if (link < 0)
-               throwUnknown("link or attached body", name, "robot '" + s.model()->name + "'", s.model()->linkNames());
-             return py::make_tuple(s.model()->links[link].name, pose);
-           },
-           "(the link that moves the frame, the frame's Pose in it).")
-      .def("poses",
-           [](const RobotState& s, const std::optional<std::vector<std::string>>& links) {
-             py::dict out;
-             for (const std::string& name : links ? *links : s.model()->linkNames())
-               out[py::str(name)] = poseToPython(s.linkPose(s.model()->link(name).index));
-             return out;
-           },
-           py::arg("links") = py::none())
+      .def(
+          "frame_link",
+          [](const RobotState& s, const std::string& name) {
+            Transform pose;
+            const int link = s.frameLink(name, pose);
+            if (link < 0)
+              throwUnknown("link or attached body", name, "robot '" + s.model()->name + "'", s.model()->linkNames());
+            return py::make_tuple(s.model()->links[link].name, pose);
+          },
+          "(the link that moves the frame, the frame's Pose in it).")
+      .def(
+          "poses",
+          [](const RobotState& s, const std::optional<std::vector<std::string>>& links) {
+            py::dict out;
+            for (const std::string& name : links ? *links : s.model()->linkNames())
+              out[py::str(name)] = poseToPython(s.linkPose(s.model()->link(name).index));
+            return out;
+          },
+          py::arg("links") = py::none())
       .def("shape_poses",
            [](const RobotState& s, const std::string& name) {
              const LinkModel& link = s.model()->link(name);
@@ -261,15 +275,16 @@ void bindPoses(py::class_<RobotState>& c)
                out.push_back(s.linkPose(link.index) * origin);
              return out;
            })
-      .def("jacobian",
-           [](const RobotState& s, const std::string& group, const std::string& link, const Vector3& point) {
-             const JointModelGroup& g = s.model()->group(group);
-             if (link.empty() && g.tip_link < 0)
-               throw InvalidInput("group '" + group + "' is no chain: name the link of the Jacobian");
-             return Eigen::MatrixXd(s.jacobian(g, link.empty() ? g.tip_link : s.model()->link(link).index, point));
-           },
-           py::arg("group"), py::arg("link") = "", py::arg("point") = Vector3(0, 0, 0),
-           "(6, n): rows of velocity (m/s) and turning rate (rad/s) at `point` of `link`, in the group's base link.");
+      .def(
+          "jacobian",
+          [](const RobotState& s, const std::string& group, const std::string& link, const Vector3& point) {
+            const JointModelGroup& g = s.model()->group(group);
+            if (link.empty() && g.tip_link < 0)
+              throw InvalidInput("group '" + group + "' is no chain: name the link of the Jacobian");
+            return Eigen::MatrixXd(s.jacobian(g, link.empty() ? g.tip_link : s.model()->link(link).index, point));
+          },
+          py::arg("group"), py::arg("link") = "", py::arg("point") = Vector3(0, 0, 0),
+          "(6, n): rows of velocity (m/s) and turning rate (rad/s) at `point` of `link`, in the group's base link.");
 }
 }  // namespace
 
@@ -301,12 +316,14 @@ void bindState(py::module_& m)
                                  out.push_back(std::const_pointer_cast<Body>(body));
                                return out;
                              })
-      .def("clear_attached", [](RobotState& s, const std::optional<std::string>& link) { s.clearAttached(link.value_or("")); },
-           py::arg("link") = py::none())
+      .def(
+          "clear_attached", [](RobotState& s, const std::optional<std::string>& link) { s.clearAttached(link.value_or("")); },
+          py::arg("link") = py::none())
       .def("__repr__", [](const RobotState& s) {
         return "<state of '" + s.model()->name + "', " + std::to_string(s.positions().size()) + " variables>";
       });
   bindValues(c);
+  bindValuesOfParts(c);
   bindComparisons(c);
   bindPoses(c);
   bindOptional<&RobotState::velocities>(c, "velocities");

@@ -45,9 +45,11 @@ void GazeboRosControlPlugin::Load(gazebo::physics::ModelPtr parent, sdf::Element
     start(urdf);
     return;
   }
-  ROS_WARN_NAMED("gazebo_ros_control", "gazebo_ros_control plugin is waiting for model URDF in parameter [%s] on the ROS param server.",
+  ROS_WARN_NAMED("gazebo_ros_control",
+                 "gazebo_ros_control plugin is waiting for model URDF in parameter [%s] on the ROS param server.",
                  robot_description_.c_str());
-  update_connection_ = gazebo::event::Events::ConnectWorldUpdateBegin([this](const gazebo::common::UpdateInfo&) { waitForURDF(); });
+  update_connection_ =
+      gazebo::event::Events::ConnectWorldUpdateBegin([this](const gazebo::common::UpdateInfo&) { waitForURDF(); });
 }
 
 void GazeboRosControlPlugin::readElements()
@@ -58,11 +60,13 @@ void GazeboRosControlPlugin::readElements()
   const ros::Duration step(parent_model_->GetWorld()->Physics()->GetMaxStepSize());
   control_period_ = ros::Duration(element(sdf_, "controlPeriod", step.toSec()));
   if (control_period_ < step)
-    ROS_ERROR_STREAM_NAMED("gazebo_ros_control", "Desired controller update period (" << control_period_
-                           << " s) is faster than the gazebo simulation period (" << step << " s).");
+    ROS_ERROR_STREAM_NAMED("gazebo_ros_control", "Desired controller update period ("
+                                                     << control_period_ << " s) is faster than the gazebo simulation period ("
+                                                     << step << " s).");
   else if (control_period_ > step)
-    ROS_WARN_STREAM_NAMED("gazebo_ros_control", "Desired controller update period (" << control_period_
-                          << " s) is slower than the gazebo simulation period (" << step << " s).");
+    ROS_WARN_STREAM_NAMED("gazebo_ros_control", "Desired controller update period ("
+                                                    << control_period_ << " s) is slower than the gazebo simulation period ("
+                                                    << step << " s).");
   model_nh_ = ros::NodeHandle(robot_namespace_);
   const std::string topic = element<std::string>(sdf_, "eStopTopic", "");
   if (!topic.empty())
@@ -95,8 +99,10 @@ std::string GazeboRosControlPlugin::getURDF(std::string param_name) const
   std::string urdf;
   while (!findURDF(param_name, urdf) && ros::ok())
   {
-    ROS_INFO_ONCE_NAMED("gazebo_ros_control", "gazebo_ros_control plugin is waiting for model URDF in parameter [%s] on the ROS param "
-                        "server.", param_name.c_str());
+    ROS_INFO_ONCE_NAMED("gazebo_ros_control",
+                        "gazebo_ros_control plugin is waiting for model URDF in parameter [%s] on the ROS param "
+                        "server.",
+                        param_name.c_str());
     ros::WallDuration(kPoll).sleep();
   }
   return urdf;
@@ -149,7 +155,8 @@ void GazeboRosControlPlugin::Update()
   const ros::Time now(simulated.sec, simulated.nsec);
   const ros::Duration step(parent_model_->GetWorld()->Physics()->GetMaxStepSize());
   robot_hw_sim_->eStopActive(e_stop_active_);
-  const ros::Duration since = last_update_sim_time_ros_.isZero() ? std::max(control_period_, step) : now - last_update_sim_time_ros_;
+  const ros::Duration since =
+      last_update_sim_time_ros_.isZero() ? std::max(control_period_, step) : now - last_update_sim_time_ros_;
   if (since >= control_period_)
   {
     last_update_sim_time_ros_ = now;

@@ -16,7 +16,8 @@ void World::set_model_pose(Model& model, const Pose& old, const Pose& wanted) {
   std::vector<Pose> poses;
   for (auto& l : model.links) poses.push_back(checked(X * l->X_WL, "a link of the model, so placed,", kOutOfReach));
   std::vector<Pose> bolts;
-  for (auto& j : model.joints) bolts.push_back(j->parent ? j->X_PJ : checked(X * j->X_PJ, "a joint of the model, so placed,", kOutOfReach));
+  for (auto& j : model.joints)
+    bolts.push_back(j->parent ? j->X_PJ : checked(X * j->X_PJ, "a joint of the model, so placed,", kOutOfReach));
   for (size_t i = 0; i < poses.size(); ++i) {
     Link& l = *model.links[i];
     l.X_WL = poses[i];

@@ -8,7 +8,9 @@ namespace ode_sim {
 
 namespace {
 
-Accelerations& of_com(StepState& state, const Cluster& c, bool drives) { return drives ? state.of(c).driven : state.of(c).still; }
+Accelerations& of_com(StepState& state, const Cluster& c, bool drives) {
+  return drives ? state.of(c).driven : state.of(c).still;
+}
 
 // Accelerations of the members from that of the root, the position drives moving at their rates - and, with `drives`, changing them.
 void member_accelerations(StepState& state, Cluster& c, bool drives, double dt) {

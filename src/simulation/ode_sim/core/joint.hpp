@@ -80,8 +80,8 @@ struct Joint {
   double target = 0, previous_target = 0, rate = 0;  // rate: commanded for the step under way
   double previous_rate = 0;                          // of the step before
   int released = 0;                                  // steps without contact beyond, in Motor mode
-  bool catching_up = false;  // back from Motor mode but off its command: the way back is rate-limited
-  std::weak_ptr<Joint> leader;  // of any model; gone when that is removed
+  bool catching_up = false;                          // back from Motor mode but off its command: the way back is rate-limited
+  std::weak_ptr<Joint> leader;                       // of any model; gone when that is removed
   double multiplier = 1, offset = 0;
 
   // In ODE.

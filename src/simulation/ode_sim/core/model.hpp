@@ -55,12 +55,12 @@ struct Shape {
   std::vector<double> heights;
   OwnedField field;
   OwnedGeom geom;
-  OwnedGeom faceted;      // a cylinder's stand-in against shapes that ODE cannot collide with it
-  bool infinite = false;  // a plane: fixed in the world
-  bool wheel = false;     // a cylinder, or a mesh as round as one, that turns on a hinge about its own axis
+  OwnedGeom faceted;          // a cylinder's stand-in against shapes that ODE cannot collide with it
+  bool infinite = false;      // a plane: fixed in the world
+  bool wheel = false;         // a cylinder, or a mesh as round as one, that turns on a hinge about its own axis
   Vec3 axle{0, 0, 1}, tread;  // of a wheel: its axis and the middle of its tread, in the shape's frame
   void look_for_tread(const Vec3& axis, const Vec3& on_axis);  // of the hinge, in the link's frame
-  bool out_of_reach = false;  // beyond where ODE can collide
+  bool out_of_reach = false;                                   // beyond where ODE can collide
   Pose X_LC;
   Vec3 plane_normal{0, 0, 1};  // world axes
   Surface surface;
@@ -106,8 +106,8 @@ struct Link {
   double size = 0.05;             // m, reach of its shapes from its origin
 
   Pose X_WL;
-  Vec3 v, w;                           // of the link origin, world axes
-  Vec3 force, torque;                  // about the CoM, world axes, for the next step
+  Vec3 v, w;           // of the link origin, world axes
+  Vec3 force, torque;  // about the CoM, world axes, for the next step
   Belt belt;
   Vec3 applied_force, applied_torque;  // those of the last step
 
@@ -130,7 +130,7 @@ struct Model {
   std::string name;
   World* world = nullptr;  // null when it was removed
   bool is_static = false, self_collide = false, may_sleep = false;
-  double mass = 0;  // kg, of all links
+  double mass = 0;        // kg, of all links
   bool finished = false;  // built, and part of the shared arrays
   std::vector<std::shared_ptr<Link>> links;
   std::vector<std::shared_ptr<Joint>> joints;
@@ -147,12 +147,12 @@ struct Model {
   std::set<std::pair<int, int>> exempt;  // shape pairs that already touched when the position drives were engaged
   bool take_exempt = false;
   double emerging = 0;  // s, for which it still counts as what was put deep into something static and comes out of it
-  int visits = 0;  // searches that went over its links
+  int visits = 0;       // searches that went over its links
 };
 
 // Two links of any models held together while the world runs, or a link held where it is in the world.
 struct Weld {
-  int id = 0;  // never given twice
+  int id = 0;                    // never given twice
   std::shared_ptr<Link> parent;  // null = the world
   std::shared_ptr<Link> child;
   Pose X_PC;

@@ -12,16 +12,19 @@ using WorldClass = py::class_<World, std::shared_ptr<World>>;
 // A view, read-only, of memory that lives as long as anybody looks at it.
 py::array view(const Scene::Array& data, std::vector<py::ssize_t> shape) {
   auto* owner = new Scene::Array(data);
-  py::array_t<double> a(std::move(shape), data->data(), py::capsule(owner, [](void* p) { delete static_cast<Scene::Array*>(p); }));
+  py::array_t<double> a(std::move(shape), data->data(),
+                        py::capsule(owner, [](void* p) { delete static_cast<Scene::Array*>(p); }));
   a.attr("setflags")(py::arg("write") = false);
   return std::move(a);
 }
 
 py::array view_of_numbers(const Scene::Array& data) { return view(data, {static_cast<py::ssize_t>(data->size())}); }
 
-template <auto member> void bind_setting(WorldClass& world, const char* name) {
+template <auto member>
+void bind_setting(WorldClass& world, const char* name) {
   using Number = std::decay_t<decltype(std::declval<Settings>().*member)>;
-  world.def_property(name, [](World& w) { return w.settings().*member; }, [](World& w, Number v) { w.settings().*member = v; });
+  world.def_property(
+      name, [](World& w) { return w.settings().*member; }, [](World& w, Number v) { w.settings().*member = v; });
 }
 
 void bind_settings(WorldClass& world) {
@@ -39,7 +42,8 @@ void bind_settings(WorldClass& world) {
   bind_setting<&Settings::direct_rows>(world, "direct_rows");
   bind_setting<&Settings::heap_rows>(world, "heap_rows");
   bind_setting<&Settings::seed>(world, "seed");
-  world.def_property("gravity", [](World& w) { return out(w.settings().gravity); }, [](World& w, T3 g) { w.settings().gravity = in(g); });
+  world.def_property(
+      "gravity", [](World& w) { return out(w.settings().gravity); }, [](World& w, T3 g) { w.settings().gravity = in(g); });
 }
 
 Weld& weld_of(World& w, int id) {
@@ -96,23 +100,27 @@ void bind_world(py::module_& m) {
   bind_settings(world);
   bind_welds(world);
   world
-      .def_property("iterations", [](World& w) { return w.scene().iterations; }, [](World& w, uint64_t n) { w.scene().iterations = n; })
-      .def_property("time_ns", [](World& w) { return w.scene().time_ns; }, [](World& w, int64_t t) { w.scene().time_ns = t; })
+      .def_property(
+          "iterations", [](World& w) { return w.scene().iterations; }, [](World& w, uint64_t n) { w.scene().iterations = n; })
+      .def_property(
+          "time_ns", [](World& w) { return w.scene().time_ns; }, [](World& w, int64_t t) { w.scene().time_ns = t; })
       .def_property_readonly("next_time_ns", [](World& w) { return w.scene().next_time_ns(); })
-      .def_property_readonly("counters", [](World& w) -> Counters& { return w.scene().counters; },
-                             py::return_value_policy::reference_internal)
+      .def_property_readonly(
+          "counters", [](World& w) -> Counters& { return w.scene().counters; }, py::return_value_policy::reference_internal)
       .def_property_readonly("address", [](World& w) { return reinterpret_cast<uintptr_t>(&w); })  // for compiled plugins
       .def("add_model", &World::add_model)
       .def("remove_model", &World::remove_model)
       .def("refresh", &World::refresh)
-      .def("step", [](World& w, int n) { return w.step(n), w.scene().messages.any(); }, py::call_guard<py::gil_scoped_release>())
+      .def(
+          "step", [](World& w, int n) { return w.step(n), w.scene().messages.any(); }, py::call_guard<py::gil_scoped_release>())
       .def("take_messages", [](World& w) { return w.scene().messages.take(); })
       .def("save", [](World& w) { return py::bytes(w.save()); })
       .def("restore", [](World& w, py::bytes data, const std::vector<int>& welds) { w.restore(data, welds); })
-      .def_property_readonly("link_poses", [](World& w) {
-        const auto& poses = w.scene().link_poses;
-        return view(poses, {static_cast<py::ssize_t>(poses->size() / 7), 7});
-      })
+      .def_property_readonly("link_poses",
+                             [](World& w) {
+                               const auto& poses = w.scene().link_poses;
+                               return view(poses, {static_cast<py::ssize_t>(poses->size() / 7), 7});
+                             })
       .def_property_readonly("joint_positions", [](World& w) { return view_of_numbers(w.scene().joint_positions); })
       .def_property_readonly("joint_velocities", [](World& w) { return view_of_numbers(w.scene().joint_velocities); })
       .def("contacts", &contacts)

@@ -13,7 +13,8 @@
 
 namespace ode_sim {
 
-constexpr int kMostExactRows = 1500;  // 250 joints; the direct solver's time grows with the third power, its memory with the second
+constexpr int kMostExactRows =
+    1500;  // 250 joints; the direct solver's time grows with the third power, its memory with the second
 
 // Read at every step.
 struct Settings {

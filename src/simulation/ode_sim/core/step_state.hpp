@@ -33,9 +33,9 @@ struct ClusterStep {
 // What hangs beyond a joint, as it was before the step.
 struct Load {
   const std::vector<Link*>* links;  // null: they lead back
-  Vec3 anchor;               // of the joint
-  Vec3 momentum, spin;       // spin: angular momentum about the anchor
-  Vec3 force, torque;        // gravity and wrenches, about the anchor
+  Vec3 anchor;                      // of the joint
+  Vec3 momentum, spin;              // spin: angular momentum about the anchor
+  Vec3 force, torque;               // gravity and wrenches, about the anchor
 };
 
 struct JointStep {
@@ -47,7 +47,7 @@ struct JointStep {
 struct ModelStep {
   int contact_count = 0;
   bool touches_others = false;  // that move
-  bool jump = false;  // a position drive jumps in this step or did in the last: too fast for any inertia to be felt
+  bool jump = false;            // a position drive jumps in this step or did in the last: too fast for any inertia to be felt
 };
 
 // Clusters that joints and contacts connect.
@@ -82,8 +82,8 @@ struct StepState {
   std::vector<std::pair<Shape*, Shape*>> pairs;  // whose bounding boxes overlap
   std::vector<Contact> contacts;
   std::vector<dJointFeedback> feedback;  // of the contacts
-  std::vector<dContact> ode_contacts;       // as ODE has them, for solvers of our own
-  std::vector<dJointID> weld_joints;  // of each weld of the scene; null where it connects nothing
+  std::vector<dContact> ode_contacts;    // as ODE has them, for solvers of our own
+  std::vector<dJointID> weld_joints;     // of each weld of the scene; null where it connects nothing
 
   std::vector<Cluster*> nodes;  // that have a body which forces move
   std::vector<Island> islands;

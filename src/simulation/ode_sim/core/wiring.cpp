@@ -77,7 +77,8 @@ int Wiring::add_joint(std::shared_ptr<Joint> joint, const Places& places) {
 }
 
 int Wiring::add_command(int joint, const Command& command) {
-  if (joint < 0 || static_cast<size_t>(joint) >= joints_.size()) throw std::out_of_range("a command for a joint that is not wired");
+  if (joint < 0 || static_cast<size_t>(joint) >= joints_.size())
+    throw std::out_of_range("a command for a joint that is not wired");
   if (!command.command) throw std::invalid_argument("a command needs a place");
   Working c;
   static_cast<Command&>(c) = command;

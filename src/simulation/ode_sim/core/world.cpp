@@ -17,7 +17,7 @@ World::World() {
 }
 
 World::~World() {
-  const OdeScope scope;  // whichever thread it ends in
+  const OdeScope scope;                               // whichever thread it ends in
   for (auto& m : scene_.models) m->finished = false;  // nobody asks for the rest each time that one goes
   while (!scene_.models.empty()) remove_model(*scene_.models.back());
   scene_.step_joints.reset();

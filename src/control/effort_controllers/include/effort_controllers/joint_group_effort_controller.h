@@ -9,7 +9,7 @@ namespace effort_controllers
 {
 
 typedef forward_command_controller::ForwardJointGroupCommandController<hardware_interface::EffortJointInterface>
-  JointGroupEffortController;
+    JointGroupEffortController;
 
 }  // namespace effort_controllers
 

@@ -15,7 +15,9 @@ struct PosVelAccState
   PosVelAccState() = default;
   /// All of them zero.
   PosVelAccState(const typename std::vector<Scalar>::size_type size)
-    : position(size, Scalar(0)), velocity(size, Scalar(0)), acceleration(size, Scalar(0))
+    : position(size, Scalar(0))
+    , velocity(size, Scalar(0))
+    , acceleration(size, Scalar(0))
   {
   }
 

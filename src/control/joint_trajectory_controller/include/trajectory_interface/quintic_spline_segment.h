@@ -57,8 +57,8 @@ public:
       else if (!accelerations)
         cubic_of(p0, start_state.velocity[i], p1, end_state.velocity[i], polynomials_[i]);
       else
-        quintic_of(p0, start_state.velocity[i], start_state.acceleration[i], p1, end_state.velocity[i], end_state.acceleration[i],
-                   polynomials_[i]);
+        quintic_of(p0, start_state.velocity[i], start_state.acceleration[i], p1, end_state.velocity[i],
+                   end_state.acceleration[i], polynomials_[i]);
     }
   }
 
@@ -69,7 +69,7 @@ public:
     state.velocity.resize(polynomials_.size());
     state.acceleration.resize(polynomials_.size());
     const Time since = time - start_time_;
-    const bool before = since < Time(0), after = since > duration_;
+    const bool before = since<Time(0), after = since> duration_;
     const Time t = before ? Time(0) : after ? duration_ : since;
     for (std::size_t i = 0; i < polynomials_.size(); ++i)
     {

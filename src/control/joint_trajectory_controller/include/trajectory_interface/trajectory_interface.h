@@ -13,7 +13,7 @@ inline TrajectoryIterator findSegment(TrajectoryIterator first, TrajectoryIterat
 {
   typedef typename std::iterator_traits<TrajectoryIterator>::value_type Segment;
   const TrajectoryIterator next =
-    std::upper_bound(first, last, time, [](const Time& t, const Segment& segment) { return t < segment.startTime(); });
+      std::upper_bound(first, last, time, [](const Time& t, const Segment& segment) { return t < segment.startTime(); });
   return next == first ? last : std::prev(next);
 }
 
@@ -31,7 +31,8 @@ inline typename Trajectory::iterator findSegment(Trajectory& trajectory, const T
 
 /// The state at that time; before the first segment that of its start. \return the segment it is from, or end()
 template <class Trajectory>
-inline typename Trajectory::const_iterator sample(const Trajectory& trajectory, const typename Trajectory::value_type::Time& time,
+inline typename Trajectory::const_iterator sample(const Trajectory& trajectory,
+                                                  const typename Trajectory::value_type::Time& time,
                                                   typename Trajectory::value_type::State& state)
 {
   const typename Trajectory::const_iterator segment = findSegment(trajectory, time);

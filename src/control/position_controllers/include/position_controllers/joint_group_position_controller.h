@@ -9,7 +9,7 @@ namespace position_controllers
 {
 
 typedef forward_command_controller::ForwardJointGroupCommandController<hardware_interface::PositionJointInterface>
-  JointGroupPositionController;
+    JointGroupPositionController;
 
 }  // namespace position_controllers
 

@@ -6,7 +6,8 @@
 namespace position_controllers
 {
 
-typedef forward_command_controller::ForwardCommandController<hardware_interface::PositionJointInterface> JointPositionController;
+typedef forward_command_controller::ForwardCommandController<hardware_interface::PositionJointInterface>
+    JointPositionController;
 
 }  // namespace position_controllers
 

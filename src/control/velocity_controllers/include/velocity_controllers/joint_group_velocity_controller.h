@@ -9,7 +9,7 @@ namespace velocity_controllers
 {
 
 typedef forward_command_controller::ForwardJointGroupCommandController<hardware_interface::VelocityJointInterface>
-  JointGroupVelocityController;
+    JointGroupVelocityController;
 
 }  // namespace velocity_controllers
 

@@ -6,7 +6,8 @@
 namespace velocity_controllers
 {
 
-typedef forward_command_controller::ForwardCommandController<hardware_interface::VelocityJointInterface> JointVelocityController;
+typedef forward_command_controller::ForwardCommandController<hardware_interface::VelocityJointInterface>
+    JointVelocityController;
 
 }  // namespace velocity_controllers
 

@@ -78,8 +78,9 @@ private:
 };
 PLUGINLIB_EXPORT_CLASS(One, controller_interface::ControllerBase)
 
-typedef controller_interface::MultiInterfaceController<hi::EffortJointInterface, hi::JointStateInterface, hi::ForceTorqueSensorInterface>
-  Three;
+typedef controller_interface::MultiInterfaceController<hi::EffortJointInterface, hi::JointStateInterface,
+                                                       hi::ForceTorqueSensorInterface>
+    Three;
 class Many : public Three
 {
 public:
@@ -145,8 +146,8 @@ void manager()
   controller_manager::ControllerManager simple(&robot);
   MyManager manager(&robot, nh);
   manager.registerControllerLoader(controller_manager::ControllerLoaderInterfaceSharedPtr(
-    new controller_manager::ControllerLoader<controller_interface::ControllerBase>("controller_interface",
-                                                                                   "controller_interface::ControllerBase")));
+      new controller_manager::ControllerLoader<controller_interface::ControllerBase>("controller_interface",
+                                                                                     "controller_interface::ControllerBase")));
   manager.loadController("one");
   manager.switchController({ "one" }, { "two" }, 2);
   manager.switchController({ "one" }, {}, 1, true, 1.0);
@@ -166,7 +167,7 @@ void realtime(ros::NodeHandle nh, Server::GoalHandle goal)
   realtime_tools::RealtimePublisherSharedPtr<std_msgs::Float64> shared;
   boost::shared_ptr<realtime_tools::RealtimePublisher<std_msgs::Float64> > boosted;
   boost::scoped_ptr<realtime_tools::RealtimePublisher<std_msgs::Float64> > scoped(
-    new realtime_tools::RealtimePublisher<std_msgs::Float64>(nh, "topic", 1));
+      new realtime_tools::RealtimePublisher<std_msgs::Float64>(nh, "topic", 1));
   std::unique_ptr<realtime_tools::RealtimePublisher<std_msgs::Float64> > unique;
   if (publisher.trylock())
   {
@@ -239,7 +240,8 @@ public:
   {
     double reduction = 1.0, offset = 0.0;
     std::string role;
-    TiXmlElement actuator = loadXmlElement(info.actuators_[0].xml_element_), joint = loadXmlElement(info.joints_[0].xml_element_);
+    TiXmlElement actuator = loadXmlElement(info.actuators_[0].xml_element_),
+                 joint = loadXmlElement(info.joints_[0].xml_element_);
     if (!checkActuatorDimension(info, 1) || !checkJointDimension(info, 1) ||
         getActuatorReduction(actuator, info.actuators_[0].name_, info.name_, true, reduction) != SUCCESS ||
         getJointReduction(joint, info.joints_[0].name_, info.name_, false, reduction) == BAD_TYPE ||
@@ -291,7 +293,8 @@ void trajectories(ros::NodeHandle nh)
   trajectory[0].init(0.0, from, 1.0, to);
   if (trajectory_interface::findSegment(trajectory, 0.5) != trajectory.end())
     trajectory_interface::sample(trajectory, 0.5, at);
-  from.time_from_start = trajectory[0].startTime() + trajectory[0].endTime() + trajectory[0].timeFromStart() + trajectory[0].size();
+  from.time_from_start =
+      trajectory[0].startTime() + trajectory[0].endTime() + trajectory[0].timeFromStart() + trajectory[0].size();
   urdf_geometry_parser::UrdfGeometryParser parser(nh, "base_link");
   urdf::Vector3 position;
   double number = 0.0;

@@ -99,7 +99,10 @@ class Robot : public hi::RobotHW
 {
 public:
   bool init(ros::NodeHandle& root_nh, ros::NodeHandle& robot_hw_nh) override { return hi::RobotHW::init(root_nh, robot_hw_nh); }
-  bool checkForConflict(const std::list<hi::ControllerInfo>& info) const override { return hi::RobotHW::checkForConflict(info); }
+  bool checkForConflict(const std::list<hi::ControllerInfo>& info) const override
+  {
+    return hi::RobotHW::checkForConflict(info);
+  }
   bool prepareSwitch(const std::list<hi::ControllerInfo>& start, const std::list<hi::ControllerInfo>& stop) override
   {
     return start.empty() || stop.front().claimed_resources[0].resources.count(start.front().name + start.front().type) == 0;

@@ -30,7 +30,8 @@ public:
     angles::normalize_angle(joint_position_.at(0));
     for (unsigned int i = 0; i < n_dof_; ++i)
     {
-      joint_effort_command_[i] = joint_velocity_command_[i] = joint_position_command_[i] = last_joint_position_command_[i] = 0.0;
+      joint_effort_command_[i] = joint_velocity_command_[i] = joint_position_command_[i] = last_joint_position_command_[i] =
+          0.0;
       joint_position_[i] = sim_joints_[i]->Position(0) + joint_velocity_[i] + joint_effort_[i] + joint_lower_limits_[i] +
                            joint_upper_limits_[i] + joint_effort_limits_[i];
       if (joint_control_methods_[i] == POSITION_PID || joint_control_methods_[i] == VELOCITY_PID || joint_names_[i].empty())
@@ -49,7 +50,8 @@ public:
     registerInterface(&vj_interface_);
     int type;
     double lower, upper, effort;
-    registerJointLimits("joint", ej_interface_.getHandle("joint"), EFFORT, ros::NodeHandle(), nullptr, &type, &lower, &upper, &effort);
+    registerJointLimits("joint", ej_interface_.getHandle("joint"), EFFORT, ros::NodeHandle(), nullptr, &type, &lower, &upper,
+                        &effort);
   }
 };
 PLUGINLIB_EXPORT_CLASS(Derived, gazebo_ros_control::RobotHWSim)

@@ -42,8 +42,8 @@ public:
   }
 
   /// The last argument only tells this constructor from the one before.
-  StateHandle(const std::string& name, const double* pos, const double* vel, const double* eff,
-              const double* torque_sensor, bool /*torque sensor*/)
+  StateHandle(const std::string& name, const double* pos, const double* vel, const double* eff, const double* torque_sensor,
+              bool /*torque sensor*/)
     : StateHandle(name, pos, vel, eff)
   {
     torque_sensor_ = required(torque_sensor, name, "Torque sensor");

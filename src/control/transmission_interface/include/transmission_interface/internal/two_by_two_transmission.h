@@ -19,7 +19,9 @@ public:
   /// \throws TransmissionInterfaceException not two numbers each, or a reduction of 0
   TwoByTwoTransmission(const std::vector<double>& actuator_reduction, const std::vector<double>& joint_reduction,
                        const std::vector<double>& joint_offset)
-    : actuator_(actuator_reduction), joint_(joint_reduction), offset_(joint_offset)
+    : actuator_(actuator_reduction)
+    , joint_(joint_reduction)
+    , offset_(joint_offset)
   {
     if (actuator_.size() != 2 || joint_.size() != 2 || offset_.size() != 2)
       throw TransmissionInterfaceException("Reduction and offset vectors must have size 2.");
