@@ -26,6 +26,11 @@ def missing():
     return " ".join(name for name in ("chromium", "chromedriver") if not shutil.which(name))
 
 
+def _quoted(text):
+    """For XPath."""
+    return f'"{text}"' if "'" in text else f"'{text}'"
+
+
 class Browser:
     """One window with the page at ``address``; a context manager."""
 
@@ -143,7 +148,7 @@ class Browser:
 
     def click(self, label):
         """A button or tab of that label."""
-        quoted = f'"{label}"' if "'" in label else f"'{label}'"
+        quoted = _quoted(label)
         self._press(f"//button[normalize-space(.)={quoted}]|//*[@role='tab'][normalize-space(.)={quoted}]",
                     f"button {label}")
 
@@ -189,7 +194,7 @@ class Browser:
     def choose(self, label, value):
         """An entry of the list of that label."""
         self._press(self._input(label), f"list {label}")
-        self._press(f"//*[@role='option'][normalize-space(.)='{value}']", f"entry {value}")
+        self._press(f"//*[@role='option'][normalize-space(.)={_quoted(value)}]", f"entry {value}")
 
     @staticmethod
     def _input(label, kind="", part=1):
