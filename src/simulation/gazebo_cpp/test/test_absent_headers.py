@@ -26,7 +26,7 @@ def test_nothing_that_is_here_includes_what_is_not():
 
 
 def test_threads_of_boost_are_known_to_whoever_includes_gazebos_messages():
-    source = "#include <gazebo/common/Console.hh>\nboost::thread thread;\nboost::mutex mutex;\n"
+    source = "#include <gazebo/common/Console.hh>\nboost::thread thread;\nboost::mutex mutex;\nstd::thread own;\n"
     done = subprocess.run(["g++", "-std=c++17", "-fsyntax-only", "-x", "c++", f"-I{INCLUDE}", "-"], input=source, capture_output=True,
                           text=True)
     assert not done.returncode, done.stderr
