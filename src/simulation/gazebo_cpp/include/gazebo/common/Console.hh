@@ -1,6 +1,6 @@
 // gzmsg, gzdbg, gzwarn, gzerr, gzlog: streams with a line's beginning. Warnings and errors are always shown, the others with --verbose.
 #pragma once
-#include <thread>  // plugins use it without including it
+#include <thread>            // plugins use it without including it
 #include <boost/thread.hpp>  // plugins of others have threads and mutexes of boost without including them
 #include <iostream>
 #include <sstream>
