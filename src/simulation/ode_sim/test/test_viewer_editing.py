@@ -12,6 +12,7 @@ from ode_sim.description import model as d  # noqa: E402
 from ode_sim.description.sdf_writer import model_text  # noqa: E402
 from ode_sim.math3 import Pose  # noqa: E402
 from ode_sim.viewer import Refused  # noqa: E402
+from ode_sim.viewer.panels import physics as physics_module  # noqa: E402
 from ode_sim.viewer.resizing import resized, shape_of, size_of, with_size  # noqa: E402
 from ode_sim.viewer.shapes import shape_model  # noqa: E402
 from viewer_page import Client, page, panel, position, use, wait  # noqa: E402, F401
@@ -210,6 +211,21 @@ def test_a_number_of_the_physics_is_typed_on_while_its_first_keys_are_being_set(
     assert physics._iterations.value == 77  # else the next key is put behind what the hand did not leave there
     use(physics._iterations, client, 77)
     assert (page.simulation.physics()[0].iters, physics._iterations.value) == (77, 77) and not client.told
+
+
+def test_a_number_that_is_no_step_yet_is_typed_on(page, monkeypatch):
+    client, panel_of_physics = Client(), panel(page, "PhysicsPanel")
+    field = panel_of_physics._step
+    monkeypatch.setattr(physics_module, "PATIENCE", 0.2)
+    before = page.simulation.physics()[0].max_step_size
+    use(field, client, 0.0)
+    assert client.told and field.value == 0.0 and page.simulation.physics()[0].max_step_size == before
+    use(panel_of_physics._iterations, client, 60)  # the others go on meanwhile
+    assert page.simulation.physics()[0].iters == 60
+    use(field, client, 0.002)
+    assert field.value == page.simulation.physics()[0].max_step_size == 0.002
+    use(field, client, 0.0)
+    wait(page, lambda: field.value == 0.002)  # whoever leaves it at that sees what holds
 
 
 def test_a_search_is_not_filled_up_by_the_links_of_what_is_picked(page):

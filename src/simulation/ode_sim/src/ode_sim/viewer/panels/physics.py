@@ -3,11 +3,30 @@ from __future__ import annotations
 
 import threading
 from dataclasses import replace
-from typing import Any, Callable, Optional, Tuple
+from typing import Any, Callable, Dict, NamedTuple, Optional, Tuple
 
 from ode_sim.description import model as d
 from ode_sim.viewer.panels.base import Panel
 from ode_sim.viewer.simulation import WorldRecord
+
+PATIENCE = 2.0  # s after the last key, until a refused number is taken back: the "0" of 0.002 is no step
+
+
+class _Field(NamedTuple):
+    control: Any
+    shown: Callable[[d.Physics, d.Vec3], Any]
+    put: Callable[[d.Physics, d.Vec3, Any], Tuple[d.Physics, d.Vec3]]
+
+
+def _number(control: Any, name: str, kind: Callable[[Any], Any] = float) -> _Field:
+    """:param name: of an attribute of Physics"""
+    return _Field(control, lambda physics, _: kind(getattr(physics, name)),
+                  lambda physics, gravity, value: (replace(physics, **{name: kind(value)}), gravity))
+
+
+def _vector(value: Any) -> d.Vec3:
+    x, y, z = (float(v) for v in value)
+    return x, y, z
 
 
 class PhysicsPanel(Panel):
@@ -27,18 +46,17 @@ class PhysicsPanel(Panel):
         self._layer = self.gui.add_number("Contacts: depth that stays (m)", 0.001, min=0.0, max=0.1, step=0.0005)
         self._contacts = self.gui.add_number("Contacts of a pair at most", 20, min=1, max=1000, step=1)
         self._lock = threading.Lock()  # each key of a number is a call of its own, in a thread of its own
-        self._shown: Tuple[Tuple[Any, Callable[[d.Physics, d.Vec3], Any]], ...] = (
-            (self._gravity, lambda physics, gravity: tuple(float(v) for v in gravity)),
-            (self._step, lambda physics, _: float(physics.max_step_size)),
-            (self._rate, lambda physics, _: float(physics.real_time_update_rate)),
-            (self._iterations, lambda physics, _: int(physics.iters)),
-            (self._sor, lambda physics, _: float(physics.sor)),
-            (self._soft, lambda physics, _: (float(physics.cfm), float(physics.erp))),
-            (self._correcting, lambda physics, _: float(physics.contact_max_correcting_vel)),
-            (self._layer, lambda physics, _: float(physics.contact_surface_layer)),
-            (self._contacts, lambda physics, _: int(physics.max_contacts)))
-        for control, shown in self._shown:
-            self.on_update(control, lambda _, control=control, shown=shown: self._set(control, shown))
+        self._waiting: Dict[str, threading.Timer] = {}
+        self._fields = (
+            _Field(self._gravity, lambda _, gravity: _vector(gravity), lambda physics, _, value: (physics, _vector(value))),
+            _Field(self._soft, lambda physics, _: (float(physics.cfm), float(physics.erp)),
+                   lambda physics, gravity, value: (replace(physics, cfm=float(value[0]), erp=float(value[1])), gravity)),
+            _number(self._step, "max_step_size"), _number(self._rate, "real_time_update_rate"),
+            _number(self._iterations, "iters", int), _number(self._sor, "sor"),
+            _number(self._correcting, "contact_max_correcting_vel"), _number(self._layer, "contact_surface_layer"),
+            _number(self._contacts, "max_contacts", int))
+        for field in self._fields:
+            self.on_update(field.control, lambda _, field=field: self._set(field))
         self.on_click(self.gui.add_button("Read again"), self._read)
 
     def on_world(self, world: WorldRecord) -> None:
@@ -48,21 +66,27 @@ class PhysicsPanel(Panel):
 
     def _read(self) -> None:
         with self._lock:
-            physics, gravity = self.simulation.physics()
-            for control, shown in self._shown:
-                control.value = shown(physics, gravity)
+            now = self.simulation.physics()
+            for field in self._fields:
+                field.control.value = field.shown(*now)
 
-    def _set(self, changed: Any, shown: Callable[[d.Physics, d.Vec3], Any]) -> None:
-        """What the fields hold now. None of them is written to: a hand may be typing on in it. What is refused is taken back."""
+    def _set(self, field: _Field) -> None:
+        """What the field holds now. It is not written to: a hand may be typing on in it. What is refused is taken back later."""
+        label = str(field.control.label)
         with self._lock:
-            physics, gravity = self.simulation.physics()
+            earlier = self._waiting.pop(label, None)
+            if earlier:
+                earlier.cancel()
             try:
-                self.simulation.set_physics(
-                    replace(physics, max_step_size=float(self._step.value), real_time_update_rate=float(self._rate.value),
-                            iters=int(self._iterations.value), sor=float(self._sor.value), cfm=float(self._soft.value[0]),
-                            erp=float(self._soft.value[1]), contact_max_correcting_vel=float(self._correcting.value),
-                            contact_surface_layer=float(self._layer.value), max_contacts=int(self._contacts.value)),
-                    tuple(float(v) for v in self._gravity.value))
+                self.simulation.set_physics(*field.put(*self.simulation.physics(), field.control.value))
             except Exception:
-                changed.value = shown(physics, gravity)
+                later = self._waiting[label] = threading.Timer(PATIENCE, self._take_back, (field, label))
+                later.daemon = True
+                later.start()
                 raise
+
+    def _take_back(self, field: _Field, label: str) -> None:
+        with self._lock:
+            if self._waiting.get(label) is threading.current_thread():
+                del self._waiting[label]
+                field.control.value = field.shown(*self.simulation.physics())
