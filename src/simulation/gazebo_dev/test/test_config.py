@@ -34,7 +34,8 @@ def test_sources_for_ros_2_end_the_configuration_in_one_sentence(tmp_path):
 
 def test_protos_are_found_by_packages_that_look_for_a_folder_of_the_version(tmp_path):
     """As underwater vehicles and multicopters do it, to let their own messages import Gazebo's."""
-    (tmp_path / "own.proto").write_text('syntax = "proto2";\nimport "vector3d.proto";\nmessage Own { required gazebo.msgs.Vector3d at = 1; }\n')
+    (tmp_path / "own.proto").write_text('syntax = "proto2";\nimport "vector3d.proto";\n'
+                                         "message Own { required gazebo.msgs.Vector3d at = 1; }\n")
     (tmp_path / "CMakeLists.txt").write_text(
         "cmake_minimum_required(VERSION 3.5)\nproject(plugins)\nfind_package(gazebo REQUIRED)\n"
         "foreach(folder ${GAZEBO_INCLUDE_DIRS})\n  if(folder MATCHES \".*gazebo-[0-9.]+$\")\n"
@@ -42,5 +43,6 @@ def test_protos_are_found_by_packages_that_look_for_a_folder_of_the_version(tmp_
     done = subprocess.run(["cmake", "-S", tmp_path, "-B", tmp_path / "build"], capture_output=True, text=True)
     folder = done.stdout.partition("found ")[2].partition(";")[0]
     assert folder and os.path.exists(f"{folder}/vector3d.pb.h"), done.stdout + done.stderr
-    subprocess.run(["protoc", f"--proto_path={folder}/proto", f"--proto_path={tmp_path}", f"--cpp_out={tmp_path}", tmp_path / "own.proto"], check=True)
+    subprocess.run(["protoc", f"--proto_path={folder}/proto", f"--proto_path={tmp_path}", f"--cpp_out={tmp_path}",
+                    tmp_path / "own.proto"], check=True)
     assert '#include "vector3d.pb.h"' in (tmp_path / "own.pb.h").read_text()
