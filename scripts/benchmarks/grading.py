@@ -125,8 +125,9 @@ def main():
         part = max(options.count // 4, 2)
         faults.make(ARM, scratch / "part", part)
         _, _, alone = grade(scratch / "part", scratch / "alone", 1)
-        # Copies that take equally long: of others, one worker would wait for the other's last.
-        equal = 2 * max(part // 3, 1)
+        # Copies that take equally long: of others, one worker would wait for the other's last. So many that the start of the command,
+        # which no second worker shortens, weighs little.
+        equal = max(2 * (3 * options.count // 20), 2)
         faults.make(ARM, scratch / "equal", equal, faults=[fault for fault in faults.FAULTS if fault.name == "none"])
         one_part, one_used, _ = grade(scratch / "equal", scratch / "one", 1)
         two_part, two_used, _ = grade(scratch / "equal", scratch / "again", 2)
