@@ -110,6 +110,7 @@ std::pair<dGeomID, dGeomID> geoms_of(const Shape& a, const Shape& b) {
 constexpr int kMostFound = 250;
 
 int find_contacts(Scene& scene, const Shape& a, const Shape& b, dContactGeom* found) {
+  if (scene.separations.apart(a, b)) return 0;
   try {
     const auto [ga, gb] = geoms_of(a, b);
     const int n = std::min(dCollide(ga, gb, kMostFound, found, sizeof found[0]), kMostFound);

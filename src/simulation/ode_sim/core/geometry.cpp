@@ -6,6 +6,23 @@
 
 namespace ode_sim {
 
+namespace {
+
+// The middle of the box round all corners, and how far the furthest is from it.
+void find_sphere(MeshData& mesh) {
+  const std::vector<double>& v = mesh.vertices;
+  Vec3 low{v[0], v[1], v[2]}, high = low;
+  for (size_t i = 3; i < v.size(); i += 3) {
+    low = {std::min(low.x, v[i]), std::min(low.y, v[i + 1]), std::min(low.z, v[i + 2])};
+    high = {std::max(high.x, v[i]), std::max(high.y, v[i + 1]), std::max(high.z, v[i + 2])};
+  }
+  mesh.middle = (low + high) * 0.5;
+  for (size_t i = 0; i < v.size(); i += 3)
+    mesh.reach = std::max(mesh.reach, norm(Vec3{v[i], v[i + 1], v[i + 2]} - mesh.middle));
+}
+
+}  // namespace
+
 MeshData::MeshData(std::vector<double> v, std::vector<dTriIndex> i) : vertices(std::move(v)), indices(std::move(i)) {
   const OdeScope scope;
   if (vertices.empty() || indices.empty() || vertices.size() % 3 || indices.size() % 3)
@@ -16,6 +33,7 @@ MeshData::MeshData(std::vector<double> v, std::vector<dTriIndex> i) : vertices(s
     if (!(std::abs(v) <= kFarthest)) throw std::invalid_argument("a corner of the mesh lies beyond " + shown(kFarthest) + " m");
   for (dTriIndex i : indices)
     if (i >= vertices.size() / 3) throw std::invalid_argument("a triangle of the mesh names a corner that there is not");
+  find_sphere(*this);
   data.reset(dGeomTriMeshDataCreate());
   dGeomTriMeshDataBuildDouble(data, vertices.data(), 3 * sizeof(double), static_cast<int>(vertices.size() / 3), indices.data(),
                               static_cast<int>(indices.size()), 3 * sizeof(dTriIndex));

@@ -39,6 +39,8 @@ struct MeshData {
   MeshData& operator=(const MeshData&) = delete;
   std::vector<double> vertices;
   std::vector<dTriIndex> indices;
+  Vec3 middle;       // of a sphere round all corners
+  double reach = 0;  // m, its radius
   OwnedMesh data;
 };
 

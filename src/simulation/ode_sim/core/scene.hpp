@@ -10,6 +10,7 @@
 #include "broad_phase.hpp"
 #include "contact.hpp"
 #include "model.hpp"
+#include "separation.hpp"
 
 namespace ode_sim {
 
@@ -62,6 +63,7 @@ struct Scene {
   std::map<int, Shape*> shapes;  // by id
   std::vector<Weld> welds;
   BroadPhase broad_phase;
+  Separations separations;
   std::vector<Borne> borne;  // in the last step, in the order of its contacts
 
   std::vector<Cluster*> carried;  // from the carrying to the carried

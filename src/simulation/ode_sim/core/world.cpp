@@ -58,6 +58,7 @@ void World::remove_model(Model& model) {
     for (auto& j : m->joints)
       if (const auto leader = j->leader.lock(); leader && leader->model == &model) j->leader.reset();  // it holds its position
   forget_contacts(model);
+  scene_.separations.forget();
   for (auto& j : model.joints) j->joint.reset();
   for (auto& link : model.links) {
     for (auto& s : link->shapes) {

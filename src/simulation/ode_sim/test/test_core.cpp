@@ -1,12 +1,15 @@
 // The pure functions of the core, one by one.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "../core/contact_rules.hpp"
 #include "../core/forces.hpp"
 #include "../core/groups.hpp"
 #include "../core/pile_solver.hpp"
+#include "../core/separation.hpp"
 
 using namespace ode_sim;
 
@@ -308,4 +311,70 @@ TEST(Pile, TheSeedAloneDecidesTheOrder) {
   one.solve(20, 7), same.solve(20, 7), other.solve(20, 8);
   for (size_t i = 0; i < one.rows.size(); ++i) EXPECT_EQ(one.rows[i].lambda, same.rows[i].lambda);
   EXPECT_NE(one.rows[0].lambda, other.rows[0].lambda);
+}
+
+// ------------------------------------------------------------------------------------------------ meshes that are apart
+
+namespace {
+
+// A box as a mesh, and as what it is.
+struct Block {
+  std::vector<double> corners;
+  Vec3 half;
+  explicit Block(const Vec3& h) : half(h) {
+    for (int i = 0; i < 8; ++i) corners.insert(corners.end(), {i & 1 ? h.x : -h.x, i & 2 ? h.y : -h.y, i & 4 ? h.z : -h.z});
+  }
+  std::vector<dTriIndex> sides() const {
+    return {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4, 2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5};
+  }
+  Vec3 nearest(const Vec3& p) const {
+    return {std::clamp(p.x, -half.x, half.x), std::clamp(p.y, -half.y, half.y), std::clamp(p.z, -half.z, half.z)};
+  }
+};
+
+// m between two: going to and fro between the nearest points of convex sets ends at those that are nearest of all.
+double distance_of(const Block& a, const Block& b, const Pose& X_AB) {
+  Vec3 p, q;
+  for (int i = 0; i < 3000; ++i) q = X_AB * b.nearest(inverse(X_AB) * p), p = a.nearest(q);
+  return norm(p - q);
+}
+
+struct Randoms {
+  std::mt19937 engine{1};
+  double number(double most) { return std::uniform_real_distribution<double>(-most, most)(engine); }
+  Vec3 vector(double most) { return {number(most), number(most), number(most)}; }
+  Vec3 sides() { return {0.5 + number(0.45), 0.5 + number(0.45), 0.5 + number(0.45)}; }
+  Pose pose(double most) { return {vector(most), normalized(Quat{number(1), number(1), number(1), number(1)})}; }
+};
+
+}  // namespace
+
+TEST(HullsApart, IsABoundOfTheDistanceAndMostlyAGoodOne) {
+  const OdeScope scope;
+  Randoms random;
+  int far = 0, found = 0;
+  for (int i = 0; i < 500; ++i) {
+    const Block a(random.sides()), b(random.sides());
+    const Pose X = random.pose(2);
+    Vec3 n{1, 0, 0};
+    const double bound = hulls_apart({a.corners, a.sides()}, {b.corners, b.sides()}, X, n), distance = distance_of(a, b, X);
+    EXPECT_LT(bound, distance + 1e-9) << i;
+    EXPECT_NEAR(norm(n), 1, 1e-12);
+    far += distance > 0.05, found += distance > 0.05 && bound > 0.5 * distance;
+  }
+  EXPECT_GT(far, 150);
+  EXPECT_GT(found, 0.95 * far);
+}
+
+TEST(MostMoved, NoPointMovesByMore) {
+  Randoms random;
+  for (int i = 0; i < 1000; ++i) {
+    const Pose X = random.pose(1),
+               Y = i % 2 ? random.pose(1) : X * Pose{random.vector(0.01), normalized(Quat{0.01, 0, 0.02, 1})};
+    const Vec3 middle = random.vector(1), off = random.vector(1);
+    const Vec3 p = middle + off;
+    EXPECT_LE(norm(Y * p - X * p), most_moved(X, Y, middle, norm(off)) + 1e-12);
+  }
+  const Vec3 middle{1, 0, 0};
+  EXPECT_NEAR(most_moved({}, {{0, 0, 0}, axis_angle({0, 0, 1}, kPi)}, middle, 0.5), 2 + 2 * 0.5, 1e-12);
 }
