@@ -36,6 +36,15 @@ def test_rates_that_do_not_divide():
     assert "gives 15.2 pictures" in line and "not the 20" in line and "Give both the same number" in line
 
 
+def test_periods_are_whole_steps():
+    line, = told(range(0, 9000, 40), dt=0.02)
+    assert line.endswith("one is taken after a step of the physics, which is 0.02 s long")
+
+
+def test_a_moment_in_which_nobody_listened_is_no_fault_of_the_rates():
+    assert told([*range(0, 2000, 200), *range(2800, 9000, 200)], sensor=5.0, dt=0.002) == []
+
+
 @pytest.mark.parametrize("times", [[*range(0, 2500, 33), *range(9000, 11500, 33)],  # nobody listened in between
                                    [*range(0, 2500, 33), *range(0, 2500, 33)],  # a reset
                                    range(0, 60000, 2000)])  # one picture now and then

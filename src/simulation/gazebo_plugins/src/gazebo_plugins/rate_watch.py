@@ -1,6 +1,7 @@
 """Says once why a camera gives fewer pictures than it was asked for."""
 from __future__ import annotations
 
+import math
 from typing import Optional
 
 _NS = 1_000_000_000
@@ -43,13 +44,25 @@ class RateWatch:
         wanted = min((rate for rate in (sensor_rate, plugin_rate) if rate > 0.0), default=due)
         if got >= _KEPT * wanted:
             return None
+        why = self._why(due, wanted, f"{left_out} of {of}", sensor_rate, plugin_rate, dt)
+        if not why:
+            return None
         self._said = True
-        said = f"gives {got:.3g} pictures a second of simulated time, not the {wanted:.3g} that are asked for: "
+        return f"gives {got:.3g} pictures a second of simulated time, not the {wanted:.3g} that are asked for: {why}"
+
+    @staticmethod
+    def _why(due: float, wanted: float, left_out: str, sensor_rate: float, plugin_rate: float, dt: float) -> str:
+        """'' where nothing is set wrongly: nobody listened for a moment.
+
+        :param due, wanted: pictures a second. :param left_out: how many of how many
+        """
         if due >= _KEPT * wanted:
-            return said + (f"{left_out} of {of} were left out, since this machine does not draw them as fast as the "
-                           "simulation runs. Fewer or smaller pictures help, a lower real_time_update_rate of the world, "
-                           "or lock-step, where the simulation waits for each picture (ODE_SIM_LOCKSTEP=1 in the environment)")
-        if 1.0 / dt < wanted:
-            return said + f"one is taken after a step of the physics, which is {dt:g} s long"
-        return said + (f"of the sensor's {sensor_rate:g} a second (<update_rate>) the plugin takes those that are "
-                       f"1/{plugin_rate:g} s or more apart (<updateRate>). Give both the same number")
+            return (f"{left_out} were left out, since this machine does not draw them as fast as the simulation runs. Fewer or smaller "
+                    "pictures help, a lower real_time_update_rate of the world, or lock-step, where the simulation waits for each "
+                    "picture (ODE_SIM_LOCKSTEP=1 in the environment)")
+        if 1.0 / (dt * math.ceil(1.0 / (wanted * dt) - 1e-6)) < _KEPT * wanted:
+            return f"one is taken after a step of the physics, which is {dt:g} s long"
+        if plugin_rate <= 0.0:
+            return ""
+        return (f"of the sensor's {sensor_rate:g} a second (<update_rate>) the plugin takes those that are "
+                f"1/{plugin_rate:g} s or more apart (<updateRate>). Give both the same number")
