@@ -318,7 +318,10 @@ def test_a_recording_plays_by_itself(page):
     page.simulation.set_pose("box", Pose((0.0, 0.0, 9.0)))
     wait(page, lambda: position(page, "box")[2] > 8.9)
     use(record._replay, client)
-    assert b"__VISER_EMBED_DATA__" in client.files["replay.html"]
+    replay = client.files["replay.html"]
+    assert b"__VISER_EMBED_DATA__" in replay
+    assert b"<title>Replay of default</title>" in replay
+    assert b"window.requestAnimationFrame = " in replay  # as sparing as the page where the processor draws
 
 
 def test_history_forgets_what_was_refused_and_what_is_old():

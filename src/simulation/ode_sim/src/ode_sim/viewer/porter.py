@@ -22,6 +22,7 @@ _PATIENCE = 5.0  # wall s that a browser may take to send it, or to read the ans
 
 #: Until the controls are there the page draws when something has come from the server, and seldom else: what is seen then is empty,
 #: and costs a second where the processor draws. There it makes no more than 15 pictures a second later: it has a simulation to compute.
+#: A replay has no controls, and begins with its first picture.
 _SPARING = b"""<script>(() => {
   const draw = window.requestAnimationFrame.bind(window);
   let waiting = new Map(), drawn = waiting, last = 0, number = 0, timer = 0, due = 0, gap = 1000, loading = true;
@@ -42,9 +43,10 @@ _SPARING = b"""<script>(() => {
     constructor(...what) { super(...what); this.addEventListener("message", () => loading && waiting.size && arm(30)); }
   };
   const look = setInterval(() => {
-    if (!document.querySelector('[role="tab"]')) return;
+    const canvas = document.querySelector("canvas[data-engine]") ?? document.querySelector("canvas");
+    if (!document.querySelector('[role="tab"]') && !(window.__VISER_EMBED_DATA__ && canvas)) return;
     clearInterval(look);
-    const gl = document.querySelector("canvas")?.getContext("webgl2");
+    const gl = canvas?.getContext("webgl2");
     const told = gl && gl.getExtension("WEBGL_debug_renderer_info");
     const name = told ? gl.getParameter(told.UNMASKED_RENDERER_WEBGL) : "";
     loading = false, gap = /swiftshader|llvmpipe|softpipe|software/i.test(name) ? 66 : 0;

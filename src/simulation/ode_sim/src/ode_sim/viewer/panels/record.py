@@ -6,6 +6,7 @@ from typing import Any, Optional
 
 from ode_sim.viewer.movie import RATE, Movie
 from ode_sim.viewer.panels.base import Panel
+from ode_sim.viewer.porter import entitled
 from ode_sim.viewer.simulation import Frame, Refused
 
 
@@ -71,7 +72,7 @@ class RecordPanel(Panel):
             return
         recording, self._recording = self._recording, None
         self._replay.label = "Record"
-        keep(client, "replay.html", recording.as_html().encode())
+        keep(client, "replay.html", entitled(recording.as_html().encode(), f"Replay of {self.page.world.name or 'a world'}"))
 
 
 def keep(client: Any, name: str, content: bytes) -> None:
