@@ -1,0 +1,160 @@
+#!/usr/bin/env python3
+"""What the window shows of sensors, topics and physics, and what it keeps of the scene: in a real browser, by clicks."""
+import io
+import os
+import sys
+import xmlrpc.client
+
+import numpy as np
+import rosgraph
+import rospy
+import rostest
+from gazebo_msgs.msg import ModelState
+from gazebo_msgs.srv import GetPhysicsProperties, SetModelState
+from geometry_msgs.msg import Point, Pose, Quaternion, Twist
+from PIL import Image
+from std_msgs.msg import String
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from browser import Browser, wait  # noqa: E402
+from session import Session, call, paused, sim_time  # noqa: E402
+
+EVIL = "/<img/src='x'/onerror=document.title='owned'>"  # a topic that the master takes
+KINDS = {"Laser scans": ("/scan", (30, 60, 255)), "Sonars": ("/sonar", (255, 140, 0)), "Bumpers": ("/bumper", (220, 30, 160)),
+         "Wrenches": ("/wrench", (120, 60, 220)), "Cameras": ("/cam/image_raw", None), "Depth clouds": ("/deep/points", None)}
+
+
+def physics():
+    return call("get_physics_properties", GetPhysicsProperties)
+
+
+def listened(topic):
+    """Whether the window takes messages of it."""
+    nodes = dict(rosgraph.Master(rospy.get_name()).getSystemState()[1]).get(topic, [])
+    return any(node.startswith("/gzclient") for node in nodes)
+
+
+def pixels(png):
+    return np.asarray(Image.open(io.BytesIO(png)).convert("RGB"), float)
+
+
+def share(png, colour):
+    """Number of pixels of the hue of ``colour``, in light and shade."""
+    seen = pixels(png) - pixels(png).mean(axis=2, keepdims=True)
+    wanted = np.array(colour) - np.mean(colour)
+    strong = np.linalg.norm(seen, axis=2)
+    return int(((seen @ wanted > 0.97 * strong * np.linalg.norm(wanted)) & (strong > 25.0)).sum())
+
+
+class Sensors(Session):
+    WORLD = "sensing.world"
+
+    def test_1_physics_is_set(self):
+        page = self.page
+        page.click("Physics")
+        wait(lambda: page.value("Solver iterations") == "50", "what the world has")
+        page.fill("Gravity (m/s²)", -5, 3)
+        wait(lambda: physics().gravity.z == -5.0, "gravity")
+        page.fill("Step (s)", 0.002)
+        page.fill("Steps per second", 500)
+        page.fill("Solver iterations", 77)
+        wait(lambda: (physics().time_step, physics().max_update_rate, physics().ode_config.sor_pgs_iters) == (0.002, 500.0, 77), "the rest")
+        page.fill("Gravity (m/s²)", -9.8, 3)
+        wait(lambda: physics().gravity.z == -9.8, "gravity")
+
+    def test_2_what_sensors_see_and_feel_is_drawn(self):
+        page = self.page
+        page.click("Play")
+        wait(lambda: not paused(), "play")
+        page.click("View")
+        page.fill("Arrow for 1 N (m)", 0.1)  # out of the bodies on which the forces act
+        page.click("Sensors")
+        for kind, (topic, colour) in KINDS.items():
+            before = page.scene()
+            page.check(kind)
+            wait(lambda topic=topic: listened(topic), f"{topic} is listened to")
+            if colour is None:
+                wait(lambda before=before: np.abs(pixels(page.scene()) - pixels(before)).max(axis=2).__gt__(10).sum() > 200, kind)
+            else:
+                wait(lambda before=before, colour=colour: share(page.scene(), colour) > share(before, colour) + 30, kind)
+            if os.environ.get("BROWSER_SHOTS"):
+                page.shot(os.path.join(os.environ["BROWSER_SHOTS"], f"{kind}.png"))
+            page.check(kind)
+            wait(lambda topic=topic: not listened(topic), f"{topic} is not listened to any more")
+
+    def test_3_topics_as_picture_text_and_plot(self):
+        page = self.page
+        page.click("Topics")
+        master = xmlrpc.client.ServerProxy(os.environ["ROS_MASTER_URI"])
+        self.assertEqual(master.registerPublisher("/stranger", EVIL, "std_msgs/String", "http://localhost:1/")[0], 1)
+        said = rospy.Publisher("/said", String, queue_size=1, latch=True)
+        said.publish(EVIL)
+        page.click("Look for topics")
+        page.choose("Topic", "/cam/image_raw")
+        page.see("/cam/image_raw (sensor_msgs/Image)")
+        wait(lambda: page.driver.execute_script(
+            "return [...document.images].filter(i => i.naturalWidth === 160 && i.naturalHeight === 120).length"), "the picture")
+        page.choose("Topic", "/sonar")
+        page.see("radiation_type: 0", "range: ")
+        page.fill("Plot", "rnage")
+        page.see("there is no rnage in the message")
+        page.fill("Plot", "range")
+        wait(lambda: page.driver.execute_script("return document.querySelectorAll('.uplot canvas').length"), "a plot")
+        page.choose("Topic", EVIL)
+        page.see(f"{EVIL}: waiting for a message of std_msgs/String")
+        page.choose("Topic", "/said")
+        page.see("data: ", EVIL)
+        self.assertNotEqual(page.driver.title, "owned")
+        master.unregisterPublisher("/stranger", EVIL, "http://localhost:1/")
+
+    def test_4_a_replay_plays_without_the_simulator(self):
+        page = self.page
+        page.click("Record")
+        page.button("Record")
+        page.see("Stop and keep the recording")
+        self.drop()
+        page.click("Stop and keep the recording")
+        file = os.path.join(self.home.name, "replay.html")
+        with open(file, "wb") as stream:
+            stream.write(page.downloaded(".html"))
+        with Browser(f"file://{file}") as other:
+            self.assertEqual(other.driver.title, "Replay of sensing")
+            wait(lambda: len(np.unique(pixels(other.scene()).reshape(-1, 3), axis=0)) > 20, "a scene")
+            begin = other.scene()
+            wait(lambda: np.abs(pixels(other.scene()) - pixels(begin)).max(axis=2).__gt__(40).sum() > 50, "something that moves")
+            self.assertEqual(other.complaints(), [])
+
+    def drop(self):
+        """The block, which falls for a second."""
+        call("set_model_state", SetModelState, ModelState("block", Pose(Point(0.0, 2.0, 5.0), Quaternion(w=1.0)), Twist(), "world"))
+        until = sim_time() + 1.0
+        wait(lambda: sim_time() > until, "a second")
+
+    def test_5_a_screenshot_is_what_the_page_shows(self):
+        page = self.page
+        page.click("Screenshot")
+        shot, seen = pixels(page.downloaded(".png")), pixels(page.scene())
+        self.assertEqual(shot.shape, seen.shape)
+        self.assertLess(np.median(np.abs(shot - seen)), 10.0)
+
+    def test_6_a_film_shows_what_moved(self):
+        import cv2
+        page = self.page
+        page.click("Film")
+        page.see("Stop and keep the film")
+        self.drop()
+        page.click("Stop and keep the film")
+        file = os.path.join(self.home.name, "film.mp4")
+        with open(file, "wb") as stream:
+            stream.write(page.downloaded(".mp4"))
+        film, pictures = cv2.VideoCapture(file), []
+        while (read := film.read())[0]:
+            pictures.append(read[1])
+        self.assertGreater(len(pictures), 10)
+        self.assertEqual(film.get(cv2.CAP_PROP_FPS), 25.0)
+        self.assertTrue(any(np.abs(picture.astype(float) - pictures[0]).max() > 60 for picture in pictures))
+
+
+if __name__ == "__main__":
+    rospy.init_node("sensors_test", disable_rostime=True)
+    rostest.rosrun("gzclient", "sensors", "__main__")
