@@ -62,7 +62,8 @@ def test_all_that_touch_are_found_while_balls_come_go_and_jump(seed):
 def test_meshes_that_were_apart_meet_as_soon_as_those_of_a_world_that_has_not_seen_them(tmp_path):
     """Whoever remembers that two are apart forgets it in time, however they tumble."""
     corners = [(x, y, z) for x in (-0.2, 0.2) for y in (-0.05, 0.05) for z in (-0.1, 0.1)]
-    sides = [(0, 1, 2), (1, 3, 2), (4, 6, 5), (5, 6, 7), (0, 4, 1), (1, 4, 5), (2, 3, 6), (3, 7, 6), (0, 2, 4), (2, 6, 4), (1, 5, 3), (3, 5, 7)]
+    sides = [(0, 1, 2), (1, 3, 2), (4, 6, 5), (5, 6, 7), (0, 4, 1), (1, 4, 5), (2, 3, 6), (3, 7, 6), (0, 2, 4), (2, 6, 4), (1, 5, 3),
+             (3, 5, 7)]
     file = tmp_path / "brick.obj"
     file.write_text("".join(f"v {x} {y} {z}\n" for x, y, z in corners) + "".join(f"f {a + 1} {b + 1} {c + 1}\n" for a, b, c in sides))
     random = np.random.default_rng(3)
@@ -70,9 +71,10 @@ def test_meshes_that_were_apart_meet_as_soon_as_those_of_a_world_that_has_not_se
     for i in range(12):
         p, q = random.uniform(-0.8, 0.8, 3), random.normal(size=4)
         model = sphere(f"brick{i}", tuple(p))
-        shape = replace(model.links[0].collisions[0], geometry=d.Mesh(str(file)))
-        bricks.append((replace(model, pose=d.Pose(tuple(p), tuple(q / np.linalg.norm(q))), links=(replace(model.links[0], collisions=(shape,)),)),
-                       -2 * p, random.uniform(-20, 20, 3)))
+        link = model.links[0]
+        link = replace(link, collisions=(replace(link.collisions[0], geometry=d.Mesh(str(file))),))
+        model = replace(model, pose=d.Pose(tuple(p), tuple(q / np.linalg.norm(q))), links=(link,))
+        bricks.append((model, -2 * p, random.uniform(-20, 20, 3)))
 
     def made():
         world = ode_sim.World(d.World(physics=d.Physics(max_step_size=0.001), gravity=(0.0, 0.0, 0.0)))

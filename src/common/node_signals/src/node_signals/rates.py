@@ -117,7 +117,8 @@ class Spaced:
         self._last_ns = now_ns
 
     def due(self, now_ns: int) -> bool:
-        if not self.ready(now_ns):
+        last_ns = self._last_ns
+        if last_ns is not None and 0 <= now_ns - last_ns < self._least_ns:
             return False
         self._last_ns = now_ns
         return True

@@ -22,6 +22,30 @@ class Connection:
         self._callbacks.disconnect(self)
 
 
+class Occasional:
+    """A callback of the step loop that is connected only while there is something to do.
+
+    :param connect: ``server.before_step`` or ``server.after_step``
+    """
+
+    def __init__(self, connect: Callable[[Callable[[], None]], Connection], f: Callable[[], None]):
+        self._connect = connect
+        self._f = f
+        self._connection: Optional[Connection] = None
+
+    @property
+    def connected(self) -> bool:
+        return self._connection is not None
+
+    def needed(self, needed: bool) -> None:
+        """From the next step on."""
+        if needed and self._connection is None:
+            self._connection = self._connect(self._f)
+        elif not needed and self._connection is not None:
+            self._connection.disconnect()
+            self._connection = None
+
+
 class CallbackList:
     """Callbacks in connection order, of any thread. A change counts from the next step on."""
 

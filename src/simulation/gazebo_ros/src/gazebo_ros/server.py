@@ -42,7 +42,8 @@ class WallLimit:
         self._gate = Spaced(_WALL_RATE)
 
     def due(self) -> bool:
-        return self._server.throttled or self._gate.due(time.monotonic_ns())
+        server = self._server  # as `server.throttled`; asked at every step by every publisher
+        return (server.throttle.paced and not server._requested_steps) or self._gate.due(time.monotonic_ns())
 
 
 class ResolvedModel:
@@ -142,7 +143,7 @@ class Server:
     @property
     def throttled(self) -> bool:
         """Steps are paced by wall time, not taken as fast as possible."""
-        return not self._requested_steps and self.throttle.rate > 0.0
+        return self.throttle.paced and not self._requested_steps
 
     @property
     def sensors(self) -> Tuple[Sensor, ...]:
@@ -221,7 +222,8 @@ class Server:
 
     def _set_now(self) -> None:
         now = _new_time()  # rospy.Time(...) and its checks would cost a tenth of a step
-        now.secs, now.nsecs = divmod(self.world.time_ns, _NS)
+        self.now_ns = self.world.time_ns
+        now.secs, now.nsecs = divmod(self.now_ns, _NS)
         self._now = now
         if self._ros_time:  # what rospy does with a message of /clock
             rospy.rostime._rostime_current = now

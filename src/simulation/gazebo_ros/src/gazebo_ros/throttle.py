@@ -32,7 +32,8 @@ class Throttle:
     @rate.setter
     def rate(self, rate: float) -> None:
         self._rate = rate
-        self._period_ns = int(_NS / rate) if rate > 0 else 0
+        self.paced = rate > 0.0  # read at every step
+        self._period_ns = int(_NS / rate) if self.paced else 0
         self._next_ns = min(self._next_ns, self._clock() + self._period_ns)  # a slow rate may have put it far off
 
     def restart(self) -> None:

@@ -28,11 +28,11 @@ class ClockPublisher:
         server.stepped.connect(self._publish)
 
     def _on_step(self) -> None:
-        if self._gate.ready(self._server.world.time_ns) and self._limit.due():
+        if self._gate.ready(self._server.now_ns) and self._limit.due():
             self._publish()
 
     def _publish(self) -> None:
-        now_ns = self._server.world.time_ns
+        now_ns = self._server.now_ns
         if now_ns != self._published_ns:
             self._published_ns = now_ns
             self._gate.take(now_ns)

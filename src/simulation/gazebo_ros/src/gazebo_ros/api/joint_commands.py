@@ -7,7 +7,8 @@ from typing import Dict, Optional
 from ode_sim import JointHandle
 
 from gazebo_ros.api.handlers import Refused, advertise, finite
-from gazebo_ros.server import Connection, Server
+from gazebo_ros.callbacks import Occasional
+from gazebo_ros.server import Server
 from gazebo_ros.srv import CommandJoint, CommandJointRequest
 
 _MODES = {CommandJointRequest.NONE: "none", CommandJointRequest.FORCE: "force",
@@ -46,7 +47,7 @@ class JointCommands:
     def __init__(self, server: Server):
         self._server = server
         self._drives: Dict[str, JointDrive] = {}
-        self._connection: Optional[Connection] = None
+        self._driving = Occasional(server.before_step, self._on_step)
         self._time_ns = 0
         server.world.on_remove.append(self._on_remove)
         advertise(server, "command_joint", CommandJoint, self._command)
@@ -70,12 +71,9 @@ class JointCommands:
         return f"CommandJoint: {joint.scoped_name} {mode}"
 
     def _connect(self) -> None:
-        if self._drives and self._connection is None:
+        if not self._driving.connected:
             self._time_ns = self._server.world.time_ns
-            self._connection = self._server.before_step(self._on_step)
-        elif not self._drives and self._connection is not None:
-            self._connection.disconnect()
-            self._connection = None
+        self._driving.needed(bool(self._drives))
 
     def _on_step(self) -> None:
         now = self._server.world.time_ns

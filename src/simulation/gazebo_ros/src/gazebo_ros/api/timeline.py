@@ -1,13 +1,12 @@
 """Going back to moments that were kept."""
 from __future__ import annotations
 
-from typing import Optional
-
 import rospy
 from ode_sim.timeline import Timeline
 
 from gazebo_ros.api.handlers import Refused, advertise
-from gazebo_ros.server import Connection, Server
+from gazebo_ros.callbacks import Occasional
+from gazebo_ros.server import Server
 from gazebo_ros.srv import Timeline as TimelineService
 from gazebo_ros.srv import TimelineRequest as Request
 
@@ -18,7 +17,7 @@ class TimelineServices:
     def __init__(self, server: Server):
         self._server = server
         self._timeline = Timeline(server.world)
-        self._connection: Optional[Connection] = None
+        self._recording = Occasional(server.after_step, self._timeline.after_step)
         self._actions = {Request.LIST: lambda request: None, Request.KEEP: lambda request: self._timeline.keep(),
                          Request.RETURN: self._return, Request.RECORD: self._record,
                          Request.FORGET: lambda request: self._timeline.forget()}
@@ -41,8 +40,4 @@ class TimelineServices:
 
     def _record(self, request) -> None:
         self._timeline.record(request.period)
-        if self._timeline.period and self._connection is None:
-            self._connection = self._server.after_step(self._timeline.after_step)
-        elif not self._timeline.period and self._connection is not None:
-            self._connection.disconnect()
-            self._connection = None
+        self._recording.needed(bool(self._timeline.period))
