@@ -1,5 +1,5 @@
 /* What ODE alone costs: the benchmark's bodies in a plain C loop of collide, step, read. Prints microseconds and contacts per step.
-   usage: bare_ode arm|boxes STEPS [JOINTS] */
+   usage: bare_ode arm|boxes|robots STEPS [JOINTS OF THE ARM | ROBOTS] */
 #include <math.h>
 #include <ode/ode.h>
 #include <stdio.h>
@@ -11,6 +11,7 @@ static dWorldID world;
 static dSpaceID space;
 static dJointGroupID contacts;
 static long made = 0;
+static int slick; /* its address marks geoms without friction */
 
 static double now(void) {
   struct timespec t;
@@ -27,7 +28,7 @@ static void near_callback(void *data, dGeomID a, dGeomID b) {
   made += n;
   for (int i = 0; i < n; ++i) {
     c[i].surface.mode = dContactApprox1 | dContactSoftERP | dContactSoftCFM;
-    c[i].surface.mu = 1;
+    c[i].surface.mu = dGeomGetData(a) == &slick || dGeomGetData(b) == &slick ? 0 : 1;
     c[i].surface.soft_erp = 0.2;
     c[i].surface.soft_cfm = 1e-5;
     dJointAttach(dJointCreateContact(world, contacts, &c[i]), first, second);
@@ -44,9 +45,41 @@ static dBodyID box(double x, double y, double z, double sx, double sy, double sz
   return body;
 }
 
+/* The body `diff_drive` of ode_sim's tests: two driven wheels, two casters without friction. Joints: of the wheels. */
+static void robot(double x, double y, dJointID *joints) {
+  dBodyID base = box(x, y, 0.07, 0.3, 0.25, 0.1, 5);
+  dGeomDestroy(dBodyGetFirstGeom(base));
+  dGeomID body = dCreateCylinder(space, 0.14, 0.06);
+  dGeomSetBody(body, base);
+  dGeomSetOffsetPosition(body, 0, 0, 0.03);
+  for (int i = 0; i < 2; ++i) {
+    dGeomID caster = dCreateSphere(space, 0.02);
+    dGeomSetBody(caster, base);
+    dGeomSetOffsetPosition(caster, i ? -0.12 : 0.12, 0, -0.05);
+    dGeomSetData(caster, &slick);
+  }
+  for (int i = 0; i < 2; ++i) {
+    dBodyID wheel = dBodyCreate(world);
+    dMass m;
+    dMassSetCylinderTotal(&m, 0.3, 3, 0.05, 0.03);
+    dBodySetMass(wheel, &m);
+    dMatrix3 turned;
+    dRFromAxisAndAngle(turned, 1, 0, 0, M_PI / 2);
+    dBodySetRotation(wheel, turned);
+    dBodySetPosition(wheel, x, y + (i ? -0.15 : 0.15), 0.05);
+    dGeomSetBody(dCreateCylinder(space, 0.05, 0.03), wheel);
+    joints[i] = dJointCreateHinge(world, 0);
+    dJointAttach(joints[i], wheel, base);
+    dJointSetHingeAnchor(joints[i], x, y + (i ? -0.15 : 0.15), 0.05);
+    dJointSetHingeAxis(joints[i], 0, 1, 0);
+    dJointSetHingeParam(joints[i], dParamFMax, 5);
+    dJointSetHingeParam(joints[i], dParamVel, 5);
+  }
+}
+
 int main(int argc, char **argv) {
   if (argc < 3) return 2;
-  const int arm = !strcmp(argv[1], "arm"), steps = atoi(argv[2]), count = argc > 3 ? atoi(argv[3]) : 6;
+  const int arm = !strcmp(argv[1], "arm"), robots = !strcmp(argv[1], "robots"), steps = atoi(argv[2]), count = argc > 3 ? atoi(argv[3]) : 6;
   if (count < 1 || count > 16) return 2;
   dInitODE2(0);
   world = dWorldCreate();
@@ -54,7 +87,8 @@ int main(int argc, char **argv) {
   contacts = dJointGroupCreate(0);
   dWorldSetGravity(world, 0, 0, -9.8);
   dCreatePlane(space, 0, 0, 1, 0);
-  dJointID joints[16];
+  dJointID joints[32];
+  const int hinges = arm ? count : robots ? 2 * count : 0;
   double sum = 0;
   if (arm) {
     dBodyID last = 0;
@@ -68,6 +102,8 @@ int main(int argc, char **argv) {
       dJointSetHingeParam(joints[i], dParamVel, 0.02);
       last = link;
     }
+  } else if (robots) {
+    for (int i = 0; i < count; ++i) robot(0, 1.0 * i, joints + 2 * i);
   } else {
     dWorldSetAutoDisableFlag(world, 1);
     dWorldSetAutoDisableLinearThreshold(world, 0.1);
@@ -79,10 +115,10 @@ int main(int argc, char **argv) {
   const double start = now();
   for (int k = 0; k < steps; ++k) {
     dSpaceCollide(space, 0, near_callback);
-    if (arm) dWorldStep(world, 0.001); else dWorldQuickStep(world, 0.001);
+    if (hinges) dWorldStep(world, 0.001); else dWorldQuickStep(world, 0.001);
     dJointGroupEmpty(contacts);
-    if (arm)
-      for (int i = 0; i < count; ++i) sum += dJointGetHingeAngle(joints[i]) + dJointGetHingeAngleRate(joints[i]);
+    for (int i = 0; i < hinges; ++i)
+      sum += dJointGetHingeAngle(joints[i]) + dJointGetHingeAngleRate(joints[i]);
   }
   printf("%.3f %.1f\n", (now() - start) / steps * 1e6, (double)made / steps);
   return isnan(sum);

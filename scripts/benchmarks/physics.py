@@ -70,12 +70,12 @@ def boxes(steps=1500):
     return cost, contacts, asleep, per_step(world, 500)
 
 
-def robot(steps=3000):
+def robots(count, steps=3000):
     world = ode_sim.World()
     world.spawn(ground())
-    model = world.spawn(diff_drive())
-    for joint in model.joints.values():
-        joint.set_motor(5.0, 5.0)
+    for i in range(count):
+        for joint in world.spawn(diff_drive(name=f"robot{i}", at=(0.0, 1.0 * i, 0.0))).joints.values():
+            joint.set_motor(5.0, 5.0)
     return per_step(world, steps)
 
 
@@ -119,6 +119,7 @@ def main():
     parser.add_argument("--json", metavar="FILE")
     options = parser.parse_args()
     bare_arm, ours_arm = min(bare("arm", 4000)[0] for _ in range(3)), min(motor_arm() for _ in range(3))
+    bare_robots, our_robots = min(bare("robots", 3000, 16)[0] for _ in range(3)), min(robots(16) for _ in range(3))
     bare_boxes, bare_contacts = bare("boxes", 1500)
     our_boxes, our_contacts, asleep, sleeping = boxes()
     figures = {
@@ -126,7 +127,10 @@ def main():
         "arm, 6 hinge motors: ode_sim (us/step)": ours_arm,
         "arm, 6 hinge motors: ratio": ours_arm / bare_arm,
         "arm, 6 position-commanded joints from a Python callback (us/step)": position_driven_arm(),
-        "two-wheeled robot driving (us/step)": robot(),
+        "two-wheeled robot driving (us/step)": robots(1),
+        "16 two-wheeled robots driving: bare ODE (us/step)": bare_robots,
+        "16 two-wheeled robots driving: ode_sim (us/step)": our_robots,
+        "16 two-wheeled robots driving: ode_sim / bare ODE": our_robots / bare_robots,
         "100 falling boxes: bare ODE quickStep (us/step)": bare_boxes,
         "100 falling boxes: ode_sim (us/step)": our_boxes,
         "100 falling boxes: bare ODE, contacts per step": bare_contacts,
