@@ -21,7 +21,8 @@ JOINTS = {"arm": 4, "ur5": 6}
 WANTED = [
     (r"arm.*real-time factor, uncapped$", ">=", 20.0), (r"UR5.*real-time factor, uncapped$", ">=", 20.0),
     (r"^arm, physics thread.*sum", "<", 9.0), (r"^ur5, physics thread.*sum", "<", 15.0), (r"^arm, physics thread.*core", "<", 2.5),
-    (r"^ur5, physics thread.*core", "<", 6.0), (r"^100 falling boxes: ode_sim / MuJoCo", "<=", 1.0), (r"^16 two-wheeled robots.*ode_sim / bare", "<=", 1.1),
+    (r"^ur5, physics thread.*core", "<", 6.0), (r"^100 falling boxes: ode_sim / MuJoCo", "<=", 1.0),
+    (r"^16 two-wheeled robots.*ode_sim / bare", "<=", 1.1),
     (r"seconds to the first joint states", "<", 1.5), (r"memory of the server", "<", 300.0),
     (r"arms: cost per arm against one arm", "<=", 1.05), (r"first picture of RViz", "<", 3.0),
     (r"arm with 800x800 camera: real-time factor", ">=", 0.99), (r"frame / bare draw", "<=", 1.5),

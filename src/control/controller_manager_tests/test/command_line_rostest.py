@@ -14,8 +14,9 @@ import rosnode
 import rospy
 import rostest
 from controller_manager.command_line import controller_manager_main
-from controller_manager_tests.client import ManagerClient, wait_until
+from controller_manager_tests.client import ManagerClient
 from std_msgs.msg import Bool
+from test_support import wait_until
 
 INTERFACE = "hardware_interface::EffortJointInterface"
 

@@ -7,10 +7,11 @@ import unittest
 
 import rospy
 import rostest
-from controller_manager_tests.client import ManagerClient, sends, wait_until
+from controller_manager_tests.client import ManagerClient, sends
 from rosgraph_msgs.msg import Log
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64
+from test_support import wait_until
 
 
 class CompiledTest(unittest.TestCase):

@@ -6,9 +6,10 @@ import unittest
 
 import rospy
 import rostest
-from controller_manager_tests.client import ManagerClient, sends, wait_until
+from controller_manager_tests.client import ManagerClient, sends
 from rosgraph_msgs.msg import Log
 from sensor_msgs.msg import JointState
+from test_support import wait_until
 
 
 class FaultsTest(unittest.TestCase):

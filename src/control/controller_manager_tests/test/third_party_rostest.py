@@ -5,8 +5,9 @@ import unittest
 
 import rospy
 import rostest
-from controller_manager_tests.client import ManagerClient, wait_until
+from controller_manager_tests.client import ManagerClient
 from sensor_msgs.msg import JointState
+from test_support import wait_until
 
 
 class ThirdPartyTest(unittest.TestCase):

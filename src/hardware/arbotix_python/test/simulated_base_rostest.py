@@ -12,11 +12,8 @@ from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
 from ros_helpers import Collector, RunningClock
 from sensor_msgs.msg import JointState
+from test_support import heading
 from tf2_msgs.msg import TFMessage
-
-
-def heading(odometry):
-    return 2 * math.atan2(odometry.pose.pose.orientation.z, odometry.pose.pose.orientation.w)
 
 
 class SimulatedBase(unittest.TestCase):
@@ -37,9 +34,9 @@ class SimulatedBase(unittest.TestCase):
             period = (after.header.stamp - before.header.stamp).to_sec()
             self.assertGreater(period, 0.1)
             place, then = after.pose.pose.position, before.pose.pose.position
-            self.assertAlmostEqual(place.x - then.x, 0.5 * period * math.cos(heading(before)), places=9)
-            self.assertAlmostEqual(place.y - then.y, 0.5 * period * math.sin(heading(before)), places=9)
-            self.assertAlmostEqual(heading(after) - heading(before), 0.4 * period, places=9)
+            self.assertAlmostEqual(place.x - then.x, 0.5 * period * math.cos(heading(before.pose.pose.orientation)), places=9)
+            self.assertAlmostEqual(place.y - then.y, 0.5 * period * math.sin(heading(before.pose.pose.orientation)), places=9)
+            self.assertAlmostEqual(heading(after.pose.pose.orientation) - heading(before.pose.pose.orientation), 0.4 * period, places=9)
         self.assertEqual(run[-1].twist.twist.angular.z, 0.4)
 
         last = run[-1].pose.pose.position
@@ -59,7 +56,7 @@ class SimulatedBase(unittest.TestCase):
             commands.publish(twist)
         odometry.wait_for(lambda m: m.twist.twist.linear.x == 0.25, "odometry of the command")
         for message in odometry.messages:
-            self.assertTrue(math.isfinite(message.pose.pose.position.x + heading(message)))
+            self.assertTrue(math.isfinite(message.pose.pose.position.x + heading(message.pose.pose.orientation)))
         twist.linear.x = twist.angular.z = 0.0
         commands.publish(twist)
 

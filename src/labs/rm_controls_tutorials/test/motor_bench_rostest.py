@@ -10,18 +10,10 @@ import rospy
 import rostest
 from rm_msgs.msg import ActuatorState
 from sensor_msgs.msg import JointState
+from test_support import wait_until
 
-PATIENCE = 60.0
 SETUP = os.path.join(os.environ["CMAKE_PREFIX_PATH"].split(":")[0], "setup.bash")
 POSITION, VELOCITY = (f"controllers/joint1_{kind}_controller" for kind in ("position", "velocity"))
-
-
-def wait_until(condition, what):
-    end = time.monotonic() + PATIENCE
-    while not condition():
-        if time.monotonic() > end:
-            raise AssertionError(f"never happened: {what}")
-        time.sleep(0.02)
 
 
 def shell(command):

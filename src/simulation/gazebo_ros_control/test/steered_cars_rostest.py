@@ -12,13 +12,10 @@ from gazebo_msgs.srv import GetModelState
 from gazebo_ros.srv import StepWorld
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
+from test_support import heading
 
 WHEELBASE = 0.5  # m
 STEP = 0.001  # s
-
-
-def heading(pose):
-    return 2 * math.atan2(pose.orientation.z, pose.orientation.w)
 
 
 def circle(points):
@@ -77,8 +74,8 @@ class Car:
         points = []
         for _ in range(round(seconds / 0.2)):
             pose = self.run(0.2)
-            points.append((pose.position.x + forwards * math.cos(heading(pose)),
-                           pose.position.y + forwards * math.sin(heading(pose))))
+            points.append((pose.position.x + forwards * math.cos(heading(pose.orientation)),
+                           pose.position.y + forwards * math.sin(heading(pose.orientation))))
         return points
 
 
@@ -103,7 +100,7 @@ class SteeredCars(unittest.TestCase):
         end = car.run(metres / speed)
         self.assertAlmostEqual(math.dist((start.position.x, start.position.y), (end.position.x, end.position.y)), metres,
                                delta=0.03 * metres)
-        self.assertAlmostEqual(heading(end), heading(start), delta=0.01)
+        self.assertAlmostEqual(heading(end.orientation), heading(start.orientation), delta=0.01)
         self.assertAlmostEqual(end.position.z, 0.06, delta=1e-3)
 
     def test_ackermann_steering(self):
@@ -113,10 +110,10 @@ class SteeredCars(unittest.TestCase):
             rate = 0.5 / WHEELBASE * math.tan(angle)
             car.command(twist(0.5, angle), 0.5, rate)
             car.run(1.0)
-            start = heading(car.pose())
+            start = heading(car.pose().orientation)
             radius = circle(car.path(4.0, forwards=-WHEELBASE / 2))
             self.assertAlmostEqual(radius, WHEELBASE / math.tan(abs(angle)), delta=0.03 * radius)
-            turned = math.remainder(heading(car.pose()) - start, 2 * math.pi)
+            turned = math.remainder(heading(car.pose().orientation) - start, 2 * math.pi)
             self.assertAlmostEqual(turned, 4.0 * rate, delta=0.06)
         car.command(twist(0.0, 0.0), 0.0)
         before = car.run(0.5).position
@@ -128,10 +125,10 @@ class SteeredCars(unittest.TestCase):
         self.straight(car, 5.0, 1.0, twist(1.0, 0.0))
         car.command(twist(0.5, 0.5), 0.5, 0.5)
         car.run(1.0)
-        start = heading(car.pose())
+        start = heading(car.pose().orientation)
         radius = circle(car.path(4.0))
         self.assertAlmostEqual(radius, 1.0, delta=0.03)
-        self.assertAlmostEqual(math.remainder(heading(car.pose()) - start, 2 * math.pi), 2.0, delta=0.06)
+        self.assertAlmostEqual(math.remainder(heading(car.pose().orientation) - start, 2 * math.pi), 2.0, delta=0.06)
 
     def test_four_wheel_steering_goes_sideways(self):
         car = self.car("four_wheel_steering", FourWheelSteering, "cmd_four_wheel_steering")
@@ -140,8 +137,8 @@ class SteeredCars(unittest.TestCase):
         start = car.pose()
         end = car.run(3.0)
         course = math.atan2(end.position.y - start.position.y, end.position.x - start.position.x)
-        self.assertAlmostEqual(math.remainder(course - heading(start), 2 * math.pi), 0.6, delta=0.02)
-        self.assertAlmostEqual(heading(end), heading(start), delta=0.01)
+        self.assertAlmostEqual(math.remainder(course - heading(start.orientation), 2 * math.pi), 0.6, delta=0.02)
+        self.assertAlmostEqual(heading(end.orientation), heading(start.orientation), delta=0.01)
         self.assertAlmostEqual(math.dist((start.position.x, start.position.y), (end.position.x, end.position.y)), 1.5, delta=0.045)
 
 

@@ -1,6 +1,7 @@
 """A cluster of four nodes on this machine, each a raylet of its own: the pool's marks, and what is lost when a node, the driver or the head
 is killed in mid-run. Submissions sleep while CMake configures them, until the test ends their sleep: nothing here hopes for a moment."""
 import csv
+import functools
 import os
 import pathlib
 import shutil
@@ -12,6 +13,7 @@ import time
 import pytest
 from lab_check import sandbox
 from lab_check.check import free_port
+from test_support import wait_until as wait
 
 NAP = f"99{os.getpid()}"  # s that submissions sleep, with the number of one behind the point: as nobody else does
 SPEC = """\
@@ -26,13 +28,7 @@ MANIFEST = ("<package format='2'><name>p</name><version>1.0.0</version><descript
 CMAKE = "cmake_minimum_required(VERSION 3.10)\nproject(p)\nfind_package(catkin REQUIRED)\ncatkin_package()\n"
 POINTS = ["5.0", "3.0", "5.0", "3.0", "5.0", "3.0"]  # of the submissions in turn: a file that every second one lacks
 
-
-def wait_until(done, what, seconds=300.0):
-    """An end for the case that it never comes; a busy machine is given its time."""
-    end = time.monotonic() + seconds
-    while not done():
-        assert time.monotonic() < end, what
-        time.sleep(0.05)
+wait_until = functools.partial(wait, timeout=300.0)  # a busy machine is given its time
 
 
 def asleep():

@@ -6,8 +6,9 @@
                 with self.subTest(name):
                     wait_until(lambda: self.speed(name) > 0, f"the {name} wheel to turn")
 """
+from .angles import heading
 from .cases import TestCase
 from .network import free_port
 from .waiting import wait_until
 
-__all__ = ["TestCase", "free_port", "wait_until"]
+__all__ = ["TestCase", "free_port", "heading", "wait_until"]

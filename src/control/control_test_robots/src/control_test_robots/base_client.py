@@ -7,6 +7,7 @@ from typing import Any, Callable, List
 import rospy
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
+from test_support import heading
 from tf2_msgs.msg import TFMessage
 
 from . import client
@@ -87,8 +88,7 @@ def _differ(a: Twist, b: Twist) -> bool:
 
 def yaw(odometry: Odometry) -> float:
     """rad"""
-    q = odometry.pose.pose.orientation
-    return 2.0 * math.atan2(q.z, q.w)
+    return heading(odometry.pose.pose.orientation)
 
 
 def duration(messages: List[Any]) -> float:

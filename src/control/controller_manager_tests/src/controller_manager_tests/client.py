@@ -1,5 +1,4 @@
-"""What tests do with a controller manager: its services as functions, and waiting for something to become true."""
-import time
+"""What tests do with a controller manager: its services as functions."""
 import xmlrpc.client
 
 import rosgraph
@@ -7,20 +6,10 @@ import rospy
 from controller_manager_msgs.srv import (ListControllers, ListControllerTypes, LoadController,
                                          ReloadControllerLibraries, SwitchController, SwitchControllerRequest,
                                          UnloadController)
+from test_support import wait_until
 
 STRICT = SwitchControllerRequest.STRICT
 BEST_EFFORT = SwitchControllerRequest.BEST_EFFORT
-
-
-def wait_until(condition, what, timeout=60.0):
-    """Poll ``condition`` until it is true, else fail saying ``what`` was waited for. :return: its value."""
-    end = time.monotonic() + timeout
-    while time.monotonic() < end:
-        value = condition()
-        if value:
-            return value
-        time.sleep(0.01)
-    raise AssertionError(f"waited {timeout} s in vain for {what}")
 
 
 def sends(node, topic):

@@ -11,14 +11,11 @@ from gazebo_msgs.srv import GetModelState, SetModelState, SpawnModel
 from gazebo_ros.srv import StepWorld
 from geometry_msgs.msg import Point, Pose, Quaternion, Twist
 from sensor_msgs.msg import JointState
+from test_support import heading
 
 STEP = 0.001  # s
 RAMP = """<sdf version="1.6"><model name="ramp"><static>true</static><link name="link"><collision name="c"><geometry><box>
     <size>4 2 0.1</size></box></geometry></collision></link></model></sdf>"""
-
-
-def heading(pose):
-    return 2 * math.atan2(pose.orientation.z, pose.orientation.w)
 
 
 class MbotDriving(unittest.TestCase):
@@ -69,7 +66,7 @@ class MbotDriving(unittest.TestCase):
         ended = self.command(0, 0)  # as much way is lost speeding up as is added slowing down
         end = self.wait(1).pose
         self.assertAlmostEqual(end.position.x - start.position.x, 0.5 * (ended - began), delta=0.05)
-        self.assertAlmostEqual(math.degrees(heading(end) - heading(start)), 0, delta=0.5)
+        self.assertAlmostEqual(math.degrees(heading(end.orientation) - heading(start.orientation)), 0, delta=0.5)
         self.assertAlmostEqual(end.position.y - start.position.y, 0, delta=0.01)
         self.until(lambda: self.names, "joint states of the wheels")
         self.assertEqual(self.names, ["right_wheel_joint", "left_wheel_joint"])
@@ -80,10 +77,10 @@ class MbotDriving(unittest.TestCase):
         turned, last = 0.0, start
         for _ in range(32):  # less than half a turn each
             pose = self.wait(10 * math.pi / 32).pose
-            turned, last = turned + math.remainder(heading(pose) - heading(last), 2 * math.pi), pose
+            turned, last = turned + math.remainder(heading(pose.orientation) - heading(last.orientation), 2 * math.pi), pose
         ended = self.command(0, 0)
         end = self.wait(1).pose
-        turned += math.remainder(heading(end) - heading(last), 2 * math.pi)
+        turned += math.remainder(heading(end.orientation) - heading(last.orientation), 2 * math.pi)
         self.assertAlmostEqual(turned, 2 * (ended - began), delta=0.02 * 20 * math.pi)
         self.assertAlmostEqual(math.hypot(end.position.x - start.position.x, end.position.y - start.position.y), 0, delta=0.01)
 

@@ -9,14 +9,11 @@ from geometry_msgs.msg import Twist
 from lab_tools.simulation import Topic, run_free
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import JointState, LaserScan
+from test_support import heading
 
 NOISE = 0.01  # m, standard deviation of a ray
 HALF_WALL = 0.075
 WALLS = {0.0: 5.18 - HALF_WALL, math.pi / 2: 0.68 - HALF_WALL, -math.pi / 2: 4.17 - HALF_WALL}  # bearing: distance
-
-
-def heading(odometry):
-    return 2 * math.atan2(odometry.pose.pose.orientation.z, odometry.pose.pose.orientation.w)
 
 
 class MbotRoom(unittest.TestCase):
@@ -62,11 +59,12 @@ class MbotRoom(unittest.TestCase):
         self.assertEqual((end.header.frame_id, end.child_frame_id), ("odom", "base_footprint"))
         self.assertAlmostEqual(end.pose.pose.position.x - start.pose.pose.position.x, 0.5 * seconds, delta=0.01)
         self.assertAlmostEqual(end.pose.pose.position.y, start.pose.pose.position.y, delta=0.005)
-        self.assertAlmostEqual(heading(end), 0.0, delta=math.radians(0.5))
+        self.assertAlmostEqual(heading(end.pose.pose.orientation), 0.0, delta=math.radians(0.5))
 
     def test_3_turn_on_the_spot(self):
         start, end, seconds = self.drive(0.0, 1.0, 1.5)
-        self.assertAlmostEqual(heading(end) - heading(start), seconds, delta=0.02 * seconds)  # to the left
+        turned = heading(end.pose.pose.orientation) - heading(start.pose.pose.orientation)
+        self.assertAlmostEqual(turned, seconds, delta=0.02 * seconds)  # to the left
         self.assertAlmostEqual(end.pose.pose.position.x, start.pose.pose.position.x, delta=0.005)
         self.assertAlmostEqual(end.pose.pose.position.y, start.pose.pose.position.y, delta=0.005)
 
