@@ -1,4 +1,4 @@
-"""What both filters' nodes do: read, ask the filter, publish. Topics as upstream: imu/data_raw, imu/mag in, imu/data out."""
+"""What nodes of filters do, and Madgwick's: read, ask the filter, publish. Topics as upstream: imu/data_raw, imu/mag in, imu/data out."""
 from __future__ import annotations
 
 import math
@@ -12,17 +12,15 @@ from dynamic_parameters import Parameter, Server
 from geometry_msgs.msg import Quaternion, TransformStamped, Vector3, Vector3Stamped
 from node_signals.parameters import ParameterError, number
 from sensor_msgs.msg import Imu, MagneticField
-from std_msgs.msg import Bool
 
-from .complementary import Complementary
 from .madgwick import Madgwick, shifted
 from .rotation import conjugate, level_or_north, roll_pitch_yaw, turned
 
-_QUEUE = 5
+QUEUE = 5
 _TOGETHER = 0.1  # s that a reading of the field may be from one of the accelerations
 
 
-def _numbers(vector) -> Tuple[float, float, float]:
+def numbers(vector) -> Tuple[float, float, float]:
     return vector.x, vector.y, vector.z
 
 
@@ -50,17 +48,17 @@ class Node:
         self._last: Optional[rospy.Time] = None
         self._now = rospy.Time.now()
         name = rospy.resolve_name("imu")
-        self._data = rospy.Publisher(f"{name}/data", Imu, queue_size=_QUEUE)
+        self._data = rospy.Publisher(f"{name}/data", Imu, queue_size=QUEUE)
         debug = rospy.get_param("~publish_debug_topics", False)
-        self._rpy = rospy.Publisher(f"{name}/rpy/filtered", Vector3Stamped, queue_size=_QUEUE) if debug else None
+        self._rpy = rospy.Publisher(f"{name}/rpy/filtered", Vector3Stamped, queue_size=QUEUE) if debug else None
         self.prepare(name, debug)
         if use_mag:
-            pair = [message_filters.Subscriber(f"{name}/{topic}", kind, queue_size=_QUEUE)
+            pair = [message_filters.Subscriber(f"{name}/{topic}", kind, queue_size=QUEUE)
                     for topic, kind in (("data_raw", Imu), ("mag", MagneticField))]
-            self._pairs = message_filters.ApproximateTimeSynchronizer(pair, _QUEUE, _TOGETHER)
+            self._pairs = message_filters.ApproximateTimeSynchronizer(pair, QUEUE, _TOGETHER)
             self._pairs.registerCallback(self._take)
         else:
-            self._subscriber = rospy.Subscriber(f"{name}/data_raw", Imu, self._take, queue_size=_QUEUE)
+            self._subscriber = rospy.Subscriber(f"{name}/data_raw", Imu, self._take, queue_size=QUEUE)
 
     def prepare(self, name: str, debug: bool) -> None:
         raise NotImplementedError
@@ -81,7 +79,7 @@ class Node:
             self._last = None
             self.reset()
         self._now = now
-        field = _numbers(mag.magnetic_field) if mag else None
+        field = numbers(mag.magnetic_field) if mag else None
         if field and not all(map(math.isfinite, field)):
             field = None
         stamp = reading.header.stamp
@@ -97,8 +95,8 @@ class Node:
         w, x, y, z = orientation
         variance = self.stddev ** 2
         message = Imu(reading.header, Quaternion(x, y, z, w), [variance, 0, 0, 0, variance, 0, 0, 0, variance],
-                      Vector3(*_numbers(reading.angular_velocity)), reading.angular_velocity_covariance,
-                      Vector3(*_numbers(reading.linear_acceleration)), reading.linear_acceleration_covariance)
+                      Vector3(*numbers(reading.angular_velocity)), reading.angular_velocity_covariance,
+                      Vector3(*numbers(reading.linear_acceleration)), reading.linear_acceleration_covariance)
         self.finish(message, orientation)
         self._data.publish(message)
         if self._rpy:
@@ -112,39 +110,6 @@ class Node:
             transform.header.frame_id, transform.child_frame_id = parent, child
             transform.transform.rotation = Quaternion(x, y, z, w)
             self._tf.sendTransform(transform)
-
-
-class ComplementaryNode(Node):
-    """``complementary_filter_node``."""
-
-    def prepare(self, name: str, debug: bool) -> None:
-        bias = rospy.get_param("~do_bias_estimation", True)
-        gains = {key: number(f"~{key}", 0.01) for key in ("gain_acc", "gain_mag", "bias_alpha")}
-        for key, value in gains.items():
-            if not 0.0 <= value <= 1.0:
-                rospy.logwarn("parameter ~%s is %g, and has to lie between 0 and 1; 0.01 is taken", key, value)
-                gains[key] = 0.01
-        self.filter = Complementary(gains["gain_acc"], gains["gain_mag"], rospy.get_param("~do_adaptive_gain", True),
-                                    gains["bias_alpha"] if bias else None)
-        self._steady = rospy.Publisher(f"{name}/steady_state", Bool, queue_size=_QUEUE) if debug and bias else None
-        self._started = False
-
-    def reset(self) -> None:
-        self.filter.reset()
-        self._started = False
-
-    def answer(self, reading, field, dt):
-        if not self._started:  # the first reading gives the time alone
-            self._started = True
-            return None
-        self.filter.update(_numbers(reading.linear_acceleration), _numbers(reading.angular_velocity), field, dt)
-        return self.filter.orientation
-
-    def finish(self, message, orientation):
-        rate = message.angular_velocity
-        rate.x, rate.y, rate.z = (w - b for w, b in zip(_numbers(rate), self.filter.bias))
-        if self._steady:
-            self._steady.publish(self.filter.steady)
 
 
 class MadgwickNode(Node):
@@ -161,7 +126,7 @@ class MadgwickNode(Node):
         self._stateless = rospy.get_param("~stateless", False)
         self._bare = rospy.get_param("~remove_gravity_vector", False)
         self._yaw = number("~yaw_offset", 0.0) - number("~declination", 0.0)
-        self._raw = rospy.Publisher(f"{name}/rpy/raw", Vector3Stamped, queue_size=_QUEUE) if debug else None
+        self._raw = rospy.Publisher(f"{name}/rpy/raw", Vector3Stamped, queue_size=QUEUE) if debug else None
         self.filter = Madgwick(world)
         self._iron = 0.0, 0.0, 0.0
         self._started = False
@@ -180,7 +145,7 @@ class MadgwickNode(Node):
         self._started = False
 
     def answer(self, reading, field, dt):
-        acceleration = _numbers(reading.linear_acceleration)
+        acceleration = numbers(reading.linear_acceleration)
         if field:
             field = tuple(f - b for f, b in zip(field, self._iron))
         now = level_or_north(self.filter.world, acceleration, field) if not self._started or self._stateless or self._raw else None
@@ -191,7 +156,7 @@ class MadgwickNode(Node):
             self.filter.orientation = now
         self._started = True
         if not self._stateless:
-            self.filter.update(acceleration, _numbers(reading.angular_velocity), field, dt)
+            self.filter.update(acceleration, numbers(reading.angular_velocity), field, dt)
         if self._raw and now is not None and field:
             self._raw.publish(Vector3Stamped(reading.header, Vector3(*roll_pitch_yaw(now))))
         return shifted(self.filter.orientation, self._yaw)
@@ -201,7 +166,7 @@ class MadgwickNode(Node):
             up = (0.0, 0.0, -9.80665 if self.filter.world == "ned" else 9.80665)
             seen = turned(conjugate(orientation), up)
             acceleration = message.linear_acceleration
-            acceleration.x, acceleration.y, acceleration.z = (a - g for a, g in zip(_numbers(acceleration), seen))
+            acceleration.x, acceleration.y, acceleration.z = (a - g for a, g in zip(numbers(acceleration), seen))
 
 
 def main(name: str, kind) -> int:
