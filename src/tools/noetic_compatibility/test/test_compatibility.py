@@ -49,6 +49,17 @@ def test_headers_of_packages_that_are_not_declared_are_found(package):
     assert ended.returncode == 0, ended.stdout
 
 
+def test_libraries_of_packages_that_are_not_declared_are_found(tmp_path, package):
+    """All of Noetic's libraries lie in one folder, too: packages link them by their bare names."""
+    package("roscpp", "", build=False)
+    (tmp_path / "p.cpp").write_text("int main() {}\n")
+    with (tmp_path / "CMakeLists.txt").open("a") as lists:
+        lists.write("add_executable(program p.cpp)\ntarget_link_libraries(program -Wl,--no-as-needed controller_manager)\n")
+    for command in (["cmake", "-S", tmp_path, "-B", tmp_path / "build", "-Wno-dev"], ["cmake", "--build", tmp_path / "build"]):
+        ended = subprocess.run(command, capture_output=True, text=True, timeout=200)
+        assert ended.returncode == 0, ended.stdout + ended.stderr
+
+
 @pytest.mark.parametrize("standard", ["", "add_compile_options(-std=c++11)"])
 def test_old_sources_build(package, standard):
     """Placeholders without namespace, an undeclared package's messages, headers under their names of before 2018."""
