@@ -173,8 +173,9 @@ def run(job: Job, scratch: Path) -> Result:
     """One file in a session of its own; whatever it leaves behind is ended and counts as a failure."""
     home = Path(tempfile.mkdtemp(prefix=job.package.name + "_", dir=scratch))
     environment = dict(os.environ, ROS_HOME=str(home), ROS_TEST_RESULTS_DIR=str(home / "results"),
-                       GAZEBO_MASTER_URI=f"http://localhost:{_gazebo_port()}", PYTHONDONTWRITEBYTECODE="1",
+                       GAZEBO_MASTER_URI=f"http://localhost:{_gazebo_port()}",
                        PYTHONUNBUFFERED="1")  # tests read what nodes print, as it is printed
+    environment.pop("PYTHONDONTWRITEBYTECODE", None)  # every node of every test would compile all messages anew
     if ROOT / "docs" in job.package.parents:  # an example to copy, which is not built here
         environment["ROS_PACKAGE_PATH"] = f"{job.package}:{environment.get('ROS_PACKAGE_PATH', '')}"
     if job.kind == "pytest":
