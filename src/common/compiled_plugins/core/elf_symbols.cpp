@@ -1,5 +1,7 @@
 #include "elf_symbols.hpp"
 
+#include <algorithm>
+#include <cstdlib>
 #include <cstring>
 #include <elf.h>
 #include <filesystem>
@@ -7,6 +9,7 @@
 #include <iterator>
 #include <link.h>
 #include <map>
+#include <sstream>
 
 namespace fs = std::filesystem;
 
@@ -64,25 +67,46 @@ std::set<std::string> defined(const fs::path& path, const std::set<std::string>&
   return found;
 }
 
+/// That of the library, then those that the loader searches: of the sourced workspaces.
+std::vector<std::string> folders(const std::string& library)
+{
+  std::vector<std::string> all{ fs::path(library).parent_path().lexically_normal().string() };
+  const char* const path = std::getenv("LD_LIBRARY_PATH");
+  std::istringstream rest(path ? path : "");
+  for (std::string folder; std::getline(rest, folder, ':');)
+  {
+    folder = fs::path(folder).lexically_normal().string();
+    if (!folder.empty() && std::find(all.begin(), all.end(), folder) == all.end())
+      all.push_back(folder);
+  }
+  return all;
+}
+
 }  // namespace
 
-std::vector<std::string> definers(const std::string& library, const std::set<std::string>& symbols)
+std::vector<std::string> definers(const std::string& library, std::set<std::string> symbols)
 {
   std::vector<std::string> libraries;
-  if (symbols.empty())
-    return libraries;
-  std::error_code error;
   const fs::path own = fs::path(library).filename();
-  std::map<std::string, std::vector<std::string>> whose;
-  for (const fs::directory_entry& entry : fs::directory_iterator(fs::path(library).parent_path(), error))
-    if (entry.path().extension() == ".so" && entry.path().filename() != own)
-      for (const std::string& symbol : defined(entry.path(), symbols))
-        whose[symbol].push_back(entry.path().string());
-  std::set<std::string> sorted;
-  for (const auto& [symbol, those] : whose)
-    if (those.size() == 1)
-      sorted.insert(those.front());
-  libraries.assign(sorted.begin(), sorted.end());
+  for (const std::string& folder : folders(library))
+  {
+    if (symbols.empty())
+      break;
+    std::error_code error;
+    std::map<std::string, std::vector<std::string>> whose;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
+      if (entry.path().extension() == ".so" && entry.path().filename() != own)
+        for (const std::string& symbol : defined(entry.path(), symbols))
+          whose[symbol].push_back(entry.path().string());
+    std::set<std::string> sorted;
+    for (const auto& [symbol, those] : whose)
+    {
+      symbols.erase(symbol);
+      if (those.size() == 1)
+        sorted.insert(those.front());
+    }
+    libraries.insert(libraries.end(), sorted.begin(), sorted.end());
+  }
   return libraries;
 }
 

@@ -8,8 +8,8 @@
 namespace compiled_plugins
 {
 
-/// Libraries (lib*.so) in the folder of ``library`` that define some of ``symbols`` (mangled names). A symbol that two of them
-/// define is nobody's: which one is meant cannot be known.
-std::vector<std::string> definers(const std::string& library, const std::set<std::string>& symbols);
+/// Libraries (lib*.so) that define some of ``symbols`` (mangled names): in the folder of ``library``, and what nobody there does, in
+/// those of LD_LIBRARY_PATH. A symbol that two of one folder define is nobody's: which one is meant cannot be known.
+std::vector<std::string> definers(const std::string& library, std::set<std::string> symbols);
 
 }  // namespace compiled_plugins

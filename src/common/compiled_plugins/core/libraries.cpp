@@ -59,8 +59,9 @@ std::string resolved(const std::string& library)
   return text;
 }
 
-/// Removes from ``missing`` what a library in the same folder defines, and loads that library for all. Upstream's loaders bind
-/// late and share what they load: a plugin that forgot to link a library of its own package finds there what another one brought.
+/// Removes from ``missing`` what a library beside it or in a sourced workspace defines, and loads that library for all. Upstream's
+/// loaders bind late and share what they load: a plugin that forgot to link a library (of its own package, or control_toolbox, which
+/// the simulator has) finds there what another one brought.
 void supply(const std::string& library, std::set<std::string>& missing)
 {
   for (const std::string& neighbour : definers(library, missing))

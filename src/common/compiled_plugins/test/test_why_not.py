@@ -1,4 +1,5 @@
 """Libraries are judged before they are loaded, and what stands beside them helps out."""
+import os
 import subprocess
 import sys
 
@@ -43,6 +44,15 @@ def test_a_library_beside_it_supplies_what_it_forgot_to_link(plugin):
     said, warned = judged(plugin)
     assert said == "42"
     assert warned.count("[WARN]") == 1 and "libhelper.so" in warned and "target_link_libraries" in warned
+
+
+def test_a_library_of_a_sourced_workspace_supplies_it_too(plugin, tmp_path, monkeypatch):
+    (tmp_path / "workspace").mkdir()
+    library(tmp_path / "workspace/libhelper.so", HELPER)
+    monkeypatch.setenv("LD_LIBRARY_PATH", f"{os.environ.get('LD_LIBRARY_PATH', '')}:/nowhere:{tmp_path}:{tmp_path}/workspace")
+    said, warned = judged(plugin)
+    assert said == "42"
+    assert warned.count("[WARN]") == 1 and "workspace/libhelper.so" in warned
 
 
 def test_what_two_of_them_define_is_nobodys(plugin):
