@@ -202,6 +202,7 @@ def test_one_page_may_hold_the_controls(page):
     use(play._run, one, "Step")
     wait(page, lambda: page.frame.iterations == 1)
     page._on_disconnect(one)
+    assert play._hold.value is False
     use(play._run, two, "Step")
     wait(page, lambda: page.frame.iterations == 2)
 

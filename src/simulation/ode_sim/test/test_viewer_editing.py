@@ -243,3 +243,23 @@ def test_a_search_is_not_filled_up_by_the_links_of_what_is_picked(page):
     assert listed("sun") == ["sun"]
     assert listed("wall_12") == ["house", "· wall_12"]
     assert listed("house")[:3] == ["house", "· wall_0", "· wall_1"]
+
+
+def test_a_button_means_what_was_picked_just_before(page):
+    """The pick is done by the thread that draws, the button by its own: it waits."""
+    client, world = Client(), panel(page, "WorldPanel")
+    held = threading.Event()
+    drawer = threading.Thread(target=page.run)
+    drawer.start()
+    try:
+        page.later(lambda: held.wait(10.0))  # it is busy
+        use(world._rows["box", "box", "", ""], client)
+        hand = threading.Thread(target=lambda: use(world._edit, client, "Delete"))
+        hand.start()
+        held.set()
+        hand.join(10.0)
+        assert not client.told and page.simulation.describe().model("box") is None
+    finally:
+        held.set()
+        page._ended.set()
+        drawer.join(10.0)

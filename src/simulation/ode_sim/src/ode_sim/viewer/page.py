@@ -25,6 +25,7 @@ _IDLE_PERIOD = 0.25  # the same while no browser shows it
 _TEXT_PERIOD = 0.2  # wall s between two updates of numbers
 _SETTLING = 20.0  # wall s in which the eye follows a world that is still being put together
 _PATIENCE = 15.0  # wall s that somebody who knocked may take to come in
+_CATCH_UP = 2.0  # wall s that a button waits for the thread that draws
 _FIRST_LOOK = 1.0  # wall s for the browser of the first who came in, before it gets more tabs to make
 _log = logging.getLogger("viewer")
 
@@ -53,7 +54,9 @@ class Page:
         self._jobs: queue.SimpleQueue = queue.SimpleQueue()
         self._ended = threading.Event()
         self._wake = threading.Event()  # there are jobs
+        self._drawer: Optional[threading.Thread] = None  # in run()
         self._holder: Optional[int] = None  # the page that holds the controls
+        self.on_let_go: Callable[[], None] = lambda: None  # the page that held them has gone
         self._pages = 0
         self._counting = threading.Lock()
         self._next_text = 0.0
@@ -111,6 +114,13 @@ class Page:
         self._jobs.put(f)
         self._wake.set()
 
+    def catch_up(self) -> None:
+        """Return when what was asked of the thread that draws is done: a pick before the deletion that follows it. Other threads."""
+        if self._drawer is not None and self._drawer is not threading.current_thread():
+            done = threading.Event()
+            self.later(done.set)
+            done.wait(_CATCH_UP)
+
     def attempt(self, event: Any, f: Callable[[], Any]) -> Any:
         """Do what a page asked for: ``f()``, unless another page holds the controls; a refusal is shown on that page.
 
@@ -151,6 +161,7 @@ class Page:
 
     def run(self, ended: Callable[[], bool] = lambda: False) -> None:
         """Draw until :meth:`close`, or until ``ended()``."""
+        self._drawer = threading.current_thread()
         while not self._ended.is_set() and not ended():
             begin = time.monotonic()
             self._guarded(self.turn)
@@ -159,6 +170,7 @@ class Page:
             while (left := rest - time.monotonic()) > 0.0 and not self._ended.is_set():
                 if self._wake.wait(left):  # what a hand does is done at once
                     self._guarded(self._do_jobs)
+        self._drawer = None
 
     def _guarded(self, f: Callable[[], None]) -> None:
         try:
@@ -291,6 +303,7 @@ class Page:
     def _on_disconnect(self, client: Any) -> None:
         if self._holder == client.client_id:
             self._holder = None
+            self.on_let_go()
         self._count()
 
     def _count(self) -> None:

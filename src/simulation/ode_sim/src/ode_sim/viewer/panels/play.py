@@ -20,6 +20,7 @@ class PlayPanel(Panel):
         self._run.on_click(self._on_run)
         self._reset.on_click(self._on_reset)
         self._hold.on_update(self._on_hold)
+        page.on_let_go = self._let_go
 
     def on_frame(self, frame: Frame) -> None:
         state = "paused" if frame.paused else f"real-time factor {frame.real_time_factor:.2f}"
@@ -41,6 +42,9 @@ class PlayPanel(Panel):
     def _on_hold(self, event: Any) -> None:
         if event.client_id is not None and not self.page.hold(event, event.target.value):
             self._hold.value = not event.target.value
+
+    def _let_go(self) -> None:
+        self._hold.value = False
 
 
 def clock(seconds: float) -> str:
