@@ -13,16 +13,12 @@ among the figures.
 import argparse
 import contextlib
 import json
-import math
 import os
 import re
 import signal
-import socket
-import struct
 import subprocess
 import sys
 import tempfile
-import threading
 import time
 
 import psutil
@@ -30,43 +26,10 @@ import psutil
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path[:0] = [HERE, os.path.join(HERE, "..", "..", "src", "windows", "gzclient", "test")]
 from browser import Browser, missing  # noqa: E402
+from hardships import BROKEN, SlowNetwork, body, broken_bodies, heavy_bodies, swinging_balls, write_world  # noqa: E402
 from run import master  # noqa: E402
 
-WORLD = ("<sdf version='1.6'><world name='default'><include><uri>model://sun</uri></include>"
-         "<include><uri>model://ground_plane</uri></include>{}</world></sdf>")
-LINK = ("<model name='{name}'><pose>{x} {y} {z} 0 0 0</pose><link name='l'><inertial><mass>1</mass><inertia><ixx>0.01</ixx>"
-        "<iyy>0.01</iyy><izz>0.01</izz></inertia></inertial><collision name='c'><geometry><sphere><radius>0.3</radius></sphere>"
-        "</geometry></collision><visual name='v'><geometry>{shape}</geometry></visual></link></model>")
-BALL = "<sphere><radius>0.3</radius></sphere>"
-PENDULUM = ("<model name='{name}'><pose>{x} {y} 2 0 0 0</pose><link name='l'><inertial><pose>0.8 0 0 0 0 0</pose><mass>1</mass><inertia>"
-            "<ixx>0.01</ixx><iyy>0.01</iyy><izz>0.01</izz></inertia></inertial><visual name='v'><pose>0.8 0 0 0 0 0</pose><geometry>"
-            "{shape}</geometry></visual></link><joint name='j' type='revolute'><parent>world</parent><child>l</child><axis>"
-            "<xyz>0 1 0</xyz></axis></joint></model>")
 PLAIN = "table"
-
-
-def body(name, x, y, z, shape):
-    return LINK.format(name=name, x=x, y=y, z=z, shape=shape)
-
-
-def balls(count):
-    """They swing for ever."""
-    return "".join(PENDULUM.format(name=f"b{i}", x=i % 6, y=i // 6, shape=BALL) for i in range(count))
-
-
-def sphere_file(file, rows, columns):
-    """A binary STL of rows x columns x 2 triangles."""
-    def point(row, column):
-        polar, turn = math.pi * row / rows, 2 * math.pi * column / columns
-        radius = 0.3 * (1 + 0.1 * math.sin(9 * turn) * math.sin(7 * polar))
-        return (radius * math.sin(polar) * math.cos(turn), radius * math.sin(polar) * math.sin(turn), radius * math.cos(polar))
-    with open(file, "wb") as stream:
-        stream.write(bytes(80) + struct.pack("<I", 2 * rows * columns))
-        for row in range(rows):
-            for column in range(columns):
-                a, b, c, d = (point(row + i, column + j) for i, j in ((0, 0), (1, 0), (1, 1), (0, 1)))
-                for triangle in ((a, b, c), (a, c, d)):
-                    stream.write(struct.pack("<12fH", 0, 0, 1, *(v for p in triangle for v in p), 0))
 
 
 class Bench:
@@ -91,9 +54,7 @@ class Bench:
 
     @contextlib.contextmanager
     def world(self, models, *options):
-        file = os.path.join(self.folder, "bench.world")
-        with open(file, "w", encoding="utf-8") as stream:
-            stream.write(WORLD.format(models))
+        file = write_world(os.path.join(self.folder, "bench.world"), models)
         quiet = {"env": self.environment, "stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
         with self.run("rosrun", "gazebo_ros", "gzserver", *options, file, stdout=subprocess.DEVNULL) as server:
             while subprocess.run(["rosservice", "call", "/gazebo/get_world_properties"], **quiet).returncode:
@@ -121,7 +82,7 @@ def processor(process):
 def usable(bench):
     """A browser that is open already goes to the address as soon as it is printed."""
     figures = {}
-    with bench.world(balls(30)), Browser("about:blank", frames=0) as page:
+    with bench.world(swinging_balls(30)), Browser("about:blank", frames=0) as page:
         seen, cost = [], []
         for _ in range(3):
             begin = time.monotonic()
@@ -138,7 +99,7 @@ def usable(bench):
 
 def reconnects(bench):
     """The memory is that of the page's own copies at first, which are used again: what grows later would be lost."""
-    with bench.world(balls(30)), bench.client() as (process, address), Browser(address) as page:
+    with bench.world(swinging_balls(30)), bench.client() as (process, address), Browser(address) as page:
         page.see("Iterations", "b20")
         times, memory = [], []
         for _ in range(40):
@@ -155,11 +116,7 @@ def reconnects(bench):
 
 def heavy(bench):
     """200 models of 5 000 triangles."""
-    file = os.path.join(bench.folder, "ball.stl")
-    sphere_file(file, 50, 50)
-    shape = f"<mesh><uri>file://{file}</uri></mesh>"
-    models = "".join(body(f"m{i}", i % 20, i // 20, 0.3, shape) for i in range(200))
-    with bench.world(models, "-u"), bench.client() as (process, address), Browser(address) as page:
+    with bench.world(heavy_bodies(bench.folder), "-u"), bench.client() as (process, address), Browser(address) as page:
         begin = time.monotonic()
         page.see("more: search")
         listed = time.monotonic() - begin
@@ -188,7 +145,7 @@ def factor(page):
 def pages(bench):
     """Three at once; the simulation runs on."""
     with contextlib.ExitStack() as stack:
-        stack.enter_context(bench.world(balls(30)))
+        stack.enter_context(bench.world(swinging_balls(30)))
         process, address = stack.enter_context(bench.client())
         shown = [stack.enter_context(Browser(address, frames=2)) for _ in range(3)]
         for page in shown:
@@ -236,42 +193,10 @@ def sim_time(environment):
     return int(re.search(r"secs: +(\d+)", said).group(1)) + 1e-9 * int(re.search(r"nsecs: +(\d+)", said).group(1))
 
 
-class SlowNetwork:
-    """A relay that lets through so many bytes a second in each direction, each of them late."""
-
-    def __init__(self, port, rate=250_000, delay=0.1):
-        self._target, self._rate, self._delay = port, rate, delay
-        self._door = socket.create_server(("127.0.0.1", 0))
-        self.port = self._door.getsockname()[1]
-        self.carried = 0
-        threading.Thread(target=self._accept, daemon=True).start()
-
-    def _accept(self):
-        with contextlib.suppress(OSError):
-            while True:
-                near = self._door.accept()[0]
-                far = socket.create_connection(("127.0.0.1", self._target))
-                for one, other in ((near, far), (far, near)):
-                    threading.Thread(target=self._carry, args=(one, other), daemon=True).start()
-
-    def _carry(self, source, target):
-        with contextlib.suppress(OSError):
-            time.sleep(self._delay)
-            while data := source.recv(4096):
-                target.sendall(data)
-                self.carried += len(data)
-                time.sleep(len(data) / self._rate)
-            target.shutdown(socket.SHUT_WR)
-
-    def close(self):
-        self._door.close()
-
-
 def slow(bench):
     """2 Mbit/s, 0.1 s late; 30 bodies move all the time."""
-    with bench.world(balls(30)), bench.client() as (_, address):
-        network = SlowNetwork(int(address.rsplit(":", 1)[1].strip("/")))
-        try:
+    with bench.world(swinging_balls(30)), bench.client() as (_, address):
+        with SlowNetwork(int(address.rsplit(":", 1)[1].strip("/"))) as network:
             begin = time.monotonic()
             with Browser(f"http://localhost:{network.port}/") as page:
                 page.see("real-time factor", "b20", seconds=120)
@@ -286,24 +211,13 @@ def slow(bench):
                 return {"2 Mbit/s: page usable, s": loaded, "2 Mbit/s: carried until then, MB": carried / 1e6,
                         "2 Mbit/s: stream, kB/s": rate / 1e3, "2 Mbit/s: from a click to what it did, s": answered,
                         "2 Mbit/s: errors on the page": len(page.complaints())}
-        finally:
-            network.close()
 
 
 def broken(bench):
     """Meshes that are not there, cut off, of text, of nothing; what is whole is drawn."""
-    files = {"cut.stl": bytes(80) + struct.pack("<I", 4_000_000) + b"x" * 500, "text.dae": b"<COLLADA><open>", "none.obj": b"",
-             "nan.stl": bytes(80) + struct.pack("<I", 1) + struct.pack("<12fH", *[float("nan")] * 12, 0),
-             "far.obj": b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 99\n"}
-    models = [body(PLAIN, 0, 0, 0.3, BALL)]
-    for number, (name, content) in enumerate((*files.items(), ("missing.dae", None))):
-        file = os.path.join(bench.folder, name)
-        if content is not None:
-            with open(file, "wb") as stream:
-                stream.write(content)
-        models.append(body(name, 2, number, 0.3, f"<mesh><uri>file://{file}</uri></mesh>"))
-    with bench.world("".join(models)), bench.client() as (_, address), Browser(address) as page:
-        page.see("real-time factor", PLAIN, *files, "missing.dae")
+    models = body(PLAIN, 0, 0, 0.3) + broken_bodies(bench.folder)
+    with bench.world(models), bench.client() as (_, address), Browser(address) as page:
+        page.see("real-time factor", PLAIN, *BROKEN)
         page.click(PLAIN)
         page.see("Mass (kg)")
         bench.shot(page, "broken")

@@ -1,4 +1,5 @@
 """Debian's Chromium, with real clicks and keys, for tests that look at the page as a user does."""
+import io
 import math
 import os
 import shutil
@@ -6,6 +7,7 @@ import tempfile
 import time
 
 import numpy as np
+from PIL import Image
 
 PATIENCE = 60.0  # s, on a machine that does other things too
 FRAMES = 3  # a second: the processor draws them, and has more to do
@@ -19,6 +21,19 @@ def wait(condition, what, seconds=PATIENCE):
             return value
         time.sleep(0.05)
     raise AssertionError(f"not in {seconds:g} s: {what}")
+
+
+def pixels(png):
+    """(rows, columns, 3), 0 to 255."""
+    return np.asarray(Image.open(io.BytesIO(png)).convert("RGB"), float)
+
+
+def share(png, colour):
+    """Number of pixels of the hue of ``colour``, in light and shade."""
+    seen = pixels(png) - pixels(png).mean(axis=2, keepdims=True)
+    wanted = np.array(colour) - np.mean(colour)
+    strong = np.linalg.norm(seen, axis=2)
+    return int(((seen @ wanted > 0.97 * strong * np.linalg.norm(wanted)) & (strong > 25.0)).sum())
 
 
 def missing():
@@ -156,6 +171,11 @@ class Browser:
         """A button of that label, where a tab has it as well."""
         self._press(f"//button[not(@role='tab')][normalize-space(.)='{label}']", f"button {label}")
 
+    def put_away(self, words):
+        """The notice with these words, once it is there."""
+        self._press(f"//*[contains(@class, 'Notification-root')][contains(., {_quoted(words)})]//button", f"notice {words}")
+        wait(lambda: words not in self.text(), f"the notice {words} is gone")
+
     def check(self, label):
         """The box of that label."""
         self._press(self._input(label, "checkbox"), f"box {label}")
@@ -173,7 +193,7 @@ class Browser:
         self._press(self._input(label, part=part), f"field {label}")  # once a folder that unfolds shows it
         element = self._find(self._input(label, part=part), f"field {label}")
         element.send_keys(Keys.CONTROL, "a")
-        element.send_keys(str(value), Keys.ENTER)
+        element.send_keys(str(value) or Keys.DELETE, Keys.ENTER)
 
     def upload(self, label, file):
         """A file through the button of that label, as the dialog of the browser gives it."""

@@ -17,7 +17,7 @@ from std_msgs.msg import ColorRGBA, Float64
 from visualization_msgs.msg import Marker
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from browser import Browser, wait  # noqa: E402
+from browser import Browser, share, wait  # noqa: E402
 from session import FIELD, HERE, Session, call, material, names, paused, position, sides, sim_time, streams, world, yaw  # noqa: E402
 
 EVIL = "<img src=x onerror=document.title='owned'>"
@@ -258,6 +258,7 @@ class Clicks(Session):
         wait(lambda: streams("/gazebo/view_contacts"), "contacts are asked for")
         page.check("Contacts")  # the arrows of forces need not be at rest
         wait(lambda: not streams("/gazebo/view_contacts"), "contacts are not asked for any more")
+        page.click("Show all")
         page.click("TF")
         page.check("TF frames")
         cube = Marker(type=Marker.CUBE, ns="test", scale=Vector3(1.0, 1.0, 1.0), color=ColorRGBA(1.0, 1.0, 0.0, 1.0))
@@ -267,12 +268,13 @@ class Clicks(Session):
         page.click("Markers")
         page.click("Look for markers")
         page.see("/test_marker")
-        before = page.scene()
+        before = share(page.scene(), (255, 255, 0))
         page.check("/test_marker")
-        page.settled(before)
+        wait(lambda: share(page.scene(), (255, 255, 0)) > before + 200, "a yellow cube")
         wait(lambda: markers.get_num_connections(), "the page listens")
         page.check("/test_marker")
         wait(lambda: not markers.get_num_connections(), "the page does not listen any more")
+        wait(lambda: share(page.scene(), (255, 255, 0)) < before + 50, "no cube")
 
     def test_5b_controllers_are_listed_stopped_and_commanded(self):
         """The controller manager is the test's; so are the names."""

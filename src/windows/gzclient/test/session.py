@@ -1,4 +1,5 @@
 """A simulator and its window as a user starts them, for tests by real clicks; what a click did is asked by ROS."""
+import contextlib
 import os
 import signal
 import subprocess
@@ -113,7 +114,9 @@ class Session(unittest.TestCase):
         if self._testMethodName.startswith(self.LAST):
             return
         if os.environ.get("BROWSER_SHOTS"):
-            self.page.shot(os.path.join(os.environ["BROWSER_SHOTS"], f"{self._testMethodName}.png"))
+            from selenium.common.exceptions import WebDriverException
+            with contextlib.suppress(WebDriverException):  # the browser is busy: the test was about something else
+                self.page.shot(os.path.join(os.environ["BROWSER_SHOTS"], f"{self._testMethodName}.png"))
         usual = ("Unable to preventDefault inside passive event listener",  # three.js's own, at every press on the scene
                  "Tried to update non-existent component")  # viser's own, of a control that goes while it is set
         self.assertEqual([line for line in self.page.complaints() if not any(word in line for word in usual)], [])
