@@ -69,8 +69,8 @@ py::array_t<ContactRecord> contacts(World& w) {
   return a;
 }
 
-std::pair<py::array_t<double>, py::array_t<int32_t>> rays(World& w, Doubles origins, Doubles directions, double max_range,
-                                                          std::vector<int> ignore) {
+std::pair<py::array_t<double>, py::array_t<int32_t>> rays(World& w, const Doubles& origins, const Doubles& directions,
+                                                          double max_range, const std::vector<int>& ignore) {
   if (origins.size() != directions.size() || origins.size() % 3)
     throw std::invalid_argument("rays take as many origins as directions, of three numbers each");
   const auto n = origins.size() / 3;
@@ -115,7 +115,7 @@ void bind_world(py::module_& m) {
           "step", [](World& w, int n) { return w.step(n), w.scene().messages.any(); }, py::call_guard<py::gil_scoped_release>())
       .def("take_messages", [](World& w) { return w.scene().messages.take(); })
       .def("save", [](World& w) { return py::bytes(w.save()); })
-      .def("restore", [](World& w, py::bytes data, const std::vector<int>& welds) { w.restore(data, welds); })
+      .def("restore", [](World& w, const py::bytes& data, const std::vector<int>& welds) { w.restore(data, welds); })
       .def_property_readonly("link_poses",
                              [](World& w) {
                                const auto& poses = w.scene().link_poses;

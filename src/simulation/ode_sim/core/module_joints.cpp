@@ -44,7 +44,7 @@ void bind_drive(py::class_<Joint, std::shared_ptr<Joint>>& joint) {
       .def_readonly("drive_target", &Joint::target)
       .def(
           "follow",
-          [](Joint& j, std::shared_ptr<Joint> leader, double multiplier, double offset) {
+          [](Joint& j, const std::shared_ptr<Joint>& leader, double multiplier, double offset) {
             world_of(j.model).follow(j, leader, multiplier, offset);
           },
           py::arg("leader").none(true), py::arg("multiplier"), py::arg("offset"))

@@ -87,7 +87,7 @@ void bind_solids(ModelClass& model) {
           py::keep_alive<0, 1>())
       .def(
           "add_heightmap",
-          [](Model& model, Link& l, T7 X, Doubles heights, double size_x, double size_y) {
+          [](Model& model, Link& l, T7 X, const Doubles& heights, double size_x, double size_y) {
             if (heights.ndim() != 2) throw std::invalid_argument("heights must be rows of columns");
             const int columns = static_cast<int>(heights.shape(1)), rows = static_cast<int>(heights.shape(0));
             std::vector<double> h(heights.data(), heights.data() + heights.size());

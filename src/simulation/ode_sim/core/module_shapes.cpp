@@ -31,12 +31,13 @@ void bind_shapes(py::module_& m) {
           [](Surface& s, T3 v) { s.fdir1 = limited(in(v), kFarthest, "fdir1"); });
 
   py::class_<MeshData, std::shared_ptr<MeshData>>(m, "MeshData")
-      .def(py::init([](Doubles vertices, py::array_t<uint32_t, py::array::c_style | py::array::forcecast> triangles) {
-             std::vector<double> v(vertices.data(), vertices.data() + vertices.size());
-             std::vector<dTriIndex> t(triangles.data(), triangles.data() + triangles.size());
-             py::gil_scoped_release release;
-             return std::make_shared<MeshData>(std::move(v), std::move(t));
-           }),
+      .def(py::init(
+               [](const Doubles& vertices, const py::array_t<uint32_t, py::array::c_style | py::array::forcecast>& triangles) {
+                 std::vector<double> v(vertices.data(), vertices.data() + vertices.size());
+                 std::vector<dTriIndex> t(triangles.data(), triangles.data() + triangles.size());
+                 py::gil_scoped_release release;
+                 return std::make_shared<MeshData>(std::move(v), std::move(t));
+               }),
            py::arg("vertices"), py::arg("triangles"));
 
   py::class_<Shape, std::shared_ptr<Shape>>(m, "Shape")

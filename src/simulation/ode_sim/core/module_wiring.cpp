@@ -7,7 +7,8 @@ namespace {
 
 using Numbers = std::tuple<double, double, double, double, double, double, double, double, double>;
 
-double* place(uintptr_t address) { return reinterpret_cast<double*>(address); }
+// NumPy gives an address as a number.
+double* place(uintptr_t address) { return reinterpret_cast<double*>(address); }  // NOLINT(performance-no-int-to-ptr)
 
 int add_command(Wiring& w, int joint, uintptr_t command, uintptr_t slope, double effort_limit, int rule, bool has_position,
                 const Numbers& numbers) {

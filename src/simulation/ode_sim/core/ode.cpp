@@ -66,6 +66,7 @@ BodyState state_of(dBodyID b) {
 
 std::vector<BodyState> states_of(const std::vector<dBodyID>& bodies) {
   std::vector<BodyState> out;
+  out.reserve(bodies.size());
   for (dBodyID b : bodies) out.push_back(state_of(b));
   return out;
 }
