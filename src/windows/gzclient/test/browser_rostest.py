@@ -243,7 +243,7 @@ class Clicks(Session):
         page = self.page
         page.click("Timeline")
         page.click("Keep this moment")
-        page.see("1 moments")
+        page.see("1 moment,")
         page.fill("Steps", 200)
         page.click("Step")
         page.see("Iterations\t225")

@@ -57,7 +57,7 @@ class TimelinePanel(Panel):
         self._slider.disabled = many < 1
         self._slider.max = max(1, many - 1)
         self._text.content = note(
-            f"{many} moments, {clock(self._moments[0].time)} to {clock(self._moments[-1].time)}" if many else
+            f"{many} moment{'s' if many > 1 else ''}, {clock(self._moments[0].time)} to {clock(self._moments[-1].time)}" if many else
             "nothing is kept; a model that comes or goes begins anew")
 
     def _go(self, which: int) -> None:
@@ -65,7 +65,7 @@ class TimelinePanel(Panel):
             raise Refused("No moment is kept yet.")
         moment = self._moments[max(0, min(which, len(self._moments) - 1))]
         self.simulation.go_back(moment.number)
-        self._text.content = note(f"at {clock(moment.time)}, one of {len(self._moments)} moments")
+        self._text.content = note(f"at {clock(moment.time)}, one of {len(self._moments)}")
 
     def _step(self, where: str) -> None:
         self._look()
