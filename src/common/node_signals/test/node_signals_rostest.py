@@ -47,6 +47,29 @@ class NodeSignals(unittest.TestCase):
         self.assertNotIn("/waiting", self.publishers())
         return output, node.returncode
 
+    def test_a_service_is_waited_for(self):
+        code = """
+import node_signals, rospy, threading
+from node_signals.services import wait_for_service
+from std_srvs.srv import Empty
+node_signals.init_node("asks", anonymous=True)
+try:
+    wait_for_service("late_service", timeout=0.2)
+except rospy.ROSException as error:
+    print(error, flush=True)
+threading.Timer(0.3, lambda: rospy.Service("late_service", Empty, lambda request: [])).start()
+wait_for_service("late_service")
+rospy.ServiceProxy("late_service", Empty)()
+print("called", flush=True)
+threading.Timer(0.2, lambda: rospy.signal_shutdown("")).start()
+try:
+    wait_for_service("never")
+except rospy.ROSInterruptException:
+    print("interrupted", flush=True)
+"""
+        run = subprocess.run([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True, timeout=60)
+        self.assertEqual(run.stdout.splitlines(), ["timeout exceeded while waiting for service /late_service", "called", "interrupted"])
+
     def test_a_thread_that_publishes_until_the_end_says_nothing(self):
         """As the status timer of actionlib's servers, which looks at nothing before it publishes."""
         for late, said in (("topic.publish()", False), ("raise ValueError('a fault')", True)):

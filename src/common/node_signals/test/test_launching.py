@@ -56,9 +56,11 @@ def test_ctrl_c_at_any_line_of_the_start(tmp_path, moment):
 
 
 def test_ctrl_c_while_files_are_read_is_silent(tmp_path):
-    process = launch(tmp_path)
-    time.sleep(0.1)
-    seconds, text = interrupted(process, "")
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
+    process = launch(tmp_path, LAUNCH.replace("rosversion roslaunch", f"cat {pipe}"))
+    with open(pipe, "w"):  # waits for the reader, for whom roslaunch waits
+        seconds, text = interrupted(process, "")
     assert seconds < AT_ONCE and "Traceback" not in text and "auto-starting" not in text, text
 
 

@@ -8,6 +8,7 @@ import node_signals
 import rospy
 from controller_manager_msgs.srv import ListControllers
 from controller_manager_msgs.utils import describe_controller_managers
+from node_signals.services import wait_for_service
 
 from . import controller_manager_interface as manager
 
@@ -104,7 +105,7 @@ def _switch_group(arguments: argparse.Namespace) -> None:
         return
     service = rospy.resolve_name("controller_manager/list_controllers")
     try:
-        rospy.wait_for_service(service, timeout=5.0)
+        wait_for_service(service, timeout=5.0)
     except rospy.ROSException:
         rospy.logerr("there is no service %s. %s", service, describe_controller_managers())
         return

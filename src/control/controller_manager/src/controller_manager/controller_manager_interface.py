@@ -11,6 +11,7 @@ from controller_manager_msgs.srv import (ListControllers, ListControllerTypes, L
                                          ReloadControllerLibraries, SwitchController, SwitchControllerRequest,
                                          UnloadController)
 from controller_manager_msgs.utils import describe_controller_managers
+from node_signals.services import wait_for_service
 
 #: s of waiting after which the tools say what they are waiting for
 _PATIENCE = 3.0
@@ -20,10 +21,10 @@ def _call(name: str, service_type: type, *arguments: Any) -> Any:
     """Call a service of the controller manager, waiting for it as long as it takes."""
     service = rospy.resolve_name(f"controller_manager/{name}")
     try:
-        rospy.wait_for_service(service, timeout=_PATIENCE)
+        wait_for_service(service, timeout=_PATIENCE)
     except rospy.ROSException:
         rospy.logwarn("Waiting for service %s. %s", service, describe_controller_managers())
-        rospy.wait_for_service(service)
+        wait_for_service(service)
     return rospy.ServiceProxy(service, service_type).call(*arguments)
 
 

@@ -13,6 +13,7 @@ import yaml
 from controller_manager_msgs.srv import (ListControllers, LoadController, SwitchController, SwitchControllerRequest,
                                          UnloadController)
 from controller_manager_msgs.utils import describe_controller_managers
+from node_signals import services
 from std_msgs.msg import Bool
 
 #: s without an answer after which a waiting node says what it looks for and what there is
@@ -54,7 +55,7 @@ def wait_for_service(name: str, timeout: Optional[float]) -> bool:
                 continue
             return False
         try:
-            rospy.wait_for_service(name, timeout=min(1.0, left) if left is not None else 1.0)
+            services.wait_for_service(name, timeout=min(1.0, left) if left is not None else 1.0)
             return True
         except rospy.ROSInterruptException:
             return False

@@ -8,6 +8,7 @@ from typing import Any, List, Optional
 import rospy
 from gazebo_msgs.srv import SetModelConfiguration, SpawnModel
 from geometry_msgs.msg import Pose
+from node_signals.services import wait_for_service
 
 
 _SENT_TEXT = re.compile(r"\btext(?=:\d+)")  # the server's name for a description that it was sent
@@ -19,7 +20,7 @@ def _call(what: str, name: str, service: type, *arguments: Any, origin: str = ""
     :param origin: where the description was read, by which its lines are named
     """
     rospy.loginfo("Waiting for service %s", name)
-    rospy.wait_for_service(name)
+    wait_for_service(name)
     try:
         rospy.loginfo("Calling service %s", name)
         response = rospy.ServiceProxy(name, service)(*arguments)
@@ -52,6 +53,6 @@ def set_model_configuration_client(model_name: str, model_param_name: str, joint
                                    joint_positions: List[float], gazebo_namespace: str) -> Optional[bool]:
     """Put joints to positions (rad, m), one wall second after the service is there, when controllers have started."""
     name = gazebo_namespace + "/set_model_configuration"
-    rospy.wait_for_service(name)
+    wait_for_service(name)
     time.sleep(1.0)
     return _call("Set model configuration", name, SetModelConfiguration, model_name, model_param_name, joint_names, joint_positions)

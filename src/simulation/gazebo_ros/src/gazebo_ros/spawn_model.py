@@ -14,6 +14,7 @@ import node_signals
 import rospy
 from gazebo_msgs.srv import DeleteModel, GetWorldProperties
 from geometry_msgs.msg import Point, Pose, Quaternion
+from node_signals.services import wait_for_service
 from std_srvs.srv import Empty
 
 from gazebo_ros import gazebo_interface
@@ -110,7 +111,7 @@ def wait_for_model(name: str, gazebo_namespace: str) -> None:
     """
     rospy.loginfo("Waiting for model %s before proceeding.", name)
     service = gazebo_namespace + "/get_world_properties"
-    rospy.wait_for_service(service)
+    wait_for_service(service)
     world = rospy.ServiceProxy(service, GetWorldProperties, persistent=True)
     try:
         while not rospy.is_shutdown() and name not in world().model_names:
@@ -168,7 +169,7 @@ def spawn(options: argparse.Namespace) -> None:
                            options.gazebo_namespace, origin=where))
     if bond:  # from here on its end waits for the answer, so the simulator must be there
         service = f"{options.gazebo_namespace}/spawn_{'urdf' if options.urdf else 'sdf'}_model"
-        rospy.wait_for_service(service)
+        wait_for_service(service)
     if not (bond.spawn(ask) if bond else ask()):
         raise Failure(f"model {options.model} was not spawned")
     if options.joints:
@@ -183,7 +184,7 @@ def spawn(options: argparse.Namespace) -> None:
 def _unpause(gazebo_namespace: str) -> None:
     rospy.loginfo("Unpausing physics")
     name = gazebo_namespace + "/unpause_physics"
-    rospy.wait_for_service(name)
+    wait_for_service(name)
     try:
         rospy.ServiceProxy(name, Empty)()
     except rospy.ServiceException as error:
