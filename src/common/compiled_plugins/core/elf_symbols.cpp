@@ -47,6 +47,13 @@ void look_up(const std::string& file, const ElfW(Shdr) & table, const ElfW(Shdr)
   }
 }
 
+/// False if it is no library of this machine's kind.
+bool read_header(const std::string& file, ElfW(Ehdr) & header)
+{
+  return at(file, 0, header) && std::memcmp(header.e_ident, ELFMAG, SELFMAG) == 0 &&
+         header.e_ident[EI_CLASS] == (sizeof(void*) == 8 ? ELFCLASS64 : ELFCLASS32);
+}
+
 /// Those of ``symbols`` that a library defines for others; none of what is no library of this machine's kind.
 std::set<std::string> defined(const fs::path& path, const std::set<std::string>& symbols)
 {
@@ -54,8 +61,7 @@ std::set<std::string> defined(const fs::path& path, const std::set<std::string>&
   std::ifstream stream(path, std::ios::binary);
   const std::string file((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
   ElfW(Ehdr) header;
-  if (!at(file, 0, header) || std::memcmp(header.e_ident, ELFMAG, SELFMAG) != 0 ||
-      header.e_ident[EI_CLASS] != (sizeof(void*) == 8 ? ELFCLASS64 : ELFCLASS32))
+  if (!read_header(file, header))
     return found;
   const auto section = [&](std::size_t index, ElfW(Shdr) & record) {
     return index < header.e_shnum && at(file, header.e_shoff + index * header.e_shentsize, record);
@@ -83,6 +89,21 @@ std::vector<std::string> folders(const std::string& library)
 }
 
 }  // namespace
+
+bool whole_library(const std::string& path)
+{
+  std::ifstream stream(path, std::ios::binary);
+  const std::string file((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+  ElfW(Ehdr) header;
+  if (!read_header(file, header) || header.e_type != ET_DYN)
+    return false;
+  ElfW(Phdr) segment;
+  for (std::size_t index = 0; index < header.e_phnum; ++index)
+    if (!at(file, header.e_phoff + index * header.e_phentsize, segment) || segment.p_offset > file.size() ||
+        segment.p_filesz > file.size() - segment.p_offset)
+      return false;
+  return header.e_phnum > 0;
+}
 
 std::vector<std::string> definers(const std::string& library, std::set<std::string> symbols)
 {

@@ -2,6 +2,7 @@
 #include <compiled_plugins/guard.h>
 #include "elf_symbols.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <cxxabi.h>
@@ -59,14 +60,34 @@ std::string resolved(const std::string& library)
   return text;
 }
 
-/// Removes from ``missing`` what a library beside it or in a sourced workspace defines, and loads that library for all. Upstream's
-/// loaders bind late and share what they load: a plugin that forgot to link a library (of its own package, or control_toolbox, which
-/// the simulator has) finds there what another one brought.
-void supply(const std::string& library, std::set<std::string>& missing)
+/// What upstream's simulator has loaded of the system's ROS libraries: gazebo_ros, gazebo_ros_control and gazebo_plugins link them.
+const char* const of_the_simulator[] = { "liburdf.so",         "libtf.so",
+                                         "libtf2_ros.so",      "libtf2.so",
+                                         "libactionlib.so",    "libdynamic_reconfigure_config_init_mutex.so",
+                                         "libnodeletlib.so",   "libimage_transport.so",
+                                         "libcv_bridge.so",    "libcamera_info_manager.so",
+                                         "libpolled_camera.so" };
+
+/// Those of them that define some of ``symbols``.
+std::vector<std::string> of_the_system(const std::set<std::string>& symbols)
 {
-  for (const std::string& neighbour : definers(library, missing))
+  std::vector<std::string> names;
+  for (const char* name : of_the_simulator)
+    if (void* const handle = symbols.empty() ? nullptr : dlopen(name, RTLD_LAZY))
+    {
+      if (std::any_of(symbols.begin(), symbols.end(), [&](const std::string& symbol) { return dlsym(handle, symbol.c_str()); }))
+        names.push_back(name);
+      dlclose(handle);
+    }
+  return names;
+}
+
+/// Removes from ``missing`` what one of the libraries defines, and loads it for all.
+void take(const std::string& library, const std::vector<std::string>& others, std::set<std::string>& missing)
+{
+  for (const std::string& neighbour : others)
   {
-    if (!dlopen(neighbour.c_str(), RTLD_LAZY | RTLD_GLOBAL))
+    if (missing.empty() || !dlopen(neighbour.c_str(), RTLD_LAZY | RTLD_GLOBAL))
       continue;
     std::fprintf(stderr,
                  "[WARN] the library %s calls what %s defines and does not link it; it is loaded with it. Name it in "
@@ -77,12 +98,22 @@ void supply(const std::string& library, std::set<std::string>& missing)
   }
 }
 
+/// Upstream's loaders bind late and share what they load: a plugin that forgot to link a library (of its own package, or control_toolbox
+/// or urdf, which the simulator has) finds there what another one brought.
+void supply(const std::string& library, std::set<std::string>& missing)
+{
+  take(library, definers(library, missing), missing);
+  take(library, of_the_system(missing), missing);
+}
+
 }  // namespace
 
 std::string why_not(const std::string& library)
 {
   if (access(library.c_str(), R_OK) != 0)
     return "the library " + library + " does not exist or cannot be read; is its package built?";
+  if (!whole_library(library))
+    return "the file " + library + " is no library, or not all of one; build its package anew";
   std::istringstream lines(resolved(library));
   std::set<std::string> missing;
   std::vector<std::string> absent;

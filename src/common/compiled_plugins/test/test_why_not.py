@@ -39,6 +39,16 @@ def test_what_nobody_defines_is_told(plugin):
     assert "lacks the symbol help(int)" in said and "target_link_libraries" in said
 
 
+def test_what_is_no_library_or_cut_off_is_told(plugin):
+    cut = plugin.parent / "libcut.so"
+    whole = plugin.read_bytes()
+    for size in (0, 10, 200, 3000, 9000, 12000):
+        cut.write_bytes(whole[:size])
+        assert "libcut.so is no library, or not all of one" in judged(cut)[0], size
+    cut.write_text("no library")
+    assert "is no library" in judged(cut)[0]
+
+
 def test_a_library_beside_it_supplies_what_it_forgot_to_link(plugin):
     library(plugin.parent / "libhelper.so", HELPER)
     said, warned = judged(plugin)
@@ -53,6 +63,17 @@ def test_a_library_of_a_sourced_workspace_supplies_it_too(plugin, tmp_path, monk
     said, warned = judged(plugin)
     assert said == "42"
     assert warned.count("[WARN]") == 1 and "workspace/libhelper.so" in warned
+
+
+def test_a_library_that_the_simulator_has_supplies_it_as_well(tmp_path):
+    """Unitree's joint controller calls urdf::Model without linking it."""
+    source = """#include <string>
+        namespace urdf { struct Model { bool initFile(const std::string&); }; }
+        extern "C" int answer() { bool (urdf::Model::* volatile f)(const std::string&) = &urdf::Model::initFile; return f ? 42 : 0; }"""
+    library(tmp_path / "libplugin.so", source)
+    said, warned = judged(tmp_path / "libplugin.so")
+    assert said == "42"
+    assert warned.count("[WARN]") == 1 and "liburdf.so" in warned
 
 
 def test_what_two_of_them_define_is_nobodys(plugin):
