@@ -134,7 +134,7 @@ void LoadedPlugin::LoadSensor(const std::string& name, int index, const std::str
   const sensors::SensorPtr sensor = sensors::SensorManager::Instance()->GetSensor(name);
   if (!sensor)
     throw std::runtime_error(
-        "sensors of this type are not there in C++, but for rays, contacts, IMU, GPS, altimeter and magnetometer; "
+        "sensors of this type are not there in C++, but for rays, contacts, IMU, GPS, altimeter, magnetometer, sonar and logical camera; "
         "in Python they are (gazebo_ros.plugin)");
   const sdf::ElementPtr element = plugin_element(sensor->Element(), index, text);
   call("Load()", [&] { sensor_->Load(sensor, element); });

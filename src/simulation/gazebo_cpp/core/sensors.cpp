@@ -232,6 +232,10 @@ SensorPtr made(const std::string& type)
     return std::make_shared<AltimeterSensor>();
   if (type == "magnetometer")
     return std::make_shared<MagnetometerSensor>();
+  if (type == "sonar")
+    return std::make_shared<SonarSensor>();
+  if (type == "logical_camera")
+    return std::make_shared<LogicalCameraSensor>();
   return SensorPtr();
 }
 

@@ -142,6 +142,17 @@ class CompiledTest(Case):
         self.sim.step(10)
         self.assertAlmostEqual(self.sim.world().sim_time, before + 0.01, delta=1e-9)
 
+    def test_a_plugin_of_a_visual_is_left_out(self):
+        """Its package builds, so that the others of it are there."""
+        library = "libgazebo_ros_test_drawer.so"
+        model = (f"<sdf version='1.6'><model name='arm'><link name='l'><visual name='v'><geometry><sphere><radius>1</radius></sphere>"
+                 f"</geometry><plugin name='draws' filename='{library}'/></visual></link>"
+                 f"<plugin name='astray' filename='{library}'/></model></sdf>")
+        self.done(self.sim.spawn("arm", model))
+        self.logged(library, "plugins of a visual have no effect")
+        self.logged("plugin astray", "lacks the symbol gazebo::rendering::")
+        self.assertIn("arm", self.sim.world().model_names)
+
     def test_two_classes_of_one_name_and_what_fails_before_the_first_step(self):
         self.spawn_arm(library="twin_one")
         self.logged("twin one loaded")

@@ -95,6 +95,34 @@ class SensorsTest(Case):
     def test_magnetometer(self):
         self.near(self.feel("magnetometer", yaw=math.pi / 2), (0.05, 22.8758, -5.5645, -42.3884), 1e-3)
 
+    def sonar(self, pitch):
+        return self.feel("sonar", block=f"<pose>0 0 0.4 0 {pitch} 0</pose><sonar><min>0.1</min><max>5</max><radius>1</radius></sonar>")
+
+    def test_sonar(self):
+        """Its cone is turned ahead; the lower edge falls by one in five, from 0.9 m above the ground."""
+        self.near(self.sonar(-math.pi / 2), (0.05, 0.9 * math.sqrt(26)), 1e-3)
+
+    def test_sonar_and_a_wall(self):
+        self.done(self.sim.spawn("wall", WALL))
+        self.near(self.sonar(-math.pi / 2), (0.05, 3.0), 1e-3)
+
+    def test_sonar_that_meets_nothing(self):
+        self.near(self.sonar(math.pi), (0.05, 5.0), 1e-9)
+
+    def logical_camera(self, yaw):
+        """What it tells of a wall, 3.5 m from the origin."""
+        self.done(self.sim.spawn("wall", WALL))
+        block = ("<logical_camera><near>0.6</near><far>5</far><horizontal_fov>1</horizontal_fov><aspect_ratio>1.3</aspect_ratio>"
+                 "</logical_camera>")
+        return self.feel("logical_camera", block=block, yaw=yaw)
+
+    def test_logical_camera(self):
+        """It names what is before it, but neither itself nor the ground."""
+        self.near(self.logical_camera(0.0), (0.05, len("wall"), 3.5, 0, 0.5), 1e-3)
+
+    def test_logical_camera_that_looks_away(self):
+        self.near(self.logical_camera(math.pi), (0.05,), 1e-3)
+
     def test_a_sensor_that_is_not_there_in_cpp_is_one_line(self):
         self.done(self.sim.spawn("post", MODEL.format(yaw=0, sensors=SENSOR.format(type="camera", rate=5, block="<camera/>"))))
         self.wait(lambda: any("plugin p" in line and "rays, contacts, IMU" in line for line in self.log))

@@ -13,7 +13,7 @@ public:
   void Load(sensors::SensorPtr sensor, sdf::ElementPtr sdf) override
   {
     sensor_ = sensor;
-    values_ = nh_.advertise<std_msgs::Float64MultiArray>("feel/" + sensor->Name(), 1000, true);
+    values_ = nh_->advertise<std_msgs::Float64MultiArray>("feel/" + sensor->Name(), 1000, true);
     updated_ = sensor->ConnectUpdated([this] { OnUpdate(); });
     sensor->SetActive(true);
     Publish({ sdf->Get<double>("mark"), sensors::get_sensor(sensor->ScopedName()) == sensor ? 1.0 : 0.0 });
@@ -42,6 +42,14 @@ private:
       values.insert(values.end(), { altimeter->Altitude(), altimeter->VerticalVelocity() });
     else if (const auto field = std::dynamic_pointer_cast<sensors::MagnetometerSensor>(sensor_))
       add(field->MagneticField() * 1e6);
+    else if (const auto sonar = std::dynamic_pointer_cast<sensors::SonarSensor>(sensor_))
+      values.push_back(sonar->Range());
+    else if (const auto camera = std::dynamic_pointer_cast<sensors::LogicalCameraSensor>(sensor_))
+    {
+      const msgs::LogicalCameraImage image = camera->Image();
+      for (const auto& model : image.model())
+        values.push_back(static_cast<double>(model.name().size())), add(msgs::ConvertIgn(model.pose()).Pos());
+    }
     Publish(values);
   }
 
@@ -52,7 +60,7 @@ private:
     values_.publish(message);
   }
 
-  ros::NodeHandle nh_;
+  boost::scoped_ptr<ros::NodeHandle> nh_{ new ros::NodeHandle };  // known from Gazebo's headers, as to many plugins of others
   ros::Publisher values_;
   sensors::SensorPtr sensor_;
   event::ConnectionPtr updated_;

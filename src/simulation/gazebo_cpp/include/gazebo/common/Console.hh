@@ -1,7 +1,8 @@
 // gzmsg, gzdbg, gzwarn, gzerr, gzlog: streams with a line's beginning. Warnings and errors are always shown, the others with --verbose.
 #pragma once
-#include <thread>            // plugins use it without including it
-#include <boost/thread.hpp>  // plugins of others have threads and mutexes of boost without including them
+#include <thread>                // plugins use it without including it
+#include <boost/scoped_ptr.hpp>  // so do they with this one
+#include <boost/thread.hpp>      // and with threads and mutexes of boost
 #include <iostream>
 #include <sstream>
 #include <string>

@@ -1,1 +1,63 @@
-#error "there is no rendering of Gazebo here: a plugin that draws or reads cameras cannot be built"
+// Nothing of Gazebo draws here. Plugins of visuals, which only decorate, are compiled against these names, so that the package that
+// brings them builds with all its others; none of them is loaded, and none of these functions is there to be called.
+#pragma once
+#include <cstdint>
+#include <string>
+
+#include <ignition/math/Color.hh>
+#include <ignition/math/Pose3.hh>
+#include <ignition/math/Vector3.hh>
+#include <sdf/sdf.hh>
+
+#include <gazebo/rendering/DynamicLines.hh>
+#include <gazebo/rendering/RenderTypes.hh>
+#include <gazebo/util/system.hh>
+
+namespace gazebo
+{
+namespace rendering
+{
+
+class Visual : public std::enable_shared_from_this<Visual>
+{
+public:
+  virtual ~Visual();
+  std::string Name() const;
+  uint32_t GetId() const;
+  ScenePtr GetScene() const;
+  VisualPtr GetParent() const;
+  VisualPtr GetRootVisual();
+  unsigned int GetChildCount();
+  VisualPtr GetChild(unsigned int index);
+  void AttachVisual(VisualPtr visual);
+  void DetachVisual(VisualPtr visual);
+  sdf::ElementPtr GetSDF() const;
+  void SetVisible(bool visible, bool cascade = true);
+  bool GetVisible() const;
+  void ToggleVisible();
+  void SetVisibilityFlags(uint32_t flags);
+  void SetCastShadows(bool shadows);
+  void SetMaterial(const std::string& material, bool unique = true, bool cascade = true);
+  std::string GetMaterialName() const;
+  void SetAmbient(const ignition::math::Color& color, bool cascade = true);
+  void SetDiffuse(const ignition::math::Color& color, bool cascade = true);
+  void SetSpecular(const ignition::math::Color& color, bool cascade = true);
+  void SetEmissive(const ignition::math::Color& color, bool cascade = true);
+  void SetTransparency(float transparency, bool cascade = true);
+  float GetTransparency();
+  void SetScale(const ignition::math::Vector3d& scale);
+  ignition::math::Vector3d Scale() const;
+  void SetPose(const ignition::math::Pose3d& pose);
+  ignition::math::Pose3d Pose() const;
+  void SetPosition(const ignition::math::Vector3d& position);
+  ignition::math::Vector3d Position() const;
+  void SetRotation(const ignition::math::Quaterniond& rotation);
+  ignition::math::Quaterniond Rotation() const;
+  void SetWorldPose(const ignition::math::Pose3d& pose);
+  ignition::math::Pose3d WorldPose() const;
+  DynamicLines* CreateDynamicLine(RenderOpType type = RENDERING_LINE_STRIP);
+  void DeleteDynamicLine(DynamicLines* line);
+};
+
+}  // namespace rendering
+}  // namespace gazebo

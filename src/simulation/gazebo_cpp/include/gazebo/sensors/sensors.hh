@@ -5,6 +5,7 @@
 #include <gazebo/sensors/GpsSensor.hh>
 #include <gazebo/sensors/GpuRaySensor.hh>
 #include <gazebo/sensors/ImuSensor.hh>
+#include <gazebo/sensors/LogicalCameraSensor.hh>
 #include <gazebo/sensors/MagnetometerSensor.hh>
 #include <gazebo/sensors/Noise.hh>
 #include <gazebo/sensors/RaySensor.hh>
@@ -12,3 +13,4 @@
 #include <gazebo/sensors/SensorManager.hh>
 #include <gazebo/sensors/SensorTypes.hh>
 #include <gazebo/sensors/SensorsIface.hh>
+#include <gazebo/sensors/SonarSensor.hh>
