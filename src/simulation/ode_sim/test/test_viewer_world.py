@@ -279,3 +279,29 @@ def test_in_a_huge_world_the_eye_looks_at_the_robot():
     eye, target = view_of(wall, robot)
     assert np.linalg.norm(eye - target) < 5.0 and np.allclose(target, (1.25, 1.25, 0.5))
     assert np.isfinite(view_of(np.zeros((0, 3)), np.zeros((0, 3)))[0]).all()
+
+
+def test_a_texture_is_encoded_once_for_all_meshes_that_show_it():
+    import io
+
+    from ode_sim.viewer.drawing import _picture
+    from PIL import Image
+    pixels = np.zeros((8, 6, 4), np.uint8)
+    pixels[..., 0], pixels[:4, :, 1], pixels[..., 3] = 200, 90, 255
+    for alpha, kind, name in ((255, b"\xff\xd8", "JPEG"), (80, b"\x89PNG", None)):
+        pixels[..., 3] = alpha
+        picture, files = _picture(pixels), (io.BytesIO(), io.BytesIO())
+        for file in files:
+            picture.save(file, format=name or "png")
+        assert files[0].getvalue() == files[1].getvalue() and files[0].getvalue().startswith(kind) and picture.format == name
+        assert np.abs(np.asarray(Image.open(files[0]).convert("RGBA"), int) - pixels).mean() < (5 if name else 1e-9)
+
+
+def test_who_comes_in_while_a_large_world_is_drawn_goes_on_seeing_it(page, monkeypatch):
+    """The first drawing took longer than the page waits for a browser, which came in just then."""
+    looks = []
+    monkeypatch.setattr(page.simulation, "look", looks.append)
+    monkeypatch.setattr(page.server, "get_clients", lambda: {7: Client(7)})
+    page._begun, page._pages = time.monotonic() - 100.0, 0
+    page.turn()
+    assert looks == [True] and page._pages == 1

@@ -187,8 +187,7 @@ class Page:
             self._complete()
         if self._begun and time.monotonic() > self._begun + _PATIENCE:
             self._begun = 0.0
-            if not self._pages:  # nobody came in
-                self.simulation.look(False)
+            self._count()  # if nobody came in; who comes in just now is counted by another thread
         frame = self.simulation.frame()
         if frame is None:
             if not self._absent:
