@@ -80,6 +80,19 @@ class Window(unittest.TestCase):
         wait(lambda: not streams(), "nobody looks any more")
         self.assertFalse(paused())
 
+    def test_a_page_that_crashed_is_loaded_again(self):
+        """The browser says so, and has a button for it."""
+        renderers = [part for part in psutil.Process(self.client.pid).children(recursive=True) if "--type=renderer" in part.cmdline()]
+        for part in renderers:
+            part.kill()
+        wait(lambda: not self.red_pixels(), "a window without the box")
+        self.assertIsNone(self.client.poll())
+        self.desktop.xdotool("windowfocus", "--sync", *self.window)
+        self.desktop.keys("F5")
+        wait(self.red_pixels, "the red box again")
+        self.assertTrue(streams())
+        self.assertFalse(paused())
+
     def test_the_end_of_gzclient_closes_the_window(self):
         browsers = self.browsers()
         self.assertTrue(browsers)

@@ -85,7 +85,7 @@ def _camera(view: View, source: Any, place: Place) -> None:
     pose = optical(place.pose)
     source.node = view.scene.add_camera_frustum(
         source.name(place.node), fov=2 * math.atan(math.tan(min(wide, 3.0) / 2) / aspect), aspect=aspect, scale=0.3,
-        image=picture, format="jpeg", position=pose.p, wxyz=wxyz(pose.q), cast_shadow=False)
+        thickness=0.005, image=picture, format="jpeg", position=pose.p, wxyz=wxyz(pose.q), cast_shadow=False)
 
 
 def _cloud(view: View, source: Any, place: Place) -> None:
