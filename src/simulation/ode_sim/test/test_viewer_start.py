@@ -122,3 +122,12 @@ def test_more_tabs_wait_until_a_browser_that_is_expected_has_shown_the_world(mon
         assert isinstance(page.panels[-1], Notes)
     finally:
         page.close()
+
+
+def test_what_a_world_lacks_is_said():
+    from ode_sim import World
+    from ode_sim.viewer import LocalSimulation, Page
+    world = World.load("<sdf version='1.6'><world name='w'><include><uri>model://nowhere</uri></include></world></sdf>")
+    said = []
+    with Page(LocalSimulation(world, paused=True), port=0, say=said.append):
+        assert any("model://nowhere" in line for line in said), said

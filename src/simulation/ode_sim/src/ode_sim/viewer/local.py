@@ -51,6 +51,10 @@ class LocalSimulation(Simulation):
         self._thread = threading.Thread(target=self._run, name="physics", daemon=True)
         self._thread.start()
 
+    @property
+    def problems(self) -> Tuple[str, ...]:
+        return tuple(str(problem) for problem in self._world.problems if problem.severity != "note")
+
     def call(self, f: Callable):
         """``f(world)`` between two steps, and its result."""
         future: Future = Future()

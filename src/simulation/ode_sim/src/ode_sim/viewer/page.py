@@ -51,6 +51,8 @@ class Page:
         self.world = WorldRecord()
         self.frame: Optional[Frame] = None
         self._say = say
+        for line in simulation.problems:
+            say(line)
         self._jobs: queue.SimpleQueue = queue.SimpleQueue()
         self._ended = threading.Event()
         self._wake = threading.Event()  # there are jobs

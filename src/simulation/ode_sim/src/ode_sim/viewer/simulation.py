@@ -115,6 +115,11 @@ class Simulation(ABC):
     :raises Refused: all of them but :meth:`frame`.
     """
 
+    @property
+    def problems(self) -> Tuple[str, ...]:
+        """Lines about what of the world had to be left out, if nobody else has said them."""
+        return ()
+
     #: what :meth:`insert` may be given, by the name that a person sees -> URI or file
     def model_names(self) -> Dict[str, str]:
         """Models of the model path: name -> path of the SDF file."""
