@@ -192,6 +192,8 @@ class Browser:
         from selenium.webdriver.common.keys import Keys
         self._press(self._input(label, part=part), f"field {label}")  # once a folder that unfolds shows it
         element = self._find(self._input(label, part=part), f"field {label}")
+        # a field that was entered puts its caret right a turn later: keys that come before, sooner than a hand's, lose their minus to it
+        self.driver.execute_async_script("const done = arguments[0]; setTimeout(() => setTimeout(done, 20), 0)")
         element.send_keys(Keys.CONTROL, "a")
         element.send_keys(str(value) or Keys.DELETE, Keys.ENTER)
 

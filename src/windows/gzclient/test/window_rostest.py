@@ -50,8 +50,12 @@ class Window(unittest.TestCase):
 
     def end(self):
         if self.client.poll() is None:
-            os.killpg(self.client.pid, signal.SIGKILL)
-            self.client.wait()
+            os.killpg(self.client.pid, signal.SIGINT)  # one that is killed stays in the master's book as somebody who looks
+            try:
+                self.client.wait(PATIENCE)
+            except subprocess.TimeoutExpired:
+                os.killpg(self.client.pid, signal.SIGKILL)
+                self.client.wait()
 
     def find(self):
         found = subprocess.run(["xdotool", "search", "--onlyvisible", "--name", "^Gazebo$"], env=self.desktop.environment,
