@@ -1,4 +1,5 @@
 """Debian's Chromium, with real clicks and keys, for tests that look at the page as a user does."""
+import contextlib
 import io
 import math
 import os
@@ -172,9 +173,18 @@ class Browser:
         self._press(f"//button[not(@role='tab')][normalize-space(.)='{label}']", f"button {label}")
 
     def put_away(self, words):
-        """The notice with these words, once it is there."""
-        self._press(f"//*[contains(@class, 'Notification-root')][contains(., {_quoted(words)})]//button", f"notice {words}")
-        wait(lambda: words not in self.text(), f"the notice {words} is gone")
+        """The notice with these words, once it is there; a click on one that still slides in may miss it."""
+        from selenium.common.exceptions import WebDriverException
+        from selenium.webdriver.common.by import By
+        path = f"//*[contains(@class, 'Notification-root')][contains(., {_quoted(words)})]//button"
+        self.see(words)
+
+        def away():
+            with contextlib.suppress(WebDriverException):
+                for button in self.driver.find_elements(By.XPATH, path):
+                    button.click()
+            return words not in self.text()
+        wait(away, f"the notice {words} is gone")
 
     def check(self, label):
         """The box of that label."""

@@ -2,6 +2,7 @@
 """What the window shows of sensors, topics and physics, and what it keeps of the scene: in a real browser, by clicks."""
 import os
 import sys
+import time
 import xmlrpc.client
 
 import numpy as np
@@ -68,7 +69,9 @@ class Sensors(Session):
         page.fill("Arrow for 1 N (m)", 0.1)  # out of the bodies on which the forces act
         page.click("Sensors")
         page.put_away("Software WebGL")
-        empty = page.scene()
+        until = sim_time() + 2.0
+        wait(lambda: sim_time() > until, "bodies at rest")
+        empty = self.at_rest()
         for kind, (topic, colour) in KINDS.items():
             page.check(kind)
             wait(lambda topic=topic: listened(topic), f"{topic} is listened to")
@@ -81,6 +84,14 @@ class Sensors(Session):
             page.check(kind)
             wait(lambda topic=topic: not listened(topic), f"{topic} is not listened to any more")
             wait(lambda: differ(page.scene(), empty) < 10, f"a view without {kind}")
+
+    def at_rest(self):
+        """The scene, once it is drawn as the simulation is now."""
+        def still():
+            first = self.page.scene()
+            time.sleep(1.5)
+            return first if differ(first, self.page.scene()) < 2 else None
+        return wait(still, "a scene at rest")
 
     def test_3_topics_as_picture_text_and_plot(self):
         page = self.page
