@@ -34,10 +34,10 @@ def listened(topic):
 
 
 def coarse(png):
-    """Means of squares of 8 pixels: the page draws edges finer when it has time to."""
+    """Means of squares of 16 pixels: the page draws edges and lines finer when it has time to."""
     seen = pixels(png)
-    rows, columns = seen.shape[0] // 8, seen.shape[1] // 8
-    return seen[:8 * rows, :8 * columns].reshape(rows, 8, columns, 8, 3).mean(axis=(1, 3))
+    rows, columns = seen.shape[0] // 16, seen.shape[1] // 16
+    return seen[:16 * rows, :16 * columns].reshape(rows, 16, columns, 16, 3).mean(axis=(1, 3))
 
 
 def differ(one, other):
@@ -66,6 +66,7 @@ class Sensors(Session):
         page.click("Play")
         wait(lambda: not paused(), "play")
         page.click("View")
+        page.check("Grid")  # off: its lines are as thick as the page finds time for
         page.fill("Arrow for 1 N (m)", 0.1)  # out of the bodies on which the forces act
         page.click("Sensors")
         page.put_away("Software WebGL")
@@ -76,14 +77,14 @@ class Sensors(Session):
             page.check(kind)
             wait(lambda topic=topic: listened(topic), f"{topic} is listened to")
             if colour is None:
-                wait(lambda: differ(page.scene(), empty) > 40, kind)
+                wait(lambda: differ(page.scene(), empty) > 4, kind)
             else:
                 wait(lambda colour=colour: share(page.scene(), colour) > share(empty, colour) + 30, kind)
             if os.environ.get("BROWSER_SHOTS"):
                 page.shot(os.path.join(os.environ["BROWSER_SHOTS"], f"{kind}.png"))
             page.check(kind)
             wait(lambda topic=topic: not listened(topic), f"{topic} is not listened to any more")
-            wait(lambda: differ(page.scene(), empty) < 10, f"a view without {kind}")
+            wait(lambda: differ(page.scene(), empty) < 3, f"a view without {kind}")
 
     def at_rest(self):
         """The scene, once it is drawn as the simulation is now."""
@@ -132,7 +133,7 @@ class Sensors(Session):
             self.assertEqual(other.driver.title, "Replay of sensing")
             wait(lambda: len(np.unique(pixels(other.scene()).reshape(-1, 3), axis=0)) > 20, "a scene")
             begin = other.scene()
-            wait(lambda: differ(other.scene(), begin) > 8, "something that moves")
+            wait(lambda: differ(other.scene(), begin) > 3, "something that moves")
             self.assertEqual(other.complaints(), [])
 
     def drop(self):
