@@ -76,15 +76,16 @@ class Sensors(Session):
         for kind, (topic, colour) in KINDS.items():
             page.check(kind)
             wait(lambda topic=topic: listened(topic), f"{topic} is listened to")
-            if colour is None:
-                wait(lambda: differ(page.scene(), empty) > 4, kind)
-            else:
-                wait(lambda colour=colour: share(page.scene(), colour) > share(empty, colour) + 30, kind)
+            def drawn(colour=colour):
+                png = page.scene()
+                return differ(png, empty) if colour is None else share(png, colour) - share(empty, colour)
+            least = 4 if colour is None else 30
+            much = wait(lambda: max(0, drawn() - least), kind) + least
             if os.environ.get("BROWSER_SHOTS"):
                 page.shot(os.path.join(os.environ["BROWSER_SHOTS"], f"{kind}.png"))
             page.check(kind)
             wait(lambda topic=topic: not listened(topic), f"{topic} is not listened to any more")
-            wait(lambda: differ(page.scene(), empty) < 3, f"a view without {kind}")
+            wait(lambda: drawn() < 0.5 * much, f"a view without {kind}")
 
     def at_rest(self):
         """The scene, once it is drawn as the simulation is now."""

@@ -66,6 +66,13 @@ def streams(topic="/gazebo/view"):
     return any(name == topic for name, _ in rosgraph.Master(rospy.get_name()).getSystemState()[1])
 
 
+def errors(page):
+    """Lines of its console that say that something is wrong."""
+    usual = ("Unable to preventDefault inside passive event listener",  # three.js's own, at every press on the scene
+             "Tried to update non-existent component")  # viser's own, of a control that goes while it is set
+    return [line for line in page.complaints() if not any(word in line for word in usual)]
+
+
 class Session(unittest.TestCase):
     """One page, in the order of the tests' names.
 
@@ -117,6 +124,4 @@ class Session(unittest.TestCase):
             from selenium.common.exceptions import WebDriverException
             with contextlib.suppress(WebDriverException):  # the browser is busy: the test was about something else
                 self.page.shot(os.path.join(os.environ["BROWSER_SHOTS"], f"{self._testMethodName}.png"))
-        usual = ("Unable to preventDefault inside passive event listener",  # three.js's own, at every press on the scene
-                 "Tried to update non-existent component")  # viser's own, of a control that goes while it is set
-        self.assertEqual([line for line in self.page.complaints() if not any(word in line for word in usual)], [])
+        self.assertEqual(errors(self.page), [])
