@@ -72,20 +72,26 @@ class Sensors(Session):
         page.put_away("Software WebGL")
         until = sim_time() + 2.0
         wait(lambda: sim_time() > until, "bodies at rest")
-        empty = self.at_rest()
         for kind, (topic, colour) in KINDS.items():
-            page.check(kind)
-            wait(lambda topic=topic: listened(topic), f"{topic} is listened to")
-            def drawn(colour=colour):
-                png = page.scene()
-                return differ(png, empty) if colour is None else share(png, colour) - share(empty, colour)
-            least = 4 if colour is None else 30
-            much = wait(lambda: max(0, drawn() - least), kind) + least
-            if os.environ.get("BROWSER_SHOTS"):
-                page.shot(os.path.join(os.environ["BROWSER_SHOTS"], f"{kind}.png"))
-            page.check(kind)
-            wait(lambda topic=topic: not listened(topic), f"{topic} is not listened to any more")
-            wait(lambda: drawn() < 0.5 * much, f"a view without {kind}")
+            self.is_drawn_while_checked(kind, topic, colour)
+
+    def is_drawn_while_checked(self, kind, topic, colour):
+        """:param colour: of what is drawn; None where it has the colours of the world"""
+        page, before = self.page, self.at_rest()
+        least = 4 if colour is None else 30
+
+        def drawn(since):
+            png = page.scene()
+            return differ(png, since) if colour is None else abs(share(png, colour) - share(since, colour))
+        page.check(kind)
+        wait(lambda: listened(topic), f"{topic} is listened to")
+        wait(lambda: drawn(before) > least, kind)
+        shown = self.at_rest()
+        if os.environ.get("BROWSER_SHOTS"):
+            page.shot(os.path.join(os.environ["BROWSER_SHOTS"], f"{kind}.png"))
+        page.check(kind)
+        wait(lambda: not listened(topic), f"{topic} is not listened to any more")
+        wait(lambda: drawn(shown) > least / 2, f"a view without {kind}")
 
     def at_rest(self):
         """The scene, once it is drawn as the simulation is now."""
