@@ -6,6 +6,7 @@
 #include <ros/ros.h>
 
 #include <atomic>
+#include <cmath>
 #include <memory>
 #include <thread>
 
@@ -233,6 +234,9 @@ TEST(MoveItCpp, plansExecutesAndStops)
 {
   const auto cpp = std::make_shared<moveit_cpp::MoveItCpp>(ros::NodeHandle("~"));
   EXPECT_EQ(cpp->getPlanningPipelines().size(), 1u);
+  // joint_state_publisher says zeros until it has heard of the controllers where the robot is.
+  for (int i = 0; i < 1000 && std::abs(cpp->getCurrentState(0.0)->getVariablePosition("joint_2") + 0.6) > 0.01; ++i)
+    ros::WallDuration(0.01).sleep();
   moveit_cpp::PlanningComponent arm("manipulator", cpp);
   EXPECT_FALSE(arm.plan());  // no goal
   EXPECT_FALSE(arm.execute());
