@@ -78,20 +78,23 @@ class Sensors(Session):
     def is_drawn_while_checked(self, kind, topic, colour):
         """:param colour: of what is drawn; None where it has the colours of the world"""
         page, before = self.page, self.at_rest()
-        least = 4 if colour is None else 30
 
-        def drawn(since):
-            png = page.scene()
-            return differ(png, since) if colour is None else abs(share(png, colour) - share(since, colour))
+        def drawn(since, now):
+            return differ(now, since) if colour is None else share(now, colour) - share(since, colour)
         page.check(kind)
         wait(lambda: listened(topic), f"{topic} is listened to")
-        wait(lambda: drawn(before) > least, kind)
+        wait(lambda: drawn(before, page.scene()) > (4 if colour is None else 30), kind)
         shown = self.at_rest()
         if os.environ.get("BROWSER_SHOTS"):
             page.shot(os.path.join(os.environ["BROWSER_SHOTS"], f"{kind}.png"))
         page.check(kind)
         wait(lambda: not listened(topic), f"{topic} is not listened to any more")
-        wait(lambda: drawn(shown) > least / 2, f"a view without {kind}")
+
+        def gone():
+            """It looks more as before than as with what was drawn."""
+            now = page.scene()
+            return abs(drawn(before, now)) < 0.5 * abs(drawn(shown, now))
+        wait(gone, f"a view without {kind}")
 
     def at_rest(self):
         """The scene, once it is drawn as the simulation is now."""
@@ -130,12 +133,7 @@ class Sensors(Session):
         page = self.page
         page.click("Record")
         page.button("Record")
-        page.see("Stop and keep the recording")
-        self.drop()
-        page.click("Stop and keep the recording")
-        file = os.path.join(self.home.name, "replay.html")
-        with open(file, "wb") as stream:
-            stream.write(page.downloaded(".html"))
+        file = self.kept("Stop and keep the recording", ".html")
         with Browser(f"file://{file}") as other:
             self.assertEqual(other.driver.title, "Replay of sensing")
             wait(lambda: len(np.unique(pixels(other.scene()).reshape(-1, 3), axis=0)) > 20, "a scene")
@@ -143,11 +141,17 @@ class Sensors(Session):
             wait(lambda: differ(other.scene(), begin) > 3, "something that moves")
             self.assertEqual(other.complaints(), [])
 
-    def drop(self):
-        """The block, which falls for a second."""
+    def kept(self, stop, ending):
+        """A file of what is recorded while the block falls for a second; ``stop`` is the button that ends it."""
+        self.page.see(stop)
         call("set_model_state", SetModelState, ModelState("block", Pose(Point(0.0, 2.0, 5.0), Quaternion(w=1.0)), Twist(), "world"))
         until = sim_time() + 1.0
         wait(lambda: sim_time() > until, "a second")
+        self.page.click(stop)
+        file = os.path.join(self.home.name, f"kept{ending}")
+        with open(file, "wb") as stream:
+            stream.write(self.page.downloaded(ending))
+        return file
 
     def test_5_a_screenshot_is_what_the_page_shows(self):
         page = self.page
@@ -158,15 +162,8 @@ class Sensors(Session):
 
     def test_6_a_film_shows_what_moved(self):
         import cv2
-        page = self.page
-        page.click("Film")
-        page.see("Stop and keep the film")
-        self.drop()
-        page.click("Stop and keep the film")
-        file = os.path.join(self.home.name, "film.mp4")
-        with open(file, "wb") as stream:
-            stream.write(page.downloaded(".mp4"))
-        film, pictures = cv2.VideoCapture(file), []
+        self.page.click("Film")
+        film, pictures = cv2.VideoCapture(self.kept("Stop and keep the film", ".mp4")), []
         while (read := film.read())[0]:
             pictures.append(read[1])
         self.assertGreater(len(pictures), 10)
