@@ -47,6 +47,12 @@ void look_up(const std::string& file, const ElfW(Shdr) & table, const ElfW(Shdr)
   }
 }
 
+std::string content(const fs::path& path)
+{
+  std::ifstream stream(path, std::ios::binary);
+  return { std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>() };
+}
+
 /// False if it is no library of this machine's kind.
 bool read_header(const std::string& file, ElfW(Ehdr) & header)
 {
@@ -58,8 +64,7 @@ bool read_header(const std::string& file, ElfW(Ehdr) & header)
 std::set<std::string> defined(const fs::path& path, const std::set<std::string>& symbols)
 {
   std::set<std::string> found;
-  std::ifstream stream(path, std::ios::binary);
-  const std::string file((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+  const std::string file = content(path);
   ElfW(Ehdr) header;
   if (!read_header(file, header))
     return found;
@@ -92,8 +97,7 @@ std::vector<std::string> folders(const std::string& library)
 
 bool whole_library(const std::string& path)
 {
-  std::ifstream stream(path, std::ios::binary);
-  const std::string file((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+  const std::string file = content(path);
   ElfW(Ehdr) header;
   if (!read_header(file, header) || header.e_type != ET_DYN)
     return false;

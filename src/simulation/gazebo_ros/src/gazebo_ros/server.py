@@ -42,8 +42,7 @@ class WallLimit:
         self._gate = Spaced(_WALL_RATE)
 
     def due(self) -> bool:
-        server = self._server  # as `server.throttled`; asked at every step by every publisher
-        return (server.throttle.paced and not server._requested_steps) or self._gate.due(time.monotonic_ns())
+        return self._server.throttled or self._gate.due(time.monotonic_ns())
 
 
 class ResolvedModel:
@@ -106,6 +105,7 @@ class Server:
         self._models: Dict[str, _ModelRuntime] = {}
         self._sensors: Tuple[Sensor, ...] = ()
         self._wake_limit = WallLimit(self)
+        self.now_ns = 0  # as now(), read at every step
         self._set_now()
         self.stepped.connect(self._wake_sleepers)
         world.before_step.append(self._begin_step)
