@@ -18,12 +18,17 @@ AT_ONCE = 5.0  # s; upstream takes 10 to 40 where it fails, a loaded machine abo
 def launch(tmp_path, text=LAUNCH, **changed):
     file = tmp_path / "two.launch"
     file.write_text(text)
+    return started(tmp_path, ["roslaunch", str(file)], **changed)
+
+
+def started(tmp_path, command, **changed):
+    """It with a port of its own, whose master nobody else has."""
     with socket.socket() as probe:
         probe.bind(("localhost", 0))
         port = probe.getsockname()[1]
     environment = {**os.environ, "ROS_MASTER_URI": f"http://localhost:{port}", "ROS_HOME": str(tmp_path),
                    "PYTHONUNBUFFERED": "1", **changed}
-    return subprocess.Popen(["roslaunch", "-p", str(port), str(file)], env=environment, stdout=subprocess.PIPE,
+    return subprocess.Popen([*command, "-p", str(port)], env=environment, stdout=subprocess.PIPE,
                             stderr=subprocess.STDOUT, text=True, start_new_session=True)
 
 
@@ -50,6 +55,21 @@ def test_ctrl_c_at_any_line_of_the_start(tmp_path, moment):
             break
     else:
         pytest.fail(f"roslaunch ended before it said '{moment}': {said}")
+    seconds, text = interrupted(process, said)
+    assert seconds < AT_ONCE, text
+    assert "Traceback" not in text and "RLException" not in text, text
+
+
+@pytest.mark.parametrize("moment", ["logging to", "auto-starting new master", "process[master]", "started core service"])
+def test_ctrl_c_at_any_line_of_roscore(tmp_path, moment):
+    process = started(tmp_path, ["roscore"])
+    said = ""
+    for line in process.stdout:
+        said += line
+        if moment in line:
+            break
+    else:
+        pytest.fail(f"roscore ended before it said '{moment}': {said}")
     seconds, text = interrupted(process, said)
     assert seconds < AT_ONCE, text
     assert "Traceback" not in text and "RLException" not in text, text

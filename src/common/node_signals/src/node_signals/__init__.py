@@ -28,10 +28,12 @@ import select
 import signal
 import sys
 import threading
+import time
 from typing import Optional
 
 _SIGNALS = (signal.SIGINT, signal.SIGTERM)
 _PATIENCE = 1.5  # s that a main thread which hangs gets to return when the node is shut down
+_REGISTERED_SOON = 0.002  # s
 _shut_down = threading.Event()  # the shutdown hooks have run, the master knows
 
 
@@ -72,7 +74,7 @@ def init_node(name: str, **options) -> None:
     """
     import rospy
 
-    end_when_starved_at_start()
+    before_init_node()
     rospy.init_node(name, disable_signals=True, **options)
     _notice_shutdown()
     for number in _SIGNALS:
@@ -101,9 +103,26 @@ def leave(code: Optional[int] = 0) -> None:
     _exit(code or 0)
 
 
-def end_when_starved_at_start() -> None:
-    """For nodes that call ``rospy.init_node`` themselves, before they do: when the thread of one of its servers cannot
-    start, rospy takes it for a shutdown, or logs it and goes on without."""
+def before_init_node() -> None:
+    """For nodes that call ``rospy.init_node`` themselves, before they do."""
+    _end_when_starved_at_start()
+    _register_promptly()
+
+
+def _register_promptly() -> None:
+    """rospy looks ten times a second whether the master knows the node; a launch file has a dozen nodes that wait for another."""
+    import rospy
+
+    class Prompt:
+        @staticmethod
+        def sleep(seconds: float) -> None:
+            time.sleep(min(seconds, _REGISTERED_SOON))
+
+    rospy.impl.init.time = Prompt  # nothing else of time is used there
+
+
+def _end_when_starved_at_start() -> None:
+    """When the thread of one of its servers cannot start, rospy takes it for a shutdown, or logs it and goes on without."""
     import rospy
 
     def look(record: logging.LogRecord) -> bool:

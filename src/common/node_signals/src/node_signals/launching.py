@@ -1,4 +1,4 @@
-"""``roslaunch`` with a Ctrl-C that works at any moment and logs that find a place; everything else is Debian's roslaunch.
+"""``roslaunch`` and ``roscore`` with a Ctrl-C that works at any moment and logs that find a place; everything else is Debian's.
 
 Upstream ends its processes inside the signal's handler. A Ctrl-C that comes while roslaunch starts a process - its lock is
 held then - or between fork and exec of a node waits there for 10 to 40 s, one that comes while it starts the master waits for
@@ -16,9 +16,12 @@ import tempfile
 import threading
 from typing import Optional, Set
 
-import rospkg
-import roslaunch
-from roslaunch import core, nodeprocess, pmon
+from node_signals import quick_start
+
+quick_start.prepare()  # before roslaunch is imported
+import rospkg  # noqa: E402
+import roslaunch  # noqa: E402
+from roslaunch import core, nodeprocess, pmon  # noqa: E402
 
 from node_signals.absent import in_one_line
 from node_signals.children import end_with_parent
@@ -117,7 +120,7 @@ def _naming_windows_without_display(start):
     return checked
 
 
-def main() -> None:
+def prepare() -> None:
     signal.signal(signal.SIGINT, signal.SIG_DFL)  # nothing has been started yet; pmon takes over with its first process
     _find_place_for_logs()
     supply_python(os.environ)
@@ -128,4 +131,13 @@ def main() -> None:
     nodeprocess.LocalProcess.start = _naming_windows_without_display(nodeprocess.LocalProcess.start)
     rospkg.ResourceNotFound.__str__ = in_one_line
     roslaunch.handle_exception = _silent_when_ending(roslaunch.handle_exception)
+
+
+def main() -> None:
+    prepare()
     roslaunch.main()
+
+
+def roscore() -> None:
+    prepare()
+    quick_start.become(sys.argv[0])

@@ -11,6 +11,17 @@ A robot's main loop::
 
 The services live in ``<namespace>/controller_manager`` and run in threads of rospy.
 """
-from .manager import ControllerManager
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from controller_manager.manager import ControllerManager
 
 __all__ = ["ControllerManager"]
+
+
+def __getattr__(name: str) -> Any:  # spawner wants its own module from here, and no more
+    if name in ("ControllerManager", "manager"):
+        manager = import_module(f"{__name__}.manager")
+        return manager if name == "manager" else manager.ControllerManager
+    raise AttributeError(f"module '{__name__}' has no attribute '{name}'")

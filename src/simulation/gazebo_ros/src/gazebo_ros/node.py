@@ -67,7 +67,7 @@ def _run() -> int:
     if _runs_already():
         return _TAKEN
     _use_sim_time(True)
-    node_signals.end_when_starved_at_start()
+    node_signals.before_init_node()
     # rospy's clock would come back from the /clock that this node publishes: the server sets it without that detour
     rospy.init_node("gazebo", disable_rostime=True, disable_signals=True,
                     log_level=rospy.DEBUG if options.verbose else rospy.INFO)
