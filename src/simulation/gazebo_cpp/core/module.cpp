@@ -130,6 +130,7 @@ PYBIND11_MODULE(_core, m)
 {
   m.doc() = "Gazebo Classic's C++ API over a simulated world: the mirror of its models, and compiled plugins.";
   show_to_all();
+  m.attr("layout") = ODE_SIM_LAYOUT;
   add_client(m);
   m.def(
       "serve",

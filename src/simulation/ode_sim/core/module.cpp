@@ -136,6 +136,7 @@ PYBIND11_MODULE(_core, m) {
   m.doc() = "Rigid-body physics on ODE: the whole step, in C++.";
   m.attr("ode_configuration") = dGetConfiguration();
   m.attr("FARTHEST") = kFarthest;
+  m.attr("layout") = ODE_SIM_LAYOUT;
   PYBIND11_NUMPY_DTYPE(ContactRecord, collision1, collision2, position, normal, depth, force, torque);
   bind_shapes(m);
   bind_links(m);

@@ -11,6 +11,7 @@ from concurrent.futures import Future
 from dataclasses import replace
 from typing import Any, Callable, List, Optional, Tuple
 
+import ode_sim._core
 import rospy
 from ode_sim.description import DescriptionError, read_model, sdf_writer
 from ode_sim.description import model as d
@@ -24,6 +25,8 @@ try:
 except ImportError:  # built without compiled plugins, or on a system that lacks what they need
     _core = None
 
+_OF_ANOTHER_CORE = "" if _core is None or _core.layout == ode_sim._core.layout else (
+    "gazebo_cpp was not built with this ode_sim and would read its world wrongly; build both: catkin build ode_sim gazebo_cpp")
 _bridge: Optional[Bridge] = None
 _searched: Optional[List[str]] = None
 
@@ -159,6 +162,8 @@ def bridge(server, clock: bool) -> "Bridge":
     :param clock: the clock of roscpp is to be moved by the steps
     """
     global _bridge
+    if _OF_ANOTHER_CORE:
+        raise PluginError(_OF_ANOTHER_CORE)
     if _bridge is None:
         _bridge = Bridge(getattr(server, "_server", server))
     if clock:
@@ -172,6 +177,9 @@ def offer_transport(server) -> None:
     The mirror of the world, which publishes them, is made when the first of them asks.
     """
     if _core is None:
+        return
+    if _OF_ANOTHER_CORE:
+        rospy.logwarn("Gazebo's transport: %s", _OF_ANOTHER_CORE)
         return
     problem = _core.serve(server.description.name, lambda: server._calls.put((lambda: bridge(server, False), Future())))
     if problem:

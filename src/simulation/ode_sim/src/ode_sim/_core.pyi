@@ -9,6 +9,7 @@ _Pose = Tuple[float, float, float, float, float, float, float]
 _Inertia = Tuple[float, float, float, float, float, float]  # ixx iyy izz ixy ixz iyz
 
 ode_configuration: str
+layout: str  # of the headers it was built with
 FARTHEST: float
 
 class Surface:
