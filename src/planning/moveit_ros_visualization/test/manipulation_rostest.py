@@ -14,7 +14,7 @@ from moveit_msgs.msg import (CollisionObject, Grasp, GripperTranslation, MoveItE
 from moveit_msgs.srv import GetPlanningScene, GetPlanningSceneRequest, GraspPlanning, GraspPlanningResponse
 from object_recognition_msgs.msg import (ObjectRecognitionAction, ObjectRecognitionResult, RecognizedObject, Table, TableArray)
 from rqt_testing.desktop import Desktop
-from rviz_offscreen import qt
+from rviz_desktop import run_rviz
 from shape_msgs.msg import SolidPrimitive
 from tf.transformations import quaternion_from_euler
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
@@ -73,8 +73,7 @@ class Manipulation(unittest.TestCase):
         shutil.copy(os.path.join(HERE, "moveit.rviz"), config)
         cls.desktop = Desktop("1280x940x24")
         cls.desktop.__enter__()
-        cls.rviz = cls.desktop.run([os.path.join(HERE, "rviz_window.py"), config, "1270x900"],
-                                   QT_API=(qt.package() or "").lower())
+        cls.rviz = run_rviz(cls.desktop, config, "1270x900")
         cls.rviz.wait(lambda: '"Status: Ok"' in (cls.rviz.ask("text", "statuses") or ""), "display without a complaint")
         cls.rviz.click_text("Manipulation")
 

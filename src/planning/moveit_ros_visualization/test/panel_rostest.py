@@ -21,13 +21,12 @@ from moveit_core import scene_messages
 from moveit_msgs.msg import Constraints, JointConstraint, MoveGroupActionGoal, PlanningScene
 from moveit_msgs.srv import GetPlanningScene, GetPlanningSceneRequest, GetPositionFK, GetPositionFKRequest
 from rqt_testing.desktop import Desktop
-from rviz_offscreen import qt
+from rviz_desktop import run_rviz
 from sensor_msgs.msg import JointState, Joy
 from visualization_msgs.msg import InteractiveMarkerFeedback, InteractiveMarkerInit
 
 MARKERS = "rviz_moveit_motion_planning_display/robot_interaction_interactive_marker_topic/"
 HERE = os.path.dirname(os.path.abspath(__file__))
-RVIZ_QT = (qt.package() or "").lower()  # the Qt that a window of RViz stands on: pyqt5, on Debian 13 pyqt6
 JOINTS = [f"joint_{number}" for number in range(1, 7)]
 LEFT = dict(zip(JOINTS, (1.2, -0.6, 1.6, 0.0, 1.0, 0.0)))
 HOME = dict(zip(JOINTS, (0.0, -0.6, 1.6, 0.0, 1.0, 0.0)))
@@ -58,7 +57,7 @@ class Panel(unittest.TestCase):
         shutil.copy(os.path.join(HERE, "moveit.rviz"), cls.config)
         cls.desktop = Desktop("1280x940x24")
         cls.desktop.__enter__()
-        cls.rviz = cls.desktop.run([os.path.join(HERE, "rviz_window.py"), cls.config, "1270x900"], QT_API=RVIZ_QT)
+        cls.rviz = run_rviz(cls.desktop, cls.config, "1270x900")
         cls.rviz.wait(lambda: cls.statuses().get("MotionPlanning", ["", ""])[1] == "Status: Ok", "display without a complaint")
 
     @classmethod
@@ -385,7 +384,7 @@ class Panel(unittest.TestCase):
             with open(config, "w") as file:
                 file.write(text)
             with Desktop() as desktop:
-                rviz = desktop.run([os.path.join(HERE, "rviz_window.py"), config, "900x700"], QT_API=RVIZ_QT)
+                rviz = run_rviz(desktop, config, "900x700")
 
                 def status():
                     return json.loads(rviz.ask("text", "statuses") or "{}").get(display, ["", "", {}])

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """RViz's whole window in a process whose widgets tests can ask for: rviz_window.py CONFIG WIDTHxHEIGHT.
 
-In its status bar a label "statuses" says what the displays say of themselves, as JSON, and a button "save_config" writes
-CONFIG.saved.
+In its status bar a label "statuses" says what the displays say of themselves, as JSON, a label "frames" how many pictures have been
+drawn, and a button "save_config" writes CONFIG.saved.
 """
 import json
 import signal
@@ -19,11 +19,13 @@ disable_anti_aliasing()  # a quarter of the work for software OpenGL
 frame = rviz.VisualizationFrame()
 frame.setSplashPath("")
 frame.initialize(config)
-statuses, save = QLabel(), QPushButton("save")
+statuses, frames, save = QLabel(), QLabel("0"), QPushButton("save")
 statuses.setObjectName("statuses")
+frames.setObjectName("frames")
 save.setObjectName("save_config")
 save.clicked.connect(lambda: frame.saveDisplayConfig(config + ".saved"))
 frame.statusBar().addWidget(save)
+frame.statusBar().addWidget(frames)
 frame.statusBar().addWidget(statuses)
 frame.setGeometry(0, 0, width, height)
 frame.show()
@@ -39,6 +41,7 @@ def look():
                                    {status.childAt(i).getName(): str(status.childAt(i).getValue())
                                     for i in range(status.numChildren())} if status else {}]
     statuses.setText(json.dumps(seen))
+    frames.setText(str(frame.getManager().getFrameCount()))
 
 
 timer = QTimer()

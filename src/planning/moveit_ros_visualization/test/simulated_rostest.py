@@ -13,11 +13,10 @@ import rospy
 import rostest
 import yaml
 from rqt_testing.desktop import Desktop
-from rviz_offscreen import qt
+from rviz_desktop import run_rviz
 from sensor_msgs.msg import JointState
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-RVIZ_QT = (qt.package() or "").lower()  # the Qt that a window of RViz stands on: pyqt5, on Debian 13 pyqt6
 JOINTS = ("shoulder_pan_joint", "shoulder_lift_joint", "elbow_joint", "wrist_1_joint", "wrist_2_joint", "wrist_3_joint")
 HOME = dict(zip(JOINTS, (0.0, -1.5707, 1.5707, -1.5707, -1.5707, 0.0)))
 
@@ -33,7 +32,7 @@ class Simulated(unittest.TestCase):
         self.desktop = Desktop("1280x940x24")
         self.desktop.__enter__()
         self.addCleanup(self.desktop.__exit__, None, None, None)
-        self.rviz = self.desktop.run([os.path.join(HERE, "rviz_window.py"), self.config, "1270x900"], QT_API=RVIZ_QT)
+        self.rviz = run_rviz(self.desktop, self.config, "1270x900")
 
     def picture(self, name):
         folder = os.environ.get("TUTORIAL_PICTURES")
