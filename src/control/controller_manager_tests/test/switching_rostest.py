@@ -276,7 +276,7 @@ class SwitchingTest(unittest.TestCase):
             self.cycle()
             self.assertTrue(request.result())
 
-    @mock.patch("controller_manager.manager._LONGEST_CYCLE", 0.3)
+    @mock.patch("controller_manager.manager.LONGEST_CYCLE", 0.3)
     def test_a_cycle_that_does_not_end(self):
         self.switch("x")
         blocked, go_on = threading.Event(), threading.Event()

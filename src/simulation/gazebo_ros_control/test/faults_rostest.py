@@ -56,9 +56,9 @@ def until(condition):
 
 class FaultsTest(test_support.TestCase):
     def setUp(self):
-        find = plugin_module._find_sim
-        self.addCleanup(setattr, plugin_module, "_find_sim", find)
-        plugin_module._find_sim = lambda name: Fragile
+        find = plugin_module.find_sim
+        self.addCleanup(setattr, plugin_module, "find_sim", find)
+        plugin_module.find_sim = lambda name: Fragile
 
     def test_a_description_that_the_hardware_cannot_take(self):
         robot = SimulatedRobot(ROBOT, describe=False)

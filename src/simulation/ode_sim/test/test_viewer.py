@@ -17,6 +17,7 @@ from ode_sim.math3 import Pose
 viser = pytest.importorskip("viser")
 
 from ode_sim.viewer import LocalSimulation, Page, Refused  # noqa: E402
+from ode_sim.viewer import drawing  # noqa: E402
 from ode_sim.viewer.overlays import Overlays, inertia_box  # noqa: E402
 from ode_sim.viewer.panels.base import escaped, free_name  # noqa: E402
 from ode_sim.viewer.shapes import shape_model  # noqa: E402
@@ -129,7 +130,7 @@ def test_models_are_drawn_and_follow(page):
 
 def test_the_colour_behind_all_is_the_scenes_or_its_skys(page, monkeypatch):
     seen = []
-    monkeypatch.setattr(page.drawing, "_background", seen.append)
+    monkeypatch.setattr(drawing, "plain_png", lambda colour: seen.append(colour) or b"")
     for scene in (d.Scene(background=(1.0, 0.0, 0.0, 1.0)), d.Scene(sky=True)):
         page.drawing.update(replace(page.world, scene=scene))
     assert seen == [(255, 0, 0), (140, 178, 230)]
@@ -228,7 +229,7 @@ def test_pick_move_copy_delete_undo(page):
     assert not client.told
 
 
-def test_a_click_on_what_has_just_gone_counts_when_it_comes_back(page):
+def test_a_click_on_what_has_just_gone_counts_when_it_comes_back(page, monkeypatch):
     """The page of a browser is always a little behind: its buttons must not have gone under the hand."""
     client, world = Client(), panel(page, "WorldPanel")
     row = world._rows[("box", "box", "", "")]
@@ -244,18 +245,22 @@ def test_a_click_on_what_has_just_gone_counts_when_it_comes_back(page):
     page.selection.select()
     page.simulation.delete("box")
     wait(page, lambda: page.world.model("box") is None)
-    world._hidden = {key: since - 100.0 for key, since in world._hidden.items()}
+    now = time.monotonic()
+    monkeypatch.setattr(time, "monotonic", lambda: now + 100.0)
     world.on_frame(page.frame)
     assert ("box", "box", "", "") not in world._rows and not world._hidden
 
 
-def test_a_job_that_stumbles_does_not_take_the_others_along(page):
+def test_a_job_that_stumbles_does_not_take_the_others_along():
     said, done = [], []
-    page._say = said.append
-    page.later(lambda: 1 // 0)
-    page.later(lambda: done.append(True))
-    page.turn()
-    assert done and "ZeroDivisionError" in said[0]
+    page = Page(LocalSimulation(World(d.World()), paused=True), port=0, say=said.append)
+    try:
+        page.later(lambda: 1 // 0)
+        page.later(lambda: done.append(True))
+        page.turn()
+        assert done and "ZeroDivisionError" in said[0]
+    finally:
+        page.close()
 
 
 def test_mass_and_light_are_set(page):

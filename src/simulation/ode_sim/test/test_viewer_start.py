@@ -116,7 +116,7 @@ def test_more_tabs_wait_until_a_browser_that_is_expected_has_shown_the_world(mon
             page.turn()
             page.turn()
             assert not isinstance(page.panels[-1], Notes)
-            monkeypatch.setattr("ode_sim.viewer.page._FIRST_LOOK", look)
+            monkeypatch.setattr("ode_sim.viewer.page.FIRST_LOOK", look)
             page._on_connect(None)
         page.turn()
         assert isinstance(page.panels[-1], Notes)

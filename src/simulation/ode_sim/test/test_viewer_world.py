@@ -1,4 +1,5 @@
 """What a page shows of a running world and changes in it: moments, contacts, looks, films, a pull, the first view."""
+import asyncio
 import math
 import time
 import types
@@ -203,6 +204,21 @@ def test_a_film_shows_what_moved(page, tmp_path):
 
 # ---------------------------------------------------------------------------------------------- a pull, the first view
 
+class Hand:
+    """What a browser says when the mouse drags a link."""
+
+    def __init__(self, page, model, link):
+        self._page, self._heard = page, {}
+        page.pull.attach(self, model, link)
+
+    def on_drag(self, button, modifier):
+        return lambda heard: self._heard.setdefault(modifier, heard)
+
+    def drag(self, **event):
+        asyncio.run(self._heard[event["modifier"]](types.SimpleNamespace(**event)))
+        self._page.turn()
+
+
 def test_a_pull_takes_the_body_to_the_pointer():
     page = Page(LocalSimulation(falling(), paused=True), port=0)
     try:
@@ -210,11 +226,11 @@ def test_a_pull_takes_the_body_to_the_pointer():
         wait(page, lambda: page.frame is not None)
         client = Client()
 
+        hand = Hand(page, "ball", "link")
+
         def drag(phase):
-            page.pull._news = (types.SimpleNamespace(
-                client=client, client_id=1, phase=phase, modifier="cmd/ctrl", end_position=(2.0, 0.0, 1.5),
-                start_position=(0.0, 0.0, 0.5)), "ball", "link")
-            page.pull._take()
+            hand.drag(client=client, client_id=1, phase=phase, modifier="cmd/ctrl", end_position=(2.0, 0.0, 1.5),
+                      start_position=(0.0, 0.0, 0.5))
         drag("start")
         for number in range(150):
             page.simulation.step(20)
@@ -232,9 +248,8 @@ def test_with_shift_a_pull_only_turns():
     try:
         page.simulation.set_pose("ball", Pose((0.0, 0.0, 5.0)))
         wait(page, lambda: page.frame is not None)
-        page.pull._news = (types.SimpleNamespace(client=Client(), client_id=1, phase="start", modifier="cmd/ctrl+shift",
-                                                 start_position=(0.1, 0.0, 5.0), end_position=(0.1, 0.3, 5.0)), "ball", "link")
-        page.pull._take()
+        Hand(page, "ball", "link").drag(client=Client(), client_id=1, phase="start", modifier="cmd/ctrl+shift",
+                                        start_position=(0.1, 0.0, 5.0), end_position=(0.1, 0.3, 5.0))
         page.simulation.step(50)
         wait(page, lambda: page.frame.iterations == 50)
         pose = page.frame.pose(page.world.model("ball").links["link"])

@@ -57,7 +57,7 @@ def test_every_type_is_drawn_and_deleted(page, drawn, kind, tmp_path):
         made.mesh_resource = "package://p/a.stl"
         (tmp_path / "a.stl").write_text("solid t\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 2 0 0\nvertex 0 1 0\n"
                                         "endloop\nendfacet\nendsolid t\n")
-        drawn._find = lambda uri: str(tmp_path / "a.stl")
+        drawn = Markers(page.server.scene, "/mk", lambda uri: str(tmp_path / "a.stl"))
     drawn.take(made, 0.0)
     assert nodes(page)[:2] == ["/mk_f0", "/mk_f0/1"]
     drawn.take(marker(kind, action=Marker.DELETE), 0.0)

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from rqt_testing.in_process import errors, find, open_plugin, process_events, rospy_without_master, wait_until  # isort: skip
 import rosbag
+import rospy
 from python_qt_binding.QtCore import QPoint, Qt
 from python_qt_binding.QtTest import QTest
 from qt_gui.errors import UsageError
@@ -185,7 +186,18 @@ def test_menu_and_raw_view(gui):
 
 def test_publishing_what_the_playhead_passes(gui, monkeypatch):
     sent = []
-    monkeypatch.setattr(gui.timeline._player, "_send", lambda topic, message, stamp: sent.append((topic, message.data)))
+
+    class Publisher:
+        def __init__(self, topic, *_arguments, **_options):
+            self._topic = topic
+
+        def publish(self, message):
+            sent.append((self._topic, message.data))
+
+        def unregister(self):
+            pass
+
+    monkeypatch.setattr(rospy, "Publisher", Publisher)
     choose(TimelinePopupMenu(gui.timeline, "/text", gui.widget._popups), "Publish")
     assert gui.timeline.is_publishing("/text") and not gui.timeline.is_publishing("/speed")
     gui.timeline.play_speed = 1.0
@@ -282,15 +294,14 @@ def test_threads_for_time_lines_of_other_packages():
     assert not thread.is_alive()
 
     updated, drawn = [], []
-    frame = SimpleNamespace(index_cache_cv=threading.Condition(), invalidated_caches={"/a"}, topics=["/a", "/b"],
-                            scene=lambda: SimpleNamespace(update=lambda: drawn.append(1)))
 
     def update(topic):
         updated.append(topic)
         frame.invalidated_caches.discard(topic)
         return 3
 
-    frame._update_index_cache = update
+    frame = SimpleNamespace(index_cache_cv=threading.Condition(), invalidated_caches={"/a"}, topics=["/a", "/b"],
+                            scene=lambda: SimpleNamespace(update=lambda: drawn.append(1)), _update_index_cache=update)
     thread = IndexCacheThread(frame)
     wait_until(lambda: drawn)
     thread.stop()

@@ -7,7 +7,7 @@ import time
 from xmlrpc.server import SimpleXMLRPCServer
 
 import pytest
-from rqt_graph import ros_state
+from rqt_graph import graph_pane, ros_state
 from rqt_graph.command import main
 from rqt_testing.no_master import NoMaster
 
@@ -96,7 +96,7 @@ def test_nodes_that_are_hidden_because_they_were_slow_are_named(there):
         assert line.isHidden()
 
 
-def test_files_are_saved_and_loaded(there, tmp_path):
+def test_files_are_saved_and_loaded(there, tmp_path, monkeypatch):
     with open_plugin("rqt_graph") as gui:
         pane = gui.plugin.pane
         wait_until(lambda: drawn(gui))
@@ -105,8 +105,8 @@ def test_files_are_saved_and_loaded(there, tmp_path):
             assert (tmp_path / name).read_bytes().startswith(begin)
         assert errors == []
         (tmp_path / "other.dot").write_text("digraph { one -> two }")
-        gui.plugin._loaded = True
-        pane.load_dot(str(tmp_path / "other.dot"))
+        monkeypatch.setattr(graph_pane.QFileDialog, "getOpenFileName", lambda *_arguments: (str(tmp_path / "other.dot"), ""))
+        find(gui, "load_dot_push_button").click()
         wait_until(lambda: drawn(gui) == {"one", "two"})
         find(gui, "quiet_check_box").toggle()  # does not take the file away
         process_events()
@@ -122,7 +122,7 @@ def test_files_are_saved_and_loaded(there, tmp_path):
 
 
 def test_automatic_refresh_sees_a_new_node_without_drawing_the_same_twice(there, monkeypatch):
-    monkeypatch.setattr("rqt_graph.ros_graph._PERIOD", 5)
+    monkeypatch.setattr("rqt_graph.ros_graph.PERIOD", 5)
     state = ros_state.State({"/one"})
     reads = []
     monkeypatch.setattr("rqt_graph.ros_graph.read", lambda: (reads.append(1), state)[1])

@@ -28,13 +28,17 @@ def message(pixels=PICTURE, encoding="rgb8", **more):
 
 def receive(gui, sent):
     """What rospy does with a message of the topic that is shown."""
+    give(gui.plugin._source, sent)
+    process_events()
+
+
+def give(origin, sent):
     from io import BytesIO
     buffer = BytesIO()
     sent.serialize(buffer)
     raw = source.rospy.AnyMsg()
     raw._buff, raw._connection_header = buffer.getvalue(), {"type": sent._type}
-    gui.plugin._source._receive(raw)
-    process_events()
+    origin._receive(raw)
 
 
 def shown(gui):
@@ -98,17 +102,16 @@ def test_other_types_and_cut_messages_are_told():
 
 
 def test_no_picture_is_made_while_the_last_is_not_on_the_screen(monkeypatch):
-    with open_plugin("rqt_image_view", ["/camera/image_raw"]) as gui:
-        made = []
-        monkeypatch.setattr(source, "from_raw", lambda *_args: made.append(1) or PICTURE)
-        origin = gui.plugin._source
-        origin._on_picture = lambda picture: None
-        receive(gui, message())
-        receive(gui, message())
-        assert len(made) == 1
-        origin.taken()
-        receive(gui, message())
-        assert len(made) == 2
+    made, came, told = [], [], []
+    monkeypatch.setattr(source, "from_raw", lambda *_args: made.append(1) or PICTURE)
+    origin = source.ImageSource("/camera/image_raw", came.append, told.append)
+    give(origin, message())
+    give(origin, message())
+    assert len(made) == len(came) == 1
+    origin.taken()
+    give(origin, message())
+    assert len(made) == len(came) == 2 and not told
+    origin.close()
 
 
 def test_clicks_are_pixels_of_the_unrotated_image(monkeypatch):

@@ -27,14 +27,14 @@ def topics(monkeypatch):
 
 
 @pytest.fixture
-def plot():
+def plot(monkeypatch):
     application()
+    monkeypatch.setattr(plot_widget.rospy, "get_time", lambda: 0.0)
     widget = PlotWidget()
     data_plot = DataPlot(widget)
     data_plot.set_autoscale(x=False, y=DataPlot.SCALE_EXTEND | DataPlot.SCALE_VISIBLE)
     data_plot.set_xlim([0, 10])
     widget.switch_data_plot_widget(data_plot)
-    widget._start_time = 0.0
     widget.resize(800, 500)
     yield widget
     widget.shutdown()

@@ -1,4 +1,6 @@
 """What can be told without a display: RViz is refused in one line, instead of ending the window."""
+from unittest import mock
+
 import pytest
 from rqt_testing.in_process import FakeContext, application, rospy_without_master  # isort: skip
 from qt_gui.errors import PluginLoadError
@@ -28,10 +30,12 @@ def test_a_window_on_another_qt_is_told_how_to_get_rviz(monkeypatch):
         rviz_plugin.RViz(FakeContext([]))
 
 
-def test_a_second_one_is_refused_and_the_first_is_taken_up_again(monkeypatch):
-    monkeypatch.setattr(rviz_plugin, "_made", ["frame"])
-    monkeypatch.setattr(rviz_plugin, "_frames", [])
-    with pytest.raises(PluginLoadError, match="once in a window"):
-        rviz_plugin._take_frame(None, False)
-    rviz_plugin._frames.append("frame")
-    assert rviz_plugin._take_frame(None, False) == "frame" and rviz_plugin._frames == []
+def test_a_second_one_is_refused_and_the_first_is_taken_up_again():
+    rviz, frame = mock.MagicMock(), rviz_plugin.TheFrame()
+    first = frame.take(rviz, False)
+    for _ in range(2):
+        with pytest.raises(PluginLoadError, match="once in a window"):
+            frame.take(rviz, False)
+        frame.give_back()
+        assert frame.take(rviz, False) is first
+    assert rviz.VisualizationFrame.call_count == 1 and first.initialize.called

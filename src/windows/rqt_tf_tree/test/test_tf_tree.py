@@ -61,7 +61,7 @@ def drawn(gui):
 
 def test_window_draws_what_it_hears_and_forgets_it(monkeypatch):
     rospy_without_master()
-    monkeypatch.setattr("rqt_tf_tree.tf_tree._LISTEN", 20)
+    monkeypatch.setattr("rqt_tf_tree.tf_tree.LISTEN", 20)
     with open_plugin("rqt_tf_tree") as gui:
         wait_until(lambda: drawn(gui) == {"No tf data received"})
         for seconds in (100, 101):

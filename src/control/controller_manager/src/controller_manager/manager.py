@@ -34,10 +34,10 @@ STRICT = SwitchControllerRequest.STRICT
 BEST_EFFORT = SwitchControllerRequest.BEST_EFFORT
 
 #: s that a service waits for a cycle that does not end before it gives up
-_LONGEST_CYCLE = 10.0
+LONGEST_CYCLE = 10.0
 #: s that shutdown waits for each kind of request under way
 _SHUTDOWN_PATIENCE = 1.0
-_STUCK = (f"a cycle of the control loop has not ended for {_LONGEST_CYCLE:g} s; the update() of a controller, or the "
+_STUCK = (f"a cycle of the control loop has not ended for {LONGEST_CYCLE:g} s; the update() of a controller, or the "
           "hardware, blocks")
 
 
@@ -353,7 +353,7 @@ class ControllerManager:
 
     def _withdraw(self, switch: Switch) -> bool:
         """The loop is not to do this switch any more. :return: False if a cycle does not end."""
-        if not self._loop.acquire(timeout=_LONGEST_CYCLE):
+        if not self._loop.acquire(timeout=LONGEST_CYCLE):
             self._switch = None  # read once in a cycle, so this is safe without the lock
             return False
         if self._switch is switch:
@@ -435,7 +435,7 @@ class ControllerManager:
 
     def _exchange(self, controllers: Tuple[LoadedController, ...]) -> bool:
         """Between two cycles. :return: False if a cycle does not end."""
-        if not self._loop.acquire(timeout=_LONGEST_CYCLE):
+        if not self._loop.acquire(timeout=LONGEST_CYCLE):
             return False
         self._controllers = controllers
         self._loop.release()

@@ -45,7 +45,7 @@ class GazeboRosControl(ModelPlugin):
         rospy.loginfo("Starting gazebo_ros_control plugin in namespace: %s", self._namespace)
         self._nh = NodeHandle(self._namespace)
         self._robot_param = sdf.get("robotParam", "robot_description") or "robot_description"
-        self._sim_class = _find_sim(sdf.get("robotSimType", _DEFAULT_SIM) or _DEFAULT_SIM)
+        self._sim_class = find_sim(sdf.get("robotSimType", _DEFAULT_SIM) or _DEFAULT_SIM)
         self._period_ns = self._control_period(sdf.get("controlPeriod", 0.0))
         self._e_stop = self._was_stopped = False
         if sdf.get("eStopTopic", ""):
@@ -205,7 +205,7 @@ class GazeboRosControl(ModelPlugin):
         self._nh.shutdown()
 
 
-def _find_sim(name: str) -> Union[type, CompiledSimClass]:
+def find_sim(name: str) -> Union[type, CompiledSimClass]:
     """The class of a simulated robot hardware. :raises PluginError: there is none of that name."""
     if name == _DEFAULT_SIM:
         return DefaultRobotHWSim

@@ -16,7 +16,7 @@ from rqt_graph.toolbar import Row
 from rqt_gui_py.plugin import Plugin
 
 _TYPES = (("Nodes only", NODE_NODE_GRAPH), ("Nodes/Topics (active)", NODE_TOPIC_GRAPH), ("Nodes/Topics (all)", NODE_TOPIC_ALL_GRAPH))
-_PERIOD = 2000  # ms between two automatic refreshes
+PERIOD = 2000  # ms between two automatic refreshes
 # object name, name of the setting, option, text, tool tip
 _GROUPS = (("actionlib_check_box", "group_actions", "Actions", "Summarize action topics into one, named <server>/action_topics"),
            ("group_tf_check_box", "group_tf", "tf", "Summarize tf and tf_static into one, named /tf"),
@@ -160,7 +160,7 @@ class RosGraph(Plugin):
                                    "Refresh asks again, and without Unreachable they are drawn in orange")
 
     def _set_auto(self):
-        self._timer.start(_PERIOD) if self.auto_box.isChecked() else self._timer.stop()
+        self._timer.start(PERIOD) if self.auto_box.isChecked() else self._timer.stop()
 
     def _load(self):
         self._loaded = True

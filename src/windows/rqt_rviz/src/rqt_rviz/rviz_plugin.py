@@ -32,27 +32,33 @@ def _import_rviz():
     return rviz
 
 
-_frames: list = []  # the only one of this process, while no plugin shows it
-_made: list = []
+class TheFrame:
+    """RViz's frame: a process can make but one, for a second one's materials have the names of the first one's."""
+
+    def __init__(self):
+        self._made = self._idle = None
+
+    def take(self, rviz, ogre_log: bool):
+        """:raises PluginLoadError: another plugin shows it"""
+        if self._idle is not None:
+            frame, self._idle = self._idle, None
+            return frame
+        if self._made is not None:
+            raise PluginLoadError("RViz can be open once in a window; run rqt_rviz or rviz for another one")
+        if not ogre_log:
+            rviz.OgreLogging.noLog()
+        self._made = frame = rviz.VisualizationFrame()
+        frame.setSplashPath("")
+        frame.initialize()
+        signal.signal(signal.SIGINT, signal.getsignal(signal.SIGINT))  # roscpp, in RViz, has taken Ctrl-C for itself
+        return frame
+
+    def give_back(self) -> None:
+        """No plugin shows it any more."""
+        self._idle = self._made
 
 
-def _take_frame(rviz, ogre_log: bool):
-    """RViz's frame: a process can make but one, for a second one's materials have the names of the first one's.
-
-    :raises PluginLoadError: another plugin shows it.
-    """
-    if _frames:
-        return _frames.pop()
-    if _made:
-        raise PluginLoadError("RViz can be open once in a window; run rqt_rviz or rviz for another one")
-    if not ogre_log:
-        rviz.OgreLogging.noLog()
-    frame = rviz.VisualizationFrame()
-    _made.append(frame)
-    frame.setSplashPath("")
-    frame.initialize()
-    signal.signal(signal.SIGINT, signal.getsignal(signal.SIGINT))  # roscpp, in RViz, has taken Ctrl-C for itself
-    return frame
+_the_frame = TheFrame()
 
 
 class RViz(Plugin):
@@ -64,7 +70,7 @@ class RViz(Plugin):
         args = self._parse_args(context.argv())
         self._config, self._hide_menu, self._given = args.display_config, args.hide_menu, bool(args.display_config)
         self._rviz = _import_rviz()
-        self._widget = _take_frame(self._rviz, args.ogre_log)
+        self._widget = _the_frame.take(self._rviz, args.ogre_log)
         number = context.serial_number()
         self._widget.setWindowTitle("RViz[*]")  # the mark is for changes that are not saved
         self._container = QWidget()
@@ -156,4 +162,4 @@ class RViz(Plugin):
         # Its dock goes and takes its children along: RViz has to leave before, to be shown again.
         self._widget.hide()
         self._widget.setParent(None)
-        _frames.append(self._widget)
+        _the_frame.give_back()

@@ -10,7 +10,7 @@ from rqt_graph.toolbar import Row
 from rqt_gui_py.plugin import Plugin
 from rqt_tf_tree.dotcode_tf import FramesError, generate_dot, parse
 
-_LISTEN = 1000  # ms of listening before the first tree, and again while there is none
+LISTEN = 1000  # ms of listening before the first tree, and again while there is none
 _PERIOD = 2000  # ms between two automatic refreshes
 
 
@@ -45,7 +45,7 @@ class RosTfTree(Plugin):
         self._listener = tf2_ros.TransformListener(self._buffer)
         self._waiting = QTimer(self)
         self._waiting.timeout.connect(self.refresh)
-        self._waiting.start(_LISTEN)
+        self._waiting.start(LISTEN)
         self._timer = QTimer(self)
         self._timer.timeout.connect(self.refresh)
         context.add_widget(self._widget)
@@ -65,7 +65,7 @@ class RosTfTree(Plugin):
         """Forget all frames; those that still come are drawn again."""
         self._buffer.clear()
         self.refresh()
-        self._waiting.start(_LISTEN)
+        self._waiting.start(LISTEN)
 
     def _set_auto(self):
         self._timer.start(_PERIOD) if self.auto_box.isChecked() else self._timer.stop()

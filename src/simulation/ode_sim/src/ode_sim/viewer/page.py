@@ -26,7 +26,7 @@ _TEXT_PERIOD = 0.2  # wall s between two updates of numbers
 _SETTLING = 20.0  # wall s in which the eye follows a world that is still being put together
 _PATIENCE = 15.0  # wall s that somebody who knocked may take to come in
 _CATCH_UP = 2.0  # wall s that a button waits for the thread that draws
-_FIRST_LOOK = 1.0  # wall s for the browser of the first who came in, before it gets more tabs to make
+FIRST_LOOK = 1.0  # wall s for the browser of the first who came in, before it gets more tabs to make
 _log = logging.getLogger("viewer")
 
 
@@ -290,7 +290,7 @@ class Page:
         """The browser of the first who looks makes its page just now, or is about to."""
         if self._came is None:
             return self._expected and self._begun > 0.0
-        return time.monotonic() < self._came + _FIRST_LOOK
+        return time.monotonic() < self._came + FIRST_LOOK
 
     def _picked(self, model: str, link: str, event: Any) -> None:
         if not self.placing.takes(event):
