@@ -29,8 +29,8 @@ def packages() -> Dict[str, str]:
 @functools.lru_cache(maxsize=None)
 def finder():
     from ode_sim.description import ResourceFinder
-    simulator = packages()["gazebo_ros"]
-    return ResourceFinder([f"{simulator}/models"], [simulator], lambda name: packages().get(name))
+    stock = packages()["gazebo_stock"]
+    return ResourceFinder([f"{stock}/models"], [stock], lambda name: packages().get(name))
 
 
 @functools.lru_cache(maxsize=None)

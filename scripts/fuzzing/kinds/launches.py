@@ -14,7 +14,7 @@ from fuzzing import programs, ros, seeds, values
 from fuzzing.findings import Found, check_message, of_output, of_stack
 from fuzzing.kinds import Kind
 
-_SCRIPTS = {"gazebo_ros": ("gzserver", "build_world", "spawn_model", "gz"),
+_SCRIPTS = {"gazebo_ros": ("gzserver", "spawn_model", "gz"), "building_editor": ("build_world",),
             "controller_manager": ("spawner", "unspawner", "controller_manager", "controller_group")}
 _FILES = ["empty_world.launch", "shapes_world.launch", "range_world.launch", "elevator_world.launch"]
 _PROGRAM_CODES = (0, 1, 2, 255)
@@ -30,10 +30,10 @@ class LaunchKind(Kind):
     silent = False
 
     def prepare(self) -> None:
+        import building_editor.build_world  # noqa: F401
         import controller_manager.command_line  # noqa: F401
         import controller_manager.spawner  # noqa: F401
         import controller_manager_tests  # noqa: F401
-        import gazebo_ros.build_world  # noqa: F401
         import gazebo_ros.gz  # noqa: F401
         import gazebo_ros.node  # noqa: F401
         import gazebo_ros.spawn_model  # noqa: F401

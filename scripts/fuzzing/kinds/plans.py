@@ -35,14 +35,14 @@ _PREFIXES = (b"[" * 2000, b"a: &a [*a]\n", b"!!python/object/apply:os.system [tr
 
 
 class PlanKind(Kind):
-    """YAML plans of ``rosrun gazebo_ros build_world``."""
+    """YAML plans of ``rosrun building_editor build_world``."""
 
     name, suffix = "plan", ".yaml"
 
     def prepare(self) -> None:
-        import gazebo_ros.build_world
+        import building_editor.build_world
         import ode_sim  # noqa: F401
-        self._build = gazebo_ros.build_world.main
+        self._build = building_editor.build_world.main
         self._plans = yaml.safe_load(_EXAMPLES)
         self._plans += [yaml.safe_load(path.read_text()) for path in seeds.files(".yaml") if path.parent.name == "plans"]
 
@@ -89,7 +89,7 @@ class PlanKind(Kind):
         built = str(Path("built.world").resolve())
         world, error = refused(lambda: ode_sim.World.load(built, finder=seeds.finder()), ode_sim.DescriptionError)
         if error is not None:
-            raise Found("built what cannot be loaded", "building_sdf.py", str(error))
+            raise Found("built what cannot be loaded", "sdf_model.py", str(error))
         worlds.settle(world, 5)
 
     def smaller(self, case: bytes) -> Iterator[bytes]:

@@ -335,7 +335,7 @@ class Clicks(Session):
         folder = os.path.join(self.home.name, "building_editor_models", "room")
         self.assertEqual(sorted(os.listdir(folder)), ["model.config", "model.sdf", "plan.yaml", "preview.png",
                                                       "room.world"])
-        from gazebo_ros.building import read_plan
+        from building_editor.building import read_plan
         level, = read_plan(os.path.join(folder, "plan.yaml")).levels
         np.testing.assert_allclose([wall.start for wall in level.walls], CORNERS, atol=1e-6)
         np.testing.assert_allclose([wall.end for wall in level.walls], [*CORNERS[1:], CORNERS[0]], atol=1e-6)

@@ -3,7 +3,7 @@ import math
 import os
 
 import pytest
-from gazebo_ros.building import building_of, read_plan
+from building_editor.building import building_of, read_plan
 from ode_sim import World
 from ode_sim.viewer import Refused
 

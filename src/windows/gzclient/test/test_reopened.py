@@ -4,7 +4,7 @@ import os
 import numpy as np
 import pytest
 import rospkg
-from gazebo_ros import building_sdf
+from building_editor import sdf_model
 from ode_sim.description import load_world, read_sdf_model
 from ode_sim.viewer import Refused
 
@@ -85,7 +85,7 @@ def test_levels_stairs_and_floors_come_back():
     first.add_stairs((1.0, 1.0), 1.5707963, width=1.25, depth=2.5, height=2.6, steps=10, color=(1.0, 0.0, 0.0))
     first.add_level()
     first.add_opening("doors", 0, (2.0, 0.0), width=0.75, height=2.0)
-    document, left = plan_of(read_sdf_model(building_sdf.model_text(first.building()))[0])
+    document, left = plan_of(read_sdf_model(sdf_model.model_text(first.building()))[0])
     now, before = Plan(document).building(), first.building()
     assert not left and [level.base for level in now.levels] == [level.base for level in before.levels] == [0.0, 2.6]
     for level, other in zip(now.levels, before.levels):

@@ -4,7 +4,7 @@
 
     SimulationError                    .message, and .source: file, line and element, where a text is at fault
     ├── DescriptionError   ValueError  a text, mesh or picture cannot be used
-    │   └── PlanError                  gazebo_ros.plan_file: the plan of a building; names the entry
+    │   └── PlanError                  building_editor.plan_file: the plan of a building; names the entry
     ├── CameraError        ValueError  a camera that cannot be made; names the value and what is allowed
     ├── Refused            ValueError  what was asked for is not done; says why, and what to do
     ├── Failure                        gazebo_ros.command_line: a command ends, with this line and exit code 1

@@ -47,7 +47,7 @@ class ResourceFinder:
     :param resource_paths: the same for worlds and media (``gazebo_media_path`` exports).
     :param package_path: ``f(package name) -> directory or None``; by default a search below ROS_PACKAGE_PATH.
     :param stock: directory with the simulator's own ``models``, ``worlds`` and ``media``, searched last so that a
-        course's own model of the same name wins; by default $ODE_SIM_STOCK_PATH, else the package ``gazebo_ros``.
+        course's own model of the same name wins; by default $ODE_SIM_STOCK_PATH, else the package ``gazebo_stock``.
     :param environment: read GAZEBO_MODEL_PATH, GAZEBO_RESOURCE_PATH, ~/.gazebo/models and what the window's editors saved.
     """
 
@@ -56,7 +56,7 @@ class ResourceFinder:
                  environment: bool = True):
         self._package_path = package_path or find_ros_package
         if stock is None:
-            stock = os.environ.get(STOCK_VARIABLE) or self._package_path("gazebo_ros") or ""
+            stock = os.environ.get(STOCK_VARIABLE) or self._package_path("gazebo_stock") or ""
         self.stock = str(stock)
         models = [os.path.expanduser("~/.gazebo/models")] + _entries("GAZEBO_MODEL_PATH") if environment else []
         resources = _entries("GAZEBO_RESOURCE_PATH") if environment else []

@@ -5,8 +5,8 @@ import math
 from typing import Any, Callable, Dict, List, Optional, Tuple
 
 import numpy as np
-from gazebo_ros.building import Building, Look, Stairs, Wall
-from gazebo_ros.building_sdf import FLOOR_THICKNESS, floor_pieces, outline, stair_boxes, stairwell, wall_boxes
+from building_editor.building import Building, Look, Stairs, Wall
+from building_editor.sdf_model import FLOOR_THICKNESS, floor_pieces, outline, stair_boxes, stairwell, wall_boxes
 from ode_sim.description.materials import gazebo_material
 from ode_sim.math3 import quat_from_rpy
 from ode_sim.viewer.drawing import rgb255, wxyz
@@ -171,7 +171,7 @@ def _middle(wall: Wall, base: float) -> Tuple[float, float, float]:
 
 
 def _floor(building: Building, number: int) -> List[Tuple]:
-    """Boxes of the floor of a level, as :mod:`gazebo_ros.building_sdf` builds it."""
+    """Boxes of the floor of a level, as :mod:`building_editor.sdf_model` builds it."""
     below, level = building.levels[number - 1], building.levels[number]
     near = [part for part in (below, level) if part.walls or part.stairs]
     if not near:

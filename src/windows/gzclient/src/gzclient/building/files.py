@@ -6,9 +6,9 @@ import re
 from typing import Any, Dict, List, Tuple
 
 import yaml
-from gazebo_ros import building_image, building_sdf
-from gazebo_ros.building import PlanError, building_of
-from gazebo_ros.plan_file import load_plan
+from building_editor import preview, sdf_model
+from building_editor.building import PlanError, building_of
+from building_editor.plan_file import load_plan
 from ode_sim.description import read_sdf_model
 from ode_sim.viewer.simulation import Refused
 
@@ -56,9 +56,9 @@ def save(document: Dict[str, Any]) -> str:
         os.makedirs(target, exist_ok=True)
         with open(os.path.join(target, PLAN), "w", encoding="utf-8") as stream:
             stream.write(text_of(document))
-        building_sdf.write(building, target + "/")
-        building_sdf.write(building, os.path.join(target, f"{name}.world"))
-        building_image.save(building, os.path.join(target, "preview.png"))
+        sdf_model.write(building, target + "/")
+        sdf_model.write(building, os.path.join(target, f"{name}.world"))
+        preview.save(building, os.path.join(target, "preview.png"))
     except PlanError as error:
         raise Refused(str(error)) from error
     except OSError as error:
@@ -69,7 +69,7 @@ def save(document: Dict[str, Any]) -> str:
 def text_of(document: Dict[str, Any]) -> str:
     """The plan as YAML, an element a line."""
     ordered = {key: document[key] for key in ("name", *(key for key in document if key != "name")) if key in document}
-    return ("# A building for gzclient's editor and for rosrun gazebo_ros build_world plan.yaml -o NAME.world\n"
+    return ("# A building for gzclient's editor and for rosrun building_editor build_world plan.yaml -o NAME.world\n"
             + yaml.safe_dump(ordered, sort_keys=False, default_flow_style=None, width=110))
 
 

@@ -1,6 +1,6 @@
 """A plan that is being drawn: what a hand does to it, step by step, and back.
 
-The document is the mapping that :func:`gazebo_ros.building.building_of` reads, with each wall on its own (``from``,
+The document is the mapping that :func:`building_editor.building.building_of` reads, with each wall on its own (``from``,
 ``to``). Elements are named ``(level, kind, index)``, openings in a wall ``(level, kind, index, wall)``.
 """
 from __future__ import annotations
@@ -9,7 +9,7 @@ import copy
 import math
 from typing import Any, Dict, List, NamedTuple, Optional, Tuple
 
-from gazebo_ros.building import Building, PlanError, building_of
+from building_editor.building import Building, PlanError, building_of
 from ode_sim.viewer.simulation import Refused
 
 Point = Tuple[float, float]

@@ -6,8 +6,8 @@ import math
 from typing import Any, Callable, Optional, Sequence, Tuple
 
 import numpy as np
-from gazebo_ros import building_image, building_sdf
-from gazebo_ros.building import PlanError
+from building_editor import preview, sdf_model
+from building_editor.building import PlanError
 from ode_sim.description.materials import NAMES
 from ode_sim.description.model import one_line
 from ode_sim.math3 import Pose
@@ -175,7 +175,7 @@ class BuildingPanel(Panel):
         self._note.content = note(said)
         self._paper.visible = building is not None
         if building is not None:
-            self._show_sketch(np.asarray(building_image.draw(building, 400)))
+            self._show_sketch(np.asarray(preview.draw(building, 400)))
 
     def _show_sketch(self, picture: np.ndarray) -> None:
         if self._sketch is None:
@@ -393,7 +393,7 @@ class BuildingPanel(Panel):
         if building is None:
             raise Refused("Nothing is drawn yet.")
         # its origin is the middle of the building: the text has its pose
-        self.page.selection.insert(building.name, building_sdf.model_text(building), Pose())
+        self.page.selection.insert(building.name, sdf_model.model_text(building), Pose())
 
     # ------------------------------------------------------------------------------------------ floor plan
 

@@ -6,7 +6,7 @@ import os
 import xml.etree.ElementTree as ET
 from typing import Iterator, List, Sequence, Tuple
 
-from gazebo_ros.building import Building, Level, Look, PlanError, Stairs, Wall
+from building_editor.building import Building, Level, Look, PlanError, Stairs, Wall
 
 FLOOR_THICKNESS = 0.1
 _INSET = 0.01  # m: the edge of a floor stays inside the walls, else both faces flicker

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from gazebo_ros import build_world, building, building_image, building_sdf
+from building_editor import build_world, building, preview, sdf_model
 from ode_sim.description import ResourceFinder, load_world, read_sdf_model
 
 FINDER = ResourceFinder(environment=False, stock="/nowhere")
@@ -13,7 +13,7 @@ FINDER = ResourceFinder(environment=False, stock="/nowhere")
 
 def build(plan):
     made = building.building_of(plan)
-    model, problems = read_sdf_model(building_sdf.model_text(made), finder=FINDER)
+    model, problems = read_sdf_model(sdf_model.model_text(made), finder=FINDER)
     assert not problems
     return model
 
@@ -132,7 +132,7 @@ def picture(tmp_path):
 
 def test_walls_of_a_picture(picture):
     made = building.read_plan(str(picture), resolution=0.05)
-    model, _ = read_sdf_model(building_sdf.model_text(made), finder=FINDER)
+    model, _ = read_sdf_model(sdf_model.model_text(made), finder=FINDER)
     assert made.name == "room" and len(made.levels[0].walls) == 5
     assert solid_at(model, 0.05, 1.0, 1.0) and solid_at(model, 0.02, 0.02, 1.0) and solid_at(model, 0.9, 0.05, 1.0)
     assert not solid_at(model, 1.5, 0.05, 1.0) and not solid_at(model, 1.5, 1.0, 1.0) and solid_at(model, 1.5, 1.95, 2.4)
@@ -145,7 +145,7 @@ def test_a_map_of_map_server(picture):
         "image: room.png\nresolution: 0.05\norigin: [-1.0, -1.0, 0.0]\nnegate: 0\noccupied_thresh: 0.65\n"
         "free_thresh: 0.2\n")
     made = building.read_plan(str(picture.parent / "map.yaml"))
-    model, _ = read_sdf_model(building_sdf.model_text(made), finder=FINDER)
+    model, _ = read_sdf_model(sdf_model.model_text(made), finder=FINDER)
     assert solid_at(model, -0.95, 0.0, 1.0) and not solid_at(model, 0.5, -0.95, 1.0)
 
 
@@ -178,7 +178,7 @@ def test_command_writes_a_world_and_a_preview(tmp_path, capsys):
     assert [model.name for model in loaded.models] == ["flat"] and len(problems) == 3  # no stock models in this test
     with Image.open(png) as image:
         colours = {colour for _, colour in image.getcolors(1 << 24)}
-    assert {building_image._WALL, building_image._DOOR, building_image._MODEL} <= colours
+    assert {preview._WALL, preview._DOOR, preview._MODEL} <= colours
 
 
 def test_command_writes_a_model_directory(tmp_path):
@@ -292,7 +292,7 @@ def test_a_picture_of_noise_is_refused_at_once(tmp_path):
     {"walls": [ROOM], "models": [{"model": "a", "at": [0, 1e5]}]}, {"walls": [ROOM], "levels": [{"walls": [ROOM]}] * 200},
     {"walls": [{"from": [0, 0], "to": [2e-6, 0]}], "wall": {"thickness": 1e-6, "height": 1e-6}}])
 def test_a_preview_has_a_size_that_can_be_looked_at(plan):
-    image = building_image.draw(building.building_of(plan))
+    image = preview.draw(building.building_of(plan))
     assert 1 <= image.width <= 20000 and 1 <= image.height <= 12000
 
 

@@ -6,8 +6,8 @@ from typing import Tuple
 
 from PIL import Image, ImageDraw
 
-from gazebo_ros.building import Building, PlanError, Wall
-from gazebo_ros.building_sdf import outline
+from building_editor.building import Building, PlanError, Wall
+from building_editor.sdf_model import outline
 
 _WIDEST = 20_000  # pixels of a drawing
 

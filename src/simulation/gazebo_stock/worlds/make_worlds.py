@@ -13,7 +13,7 @@ sys.path.insert(0, str(HERE.parent / "models"))
 
 from make_models import box, box_inertia, numbers, pose, script, tag  # noqa: E402
 
-from gazebo_ros import building, building_sdf  # noqa: E402
+from building_editor import building, sdf_model  # noqa: E402
 
 SUN, FLOOR = (tag("include", tag("uri", uri)) for uri in ("model://sun", "model://ground_plane"))
 
@@ -164,9 +164,9 @@ def files():
     """Name of each file, seen from this directory -> its text."""
     return {"stacks.world": stacks(), "friction_demo.world": friction_demo(), "rubble.world": rubble(),
             "mud.world": mud(), "camera.world": camera(), "elevator_ros.world": elevator(),
-            "cafe.world": building_sdf.world_text(plan("cafe")), "willowgarage.world": willowgarage(),
-            "../models/willowgarage/model.sdf": building_sdf.model_text(plan("willowgarage")),
-            "../models/willowgarage/model.config": building_sdf.config_text(plan("willowgarage"))}
+            "cafe.world": sdf_model.world_text(plan("cafe")), "willowgarage.world": willowgarage(),
+            "../models/willowgarage/model.sdf": sdf_model.model_text(plan("willowgarage")),
+            "../models/willowgarage/model.config": sdf_model.config_text(plan("willowgarage"))}
 
 
 if __name__ == "__main__":

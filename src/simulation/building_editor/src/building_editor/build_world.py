@@ -5,14 +5,14 @@ import argparse
 import sys
 from typing import Optional, Sequence
 
-from gazebo_ros import building_image, building_sdf
-from gazebo_ros.building import PlanError, read_plan
+from building_editor import preview, sdf_model
+from building_editor.building import PlanError, read_plan
 
 
 def main(argv: Optional[Sequence[str]] = None) -> int:
     parser = argparse.ArgumentParser(
         prog="build_world", description=__doc__,
-        epilog="A plan is YAML (see python3 -m pydoc gazebo_ros.building) or an image, walls dark on light.")
+        epilog="A plan is YAML (see python3 -m pydoc building_editor.building) or an image, walls dark on light.")
     parser.add_argument("plan", help="plan.yaml, a map of map_server, or an image with --resolution")
     parser.add_argument("-o", "--output", required=True,
                         help="FILE.world: with sun and floor; FILE.sdf: the model alone; DIR/: a model directory")
@@ -21,9 +21,9 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
     arguments = parser.parse_args(sys.argv[1:] if argv is None else argv)
     try:
         building = read_plan(arguments.plan, arguments.resolution)
-        building_sdf.write(building, arguments.output)
+        sdf_model.write(building, arguments.output)
         if arguments.preview:
-            building_image.save(building, arguments.preview)
+            preview.save(building, arguments.preview)
     except PlanError as error:
         print(f"build_world: {error}", file=sys.stderr)
         return 1

@@ -7,7 +7,7 @@ import numpy as np
 from ode_sim.description.model import DescriptionError
 from ode_sim.images import read_rgba
 
-from gazebo_ros.plan_file import PlanError
+from building_editor.plan_file import PlanError
 
 Rectangle = Tuple[float, float, float, float]  # x0, y0, x1, y1
 _MOST_RECTANGLES = 5000

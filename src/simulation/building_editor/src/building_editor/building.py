@@ -28,8 +28,8 @@ from typing import Any, Dict, List, Optional, Sequence, Tuple
 import numpy as np
 from ode_sim.description.model import quoted
 
-from gazebo_ros.plan_file import PlanError, load_plan
-from gazebo_ros.plan_image import wall_rectangles
+from building_editor.plan_file import PlanError, load_plan
+from building_editor.plan_image import wall_rectangles
 
 Point = Tuple[float, float]
 
