@@ -1,4 +1,4 @@
-"""Runs the workspace's tests: pytest for ROS-free code, rostest for whatever talks ROS; two jobs at a time.
+"""Runs the workspace's tests: pytest for ROS-free code, rostest for whatever talks ROS; one job more at a time than there are cores.
 
 Every ``test/test_*.py`` below src/ is pytest's, every ``test/*.test`` is rostest's (on a master of its own). Closes with
 one line ``N passed, M failed``, before it the cases that failed, each with its reason; the output of what failed is printed
@@ -37,6 +37,7 @@ LONGEST = 900  # s, for a folder of several files
 QUIET_LINES = 80  # of the output of what failed, with --quiet
 REASON = 200  # characters of the reason of a case, with --quiet
 SECOND_TRIES = 5  # files; if more have failed, it is no accident
+MOST_WORKERS = 3  # one more than two cores: rostests wait for wall time as well, and two workers leave a third of the cores idle
 AGAIN = 2  # times that each of them runs once more
 
 
@@ -51,9 +52,14 @@ class Job:
         return f"{self.package.name}/{self.path.relative_to(self.package)}"
 
     @property
+    def files(self) -> int:
+        """How many files of tests it runs."""
+        return max(1, len(list(self.path.rglob("test_*.py"))))
+
+    @property
     def time_limit(self) -> int:
         """s"""
-        return min(LONGEST, TIME_LIMIT * max(1, len(list(self.path.rglob("test_*.py")))))
+        return min(LONGEST, TIME_LIMIT * self.files)
 
 
 @dataclass
@@ -83,14 +89,11 @@ def find_jobs(packages: List[str], kind: str) -> List[Job]:
             jobs.append(Job(package, "pytest", test))
     if not packages and kind in ("pytest", "all"):
         jobs += [Job(ROOT, "pytest", path) for path in sorted((ROOT / "scripts").glob("test_*.py"))]
-    return jobs
+    return sorted(jobs, key=lambda job: -job.files)  # what takes long first: at the end all have something to do
 
 
 class Queue:
-    """Jobs for several workers. Every second worker prefers pytest, which computes, to rostests, which mostly wait.
-
-    While both kinds last, no more than one simulator therefore runs for each two workers.
-    """
+    """Jobs for several workers. Every second worker prefers pytest, which computes, to rostests, which mostly wait."""
 
     def __init__(self, jobs: List[Job]) -> None:
         self._lock = threading.Lock()
@@ -238,7 +241,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("packages", nargs="*", help="only these packages")
     parser.add_argument("-k", "--kind", choices=["all", "pytest", "rostest"], default="all")
-    parser.add_argument("-j", "--jobs", type=int, default=min(2, os.cpu_count() or 1))
+    parser.add_argument("-j", "--jobs", type=int, default=min(MOST_WORKERS, (os.cpu_count() or 1) + 1))
     parser.add_argument("--again", action="store_true", help="run the few files that failed again, alone")
     parser.add_argument("--quiet", action="store_true", help="tell only what fails")
     parser.add_argument("--coverage", action="store_true", help="count the lines of Python that are run; pages in out/coverage")

@@ -306,8 +306,8 @@ def test_many_walls_are_joined_quickly():
 
 def test_command_names_a_preview_that_cannot_be_written(tmp_path, capsys):
     (tmp_path / "plan.yaml").write_text(PLAN)
-    for preview, message in (("a.xyz", "give it the ending .png or .jpg"), ("none/a.png", "cannot write")):
-        arguments = [str(tmp_path / "plan.yaml"), "-o", str(tmp_path / "a.world"), "--preview", str(tmp_path / preview)]
+    for file, message in (("a.xyz", "give it the ending .png or .jpg"), ("none/a.png", "cannot write")):
+        arguments = [str(tmp_path / "plan.yaml"), "-o", str(tmp_path / "a.world"), "--preview", str(tmp_path / file)]
         assert build_world.main(arguments) == 1
         error = capsys.readouterr().err
         assert message in error and preview in error and error.count("\n") == 1

@@ -1,0 +1,1 @@
+"""Buildings from plans: see :mod:`building_editor.building`."""
