@@ -44,35 +44,29 @@ def interrupted(process, said):
     return time.monotonic() - begin, said + rest
 
 
-@pytest.mark.parametrize("moment", ["logging to", "auto-starting new master", "process[master]", "setting /run_id",
-                                    "process[rosout-1]", "started core service", "process[one-2]", "process[two-3]"])
-def test_ctrl_c_at_any_line_of_the_start(tmp_path, moment):
-    process = launch(tmp_path)
+def ended_at(process, moment):
+    """Ctrl-C when it has printed that: it ends at once, and says nothing of its own insides."""
     said = ""
     for line in process.stdout:
         said += line
         if moment in line:
             break
     else:
-        pytest.fail(f"roslaunch ended before it said '{moment}': {said}")
+        pytest.fail(f"it ended before it said '{moment}': {said}")
     seconds, text = interrupted(process, said)
     assert seconds < AT_ONCE, text
     assert "Traceback" not in text and "RLException" not in text, text
+
+
+@pytest.mark.parametrize("moment", ["logging to", "auto-starting new master", "process[master]", "setting /run_id",
+                                    "process[rosout-1]", "started core service", "process[one-2]", "process[two-3]"])
+def test_ctrl_c_at_any_line_of_the_start(tmp_path, moment):
+    ended_at(launch(tmp_path), moment)
 
 
 @pytest.mark.parametrize("moment", ["logging to", "auto-starting new master", "process[master]", "started core service"])
 def test_ctrl_c_at_any_line_of_roscore(tmp_path, moment):
-    process = started(tmp_path, ["roscore"])
-    said = ""
-    for line in process.stdout:
-        said += line
-        if moment in line:
-            break
-    else:
-        pytest.fail(f"roscore ended before it said '{moment}': {said}")
-    seconds, text = interrupted(process, said)
-    assert seconds < AT_ONCE, text
-    assert "Traceback" not in text and "RLException" not in text, text
+    ended_at(started(tmp_path, ["roscore"]), moment)
 
 
 def test_ctrl_c_while_files_are_read_is_silent(tmp_path):

@@ -104,7 +104,7 @@ def _configuration_of_logs() -> None:
 
 
 def prepare() -> None:
-    """Once, in a program that goes on as roslaunch or rostest."""
+    """Once, in a program that goes on as roslaunch, rostest or the like."""
     _distutils_of_python()
     _configuration_of_logs()
     import catkin.find_in_workspaces  # noqa: F401  the package's attribute of that name is a function in some releases

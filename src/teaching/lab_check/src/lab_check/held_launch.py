@@ -8,8 +8,11 @@ from __future__ import annotations
 import os
 import sys
 
-import roslaunch
-from roslaunch.config import ROSLaunchConfig
+from node_signals import quick_start
+
+quick_start.prepare()  # before roslaunch is imported
+import roslaunch  # noqa: E402
+from roslaunch.config import ROSLaunchConfig  # noqa: E402
 
 SIMULATOR = {"gzserver", "gazebo", "debug", "gdbrun", "perf"}
 WINDOWS = {("rviz", "rviz"), ("gazebo_ros", "gzclient"), ("rqt_gui", "rqt_gui"), ("joint_state_publisher_gui", "joint_state_publisher_gui"),
