@@ -27,6 +27,7 @@ from node_signals.absent import in_one_line
 from node_signals.children import end_with_parent
 from node_signals.display import asked_for, missing_display
 from node_signals.interpreter import supply_python
+from node_signals.terminals import with_what_is_there
 
 _PID = os.getpid()
 
@@ -111,6 +112,9 @@ def _naming_windows_without_display(start):
     told: Set[str] = set()
 
     def checked(process):
+        process.args, difference = with_what_is_there(process.args or [])
+        if difference:
+            print(f"roslaunch: {process.name}: {difference}", file=sys.stderr, flush=True)
         window = asked_for(["rosrun", str(process.package), os.path.basename(process.args[0])] if process.args else [""])
         problem = missing_display() if window and window not in told else None
         if window and problem:
