@@ -15,8 +15,8 @@ LAUNCH = """<launch>
 
 @pytest.mark.parametrize("words, command", [
     (["xterm", "-e", "node", "-x"], ["node", "-x"]), (["/usr/bin/gnome-terminal", "--title", "a", "--", "node"], ["node"]),
-    (["xfce4-terminal", "-x", "node"], ["node"]), (["xterm"], None), (["xterm", "-e"], None), (["gdb", "-ex", "run", "--args", "node"], None),
-    (["node", "-e"], None), ([], None)])
+    (["xfce4-terminal", "-x", "node"], ["node"]), (["xterm"], None), (["xterm", "-e"], None), (["node", "-e"], None),
+    (["gdb", "-ex", "run", "--args", "node"], None), ([], None)])
 def test_the_command_in_a_terminal(words, command):
     assert terminals.command_in_terminal(words) == command
 

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from typing import Callable, Dict, List, Optional, Tuple
 
 import rospkg
+from node_signals.terminals import with_what_is_there
 from roslaunch.core import RLException, setup_env
 from roslaunch.node_args import NodeParamsException, create_local_process_args
 
@@ -154,6 +155,9 @@ class NodeProcess:
         node = self.spec.node
         arguments = self.command()
         self.executable = arguments[len(shlex.split(node.launch_prefix or ""))]
+        arguments, difference = with_what_is_there(arguments)
+        if difference:
+            self._event(self, difference, "warn")
         environment = setup_env(node, None, self._master_uri)
         environment.setdefault("ROSCONSOLE_FORMAT", CONSOLE_FORMAT)
         directory = {"node": os.path.dirname(self.executable), "ROS_HOME": rospkg.get_ros_home()}.get(node.cwd or "")
