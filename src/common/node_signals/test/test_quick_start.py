@@ -4,6 +4,7 @@ import subprocess
 import sys
 
 import pytest
+from catkin_pkg.package import InvalidPackage
 from catkin_pkg.packages import find_packages
 from node_signals import quick_start
 from rospkg import rospack
@@ -42,6 +43,13 @@ def test_a_broken_manifest_is_for_catkin_to_judge(tmp_path, text):
         find_packages(str(tmp_path))
     with pytest.raises(type(expected.value)):
         quick_start.packages_below(str(tmp_path))
+
+
+def test_a_manifest_that_lacks_something_else_has_a_name(tmp_path):
+    (tmp_path / "package.xml").write_text("<package><name>half_done</name><version>x</version></package>")
+    with pytest.raises(InvalidPackage):  # which ends Debian's roslaunch, for whichever package it looks
+        find_packages(str(tmp_path))
+    assert names(quick_start.packages_below(str(tmp_path))) == {".": "half_done"}
 
 
 @pytest.mark.parametrize("command", ["rosversion roslaunch", "rosversion -d", "rosversion -s roscpp", "rosversion node_signals"])
