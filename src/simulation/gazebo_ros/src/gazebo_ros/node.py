@@ -82,6 +82,7 @@ def _run() -> int:
     ending.follow(server)
     gc.collect()
     gc.freeze()  # what is there stays: collections in mid-run need not look at it
+    gc.enable()
     sys.setswitchinterval(_SWITCH_INTERVAL)
     physics = _PhysicsThread(server)
     physics.start()
