@@ -35,7 +35,7 @@ class CompiledTest(Case):
                             rospy.Subscriber("/arm/seen", PointStamped, self.seen.append),
                             rospy.Subscriber("/box/seen", PointStamped, self.seen.append)]
         self.orders = rospy.Publisher("/keeper/orders", String, queue_size=10)
-        self.wait(lambda: self.subscribers[0].get_num_connections() and self.subscribers[1].get_num_connections() > 1
+        self.wait(lambda: self.heard(self.subscribers[:1]) and self.subscribers[1].get_num_connections() > 1
                   and self.orders.get_num_connections())
         self.sim.empty("reset_simulation")
 
@@ -57,7 +57,7 @@ class CompiledTest(Case):
     def test_model_plugin_drives_a_joint(self):
         self.spawn_arm(more="<effort>0.25</effort>")
         self.sim.step(1)
-        self.wait(lambda: self.subscribers[2].get_num_connections())
+        self.wait(lambda: self.heard(self.subscribers[2:3]))
         self.sim.step(399)
         self.wait(lambda: self.seen)  # 0.25 N m on 0.5 kg m2 for 0.4 s
         joint = self.sim.joint("elbow")

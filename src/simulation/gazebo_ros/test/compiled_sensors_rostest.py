@@ -47,7 +47,7 @@ class SensorsTest(Case):
         got = []
         self.listen(topic, Float64MultiArray, lambda m: got.append(m.data))
         self.done(self.sim.spawn("post", MODEL.format(sensors=sensors, yaw=yaw)))
-        self.wait(lambda: all(subscriber.get_num_connections() for subscriber in self.subscribers))
+        self.wait(lambda: self.heard(self.subscribers[1:]))
         self.sim.step(steps)
         self.wait(lambda: len(got) >= count)
         return got

@@ -45,7 +45,7 @@ class TracksTest(Case):
 
     def drive(self, linear, angular):
         """The tracks' speeds, and the yaw rate and forward speed after half a second of it."""
-        self.wait(lambda: self.command.get_num_connections() and self.subscribers[1].get_num_connections())
+        self.wait(lambda: self.command.get_num_connections() and self.heard(self.subscribers[1:2]))
         self.speeds.clear()
         twist = Twist()
         twist.linear.x, twist.angular.z = linear, angular
