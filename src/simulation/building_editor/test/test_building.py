@@ -310,4 +310,4 @@ def test_command_names_a_preview_that_cannot_be_written(tmp_path, capsys):
         arguments = [str(tmp_path / "plan.yaml"), "-o", str(tmp_path / "a.world"), "--preview", str(tmp_path / file)]
         assert build_world.main(arguments) == 1
         error = capsys.readouterr().err
-        assert message in error and preview in error and error.count("\n") == 1
+        assert message in error and file in error and error.count("\n") == 1
