@@ -125,7 +125,7 @@ class Editor(Session):
         self.assertAlmostEqual(float(model.findtext("link[@name='post']/inertial/inertia/ixx")), (0.2 ** 2 + 1.0) / 12, places=6)
         self.assertEqual([float(part) for part in model.findtext("link[@name='flag']/inertial/pose").split()[:3]], [0.3, 0.0, 0.0])
         self.assertEqual({uri.text for uri in model.iter("uri") if uri.text.endswith(".stl")}, {"model://swing/meshes/flag.stl"})
-        self.assertEqual(sorted(os.listdir(self.folder("swing"))), ["meshes", "model.config", "model.sdf"])
+        wait(lambda: sorted(os.listdir(self.folder("swing"))) == ["meshes", "model.config", "model.sdf"], "three files")
 
     def test_4_what_was_saved_is_inserted_and_swings(self):
         page, told = self.page, []

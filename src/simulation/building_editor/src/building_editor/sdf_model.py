@@ -6,6 +6,8 @@ import os
 import xml.etree.ElementTree as ET
 from typing import Iterator, List, Sequence, Tuple
 
+from ode_sim.whole_files import write_whole
+
 from building_editor.building import Building, Level, Look, PlanError, Stairs, Wall
 
 FLOOR_THICKNESS = 0.1
@@ -191,8 +193,7 @@ def write(building: Building, output: str) -> None:
     else:
         raise PlanError(f"output '{output}': give it the ending .world or .sdf, or a / for a model directory")
     for name, text in files.items():
-        with open(name, "w", encoding="utf-8") as stream:
-            stream.write(text)
+        write_whole(name, text)
 
 
 def _document(root: ET.Element) -> str:

@@ -11,6 +11,7 @@ from building_editor.building import PlanError, building_of
 from building_editor.plan_file import load_plan
 from ode_sim.description import read_sdf_model
 from ode_sim.viewer.simulation import Refused
+from ode_sim.whole_files import write_whole
 
 from gzclient.building.reopened import plan_of
 
@@ -54,8 +55,7 @@ def save(document: Dict[str, Any]) -> str:
     try:
         building = building_of(document)
         os.makedirs(target, exist_ok=True)
-        with open(os.path.join(target, PLAN), "w", encoding="utf-8") as stream:
-            stream.write(text_of(document))
+        write_whole(os.path.join(target, PLAN), text_of(document))
         sdf_model.write(building, target + "/")
         sdf_model.write(building, os.path.join(target, f"{name}.world"))
         preview.save(building, os.path.join(target, "preview.png"))

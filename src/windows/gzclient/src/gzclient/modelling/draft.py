@@ -14,6 +14,7 @@ from ode_sim.math3 import Pose
 from ode_sim.viewer.panels.base import free_name
 from ode_sim.viewer.shapes import shape_model
 from ode_sim.viewer.simulation import Refused
+from ode_sim.whole_files import write_whole
 
 from gzclient.modelling import meshes
 
@@ -185,8 +186,7 @@ class Draft:
             self.model = meshes.gather(self.model, target, name, folder())
             text = self.text(name)
             for file, content in (("model.sdf", text), ("model.config", _config(name))):
-                with open(os.path.join(target, file), "w", encoding="utf-8") as stream:
-                    stream.write(content)
+                write_whole(os.path.join(target, file), content)
         except OSError as error:
             raise Refused(f"{error.filename or target}: {error.strerror or error}") from error
         except DescriptionError as error:  # a mesh has gone
