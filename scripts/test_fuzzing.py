@@ -95,12 +95,11 @@ def test_all_cases_of_a_run_are_tried_by_some_workers(tmp_path):
     assert sorted(tried, key=str) == sorted([(b"well", None), (b"abort", "process ended by SIGABRT")] * 10, key=str)
 
 
-def test_a_worker_that_has_not_begun_is_ended(tmp_path):
-    class Slow(Trap):
-        def start(self, folder, number):
-            time.sleep(60)
+def test_a_worker_that_has_not_begun_is_ended(tmp_path, monkeypatch):
+    lead = os.setpgid  # the first thing that a worker's process does, for itself
+    monkeypatch.setattr(os, "setpgid", lambda pid, group: lead(pid, group) if pid else time.sleep(60))
     begun = time.monotonic()
-    worker.Worker(Slow(), 0, tmp_path / "worker", 0).end()
+    worker.Worker(Trap(), 0, tmp_path / "worker", 0).end()
     assert time.monotonic() - begun < 30
 
 
