@@ -134,7 +134,8 @@ def _naming_windows_without_display(start):
     return checked
 
 
-def prepare() -> None:
+def _mend() -> None:
+    """Debian's roslaunch, from here on as this module says."""
     signal.signal(signal.SIGINT, signal.SIG_DFL)  # nothing has been started yet; pmon takes over with its first process
     _find_place_for_logs()
     supply_python(os.environ)
@@ -149,10 +150,10 @@ def prepare() -> None:
 
 
 def main() -> None:
-    prepare()
+    _mend()
     roslaunch.main()
 
 
 def roscore() -> None:
-    prepare()
+    _mend()
     quick_start.become(sys.argv[0])
