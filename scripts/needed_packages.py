@@ -5,9 +5,13 @@ What only tests need is left out; so is what --without names, and what that alon
 import argparse
 from pathlib import Path
 
-from catkin_pkg.packages import find_packages
-
 ROOT = Path(__file__).resolve().parent.parent
+
+
+def needed_by_code(package):
+    """Names of what a package is built with and runs with, in the workspace or not; what only its tests need is left out."""
+    return {depend.name for depend in (package.buildtool_depends + package.build_depends + package.build_export_depends
+                                       + package.buildtool_export_depends + package.exec_depends)}
 
 
 def needed(names, without=()):
@@ -15,15 +19,14 @@ def needed(names, without=()):
     :return: names of packages, sorted
     :raises KeyError: one of ``names`` is no package of the workspace
     """
+    from catkin_pkg.packages import find_packages  # here, so that others can have needed_by_code before anything is installed
     packages = {package.name: package for package in find_packages(str(ROOT / "src")).values()}
     found, waiting = set(), list(names)
     while waiting:
         package = packages[waiting.pop()]
         if package.name not in found:
             found.add(package.name)
-            depends = (package.buildtool_depends + package.build_depends + package.build_export_depends
-                       + package.buildtool_export_depends + package.exec_depends)
-            waiting += [depend.name for depend in depends if depend.name in packages and depend.name not in without]
+            waiting += [name for name in needed_by_code(package) if name in packages and name not in without]
     return sorted(found)
 
 

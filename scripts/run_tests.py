@@ -6,6 +6,8 @@ in full, and kept with the rest in --logs.
 
 With --again up to five files that failed run once more, up to twice, one after the other, when all others have ended. What passes
 then counts as passed, but a line ``unsteady: ...`` says what had failed: a fault of the test or of what it tests, to be found.
+With --since COMMIT only what a change since that commit can break is tested: the packages with a file that differs, what needs them,
+whose tests use any of these, and the scripts.
 With --coverage the lines of Python that were run are counted, in nodes as well; the pages are in out/coverage.
 """
 from __future__ import annotations
@@ -26,8 +28,9 @@ import xml.etree.ElementTree as ET
 from collections import deque
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Iterator, List, Optional
+from typing import Container, Iterator, List, Optional, Set
 
+import changed_packages
 import coverage_of_tests
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -73,12 +76,12 @@ class Result:
     reasons: List[str] = field(default_factory=list)
 
 
-def find_jobs(packages: List[str], kind: str) -> List[Job]:
-    """All test files of these packages (all packages if none is named)."""
+def find_jobs(packages: Container[str], kind: str, scripts: bool) -> List[Job]:
+    """All test files of these packages, and those of scripts/ if asked for."""
     jobs: List[Job] = []
     for manifest in sorted([*(ROOT / "src").rglob("package.xml"), *(ROOT / "docs").rglob("package.xml")]):
         package = manifest.parent
-        if packages and package.name not in packages:
+        if package.name not in packages:
             continue
         test = package / "test"
         if not test.is_dir():
@@ -87,9 +90,22 @@ def find_jobs(packages: List[str], kind: str) -> List[Job]:
             jobs += [Job(package, "rostest", path) for path in sorted(test.rglob("*.test"))]
         if kind in ("pytest", "all") and any(test.rglob("test_*.py")):
             jobs.append(Job(package, "pytest", test))
-    if not packages and kind in ("pytest", "all"):
+    if scripts and kind in ("pytest", "all"):
         jobs += [Job(ROOT, "pytest", path) for path in sorted((ROOT / "scripts").glob("test_*.py"))]
     return sorted(jobs, key=lambda job: -job.files)  # what takes long first: at the end all have something to do
+
+
+def chosen(named: List[str], since: Optional[str]) -> Set[str]:
+    """
+    The packages that are tested: those named, or all; of these what a change since the commit ``since``, if given, can break.
+
+    :raises changed_packages.UnknownCommit:
+    """
+    workspace = changed_packages.workspace()
+    names = set(named) or {package.name for package in workspace.values()}
+    if since is not None:
+        names &= changed_packages.breakable(changed_packages.changed_files(since), workspace)
+    return names
 
 
 class Queue:
@@ -240,6 +256,7 @@ def tell(result: Result, quiet: bool) -> None:
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("packages", nargs="*", help="only these packages")
+    parser.add_argument("--since", metavar="COMMIT", help="only what a change since this commit can break, uncommitted files included")
     parser.add_argument("-k", "--kind", choices=["all", "pytest", "rostest"], default="all")
     parser.add_argument("-j", "--jobs", type=int, default=min(MOST_WORKERS, (os.cpu_count() or 1) + 1))
     parser.add_argument("--again", action="store_true", help="run the few files that failed again, alone")
@@ -249,10 +266,16 @@ def main() -> int:
     options = parser.parse_args()
     scratch = Path(options.logs or tempfile.mkdtemp(prefix="noetic_labs_test_")).resolve()
     scratch.mkdir(parents=True, exist_ok=True)
-    jobs = find_jobs(options.packages, options.kind)
+    try:
+        packages = chosen(options.packages, options.since)
+    except changed_packages.UnknownCommit as error:
+        parser.error(str(error))
+    jobs = find_jobs(packages, options.kind, scripts=not options.packages)
     if not jobs:
         print(f"no tests found for {' '.join(options.packages) or 'any package'}", file=sys.stderr)
         return 1
+    if options.since:
+        print(f"since {options.since}: {len(packages)} packages can be broken, {len(jobs)} files of tests", flush=True)
     if options.coverage:
         coverage_of_tests.install()
         os.environ.update(coverage_of_tests.environment(scratch / "coverage"))

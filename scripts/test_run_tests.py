@@ -19,7 +19,7 @@ def whole_run(monkeypatch, tmp_path, capsys):
             failed = tries[job.path.name].pop(0)
             return run_tests.Result(job, 2 - failed, failed, 0, 0.1, "output", [f"case: reason {failed}"] * failed)
 
-        monkeypatch.setattr(run_tests, "find_jobs", lambda packages, kind: jobs)
+        monkeypatch.setattr(run_tests, "find_jobs", lambda packages, kind, scripts: jobs)
         monkeypatch.setattr(run_tests, "run", run_one)
         monkeypatch.setattr(sys, "argv", ["run_tests.py", *options])
         return run_tests.main(), capsys.readouterr().out.splitlines()
