@@ -46,3 +46,22 @@ def test_protos_are_found_by_packages_that_look_for_a_folder_of_the_version(tmp_
     subprocess.run(["protoc", f"--proto_path={folder}/proto", f"--proto_path={tmp_path}", f"--cpp_out={tmp_path}",
                     tmp_path / "own.proto"], check=True)
     assert '#include "vector3d.pb.h"' in (tmp_path / "own.pb.h").read_text()
+
+
+def test_who_names_gazebo_ros_or_gazebo_plugins_alone_links_what_those_of_noetic_bring(tmp_path):
+    """A node with an action client, as many have it: upstream's gazebo_ros depends on tf, that on tf2_ros, that on actionlib."""
+    (tmp_path / "node.cpp").write_text(
+        "#include <actionlib/goal_id_generator.h>\n#include <tf/transform_datatypes.h>\n#include <tf2_ros/buffer.h>\n"
+        "#include WANTED\nint main() { actionlib::GoalIDGenerator made; tf2_ros::Buffer buffer; made.generateID(); }\n")
+    for package, header in (("gazebo_ros", "dynamic_reconfigure/server.h"),
+                            ("gazebo_plugins", "camera_info_manager/camera_info_manager.h")):
+        project = tmp_path / package
+        project.mkdir()
+        (project / "CMakeLists.txt").write_text(
+            "cmake_minimum_required(VERSION 3.5)\nproject(plugins)\nset(CMAKE_CXX_STANDARD 17)\n"
+            f"find_package(catkin REQUIRED COMPONENTS {package})\n"
+            f"include_directories(${{catkin_INCLUDE_DIRS}})\nadd_executable(node ../node.cpp)\n"
+            f"target_compile_definitions(node PRIVATE WANTED=<{header}>)\ntarget_link_libraries(node ${{catkin_LIBRARIES}})\n")
+        subprocess.run(["cmake", "-S", project, "-B", project / "build"], check=True, capture_output=True)
+        made = subprocess.run(["cmake", "--build", project / "build"], capture_output=True, text=True)
+        assert made.returncode == 0, made.stdout + made.stderr
