@@ -135,6 +135,25 @@ def test_collada_up_axis_is_ignored_as_in_gazebo_classic(tmp_path):
     assert np.array_equal(*surfaces)
 
 
+@pytest.mark.parametrize("faulty", [
+    "<transparency> </transparency>", "<specular><color>white</color></specular>", "<emission><color/></emission>",
+    "<shininess><float/></shininess>", "<ambient><colour>1 0 0 1</colour></ambient>",
+    "<index_of_refraction><float>1 2</float></index_of_refraction>"])
+def test_a_shape_is_there_and_red_though_its_shader_is_faulty_as_in_gazebo(tmp_path, faulty):
+    file = tmp_path / "t.dae"
+    file.write_text(DAE.format(up="").replace("<diffuse><color>1 0 0", f"{faulty}<diffuse><color>1 0 0"))
+    red, painted = mesh.load_visual(str(file))
+    assert len(red.triangles) == len(painted.triangles) == 1
+    assert red.material.diffuse == (1.0, 0.0, 0.0, 1.0)
+    assert len(mesh.load_surface(str(file)).triangles) == 2
+
+
+def test_a_shader_without_its_colour_leaves_the_shape(tmp_path):
+    file = tmp_path / "t.dae"
+    file.write_text(DAE.format(up="").replace("<color>1 0 0 1</color>", ""))
+    assert len(mesh.load_visual(str(file))) == 2
+
+
 def test_obj_materials_polygons_and_negative_indices(tmp_path):
     (tmp_path / "m.mtl").write_text("newmtl blue sky\nKd 0 0 1\nd 0.5\n")
     file = tmp_path / "q.obj"

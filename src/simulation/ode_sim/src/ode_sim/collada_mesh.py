@@ -5,8 +5,9 @@ import io
 import logging
 import os
 import zipfile
-from typing import Dict, List, Tuple
+from typing import Dict, List, Optional, Tuple
 from urllib.parse import unquote
+from xml.etree import ElementTree
 from xml.parsers import expat
 
 import numpy as np
@@ -17,6 +18,7 @@ from ode_sim.mesh_files import MeshPart, check_triangles
 
 logging.getLogger("collada").setLevel(logging.ERROR)
 _MOST_INSTANCES = 50_000  # of nodes and shapes in the scene
+_SHADERS = ("phong", "lambert", "blinn", "constant")
 
 
 def read_dae(path: str, data: bytes) -> List[MeshPart]:
@@ -24,11 +26,8 @@ def read_dae(path: str, data: bytes) -> List[MeshPart]:
 
     :raises DescriptionError: one line that names the file. A broken file may raise anything else.
     """
-    import collada
-    from collada.common import DaeBrokenRefError, DaeUnsupportedError
-
     _Check(path).run(data)
-    document = collada.Collada(io.BytesIO(data), ignore=[DaeUnsupportedError, DaeBrokenRefError])
+    document = _document(data)
     unit = float(document.assetInfo.unitmeter or 1.0)
     if document.scene is None:
         raise DescriptionError(f"mesh {path}: the Collada file has no visual scene")
@@ -41,6 +40,47 @@ def read_dae(path: str, data: bytes) -> List[MeshPart]:
             check_triangles(triangles, path)
             parts += found
     return parts
+
+
+def _document(data: bytes):
+    """What the library reads. A shape is there all the same where how it looks is told wrongly, as in Gazebo."""
+    import collada
+    from collada.common import DaeBrokenRefError, DaeError, DaeUnsupportedError
+
+    ignored = [DaeUnsupportedError, DaeBrokenRefError]
+    try:
+        return collada.Collada(io.BytesIO(data), ignore=ignored)
+    except (AttributeError, DaeError, TypeError, ValueError):
+        mended = _without_faulty_shading(data)
+        if mended is None:
+            raise
+        return collada.Collada(io.BytesIO(mended), ignore=ignored)
+
+
+def _without_faulty_shading(data: bytes) -> Optional[bytes]:
+    """The same file less what its shaders cannot be told, as MakeHuman's empty ``<transparency>``; None where none of that is in it."""
+    root = ElementTree.fromstring(data)
+    faulty = [(shader, told) for shader in root.iter() if _tag(shader) in _SHADERS for told in shader if not _is_shading(told)]
+    for shader, told in faulty:
+        shader.remove(told)
+    return ElementTree.tostring(root) if faulty else None
+
+
+def _tag(element: ElementTree.Element) -> str:
+    return str(element.tag).rpartition("}")[2]
+
+
+def _is_shading(told: ElementTree.Element) -> bool:
+    if not len(told):
+        return False
+    kind, text = _tag(told[0]), told[0].text or ""
+    if kind in ("texture", "param"):
+        return True
+    try:
+        numbers = [float(word) for word in text.split()]
+    except ValueError:
+        return False
+    return kind == "color" and len(numbers) >= 3 or kind == "float" and len(numbers) == 1
 
 
 def _parts(primitive, geometry, unit: float, path: str) -> List[MeshPart]:
