@@ -1,12 +1,49 @@
 // JointController.
 #include <gazebo/physics/physics.hh>
 
+#include <algorithm>
+#include <cmath>
+
 #include "convert.hpp"
 
 namespace gazebo
 {
 namespace physics
 {
+
+namespace
+{
+
+// What a PID gives, with the law behind it: the simulation holds gains that are too high for its step, as those of ros_control.
+// `slope`: how much less it gives per unit of the joint's speed, negative where it is of the position alone.
+void give(Joint& joint, common::PID& pid, double error, const common::Time& passed, double slope)
+{
+  const double force = pid.Update(error, passed);
+  const auto core = joint.Core();
+  double p, i, d;
+  pid.GetErrors(p, i, d);
+  const double law = -(pid.GetPGain() * p + pid.GetIGain() * i + pid.GetDGain() * d);
+  const bool bounded = pid.GetCmdMax() >= pid.GetCmdMin();
+  const double bound = bounded ? pid.GetCmdMax() : ode_sim::kInf;
+  const bool lawful = force == law || (bounded && pid.GetCmdMin() == -bound);  // a bound of one side makes no law
+  if (core && core->axis_count > 0 && slope != 0 && lawful && std::isfinite(law))
+    ode_sim::add_law(core->axes[0], law, slope, bound);
+  else
+    joint.SetForce(0, force);
+}
+
+double slope_of_position(const common::PID& pid, double seconds)
+{
+  const double p = std::max(pid.GetPGain(), 0.0) * seconds;
+  return pid.GetDGain() > 0 ? pid.GetDGain() + p : -p;
+}
+
+double slope_of_velocity(const common::PID& pid, double seconds)
+{
+  return std::max(pid.GetPGain() + pid.GetDGain() / seconds, 0.0);
+}
+
+}  // namespace
 
 JointController::JointController(ModelPtr model) : model_(model.get()), last_(model->GetWorld()->SimTime())
 {
@@ -48,12 +85,14 @@ void JointController::Update()
   for (const auto& target : positions_)
   {
     const JointPtr& joint = joints_[target.first];
-    joint->SetForce(0, position_pids_[target.first].Update(joint->Position(0) - target.second, passed));
+    common::PID& pid = position_pids_[target.first];
+    give(*joint, pid, joint->Position(0) - target.second, passed, slope_of_position(pid, passed.Double()));
   }
   for (const auto& target : velocities_)
   {
     const JointPtr& joint = joints_[target.first];
-    joint->SetForce(0, velocity_pids_[target.first].Update(joint->GetVelocity(0) - target.second, passed));
+    common::PID& pid = velocity_pids_[target.first];
+    give(*joint, pid, joint->GetVelocity(0) - target.second, passed, slope_of_velocity(pid, passed.Double()));
   }
 }
 

@@ -81,6 +81,20 @@ class CompiledTest(Case):
         self.assertLess(abs(twist.angular.x) + abs(twist.angular.y), 1e-3)
         self.assertAlmostEqual(self.sim.joint("elbow").position[0], 0.0, delta=1e-3)
 
+    def test_gains_of_the_joint_controller_that_are_too_high_for_the_step_hold(self):
+        """0.5 kg m2 without friction: held through a step, the first would swing for ever, the second be thrown to and fro."""
+        self.spawn_arm(more="<position_gain>1e5</position_gain><target>4e-5</target>")  # within its 5 N m
+        self.sim.step(1000)
+        joint = self.sim.joint("elbow")
+        self.assertAlmostEqual(joint.position[0], 4e-5, delta=1e-9)
+        self.assertAlmostEqual(joint.rate[0], 0.0, delta=1e-9)
+        self.done(self.sim.delete("arm"))
+        self.spawn_arm(more="<speed_gain>2000</speed_gain><target>0.5</target>")
+        self.sim.step(200)
+        for _ in range(5):
+            self.sim.step(1)
+            self.assertAlmostEqual(self.sim.joint("elbow").rate[0], 0.5, delta=1e-6)
+
     def test_private_parameters_are_those_of_the_simulator(self):
         rospy.set_param("/gazebo/worker_effort", 0.5)
         try:

@@ -27,6 +27,8 @@ public:
     effort_ = ros::NodeHandle("~").param("worker_effort", effort_.load());
     force_ = sdf->Get<ignition::math::Vector3d>("force");
     hold_ = sdf->Get<bool>("hold", false).first;
+    Control(sdf->Get<double>("position_gain", 0.0).first, sdf->Get<double>("speed_gain", 0.0).first,
+            sdf->Get<double>("target", 0.0).first);
     ros::NodeHandle nh(sdf->Get<std::string>("robotNamespace", model->GetName()).first);
     seen_ = nh.advertise<geometry_msgs::PointStamped>("seen", 10);
     command_ = nh.subscribe<std_msgs::Float64>("effort", 1, [this](const std_msgs::Float64ConstPtr& m) { effort_ = m->data; });
@@ -41,6 +43,21 @@ public:
   }
 
 private:
+  void Control(double position_gain, double speed_gain, double target)
+  {
+    const physics::JointControllerPtr controller = model_->GetJointController();
+    if (position_gain > 0)
+    {
+      controller->SetPositionPID(joint_->GetScopedName(), common::PID(position_gain, 0, 0));
+      controller->SetPositionTarget(joint_->GetScopedName(), target);
+    }
+    if (speed_gain > 0)
+    {
+      controller->SetVelocityPID(joint_->GetScopedName(), common::PID(speed_gain, 0, 0));
+      controller->SetVelocityTarget(joint_->GetScopedName(), target);
+    }
+  }
+
   void OnGo(ConstIntPtr& message) { effort_ = message->data(); }
 
   void OnUpdate(const common::UpdateInfo& info)
