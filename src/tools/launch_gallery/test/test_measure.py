@@ -51,8 +51,14 @@ def test_a_topic_that_cannot_be_commanded_is_said(wanted, words):
 
 
 def test_rates_come_from_stamps():
-    assert hearing.rate([0.0, 0.1, 0.1, 0.2]) == pytest.approx(10.0)
-    assert hearing.rate([0.1]) is None
+    assert hearing.rate([0.0, 0.1, 0.1, 0.2], 5.0) == pytest.approx(10.0)
+    assert hearing.rate([0.1], 5.0) is None
+    assert hearing.rate([0.1, 0.1], 5.0) is None  # the same picture twice
+
+
+def test_messages_that_nobody_stamped_are_counted_as_they_come():
+    assert hearing.rate([0.0] * 100, 5.0) == pytest.approx(20.0)
+    assert hearing.rate([], 5.0) is None and hearing.rate([0.0], 5.0) is None
 
 
 def test_descriptions_tell_limits_and_rates():

@@ -1,4 +1,4 @@
-"""How often sensors speak, by their own stamps, and whether they say something."""
+"""How often sensors speak, by their own stamps if they have any, and whether they say something."""
 from __future__ import annotations
 
 import math
@@ -38,11 +38,14 @@ class Ear:
         for stamps in self._stamps.values():
             stamps.clear()
 
-    def close(self) -> List[dict]:
-        """What was heard since :meth:`forget`: topic, kind, rate in Hz (None: not two messages) and what it says."""
+    def close(self, seconds: float) -> List[dict]:
+        """What was heard since :meth:`forget`: topic, kind, rate in Hz (None: not two messages) and what it says.
+
+        :param seconds: of simulation since then
+        """
         for subscriber in self._subscribers:
             subscriber.unregister()
-        return [{"topic": topic, "kind": self._kinds[topic], "rate": rate(stamps), "says": self._says(topic)}
+        return [{"topic": topic, "kind": self._kinds[topic], "rate": rate(stamps, seconds), "says": self._says(topic)}
                 for topic, stamps in sorted(self._stamps.items())]
 
     def _says(self, topic: str) -> str:
@@ -56,8 +59,10 @@ class Ear:
             return f"unreadable: {error}"
 
 
-def rate(stamps: List[float]) -> Optional[float]:
-    """Mean rate, Hz, of stamps in s: None where there are not two."""
+def rate(stamps: List[float], seconds: float) -> Optional[float]:
+    """Mean rate, Hz, of stamps in s: None where there are not two. Where all were left at 0, as many messages came within ``seconds``."""
+    if len(stamps) > 1 and not any(stamps):
+        return len(stamps) / seconds
     stamps = sorted(set(stamps))
     return (len(stamps) - 1) / (stamps[-1] - stamps[0]) if len(stamps) > 1 else None
 

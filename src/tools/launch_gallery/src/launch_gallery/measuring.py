@@ -96,14 +96,16 @@ class Measurement:
     def listen(self) -> None:
         """Sensors, with the world slowed down: on a busy machine a picture may take longer than the sensor's period."""
         ear = Ear([(topic, kind) for topic, kind in self.system.published() if is_sensor(kind)])
+        heard = 0.0
         self.truth.pace(self.job["slow"])
         try:
             self.truth.follow(1.0)  # connections, and what was shared out before them
             ear.forget()
-            self.truth.follow(self.job["listen"])
+            samples = self.truth.follow(self.job["listen"])
+            heard = samples[-1].time - samples[0].time
         finally:
             self.truth.pace(None)
-            self.found["sensors"] = ear.close()
+            self.found["sensors"] = ear.close(heard or self.job["listen"])
         self._compare_rates()
 
     def _compare_rates(self) -> None:
