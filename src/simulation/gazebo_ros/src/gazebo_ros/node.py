@@ -18,7 +18,7 @@ import ode_sim
 import rosgraph
 import rospkg
 import rospy
-from node_signals import master_watch
+from node_signals import master_watch, verbose
 from ode_sim.description import DescriptionError, Problem, ResourceFinder, load_world
 from ode_sim.description import model as d
 from rospy.names import load_mappings
@@ -70,7 +70,7 @@ def _run() -> int:
     node_signals.before_init_node()
     # rospy's clock would come back from the /clock that this node publishes: the server sets it without that detour
     rospy.init_node("gazebo", disable_rostime=True, disable_signals=True,
-                    log_level=rospy.DEBUG if options.verbose else rospy.INFO)
+                    log_level=verbose.level(options.verbose))
     rospy.on_shutdown(ending.request)
     for line in command_line.remarks(options):
         rospy.logwarn("%s", line)

@@ -13,6 +13,7 @@ from typing import Any, List, Optional
 from urllib.parse import urlsplit
 
 import node_signals
+from node_signals import verbose
 from ode_sim.viewer.website import Unavailable, Website
 
 from gzclient import command_line, desktop
@@ -51,7 +52,7 @@ def main(arguments: List[str]) -> int:
 def _serve(website: Website, options: Any, closed: Any) -> int:
     import rospy
     node_signals.init_node("gzclient", anonymous=True, disable_rostime=True,
-                           log_level=rospy.DEBUG if options.verbose else rospy.INFO)
+                           log_level=verbose.level(options.verbose))
     from gzclient.page import make_page
     try:
         page = make_page(website, options.shadows)
