@@ -5,22 +5,28 @@ import subprocess
 PROJECT = "cmake_minimum_required(VERSION 3.5)\nproject(plugins)\n{before}find_package(gazebo REQUIRED)\n"
 
 
-def configure(folder, before="", source=""):
+def configure(folder, before="", source="", file="src/plugin.cpp"):
     """What CMake says, without its line breaks."""
-    (folder / "src").mkdir()
-    (folder / "src" / "plugin.cpp").write_text(source)
+    (folder / file).parent.mkdir()
+    (folder / file).write_text(source)
     (folder / "CMakeLists.txt").write_text(PROJECT.format(before=before))
     done = subprocess.run(["cmake", "-S", folder, "-B", folder / "build"], capture_output=True, text=True)
     return done.returncode, " ".join((done.stdout + done.stderr).split())
 
 
 def test_sources_for_gazebo_7_are_named_and_configure(tmp_path):
-    code, text = configure(tmp_path, source="void f() { pose = model->GetWorldPose(); }\n")
+    code, text = configure(tmp_path, source="#include <gazebo/gazebo.hh>\nvoid f() { pose = model->GetWorldPose(); }\n")
     assert code == 0 and "src/plugin.cpp is written for Gazebo 7 or older" in text, text
+
+
+def test_they_are_found_in_any_folder_of_the_package_and_in_headers(tmp_path):
+    code, text = configure(tmp_path, source="#include <gazebo/math/Helpers.hh>\n", file="plugins/plugin.hh")
+    assert code == 0 and "plugins/plugin.hh is written for Gazebo 7 or older" in text, text
 
 
 def test_sources_that_know_both_or_are_new_are_not(tmp_path):
     for name, source in (("both", "#if GAZEBO_MAJOR_VERSION < 8\nmodel->GetWorldPose();\n#endif\n"),
+                         ("other", "#include <matrix/math.hpp>\nmath::Quaternion q;\n"),
                          ("new", "ignition::math::Vector3d v = model->WorldPose().Pos();\n")):
         (tmp_path / name).mkdir()
         code, text = configure(tmp_path / name, source=source)
