@@ -251,6 +251,24 @@ def test_a_click_on_what_has_just_gone_counts_when_it_comes_back(page, monkeypat
     assert ("box", "box", "", "") not in world._rows and not world._hidden
 
 
+def test_a_copy_right_after_the_undo_of_a_delete_waits_for_the_world_to_tell_of_it(page, monkeypatch):
+    client, world, simulation = Client(), panel(page, "WorldPanel"), page.simulation
+    newest, turns = simulation.frame, []
+    page.selection.select("box")
+    now = time.monotonic()
+    monkeypatch.setattr(time, "monotonic", lambda: now)  # however slow this machine is, the box is away for a moment only
+    use(world._edit, client, "Delete")
+    wait(page, lambda: page.world.model("box") is None)
+    gone = page.frame
+    use(world._history, client, "Undo")
+    monkeypatch.setattr(simulation, "frame", lambda: newest() if len(turns) > 3 else gone)
+    monkeypatch.setattr(page, "catch_up", lambda: turns.append(page.turn()) or True)  # as the thread that draws would
+    use(world._edit, client, "Copy")
+    assert len(turns) > 3 and not client.told
+    wait(page, lambda: page.world.model("box_0") is not None)
+    assert np.allclose(position(page, "box_0"), (1.0, 0.0, 0.0), atol=1e-5)
+
+
 def test_a_job_that_stumbles_does_not_take_the_others_along():
     said, done = [], []
     page = Page(LocalSimulation(World(d.World()), paused=True), port=0, say=said.append)

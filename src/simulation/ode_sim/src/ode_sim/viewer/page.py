@@ -116,12 +116,16 @@ class Page:
         self._jobs.put(f)
         self._wake.set()
 
-    def catch_up(self) -> None:
-        """Return when what was asked of the thread that draws is done: a pick before the deletion that follows it. Other threads."""
-        if self._drawer is not None and self._drawer is not threading.current_thread():
-            done = threading.Event()
-            self.later(done.set)
-            done.wait(_CATCH_UP)
+    def catch_up(self) -> bool:
+        """Return when what was asked of the thread that draws is done: a pick before the deletion that follows it. Other threads.
+
+        :returns: whether there is such a thread, and it has not been too busy
+        """
+        if self._drawer is None or self._drawer is threading.current_thread():
+            return False
+        done = threading.Event()
+        self.later(done.set)
+        return done.wait(_CATCH_UP)
 
     def attempt(self, event: Any, f: Callable[[], Any]) -> Any:
         """Do what a page asked for: ``f()``, unless another page holds the controls; a refusal is shown on that page.

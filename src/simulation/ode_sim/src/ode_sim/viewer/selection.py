@@ -179,6 +179,18 @@ class Selection:
         for f in self.on_change:
             f()
 
+    def come_back(self) -> None:
+        """Return when what is picked is there, in a frame of the world that the page knows, or has gone for good: a copy may be asked
+        for right after the undo of a delete, before the world has told of either. Other threads than the drawing one."""
+        end = time.monotonic() + _AWAY
+        while not self._placed() and time.monotonic() < end and self._page.catch_up():
+            time.sleep(0.01)
+
+    def _placed(self) -> bool:
+        frame = self._page.frame
+        told = frame is not None and frame.revision == self._page.world.revision
+        return not (self.model or self.light) or told and self._missing is None
+
     def pose(self) -> Optional[Pose]:
         """X_W of what is picked, in the newest frame."""
         frame, record = self._page.frame, self.record

@@ -130,6 +130,7 @@ class WorldPanel(Panel):
     def _on_edit(self, event: Any) -> None:
         selection = self.page.selection
         self.page.catch_up()  # what was picked a moment before is what is meant
+        selection.come_back()
         if event.target.value == "Look at":
             pose = selection.pose()
             if pose is not None and event.client is not None:
