@@ -23,6 +23,7 @@ from sensor_msgs.msg import JointState
 from shape_msgs.msg import SolidPrimitive
 from std_msgs.msg import Header
 from std_srvs.srv import Empty
+from test_support.hearing import heard
 from tf.transformations import quaternion_matrix
 from tf2_ros import StaticTransformBroadcaster
 
@@ -339,7 +340,7 @@ class Scene(unittest.TestCase):
 
         seen = []
         subscriber = rospy.Subscriber("move_group/monitored_planning_scene", PlanningScene, seen.append)
-        wait_until(lambda: subscriber.get_num_connections(), "the connection")
+        wait_until(lambda: heard([subscriber]), "the connection")
         apply(box("early", 1, 1, 1))
         wait_until(lambda: any(("early", 0) in operations(m) for m in seen), "a scene")  # whole, as all was removed before
         apply(box("late", 2, 2, 2))

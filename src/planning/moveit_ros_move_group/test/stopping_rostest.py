@@ -13,6 +13,7 @@ from moveit_msgs.msg import MoveGroupAction, MoveGroupActionGoal, MoveGroupGoal,
 from moveit_msgs.srv import GetPositionFK, GetPositionFKRequest
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
+from test_support.hearing import heard
 
 sys.path.insert(0, rospkg.RosPack().get_path("moveit_ros_move_group") + "/test")
 from client import HOME, JOINTS, LEFT, PATIENCE, Goal, apply, box, call, clear, move, plan, request, wait_until  # noqa: E402
@@ -84,7 +85,7 @@ class Stopping(unittest.TestCase):
         ended = []
         results = rospy.Subscriber(name + "/result", kind().action_result.__class__, ended.append)
         goals = rospy.Publisher(name + "/goal", action_goal, queue_size=1)
-        wait_until(lambda: goals.get_num_connections() and results.get_num_connections(), "move_group")
+        wait_until(lambda: goals.get_num_connections() and heard([results]), "move_group")
         message = action_goal(goal=goal)
         message.goal_id.stamp = rospy.Time.now()
         message.goal_id.id = f"overtaken {name} {message.goal_id.stamp}"

@@ -11,6 +11,7 @@ from geometry_msgs.msg import PointStamped
 from rosgraph_msgs.msg import Log
 from std_msgs.msg import Float64, String
 from std_srvs.srv import Empty
+from test_support.hearing import heard
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from simulator import Case  # noqa: E402
@@ -35,8 +36,7 @@ class CompiledTest(Case):
                             rospy.Subscriber("/arm/seen", PointStamped, self.seen.append),
                             rospy.Subscriber("/box/seen", PointStamped, self.seen.append)]
         self.orders = rospy.Publisher("/keeper/orders", String, queue_size=10)
-        self.wait(lambda: self.heard(self.subscribers[:1]) and self.subscribers[1].get_num_connections() > 1
-                  and self.orders.get_num_connections())
+        self.wait(lambda: heard(self.subscribers[:2]) and self.orders.get_num_connections())
         self.sim.empty("reset_simulation")
 
     def tearDown(self):
@@ -57,7 +57,7 @@ class CompiledTest(Case):
     def test_model_plugin_drives_a_joint(self):
         self.spawn_arm(more="<effort>0.25</effort>")
         self.sim.step(1)
-        self.wait(lambda: self.heard(self.subscribers[2:3]))
+        self.wait(lambda: heard(self.subscribers[2:3]))
         self.sim.step(399)
         self.wait(lambda: self.seen)  # 0.25 N m on 0.5 kg m2 for 0.4 s
         joint = self.sim.joint("elbow")

@@ -10,6 +10,7 @@ import rospy
 import rostest
 from rosgraph_msgs.msg import Log
 from std_msgs.msg import Float64MultiArray
+from test_support.hearing import heard
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from simulator import Case  # noqa: E402
@@ -31,7 +32,7 @@ class SensorsTest(Case):
     def setUp(self):
         self.log, self.got, self.subscribers = [], {}, []
         self.listen("/rosout", Log, lambda m: self.log.append(m.msg))
-        self.wait(lambda: self.subscribers[0].get_num_connections() > 1)
+        self.wait(lambda: heard(self.subscribers))
         self.sim.empty("reset_simulation")
 
     def tearDown(self):
@@ -47,7 +48,7 @@ class SensorsTest(Case):
         got = []
         self.listen(topic, Float64MultiArray, lambda m: got.append(m.data))
         self.done(self.sim.spawn("post", MODEL.format(sensors=sensors, yaw=yaw)))
-        self.wait(lambda: self.heard(self.subscribers[1:]))
+        self.wait(lambda: heard(self.subscribers[1:]))
         self.sim.step(steps)
         self.wait(lambda: len(got) >= count)
         return got

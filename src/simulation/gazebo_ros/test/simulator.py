@@ -1,8 +1,6 @@
 """What the rostests share: service calls in one line, and the simulator under the namespace of the test."""
 import functools
-import xmlrpc.client
 
-import rosgraph
 import rospy
 import test_support
 from gazebo_msgs import srv
@@ -10,6 +8,7 @@ from gazebo_msgs.msg import LinkState, ModelState, ODEJointProperties, ODEPhysic
 from geometry_msgs.msg import Point, Pose, Quaternion, Twist, Vector3, Wrench
 from std_msgs.msg import Bool
 from std_srvs.srv import Empty
+from test_support.hearing import heard
 
 from gazebo_ros.srv import StepWorld
 
@@ -147,22 +146,6 @@ class Case(test_support.TestCase):
             self.assertFalse(rospy.is_shutdown())
             rospy.rostime.wallsleep(0.01)
 
-    @staticmethod
-    def heard(subscribers):
-        """Every publisher of their topics, of which there is one at least, sends to this node. It is the publishers that are asked: rospy
-        counts a connection before it has made it."""
-        master = rosgraph.Master(rospy.get_name())
-        publishers = dict(master.getSystemState()[0])
-
-        def sends(node, topic):
-            try:
-                links = xmlrpc.client.ServerProxy(master.lookupNode(node)).getBusInfo(rospy.get_name())[2]
-            except (rosgraph.MasterException, OSError):  # it has gone meanwhile
-                return False
-            return any(link[1] == rospy.get_name() and link[2] == "o" and link[4] == topic for link in links)
-        return all(publishers.get(each.resolved_name) and all(sends(node, each.resolved_name) for node in publishers[each.resolved_name])
-                   for each in subscribers)
-
     def clear(self, subscribers):
         """The models are gone, and so are the topics of their plugins that ``subscribers`` hear.
 
@@ -171,7 +154,7 @@ class Case(test_support.TestCase):
         def published():
             names = {name for name, _ in rospy.get_published_topics()}
             return [subscriber for subscriber in subscribers if subscriber.resolved_name in names]
-        self.wait(lambda: self.heard(published()))
+        self.wait(lambda: heard(published()))
         self.sim.clear()
         self.wait(lambda: not published())
 

@@ -10,6 +10,7 @@ import rospy
 import rostest
 from geometry_msgs.msg import Twist, Vector3
 from rosgraph_msgs.msg import Log
+from test_support.hearing import heard
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from simulator import Case  # noqa: E402
@@ -45,7 +46,7 @@ class TracksTest(Case):
 
     def drive(self, linear, angular):
         """The tracks' speeds, and the yaw rate and forward speed after half a second of it."""
-        self.wait(lambda: self.command.get_num_connections() and self.heard(self.subscribers[1:2]))
+        self.wait(lambda: self.command.get_num_connections() and heard(self.subscribers[1:2]))
         self.speeds.clear()
         twist = Twist()
         twist.linear.x, twist.angular.z = linear, angular

@@ -15,6 +15,7 @@ from gazebo_ros.srv import StepWorld
 from geometry_msgs.msg import Pose
 from rosgraph_msgs.msg import Log
 from std_msgs.msg import Float64
+from test_support.hearing import heard
 
 KINDS = {"velocity": "Velocity", "position": "Position", "effort": "Effort"}
 PARTS = "".join(f"""<joint name="{name}" type="revolute"><parent link="world"/><child link="{name}_link"/>
@@ -36,7 +37,7 @@ class Robot(unittest.TestCase):
     def setUp(self):
         self.log = []
         self.subscriber = rospy.Subscriber("/rosout", Log, lambda m: self.log.append(m.msg))
-        self.wait(lambda: self.subscriber.get_num_connections() > 1)
+        self.wait(lambda: heard([self.subscriber]))
         self.step = service("/gazebo/step", StepWorld)
 
     def tearDown(self):

@@ -1,4 +1,4 @@
-"""What tests share. No ROS in here: a test that talks to nodes brings its own clients.
+"""What tests share. No ROS but in ``test_support.hearing``: a test that talks to nodes brings its own clients.
 
     class Wheels(test_support.TestCase):
         def test_both_turn(self):

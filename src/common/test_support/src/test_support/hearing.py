@@ -1,0 +1,25 @@
+"""Who hears whom, for tests that talk to nodes. Imports rospy, which nothing else here does."""
+import xmlrpc.client
+from typing import Any, Iterable
+
+import rosgraph
+import rospy
+
+
+def heard(subscribers: Iterable[Any]) -> bool:
+    """Whether every publisher of their topics, of which there is one at least, sends to this node. It is the publishers that are asked:
+    a Subscriber's ``get_num_connections()`` counts a connection before it is made, and what is published until then is lost.
+
+    :param subscribers: rospy.Subscribers of this node
+    """
+    master = rosgraph.Master(rospy.get_name())
+    publishers = dict(master.getSystemState()[0])
+
+    def sends(node: str, topic: str) -> bool:
+        try:
+            links = xmlrpc.client.ServerProxy(master.lookupNode(node)).getBusInfo(rospy.get_name())[2]
+        except (rosgraph.MasterException, OSError):  # it has gone meanwhile
+            return False
+        return any(link[1] == rospy.get_name() and link[2] == "o" and link[4] == topic for link in links)
+    return all(publishers.get(each.resolved_name) and all(sends(node, each.resolved_name) for node in publishers[each.resolved_name])
+               for each in subscribers)
