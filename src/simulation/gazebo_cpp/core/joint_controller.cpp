@@ -25,7 +25,8 @@ void give(Joint& joint, common::PID& pid, double error, const common::Time& pass
   const double law = -(pid.GetPGain() * p + pid.GetIGain() * i + pid.GetDGain() * d);
   const bool bounded = pid.GetCmdMax() >= pid.GetCmdMin();
   const double bound = bounded ? pid.GetCmdMax() : ode_sim::kInf;
-  const bool lawful = force == law || (bounded && pid.GetCmdMin() == -bound);  // a bound of one side makes no law
+  // What a bound that is not the same to both sides has cut is no law.
+  const bool lawful = !bounded || pid.GetCmdMin() == -bound || (force > pid.GetCmdMin() && force < bound);
   if (core && core->axis_count > 0 && slope != 0 && lawful && std::isfinite(law))
     ode_sim::add_law(core->axes[0], law, slope, bound);
   else
