@@ -60,6 +60,17 @@ def test_libraries_of_packages_that_are_not_declared_are_found(tmp_path, package
         assert ended.returncode == 0, ended.stdout + ended.stderr
 
 
+def test_rosbag_storage_hands_on_boosts_options(tmp_path, package):
+    """slam_gmapping's replay links them so."""
+    package("roscpp rosbag_storage", "", build=False)
+    (tmp_path / "p.cpp").write_text("#include <boost/program_options.hpp>\nint main() { boost::program_options::variables_map map; }\n")
+    with (tmp_path / "CMakeLists.txt").open("a") as lists:
+        lists.write("add_executable(program p.cpp)\ntarget_link_libraries(program ${catkin_LIBRARIES})\n")
+    for command in (["cmake", "-S", tmp_path, "-B", tmp_path / "build", "-Wno-dev"], ["cmake", "--build", tmp_path / "build"]):
+        ended = subprocess.run(command, capture_output=True, text=True, timeout=200)
+        assert ended.returncode == 0, ended.stdout + ended.stderr
+
+
 @pytest.mark.parametrize("standard", ["", "add_compile_options(-std=c++11)"])
 def test_old_sources_build(package, standard):
     """Placeholders without namespace, an undeclared package's messages, headers under their names of before 2018."""
