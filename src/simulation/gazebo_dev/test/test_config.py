@@ -2,14 +2,14 @@
 import os
 import subprocess
 
-PROJECT = "cmake_minimum_required(VERSION 3.5)\nproject(plugins)\n{before}find_package(gazebo REQUIRED)\n"
+PROJECT = "cmake_minimum_required(VERSION 3.5)\nproject(plugins)\n{before}find_package(gazebo REQUIRED)\nset(sources {file})\n"
 
 
-def configure(folder, before="", source="", file="src/plugin.cpp"):
+def configure(folder, before="", source="", file="src/plugin.cpp", named="src/plugin.cpp"):
     """What CMake says, without its line breaks."""
     (folder / file).parent.mkdir()
     (folder / file).write_text(source)
-    (folder / "CMakeLists.txt").write_text(PROJECT.format(before=before))
+    (folder / "CMakeLists.txt").write_text(PROJECT.format(before=before, file=named))
     done = subprocess.run(["cmake", "-S", folder, "-B", folder / "build"], capture_output=True, text=True)
     return done.returncode, " ".join((done.stdout + done.stderr).split())
 
@@ -19,9 +19,11 @@ def test_sources_for_gazebo_7_are_named_and_configure(tmp_path):
     assert code == 0 and "src/plugin.cpp is written for Gazebo 7 or older" in text, text
 
 
-def test_they_are_found_in_any_folder_of_the_package_and_in_headers(tmp_path):
-    code, text = configure(tmp_path, source="#include <gazebo/math/Helpers.hh>\n", file="plugins/plugin.hh")
-    assert code == 0 and "plugins/plugin.hh is written for Gazebo 7 or older" in text, text
+def test_they_are_found_in_any_folder_of_the_package_if_it_compiles_them(tmp_path):
+    for named, found in (("plugins/plugin.cc", True), ("plugins/new.cc", False)):
+        (tmp_path / str(found)).mkdir()
+        code, text = configure(tmp_path / str(found), source="#include <gazebo/math/Helpers.hh>\n", file="plugins/plugin.cc", named=named)
+        assert code == 0 and ("plugins/plugin.cc is written for Gazebo 7 or older" in text) == found, text
 
 
 def test_sources_that_know_both_or_are_new_are_not(tmp_path):
