@@ -2,14 +2,14 @@
 import os
 import subprocess
 
-PROJECT = "cmake_minimum_required(VERSION 3.5)\nproject(plugins)\n{before}find_package(gazebo REQUIRED)\nset(sources {file})\n"
+PROJECT = "cmake_minimum_required(VERSION 3.5)\nproject(plugins)\n{before}find_package(gazebo REQUIRED)\n{after}"
 
 
-def configure(folder, before="", source="", file="src/plugin.cpp", named="src/plugin.cpp"):
+def configure(folder, before="", source="", file="src/plugin.cpp", after="add_library(p {file})\n"):
     """What CMake says, without its line breaks."""
     (folder / file).parent.mkdir()
     (folder / file).write_text(source)
-    (folder / "CMakeLists.txt").write_text(PROJECT.format(before=before, file=named))
+    (folder / "CMakeLists.txt").write_text(PROJECT.format(before=before, after=after.format(file=file)))
     done = subprocess.run(["cmake", "-S", folder, "-B", folder / "build"], capture_output=True, text=True)
     return done.returncode, " ".join((done.stdout + done.stderr).split())
 
@@ -20,9 +20,11 @@ def test_sources_for_gazebo_7_are_named_and_configure(tmp_path):
 
 
 def test_they_are_found_in_any_folder_of_the_package_if_it_compiles_them(tmp_path):
-    for named, found in (("plugins/plugin.cc", True), ("plugins/new.cc", False)):
-        (tmp_path / str(found)).mkdir()
-        code, text = configure(tmp_path / str(found), source="#include <gazebo/math/Helpers.hh>\n", file="plugins/plugin.cc", named=named)
+    ways = {"named": ("add_library(p {file})", True), "globbed": ("file(GLOB all plugins/*.cc)\nadd_library(p SHARED ${{all}})", True),
+            "asked": ("option(OLD OFF)\nif(OLD)\n  add_library(p {file})\nendif()", False)}
+    for way, (after, found) in ways.items():
+        (tmp_path / way).mkdir()
+        code, text = configure(tmp_path / way, source="#include <gazebo/math/Helpers.hh>\n", file="plugins/plugin.cc", after=after)
         assert code == 0 and ("plugins/plugin.cc is written for Gazebo 7 or older" in text) == found, text
 
 
