@@ -16,6 +16,8 @@ from gazebo_msgs.srv import (ApplyJointEffort, DeleteModel, GetModelProperties, 
 from geometry_msgs.msg import Point, Pose, Quaternion
 from ode_sim import math3
 from ode_sim.description import DescriptionError, load_world, read_model
+from ode_sim.description.model import World
+from ode_sim.description.sdf_writer import model_text, world_text
 from std_srvs.srv import Empty
 
 from gazebo_ros.command_line import VERSION, Failure
@@ -109,16 +111,21 @@ def stats(options: argparse.Namespace) -> None:
 
 
 def sdf(options: argparse.Namespace) -> None:
-    """Check a URDF, SDF or world file."""
+    """Check a URDF, SDF or world file, or print it as SDF."""
+    path = options.check or options.print
     try:
-        with open(options.check, encoding="utf-8") as stream:
+        with open(path, encoding="utf-8") as stream:
             text = stream.read()
-        problems = (load_world(options.check) if "<world" in text else read_model(text, file=options.check))[1]
-    except (DescriptionError, OSError) as error:
-        raise Failure(str(error)) from error
+        read, problems = load_world(path) if "<world" in text else read_model(text, file=path)
+    except (DescriptionError, OSError, UnicodeDecodeError) as error:
+        raise Failure(f"{path}: {error}" if isinstance(error, UnicodeDecodeError) else str(error)) from error
     for problem in problems:
-        print(problem)
-    print("Check complete")
+        print(problem, file=sys.stdout if options.check else sys.stderr)
+    if options.check:
+        print("Check complete")
+    else:
+        written = world_text(read) if isinstance(read, World) else model_text(read)
+        print(written.replace("<uri>package://", "<uri>model://"), end="")  # as Gazebo does: SDF knows no packages
 
 
 def joint(options: argparse.Namespace) -> None:
@@ -202,8 +209,9 @@ def parser() -> argparse.ArgumentParser:
     add = command(log).add_argument
     add("-d", "--record", metavar="0|1", help="accepted, to say what to do instead")
     command(helps, "help").add_argument("about", nargs="?", default="", metavar="COMMAND")
-    add = command(sdf).add_argument
-    add("-k", "--check", metavar="FILE", required=True)
+    add = command(sdf).add_mutually_exclusive_group(required=True).add_argument
+    add("-k", "--check", metavar="FILE")
+    add("-p", "--print", metavar="FILE", help="a URDF becomes a model in SDF")
     return top
 
 
