@@ -88,7 +88,7 @@ class CompiledTest(Case):
         joint = self.sim.joint("elbow")
         self.assertAlmostEqual(joint.position[0], 4e-5, delta=1e-9)
         self.assertAlmostEqual(joint.rate[0], 0.0, delta=1e-9)
-        self.done(self.sim.delete("arm"))
+        self.clear(self.subscribers[2:])
         self.spawn_arm(more="<speed_gain>2000</speed_gain><target>0.5</target>")
         self.sim.step(200)
         for _ in range(5):
