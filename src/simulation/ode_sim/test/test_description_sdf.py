@@ -148,6 +148,16 @@ def test_an_axis_of_1_7_names_its_frame(finder):
     assert m.joints[0].axes[0].xyz == pytest.approx((0.0, -1.0, 0.0), abs=1e-12)
 
 
+@pytest.mark.parametrize("version, in_model", [("1.4", True), ("1.5", True), ("1.6", True), ("1.7", False)])
+def test_the_model_frame_of_old_is_none_of_1_7(finder, version, in_model):
+    axis = "<axis><xyz>{}</xyz><use_parent_model_frame>1</use_parent_model_frame></axis>"
+    m, problems = model(TWO_LINKS + hinge(axis.format("1 0 0")), finder, version)
+    assert m.joints[0].axes[0].xyz == pytest.approx((-1.0 if in_model else 1.0, 0.0, 0.0))
+    assert ["has no effect" in str(problem) for problem in problems] == ([] if in_model else [True])
+    _, problems = model(TWO_LINKS + hinge(axis.format("0 0 1")), finder, version)
+    assert problems == []  # it is the same axis in both
+
+
 def test_joint_pose_is_in_the_child(finder):
     m, _ = model(TWO_LINKS + hinge("<pose>0.5 0 0 0 0 0</pose>"), finder)
     assert m.joints[0].pose.p == pytest.approx((0.5, 0.0, 0.0))

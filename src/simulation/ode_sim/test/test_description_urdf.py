@@ -206,6 +206,15 @@ def test_disable_fixed_joint_lumping_makes_a_locked_hinge():
     assert (hinge.type, hinge.axes[0].lower, hinge.axes[0].upper, hinge.urdf_type) == ("revolute", 0.0, 0.0, "fixed")
 
 
+def test_a_joint_that_closes_a_loop_has_its_axis_in_its_own_frame():
+    """URDF becomes SDF 1.7, where <use_parent_model_frame> is not known any more; legs of a delta robot would jam each other."""
+    closing = ('<gazebo><joint name="closing" type="revolute"><parent>base</parent><child>tip</child><axis><xyz>0 1 0</xyz>'
+               '<use_parent_model_frame>1</use_parent_model_frame></axis></joint></gazebo>')
+    model, problems = convert(link("base"), link("tip"), joint("hip", "base", "tip", "continuous", rpy="0 0 2.0943951"), closing)
+    assert one(model.joints, "closing").axes[0].xyz == (0.0, 1.0, 0.0)
+    assert len(problems) == 1 and "write <xyz expressed_in='__model__'>" in messages(problems)
+
+
 def test_preserve_wins_over_disable():
     model, _ = convert(link("base"), link("tip"), joint("f", "base", "tip"), '<gazebo reference="f">'
                        '<disableFixedJointLumping>true</disableFixedJointLumping>'

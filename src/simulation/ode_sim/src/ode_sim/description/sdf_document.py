@@ -4,7 +4,7 @@ from __future__ import annotations
 from typing import Tuple, Union, cast
 
 from ode_sim.description.model import quoted
-from ode_sim.description.xmlsource import Element, child, fault, parse_xml
+from ode_sim.description.xmlsource import Element, child, fault, is_true, parse_xml, text_of
 
 ENTITIES = ("model", "light", "actor")
 
@@ -23,14 +23,25 @@ def sdf_root(root: Element) -> Element:
         wrapper = Element("sdf", {"version": "1.6"})
         wrapper.file, wrapper.line = root.file, root.line
         wrapper.append(root)
-        return wrapper
+        root = wrapper
     if root.tag not in ("sdf", "gazebo"):
         raise fault(root, "not SDF; expected <sdf version='1.6'> as the root element")
-    if _version(root) <= (1, 4):
-        for axis in list(root.iter("axis")) + list(root.iter("axis2")):
-            if axis.find("use_parent_model_frame") is None:
-                child(axis, "use_parent_model_frame", "1")
+    if _version(root) <= (1, 6):
+        _say_frames_of_axes(root, in_model=_version(root) <= (1, 4))
     return root
+
+
+def _say_frames_of_axes(root: Element, in_model: bool) -> None:
+    """``<use_parent_model_frame>`` of 1.5 and 1.6 as 1.7 says it; what has none is in the model's frame up to 1.4."""
+    for axis in list(root.iter("axis")) + list(root.iter("axis2")):
+        flag = axis.find("use_parent_model_frame")
+        if is_true(text_of(flag)) if flag is not None else in_model:
+            if flag is not None:
+                axis.remove(flag)
+            xyz = axis.find("xyz")
+            if xyz is None:
+                xyz = child(axis, "xyz", "0 0 1")
+            xyz.set("expressed_in", xyz.get("expressed_in") or "__model__")
 
 
 def _version(root: Element) -> Tuple[int, ...]:

@@ -9,7 +9,8 @@ from typing import Dict, Iterator, List, Optional, Set, Tuple
 
 from ode_sim import math3
 from ode_sim.description.model import (
-    FARTHEST, Axis, Collision, DescriptionError, Inertial, Joint, Link, Model, Plugin, Pose, Sensor, Surface, Visual, quoted)
+    FARTHEST, Axis, Collision, DescriptionError, Inertial, Joint, Link, Model, Plugin, Pose, Sensor, Surface, Vec3, Visual,
+    quoted)
 from ode_sim.description.sdf_document import first_entity, parse_sdf
 from ode_sim.description.sdf_frames import model_frames, relative_to
 from ode_sim.description.sdf_shapes import SdfShapes
@@ -292,8 +293,8 @@ class SdfModels(SdfShapes):
                 self.warn(axis, "the axis has no length; using 0 0 1")
                 xyz = (0.0, 0.0, 1.0)
             expressed_in = (xyz_element.get("expressed_in") or "").strip() if xyz_element is not None else ""
-            if not expressed_in and self._in_model_frame(axis):
-                expressed_in = "__model__"
+            if not expressed_in:
+                self._warn_of_old_frame(axis, xyz, x_mj)
             if expressed_in in frames:
                 in_model = math3.rotate(frames[expressed_in], xyz)
                 xyz = math3.quat_rotate(math3.quat_inverse(x_mj.q), in_model)
@@ -311,10 +312,12 @@ class SdfModels(SdfShapes):
                        spring_reference=self.number(axis, "dynamics/spring_reference", 0.0),
                        spring_stiffness=self.number(axis, "dynamics/spring_stiffness", 0.0))
 
-    @staticmethod
-    def _in_model_frame(axis: ET.Element) -> bool:
-        """How SDF 1.5 and 1.6 say it; up to 1.4 it is always so, and ``parse_sdf`` has inserted the element."""
-        return is_true(text_of(axis.find("use_parent_model_frame")))
+    def _warn_of_old_frame(self, axis: ET.Element, xyz: Vec3, x_mj: Pose) -> None:
+        """What SDF 1.7 and URDF do not have any more, where it would make a difference; ``sdf_root`` has read that of older files."""
+        flag = axis.find("use_parent_model_frame")
+        if is_true(text_of(flag)) and math.dist(math3.quat_rotate(x_mj.q, xyz), xyz) > 1e-6 * math3.norm(xyz):
+            self.warn(flag, "has no effect in a URDF, nor in SDF from 1.7 on: the axis is in the joint's frame, as in Noetic; "
+                            "write <xyz expressed_in='__model__'> for the model's")
 
     # ------------------------------------------------------------------ include
 
