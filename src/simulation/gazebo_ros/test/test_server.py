@@ -140,6 +140,7 @@ def test_iterations_end_the_run(host):
     ("librecordr.so", "plugin p (librecordr.so) of model block is not known here and is left out. "
                       "Did you mean librecorder.so?"),
     ("libunheard_of.so", "It is none of the "),
+    ("libunheard_of.so", "nor a library in GAZEBO_PLUGIN_PATH, LD_LIBRARY_PATH or a sourced workspace's lib"),
     ("", "plugin p (no filename) of model block is left out: it names no library")])
 def test_unknown_plugin_is_one_short_line_that_helps(host, errors, filename, said):
     make(host, model=f"<plugin name='p' filename='{filename}'>...</plugin>" + recorder("a"), iterations=1).run()

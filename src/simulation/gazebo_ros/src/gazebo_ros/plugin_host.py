@@ -83,8 +83,8 @@ class PluginHost:
                                                                            cutoff=0.75)]
         return "not known here and is left out. " + (
             f"Did you mean {' or '.join(close)}?" if close else
-            f"It is none of the {len(self._libraries)} that packages export here "
-            "(list them: rospack plugins --attrib=plugin gazebo_ros)")
+            f"It is none of the {len(self._libraries)} that packages export (rospack plugins --attrib=plugin gazebo_ros), "
+            "nor a library in GAZEBO_PLUGIN_PATH, LD_LIBRARY_PATH or a sourced workspace's lib")
 
     def resolve(self, plugin: d.Plugin, where: str) -> Optional[ResolvedPlugin]:
         """Import the class of a ``<plugin>``. Unknown or broken ones are one WARN or ERROR line, and None.
