@@ -14,8 +14,10 @@ _noetic_absent("It belongs to the navigation stack, which is not supplied here a
 source in your workspace (ros-planning/navigation, branch noetic-devel)."
   amcl base_local_planner carrot_planner clear_costmap_recovery costmap_2d dwa_local_planner fake_localization global_planner
   map_server move_base move_slow_and_clear nav_core navfn navigation robot_pose_ekf rotate_recovery voxel_grid)
+_noetic_absent("It is not supplied here, and Debian does not package it; build it from source in your workspace \
+(ros-perception/slam_gmapping and ros-perception/openslam_gmapping)." gmapping openslam_gmapping slam_gmapping)
 _noetic_absent("It makes maps or places robots in them, and is not supplied here; build it from source in your workspace."
-  cartographer_ros gmapping slam_gmapping hector_mapping hector_slam karto_slam slam_toolbox)
+  cartographer_ros hector_mapping hector_slam karto_slam slam_toolbox)
 _noetic_absent("It is made for Gazebo Classic, whose C++ API is supplied (find_package(gazebo)): build it from source in your \
 workspace." gazebo_ros_control_select_joints)
 _noetic_absent("It is no package of catkin: find it by itself, without COMPONENTS." gazebo sdformat)
