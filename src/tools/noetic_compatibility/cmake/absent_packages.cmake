@@ -22,7 +22,7 @@ _noetic_absent("It is made for Gazebo Classic, whose C++ API is supplied (find_p
 workspace." gazebo_ros_control_select_joints)
 _noetic_absent("It is no package of catkin: find it by itself, without COMPONENTS." gazebo sdformat)
 _noetic_absent("It belongs to the tutorials of desktop-full, is not supplied here, and builds from source in your workspace."
-  actionlib_tutorials nodelet_tutorial_math pluginlib_tutorials roscpp_tutorials rospy_tutorials
+  nodelet_tutorial_math pluginlib_tutorials
   visualization_marker_tutorials librviz_tutorial rviz_plugin_tutorials stage stage_ros)
 _noetic_absent("It is small, is not packaged by Debian, and builds from source in your workspace." costmap_converter ddynamic_reconfigure
   filters laser_assembler
