@@ -1,10 +1,13 @@
 #!/usr/bin/env python3
 """The node move_group: its names on the graph, its services and actions, and what it answers to bad requests."""
 import math
+import re
 import unittest
+from pathlib import Path
 
 import numpy as np
 import rosgraph
+import rospkg
 import rospy
 import rostest
 from actionlib_msgs.msg import GoalStatus
@@ -92,6 +95,12 @@ class Names(unittest.TestCase):
         self.assertEqual(list(found["ompl"].planner_ids), ["hand", "manipulator", "manipulator[RRTConnect]",
                                                            "manipulator[RRT]", "manipulator[RRTstar]"])
         self.assertEqual(list(found["pilz_industrial_motion_planner"].planner_ids), ["CIRC", "LIN", "PTP"])
+
+    def test_a_pipeline_beside_the_default_that_is_not_supplied_is_a_warning(self):
+        """Every configuration of Noetic's assistant names CHOMP's, and most never ask for it."""
+        file = next(Path(rospkg.get_log_dir(), rospy.get_param("/run_id")).glob("move_group-*.log"))
+        told = re.findall(r"^\[rosout\]\[(\w+)\] \S+ \S+ Exception while loading planner 'chomp_interface", file.read_text(), re.M)
+        self.assertEqual(told, ["WARNING"])
 
     def test_planner_parameters_are_read_and_changed(self):
         before = call("get_planner_params", GetPlannerParams, "ompl", "RRT", "manipulator").params
