@@ -1,4 +1,5 @@
 """The action ``averaging``: mean and standard deviation of the next numbers on ``/random_number``."""
+import contextlib
 import math
 import random
 from typing import Optional
@@ -6,13 +7,12 @@ from typing import Optional
 import actionlib
 import node_signals
 import rospy
-from actionlib_msgs.msg import GoalStatus
 from std_msgs.msg import Float32
 
+from .asking import ask, tell_state
 from .msg import AveragingAction, AveragingFeedback, AveragingGoal, AveragingResult
 
 LEAST = 5.0  # a mean below this is a failure
-PATIENCE = 30.0  # s, of the client
 
 
 class Server:
@@ -73,19 +73,10 @@ def serve() -> None:
     node_signals.spin()
 
 
-def ask() -> int:
+def ask_and_tell_state() -> None:
     """The node test_averaging: the mean of 100 numbers."""
     node_signals.init_node("test_averaging")
-    client = actionlib.SimpleActionClient("averaging", AveragingAction)
-    rospy.loginfo("Waiting for action server to start.")
-    client.wait_for_server()
-    rospy.loginfo("Action server started, sending goal.")
-    client.send_goal(AveragingGoal(samples=100))
-    if client.wait_for_result(rospy.Duration(PATIENCE)):
-        rospy.loginfo("Action finished: %s", GoalStatus.to_string(client.get_state()))
-    elif not rospy.is_shutdown():
-        rospy.loginfo("Action did not finish before the time out.")
-    return 0
+    tell_state(ask("averaging", AveragingAction, AveragingGoal(samples=100)))
 
 
 def generate() -> None:
@@ -94,9 +85,7 @@ def generate() -> None:
     publisher = rospy.Publisher("/random_number", Float32, queue_size=1)
     rospy.loginfo("Generating random numbers")
     rate = rospy.Rate(20)
-    while not rospy.is_shutdown():
-        publisher.publish(Float32(random.normalvariate(5, 1)))
-        try:
+    with contextlib.suppress(rospy.ROSInterruptException):
+        while not rospy.is_shutdown():
+            publisher.publish(Float32(random.normalvariate(5, 1)))
             rate.sleep()
-        except rospy.ROSInterruptException:
-            return

@@ -1,15 +1,10 @@
 """The action ``fibonacci``: so many of Fibonacci's numbers, one each second."""
-from typing import List
-
 import actionlib
 import node_signals
 import rospy
-from actionlib_msgs.msg import GoalStatus
 
+from .asking import ask, tell_state
 from .msg import FibonacciAction, FibonacciFeedback, FibonacciGoal, FibonacciResult
-
-PATIENCE = 30.0  # s, of the client that tells how it ended
-MOST = 2 ** 31 - 1  # what an int32 holds
 
 
 class Server:
@@ -33,9 +28,6 @@ class Server:
                 rospy.loginfo("%s: Preempted", self._name)
                 self._server.set_preempted(FibonacciResult(sequence))
                 return
-            if sequence[-1] + sequence[-2] > MOST:
-                self._server.set_aborted(FibonacciResult(sequence), "the next number is larger than an int32 can be")
-                return
             sequence.append(sequence[-1] + sequence[-2])
             self._server.publish_feedback(FibonacciFeedback(sequence))
             try:
@@ -53,36 +45,15 @@ def serve() -> None:
     node_signals.spin()
 
 
-def _client() -> actionlib.SimpleActionClient:
-    client = actionlib.SimpleActionClient("fibonacci", FibonacciAction)
-    rospy.loginfo("Waiting for action server to start.")
-    client.wait_for_server()
-    rospy.loginfo("Action server started, sending goal.")
-    client.send_goal(FibonacciGoal(order=20))
-    return client
-
-
-def ask_and_tell_state() -> int:
+def ask_and_tell_state() -> None:
     """The node test_fibonacci, as the client in C++ has it."""
     node_signals.init_node("test_fibonacci")
-    client = _client()
-    if client.wait_for_result(rospy.Duration(PATIENCE)):
-        rospy.loginfo("Action finished: %s", GoalStatus.to_string(client.get_state()))
-    elif not rospy.is_shutdown():
-        rospy.loginfo("Action did not finish before the time out.")
-    return 0
+    tell_state(ask("fibonacci", FibonacciAction, FibonacciGoal(order=20)))
 
 
-def ask_and_print() -> int:
+def ask_and_print() -> None:
     """The node fibonacci_client_py, as the client in Python has it: prints the numbers."""
     node_signals.init_node("fibonacci_client_py")
-    client = _client()
-    client.wait_for_result()
-    result = client.get_result()
-    if result is not None:
-        print(told(result.sequence))
-    return 0
-
-
-def told(sequence: List[int]) -> str:
-    return "Result: " + ", ".join(str(number) for number in sequence)
+    client = ask("fibonacci", FibonacciAction, FibonacciGoal(order=20))
+    if client is not None and client.wait_for_result():
+        print("Result:", ", ".join(str(number) for number in client.get_result().sequence))

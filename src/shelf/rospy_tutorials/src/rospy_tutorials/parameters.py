@@ -3,6 +3,8 @@ import node_signals
 import rospy
 from std_msgs.msg import String
 
+from .talking import over_and_over
+
 
 def talk() -> None:
     """Speaks ``utterance`` of its group on the topic that its parameter ``topic_name`` names, once a second."""
@@ -22,11 +24,8 @@ def talk() -> None:
     rospy.delete_param("to_delete")
     rospy.loginfo("found global_example as %s", rospy.search_param("global_example"))
     publisher = rospy.Publisher(topic, String, queue_size=10)
-    rate = rospy.Rate(1)
-    while not rospy.is_shutdown():
+
+    def say() -> None:
         publisher.publish(utterance)
         rospy.loginfo(utterance)
-        try:
-            rate.sleep()
-        except rospy.ROSInterruptException:
-            return
+    over_and_over(say, period=1.0)

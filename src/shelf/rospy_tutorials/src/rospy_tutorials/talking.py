@@ -1,4 +1,7 @@
 """Nodes that say hello ten times a second on ``chatter``, and nodes that hear them."""
+import contextlib
+from typing import Callable
+
 import node_signals
 import rospy
 from std_msgs.msg import Header, String
@@ -14,17 +17,20 @@ def _hello() -> str:
     return said
 
 
+def over_and_over(say: Callable[[], None], period: float = PERIOD) -> None:
+    """Call ``say()`` every ``period`` s until the node ends."""
+    rate = rospy.Rate(1 / period)
+    with contextlib.suppress(rospy.ROSInterruptException):
+        while not rospy.is_shutdown():
+            say()
+            rate.sleep()
+
+
 def talk() -> None:
     """The node talker: a loop that sleeps."""
     publisher = rospy.Publisher("chatter", String, queue_size=10)
     node_signals.init_node("talker", anonymous=True)
-    rate = rospy.Rate(1 / PERIOD)
-    while not rospy.is_shutdown():
-        publisher.publish(_hello())
-        try:
-            rate.sleep()
-        except rospy.ROSInterruptException:
-            return
+    over_and_over(lambda: publisher.publish(_hello()))
 
 
 def talk_by_timer() -> None:
@@ -39,13 +45,7 @@ def talk_with_header() -> None:
     """The node talker_header, on ``chatter_header``: with a time; rospy counts the messages."""
     publisher = rospy.Publisher("chatter_header", HeaderString, queue_size=10)
     node_signals.init_node("talker_header")
-    rate = rospy.Rate(1 / PERIOD)
-    while not rospy.is_shutdown():
-        publisher.publish(Header(stamp=rospy.get_rostime()), _hello())
-        try:
-            rate.sleep()
-        except rospy.ROSInterruptException:
-            return
+    over_and_over(lambda: publisher.publish(Header(stamp=rospy.get_rostime()), _hello()))
 
 
 def listen() -> None:
