@@ -49,26 +49,29 @@ def test_headers_of_packages_that_are_not_declared_are_found(package):
     assert ended.returncode == 0, ended.stdout
 
 
-def test_libraries_of_packages_that_are_not_declared_are_found(tmp_path, package):
+@pytest.fixture
+def program(tmp_path, package):
+    """Function that links a program with ``libraries`` in a package of these components."""
+    def link(components, source, libraries):
+        package(components, "", build=False)
+        (tmp_path / "p.cpp").write_text(source)
+        with (tmp_path / "CMakeLists.txt").open("a") as lists:
+            lists.write(f"add_executable(program p.cpp)\ntarget_link_libraries(program {libraries})\n")
+        for command in (["cmake", "-S", tmp_path, "-B", tmp_path / "build", "-Wno-dev"], ["cmake", "--build", tmp_path / "build"]):
+            ended = subprocess.run(command, capture_output=True, text=True, timeout=200)
+            assert ended.returncode == 0, ended.stdout + ended.stderr
+    return link
+
+
+def test_libraries_of_packages_that_are_not_declared_are_found(program):
     """All of Noetic's libraries lie in one folder, too: packages link them by their bare names."""
-    package("roscpp", "", build=False)
-    (tmp_path / "p.cpp").write_text("int main() {}\n")
-    with (tmp_path / "CMakeLists.txt").open("a") as lists:
-        lists.write("add_executable(program p.cpp)\ntarget_link_libraries(program -Wl,--no-as-needed controller_manager)\n")
-    for command in (["cmake", "-S", tmp_path, "-B", tmp_path / "build", "-Wno-dev"], ["cmake", "--build", tmp_path / "build"]):
-        ended = subprocess.run(command, capture_output=True, text=True, timeout=200)
-        assert ended.returncode == 0, ended.stdout + ended.stderr
+    program("roscpp", "int main() {}\n", "-Wl,--no-as-needed controller_manager")
 
 
-def test_rosbag_storage_hands_on_boosts_options(tmp_path, package):
+def test_rosbag_storage_hands_on_boosts_options(program):
     """slam_gmapping's replay links them so."""
-    package("roscpp rosbag_storage", "", build=False)
-    (tmp_path / "p.cpp").write_text("#include <boost/program_options.hpp>\nint main() { boost::program_options::variables_map map; }\n")
-    with (tmp_path / "CMakeLists.txt").open("a") as lists:
-        lists.write("add_executable(program p.cpp)\ntarget_link_libraries(program ${catkin_LIBRARIES})\n")
-    for command in (["cmake", "-S", tmp_path, "-B", tmp_path / "build", "-Wno-dev"], ["cmake", "--build", tmp_path / "build"]):
-        ended = subprocess.run(command, capture_output=True, text=True, timeout=200)
-        assert ended.returncode == 0, ended.stdout + ended.stderr
+    program("roscpp rosbag_storage", "#include <boost/program_options.hpp>\nint main() { boost::program_options::variables_map map; }\n",
+            "${catkin_LIBRARIES}")
 
 
 @pytest.mark.parametrize("standard", ["", "add_compile_options(-std=c++11)"])
