@@ -11,6 +11,7 @@ from actionlib_msgs.msg import GoalStatus
 from actionlib_tutorials.msg import AveragingAction, AveragingGoal, FibonacciAction, FibonacciGoal
 from std_msgs.msg import Float32
 from test_support import wait_until
+from test_support.hearing import heard
 
 MINUTE = rospy.Duration(60)
 
@@ -19,6 +20,8 @@ class Tutorials(unittest.TestCase):
     def client(self, name, kind):
         client = actionlib.SimpleActionClient(name, kind)
         self.assertTrue(client.wait_for_server(MINUTE))
+        ends = client.action_client
+        wait_until(lambda: heard([ends.status_sub, ends.feedback_sub, ends.result_sub]), "all that the server sends")
         return client
 
     def test_fibonacci(self):
