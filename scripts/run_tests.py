@@ -95,14 +95,22 @@ def find_jobs(packages: Container[str], kind: str, scripts: bool) -> List[Job]:
     return sorted(jobs, key=lambda job: -job.files)  # what takes long first: at the end all have something to do
 
 
+class UnknownPackage(Exception):
+    """A package is named that the workspace does not have."""
+
+
 def chosen(named: List[str], since: Optional[str]) -> Set[str]:
     """
     The packages that are tested: those named, or all; of these what a change since the commit ``since``, if given, can break.
 
     :raises changed_packages.UnknownCommit:
+    :raises UnknownPackage: if one that is named is neither in src/ nor in docs/
     """
     workspace = changed_packages.workspace()
-    names = set(named) or {package.name for package in workspace.values()}
+    known = {package.name for package in workspace.values()}
+    if unknown := sorted(set(named) - known):
+        raise UnknownPackage(f"no package {', '.join(unknown)} in src/ or docs/")
+    names = set(named) or known
     if since is not None:
         names &= changed_packages.breakable(changed_packages.changed_files(since), workspace)
     return names
@@ -268,14 +276,16 @@ def main() -> int:
     scratch.mkdir(parents=True, exist_ok=True)
     try:
         packages = chosen(options.packages, options.since)
-    except changed_packages.UnknownCommit as error:
+    except (UnknownPackage, changed_packages.UnknownCommit) as error:
         parser.error(str(error))
     jobs = find_jobs(packages, options.kind, scripts=not options.packages)
-    if not jobs:
-        print(f"no tests found for {' '.join(options.packages) or 'any package'}", file=sys.stderr)
-        return 1
     if options.since:
         print(f"since {options.since}: {len(packages)} packages can be broken, {len(jobs)} files of tests", flush=True)
+    if not jobs:
+        if options.since:
+            return 0
+        print(f"no tests found for {' '.join(options.packages) or 'any package'}", file=sys.stderr)
+        return 1
     if options.coverage:
         coverage_of_tests.install()
         os.environ.update(coverage_of_tests.environment(scratch / "coverage"))
