@@ -275,6 +275,15 @@ def test_colours_of_gazebo_and_of_a_model(models, finder):
     assert green.diffuse == (0.0, 1.0, 0.0, 1.0) and none is None
 
 
+def test_saved_worlds_say_default_where_there_is_no_material(finder):
+    default = "<script><uri>__default__</uri><name>__default__</name></script>"
+    m, problems = model('<link name="l">' + "".join(
+        f'<visual name="{name}"><geometry><empty/></geometry><material>{default}{colour}</material></visual>'
+        for name, colour in (("plain", ""), ("green", "<diffuse>0 1 0 1</diffuse>"))) + "</link>", finder)
+    plain, green = (visual.material for visual in m.links[0].visuals)
+    assert plain is None and green.diffuse == (0.0, 1.0, 0.0, 1.0) and not problems
+
+
 def test_pose_as_quaternion_is_read(finder):
     m, _ = model('<link name="l"><pose rotation_format="quat_xyzw">1 2 3 0 0 2 2</pose></link>', finder)
     assert math3.to_rpy(m.links[0].pose) == pytest.approx((0.0, 0.0, math.pi / 2))

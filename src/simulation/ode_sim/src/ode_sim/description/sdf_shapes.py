@@ -86,6 +86,8 @@ class SdfShapes(SdfValues):
         if element is None:
             return None
         name = text_of(element.find("script/name"))
+        if name == "__default__":  # what Gazebo saves where a visual names no material
+            name = ""
         known = materials.gazebo_material(name, self.finder) if name else None
         if name and known is None:
             uris = [text_of(uri) for uri in element.findall("script/uri")]
