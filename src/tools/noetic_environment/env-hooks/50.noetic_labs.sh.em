@@ -6,11 +6,11 @@ _noetic_labs_here="$CATKIN_ENV_HOOK_WORKSPACE/share/noetic_environment"
 _noetic_labs_add_ons="$_noetic_labs_here/python"
 @[end if]@
 
-# PyPI add-ons come after the modules of all workspaces.
+# After the modules of all workspaces come names that Noetic's Python had, and the PyPI add-ons.
 case ":$PYTHONPATH:" in
   *":$_noetic_labs_add_ons:"*) ;;
   *)
-    PYTHONPATH="${PYTHONPATH:+$PYTHONPATH:}$_noetic_labs_add_ons"
+    PYTHONPATH="${PYTHONPATH:+$PYTHONPATH:}$_noetic_labs_here/noetic_python:$_noetic_labs_add_ons"
     if [ -d "$_noetic_labs_add_ons-teaching" ]; then  # scripts/setup --teaching
       PYTHONPATH="$PYTHONPATH:$_noetic_labs_add_ons-teaching"
     fi ;;
