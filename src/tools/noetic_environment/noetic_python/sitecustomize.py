@@ -6,6 +6,10 @@ when a program imports that module, and a name that is there stays as it is.
 import sys
 from importlib.machinery import PathFinder
 
+TYPE_CHECKING = False  # importing typing takes longer than all of this
+if TYPE_CHECKING:
+    from typing import Any
+
 
 def _add(module, **names):
     for name, value in names.items():
@@ -107,21 +111,22 @@ class Finder:
     @staticmethod
     def find_spec(name, path=None, target=None):
         spec = PathFinder.find_spec(name, path, target) if name in MISSING else None
-        if spec is None or not hasattr(spec.loader, "exec_module"):
+        loader: Any = spec and spec.loader
+        if not loader:
             return None
-        load = spec.loader.exec_module
+        load = loader.exec_module
 
         def exec_module(module):
             load(module)
             _complete(name, module)
-        spec.loader.exec_module = exec_module
+        loader.exec_module = exec_module
         return spec
 
 
 def _run_the_next():
     """Runs the file of this name that this one hides: Debian's own, or a tool's."""
     here = __file__.rpartition("/")[0]
-    spec = PathFinder.find_spec("sitecustomize", [folder for folder in sys.path if folder.rstrip("/") != here])
+    spec: Any = PathFinder.find_spec("sitecustomize", [folder for folder in sys.path if folder.rstrip("/") != here])
     if spec and hasattr(spec.loader, "get_code"):
         exec(spec.loader.get_code(spec.name), {"__name__": spec.name, "__file__": spec.origin, "__spec__": spec})
 

@@ -65,4 +65,5 @@ def test_a_sitecustomize_further_down_runs_as_well(tmp_path):
 
 
 def test_the_source_of_a_completed_module_is_still_found():
-    assert run("import inspect, yaml; print(inspect.getsource(yaml) != '', yaml.__loader__.get_filename())", FOLDER).stdout.startswith("True /")
+    script = "import inspect, yaml; print(inspect.getsource(yaml) != '', yaml.__loader__.get_filename())"
+    assert run(script, FOLDER).stdout.startswith("True /")
