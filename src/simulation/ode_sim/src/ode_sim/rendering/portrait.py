@@ -20,6 +20,7 @@ import numpy as np
 
 from ode_sim.description import model as d
 from ode_sim.errors import Refused
+from ode_sim.math3 import quat_to_matrix
 from ode_sim.rendering.assets import Assets
 from ode_sim.rendering.camera import Camera, look_at
 from ode_sim.rendering.scene import SceneDescription
@@ -34,6 +35,8 @@ VIEWS: Dict[str, Tuple[float, float]] = {
 _HFOV = 0.9
 _FILLED = 0.88  # of the frame, along the side that is filled first
 _LEAST = 0.05  # m, of what is looked at
+_SHOWN = 0.5  # of a model's pixels: where less of it is to be seen, what stands before it is cut away
+_COARSE = 4  # pixels of a picture for one of those that are counted
 _KEPT = 20.0  # s for which a process without work is kept
 
 
@@ -98,6 +101,12 @@ def camera_for(corners: np.ndarray, view: str, width: int, height: int) -> Camer
                   pose=look_at(tuple(eye), tuple(target)))
 
 
+def without_foreground(camera: Camera, corners: np.ndarray) -> Camera:
+    """``camera``, blind to whatever is nearer than all ``corners`` (N,3)."""
+    axis = np.array(quat_to_matrix(camera.pose.q))[:, 0]
+    return replace(camera, near=max(camera.near, 0.98 * float(((corners - camera.pose.p) @ axis).min())))
+
+
 def _balanced(across: np.ndarray, depth: np.ndarray) -> float:
     """The middle about which the points (N,) spread equally far to both sides of the picture."""
     low, high = float(across.min()), float(across.max())
@@ -135,9 +144,21 @@ class Studio:
         if self._renderer is None:
             self._renderer = Renderer(antialiasing="msaa", shadows="on", assets=self._assets)
             self._renderer.set_scene(portrait.scene)
-        pixels = self._renderer.color(camera_for(corners, portrait.view, portrait.width, portrait.height), portrait.poses)
+        camera = camera_for(corners, portrait.view, portrait.width, portrait.height)
+        if portrait.model:
+            bare = without_foreground(camera, corners)
+            if self._pixels(camera, portrait) < _SHOWN * self._pixels(bare, portrait):
+                camera = bare
+        pixels = self._renderer.color(camera, portrait.poses)
         png = cv2.imencode(".png", cv2.cvtColor(pixels, cv2.COLOR_RGB2BGR))[1].tobytes()
         return png, self._renderer.take_problems()
+
+    def _pixels(self, camera: Camera, portrait: Portrait) -> int:
+        """How many pixels of a coarser picture show the model."""
+        coarse = replace(camera, width=camera.width // _COARSE, height=camera.height // _COARSE)
+        assert self._renderer is not None
+        own = [i for i, name in enumerate(self._renderer.visual_names) if name.split("::")[0] == portrait.model]
+        return int(np.isin(self._renderer.segmentation(coarse, portrait.poses), own).sum())
 
     def close(self) -> None:
         """Gives up what was loaded."""
