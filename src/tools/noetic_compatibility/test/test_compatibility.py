@@ -74,6 +74,43 @@ def test_rosbag_storage_hands_on_boosts_options(program):
             "${catkin_LIBRARIES}")
 
 
+@pytest.fixture
+def asked(tmp_path, package):
+    """Function that builds one target of a package with a message Told, which includes its header and says no add_dependencies."""
+    def build(lists, target):
+        package("roscpp message_generation", "", build=False)
+        (tmp_path / "msg").mkdir()
+        (tmp_path / "msg/Told.msg").write_text("int32 number\n")
+        (tmp_path / "p.cpp").write_text("#include <p/Told.h>\nint main() { return p::Told().number; }\n")
+        text = (tmp_path / "CMakeLists.txt").read_text()
+        (tmp_path / "CMakeLists.txt").write_text(
+            text.replace("catkin_package()", "add_message_files(FILES Told.msg)\ngenerate_messages()\ncatkin_package()") + lists)
+        for command in (["cmake", "-S", tmp_path, "-B", tmp_path / "build", "-Wno-dev"],
+                        ["cmake", "--build", tmp_path / "build", "--target", target]):
+            ended = subprocess.run(command, capture_output=True, text=True, timeout=200)
+            if ended.returncode:
+                break
+        return ended
+    return build
+
+
+@pytest.mark.parametrize("folder", ["", "nodes"])
+def test_messages_come_before_the_nodes_that_include_them(asked, tmp_path, folder):
+    lists = "add_executable(node ${PROJECT_SOURCE_DIR}/p.cpp)\n"
+    if folder:
+        (tmp_path / folder).mkdir()
+        (tmp_path / folder / "CMakeLists.txt").write_text(lists)
+        lists = f"add_subdirectory({folder})\n"
+    ended = asked(lists, "node")
+    assert ended.returncode == 0, ended.stdout + ended.stderr
+
+
+def test_a_program_that_messages_wait_for_does_not_wait_for_them(asked, tmp_path):
+    (tmp_path / "first.cpp").write_text("int main() {}\n")
+    ended = asked("add_executable(first first.cpp)\nadd_dependencies(p_generate_messages_cpp first)\n", "first")
+    assert ended.returncode == 0, ended.stdout + ended.stderr
+
+
 @pytest.mark.parametrize("standard", ["", "add_compile_options(-std=c++11)"])
 def test_old_sources_build(package, standard):
     """Placeholders without namespace, an undeclared package's messages, headers under their names of before 2018."""
