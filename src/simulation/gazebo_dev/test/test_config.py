@@ -15,8 +15,11 @@ def configure(folder, before="", source="", file="src/plugin.cpp", after="add_li
 
 
 def test_sources_for_gazebo_7_are_named_and_configure(tmp_path):
-    code, text = configure(tmp_path, source="#include <gazebo/gazebo.hh>\nvoid f() { pose = model->GetWorldPose(); }\n")
-    assert code == 0 and "src/plugin.cpp is written for Gazebo 7 or older" in text, text
+    for number, call in enumerate(("model->GetWorldPose()", "joint->GetAngle(0).Radian()", "world->GetPhysicsEngine()")):
+        folder = tmp_path / str(number)
+        folder.mkdir()
+        code, text = configure(folder, source=f"#include <gazebo/gazebo.hh>\nvoid f() {{ x = {call}; }}\n")
+        assert code == 0 and "src/plugin.cpp is written for Gazebo 7 or older" in text, text
 
 
 def test_they_are_found_in_any_folder_of_the_package_if_it_compiles_them(tmp_path):
@@ -75,3 +78,38 @@ def test_who_names_gazebo_ros_or_gazebo_plugins_alone_links_what_those_of_noetic
         subprocess.run(["cmake", "-S", project, "-B", project / "build"], check=True, capture_output=True)
         made = subprocess.run(["cmake", "--build", project / "build"], capture_output=True, text=True)
         assert made.returncode == 0, made.stdout + made.stderr
+
+
+PKG_CONFIG = """cmake_minimum_required(VERSION 3.5)
+project(plugins)
+include(FindPkgConfig)
+if(PKG_CONFIG_FOUND)
+  pkg_check_modules(GAZEBO gazebo)
+  pkg_check_modules(SDF REQUIRED sdformat9)
+endif()
+include_directories(${GAZEBO_INCLUDE_DIRS} ${SDF_INCLUDE_DIRS})
+link_directories(${GAZEBO_LIBRARY_DIRS})
+add_library(plugin SHARED plugin.cc)
+target_link_libraries(plugin ${GAZEBO_LIBRARIES} ${SDF_LIBRARIES} -Wl,--no-undefined)
+message(STATUS "found ${GAZEBO_INCLUDE_DIRS}.")
+"""
+PLUGIN = """#include <gazebo/common/Plugin.hh>
+#include <sdf/sdf.hh>
+class Named : public gazebo::WorldPlugin
+{
+  public: void Load(gazebo::physics::WorldPtr, sdf::ElementPtr element) override {element->GetName();}
+};
+GZ_REGISTER_WORLD_PLUGIN(Named)
+"""
+
+
+def test_pkg_config_finds_gazebo_and_sdformat(tmp_path):
+    """As Gazebo's first tutorials and the map makers of courses ask for it."""
+    (tmp_path / "CMakeLists.txt").write_text(PKG_CONFIG)
+    (tmp_path / "plugin.cc").write_text(PLUGIN)
+    for command in (["cmake", "-S", tmp_path, "-B", tmp_path / "build", "-DCMAKE_CXX_STANDARD=17"], ["cmake", "--build", tmp_path / "build"]):
+        done = subprocess.run(command, capture_output=True, text=True, timeout=300)
+        assert done.returncode == 0, done.stdout + done.stderr
+        if "found" in done.stdout:
+            folders = done.stdout.partition("found ")[2].partition(".\n")[0].split(";")
+            assert any(folder.endswith("/gazebo-11") for folder in folders), folders  # sought by its name
