@@ -93,7 +93,8 @@ add_library(plugin SHARED plugin.cc)
 target_link_libraries(plugin ${GAZEBO_LIBRARIES} ${SDF_LIBRARIES} -Wl,--no-undefined)
 message(STATUS "found ${GAZEBO_INCLUDE_DIRS}.")
 """
-PLUGIN = """#include <gazebo/common/Plugin.hh>
+PLUGIN = """#include "vector2d.pb.h"
+#include <gazebo/common/Plugin.hh>
 #include <sdf/sdf.hh>
 class Named : public gazebo::WorldPlugin
 {
