@@ -6,6 +6,7 @@ import socket
 import struct
 import subprocess
 import sys
+import threading
 import time
 import zlib
 from dataclasses import replace
@@ -146,6 +147,36 @@ def test_cameras_of_any_size_added_and_removed(studio_of):
     again = Camera(width=640, height=640, hfov=0.5, name="again")
     assert take(studio, studio.add_camera(again))["image"] == render(world, again).tobytes()
     assert len(take(studio, keys[33])["image"]) == 33 * 33 * 3
+
+
+def test_a_camera_that_is_changed(studio_of):
+    world = World(ball("a", (2, 0, 0), (1, 0, 0)))
+    studio, _ = studio_of(world)
+    key = studio.add_camera(CAMERA)
+    before = take(studio, key)["image"]
+    moved = replace(CAMERA, pose=Pose((0, 0.2, 0)), hfov=0.8)
+    studio.change_camera(key, moved)
+    assert take(studio, key)["image"] == render(world, moved).tobytes() != before
+    os.kill(studio.pid, signal.SIGKILL)
+    studio._thread.join(timeout=10)
+    assert take(studio, key)["image"] == render(world, moved).tobytes()  # the next process knows of it
+
+
+def test_fewer_frames_under_way_than_there_is_room_for(studio_of):
+    world = World()
+    studio, _ = studio_of(world)
+    key = studio.add_camera(CAMERA)
+    free, got = threading.Event(), []
+
+    def slow(frame):
+        assert free.wait(20)
+        got.append(frame.time_ns)
+    assert studio.draw(key, ("image",), slow, most=1)
+    assert not studio.draw(key, ("image",), slow, most=1)
+    free.set()
+    assert take(studio, key)  # comes after the first one
+    assert studio.draw(key, ("image",), slow, wait=True, most=1)
+    assert len(got) == 2
 
 
 def test_waited_for_frames_come_in_order_and_none_is_missing(studio_of):

@@ -10,6 +10,8 @@ import rospy
 from dynamic_parameters import Parameter, Server as ParameterServer
 from gazebo_ros.names import join, resolve_frame, robot_namespace, tf_prefix
 from gazebo_ros.plugin import PluginError
+from gazebo_ros.rate_watch import RateWatch
+from gazebo_ros.studio import Shooting
 from node_signals.rates import Spaced
 from ode_sim.rendering import ENCODINGS, Camera, CameraError, Frame, read_camera
 from sensor_msgs.msg import CameraInfo
@@ -17,9 +19,7 @@ from std_msgs.msg import Header
 
 from gazebo_plugins.camera_info import CameraInfoService, camera_info, read_calibration
 from gazebo_plugins.image_topics import ImageTopics
-from gazebo_plugins.rate_watch import RateWatch
 from gazebo_plugins.ros_side import told_namespace
-from gazebo_plugins.studio import Shooting
 
 _RATE = (Parameter("imager_rate", float, 2.0, 1.0, 50.0, "Frame rate of the sensor, Hz of sim time"),)
 

@@ -16,7 +16,7 @@ import os
 import subprocess
 import sys
 import threading
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from multiprocessing.connection import Connection, Pipe
 from typing import Callable, Dict, List, Optional, Tuple
 
@@ -105,6 +105,12 @@ class RenderProcess:
         self._send(self._connection, message)
         return key
 
+    def change_camera(self, key: int, camera: Camera) -> None:
+        """From the next picture on. The size has to be the same: another one is another camera."""
+        entry = self._cameras[key]
+        entry.camera, entry.message = camera, replace(entry.message, camera=camera)
+        self._send(self._connection, entry.message)
+
     def remove_camera(self, key: int) -> None:
         """Frames under way are still delivered."""
         entry = self._cameras.pop(key)
@@ -114,12 +120,13 @@ class RenderProcess:
         if not busy:  # else its place is still written to, and is simply not used again
             self._spare.setdefault(entry.room, []).append(entry.offset)
 
-    def draw(self, key: int, outputs: Tuple[str, ...], deliver: Callable[[Frame], None], wait: bool = False) -> bool:
+    def draw(self, key: int, outputs: Tuple[str, ...], deliver: Callable[[Frame], None], wait: bool = False,
+             most: int = _SLOTS) -> bool:
         """Take the picture of this moment.
 
         :param outputs: of :data:`OUTPUTS`. :param deliver: called once with the :class:`Frame`, from another thread.
         :param wait: return only when ``deliver`` has returned; without it the call takes microseconds, and a picture
-            is left out (False is returned) while eight of this camera are under way.
+            is left out (False is returned) while ``most`` (1 to 8) of this camera are under way.
         """
         entry = self._cameras[key]
         connection = self._connection or self._start()
@@ -130,7 +137,7 @@ class RenderProcess:
         if scene is not None:
             self._send(connection, SetScene(scene))
         with self._lock:
-            if not entry.free or self._connection is not connection:
+            if _SLOTS - len(entry.free) >= most or self._connection is not connection:
                 return False
             slot = entry.free.pop()
             number = self._next_frame

@@ -1,6 +1,6 @@
 """What a camera says of a rate that it cannot keep, and when it is silent."""
 import pytest
-from gazebo_plugins.rate_watch import RateWatch
+from gazebo_ros.rate_watch import RateWatch
 
 MS = 1_000_000
 

@@ -1,4 +1,4 @@
-"""The render process that all cameras of one simulator share; it lives as long as there is a camera."""
+"""The render process that all cameras of one simulator share, those of compiled plugins too; it lives as long as there is a camera."""
 from __future__ import annotations
 
 import weakref
@@ -22,18 +22,20 @@ class Shooting:
     """One camera in the render process of ``server``'s world. Physics thread, except that frames arrive in another one.
 
     :param label: ``camera 'c' of model 'm'``, for the one line that says why there are no pictures.
+    :param most: of its pictures that may be under way, 1 to 8.
     """
 
-    def __init__(self, server, camera: Camera, label: str, depth_range: Tuple[float, float] = (0.0, np.inf)):
+    def __init__(self, server, camera: Camera, label: str, depth_range: Tuple[float, float] = (0.0, np.inf), most: int = 8):
         self._world = server.world
         self._wait = server.lockstep
-        self._label = label
+        self._label, self._most = label, most
         self._complained = False
         shared = _shared.get(self._world)
         if shared is None:
             shared = _shared[self._world] = _Shared(self._world)
         self._shared = shared
         shared.users += 1
+        self._camera, self._depth_range = camera, depth_range
         self._key = shared.process.add_camera(camera, depth_range)
 
     def shoot(self, outputs: Tuple[str, ...], deliver: Callable[[Frame], None]) -> bool:
@@ -43,7 +45,8 @@ class Shooting:
 
         :returns: False when the picture is left out because too many are under way
         """
-        return self._shared.process.draw(self._key, outputs, lambda frame: self._arrived(frame, deliver), self._wait)
+        return self._shared.process.draw(self._key, outputs, lambda frame: self._arrived(frame, deliver), self._wait,
+                                         self._most)
 
     def _arrived(self, frame: Frame, deliver: Callable[[Frame], None]) -> None:
         if not frame.error:
@@ -51,6 +54,16 @@ class Shooting:
         elif not self._complained:
             self._complained = True
             rospy.logerr("%s gives no pictures: %s", self._label, frame.error)
+
+    def change(self, camera: Camera) -> None:
+        """From the next picture on."""
+        process = self._shared.process
+        if (camera.width, camera.height) == (self._camera.width, self._camera.height):
+            process.change_camera(self._key, camera)
+        else:
+            process.remove_camera(self._key)
+            self._key = process.add_camera(camera, self._depth_range)
+        self._camera = camera
 
     def close(self) -> None:
         self._shared.process.remove_camera(self._key)
