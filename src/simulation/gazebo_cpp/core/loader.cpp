@@ -6,6 +6,7 @@
 
 #include <compiled_plugins/guard.h>
 #include <gazebo/physics/physics.hh>
+#include <gazebo/sensors/PictureSensor.hh>
 #include <gazebo/sensors/SensorManager.hh>
 
 #include "mirror.hpp"
@@ -35,6 +36,7 @@ template <class F>
 void LoadedPlugin::call(const char* what, F f)
 {
   const physics::WorldLock::Without unlocked;
+  const sensors::PictureSensor::Still no_callbacks;  // of pictures, in what is half made, or goes
   const internal::Running running(label_, what);
   try
   {
@@ -134,8 +136,8 @@ void LoadedPlugin::LoadSensor(const std::string& name, int index, const std::str
   const sensors::SensorPtr sensor = sensors::SensorManager::Instance()->GetSensor(name);
   if (!sensor)
     throw std::runtime_error(
-        "sensors of this type are not there in C++, but for rays, contacts, IMU, GPS, altimeter, magnetometer, sonar and logical camera; "
-        "in Python they are (gazebo_ros.plugin)");
+        "a sensor of this type is not there in C++ (force_torque, rfid, wireless ...), or cannot be as it is described; in Python it can be "
+        "written (gazebo_ros.plugin)");
   const sdf::ElementPtr element = plugin_element(sensor->Element(), index, text);
   call("Load()", [&] { sensor_->Load(sensor, element); });
   call("Init()", [&] { sensor_->Init(); });

@@ -57,7 +57,12 @@ struct Host
   std::function<void(const std::string&)> order;              // pause, unpause, reset, reset_poses, reset_time
   std::function<void(unsigned int)> step;                     // so many steps, while paused
   std::function<void(const std::string&, double)> parameter;  // of Physics
-  std::function<void(double)> clock;                          // of roscpp, s; in the thread that steps
+  /// Draws a picture of now: number of the camera, model::link::sensor, which of its cameras, how it looks, what is wanted; false: left out.
+  /// How it looks: x y z qx qy qz qw in its link, field of view, near, far, width, height, whether a lens' border is cut off.
+  std::function<bool(int, const std::string&, int, const std::vector<double>&, const std::vector<std::string>&)> shoot;
+  std::function<bool(const std::string&, const std::string&, unsigned int, unsigned int, const std::string&)>
+      save;                           // file, pixels ...
+  std::function<void(double)> clock;  // of roscpp, s; in the thread that steps
 };
 
 class Topics;

@@ -2,6 +2,7 @@
 #include <dlfcn.h>
 
 #include <gazebo/gazebo.hh>
+#include <gazebo/sensors/PictureSensor.hh>
 #include <gazebo/sensors/SensorManager.hh>
 #include <pybind11/functional.h>
 #include <pybind11/pybind11.h>
@@ -32,7 +33,8 @@ using JointTuple = std::tuple<std::string, std::string, int>;
 /// Python loads its modules so that no other library sees what they bring; plugins that were linked carelessly find Gazebo here.
 void show_to_all()
 {
-  for (void* symbol : { reinterpret_cast<void*>(&gazebo::physics::get_world), reinterpret_cast<void*>(&gazebo::printVersion) })
+  for (void* symbol : { reinterpret_cast<void*>(&gazebo::sensors::get_sensor),
+                        reinterpret_cast<void*>(&gazebo::physics::get_world), reinterpret_cast<void*>(&gazebo::printVersion) })
   {
     Dl_info info;
     if (dladdr(symbol, &info) && info.dli_fname)
@@ -80,6 +82,40 @@ void set_host(std::function<void(std::string, Numbers)> insert, std::function<vo
   auto& host = Mirror::Get().host;
   host.insert = std::move(insert), host.remove = std::move(remove), host.order = std::move(order);
   host.step = std::move(step), host.parameter = std::move(parameter), host.plugin = std::move(plugin);
+}
+
+/// \param shoot asks for a picture; never raises. \param save writes pixels to a file
+void set_studio(std::function<bool(int, std::string, int, Numbers, std::vector<std::string>)> shoot, py::function save)
+{
+  auto& host = Mirror::Get().host;
+  host.shoot = std::move(shoot);
+  auto* const kept = new py::function(std::move(save));  // as long as the process: what ends it may not hold Python's lock
+  host.save = [kept](const std::string& file, const std::string& pixels, unsigned int width, unsigned int height,
+                     const std::string& format) {
+    const py::gil_scoped_acquire lock;
+    return (*kept)(file, py::bytes(pixels), width, height, format).cast<bool>();
+  };
+}
+
+/// A picture has come. \param image, depth buffers, or None
+void develop(int number, int64_t time_ns, const py::object& image, const py::object& depth)
+{
+  gazebo::rendering::Picture picture;
+  py::buffer_info pixels, metres;  // hold the buffers
+  if (!image.is_none())
+  {
+    pixels = image.cast<py::buffer>().request();
+    picture.image = static_cast<const unsigned char*>(pixels.ptr);
+    picture.image_bytes = static_cast<std::size_t>(pixels.size * pixels.itemsize);
+  }
+  if (!depth.is_none())
+  {
+    metres = depth.cast<py::buffer>().request();
+    picture.depth = static_cast<const float*>(metres.ptr);
+    picture.depth_count = static_cast<std::size_t>(metres.size * metres.itemsize) / sizeof(float);
+  }
+  const py::gil_scoped_release free;
+  gazebo::sensors::PictureSensor::Arrived(number, time_ns, picture);
 }
 
 void load_system(LoadedPlugin& plugin, std::vector<std::string> words)
@@ -145,6 +181,8 @@ PYBIND11_MODULE(_core, m)
   m.def(
       "stop", [] { Mirror::Get().Stop(); }, Free());
   m.def("set_host", &set_host);
+  m.def("set_studio", &set_studio);
+  m.def("develop", &develop);
   m.def("follow_clock", [] { Mirror::Get().host.clock = compiled_plugins::set_time; });
   py::class_<WorldLock>(m, "WorldLock")
       .def(py::init<>())

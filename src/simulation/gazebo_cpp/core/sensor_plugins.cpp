@@ -2,7 +2,9 @@
 #include <stdexcept>
 
 #include <gazebo/physics/physics.hh>
+#include <gazebo/plugins/CameraPlugin.hh>
 #include <gazebo/plugins/ContactPlugin.hh>
+#include <gazebo/plugins/DepthCameraPlugin.hh>
 #include <gazebo/plugins/GpuRayPlugin.hh>
 #include <gazebo/plugins/ImuSensorPlugin.hh>
 #include <gazebo/plugins/RayPlugin.hh>
@@ -55,5 +57,43 @@ void ImuSensorPlugin::Load(sensors::SensorPtr sensor, sdf::ElementPtr)
   parentSensor = as<sensors::ImuSensor>(sensor, "ImuSensorPlugin", "imu");
   connection_ = parentSensor->ConnectUpdated([this] { OnUpdate(parentSensor); });
 }
+
+void CameraPlugin::Load(sensors::SensorPtr sensor, sdf::ElementPtr)
+{
+  parentSensor = as<sensors::CameraSensor>(sensor, "CameraPlugin", "camera");
+  camera = parentSensor->Camera();
+  width = camera->ImageWidth(), height = camera->ImageHeight(), depth = camera->ImageDepth(), format = camera->ImageFormat();
+  newFrameConnection =
+      camera->ConnectNewImageFrame([this](const unsigned char* image, unsigned int w, unsigned int h, unsigned int d,
+                                          const std::string& f) { OnNewFrame(image, w, h, d, f); });
+  parentSensor->SetActive(true);
+}
+
+void CameraPlugin::OnNewFrame(const unsigned char*, unsigned int, unsigned int, unsigned int, const std::string&) {}
+
+void DepthCameraPlugin::Load(sensors::SensorPtr sensor, sdf::ElementPtr)
+{
+  parentSensor = as<sensors::DepthCameraSensor>(sensor, "DepthCameraPlugin", "depth");
+  depthCamera = parentSensor->DepthCamera();
+  width = depthCamera->ImageWidth(), height = depthCamera->ImageHeight();
+  depth = depthCamera->ImageDepth(), format = depthCamera->ImageFormat();
+  newDepthFrameConnection = depthCamera->ConnectNewDepthFrame([this](const auto&... all) { OnNewDepthFrame(all...); });
+  newRGBPointCloudConnection = depthCamera->ConnectNewRGBPointCloud([this](const auto&... all) { OnNewRGBPointCloud(all...); });
+  newImageFrameConnection = depthCamera->ConnectNewImageFrame([this](const auto&... all) { OnNewImageFrame(all...); });
+  newReflectanceFrameConnection =
+      depthCamera->ConnectNewReflectanceFrame([this](const auto&... all) { OnNewReflectanceFrame(all...); });
+  newNormalsFrameConnection =
+      depthCamera->ConnectNewNormalsPointCloud([this](const auto&... all) { OnNewNormalsFrame(all...); });
+  parentSensor->SetActive(true);
+}
+
+#define GZ_NOTHING(Method, Pixel) \
+  void DepthCameraPlugin::Method(const Pixel*, unsigned int, unsigned int, unsigned int, const std::string&) {}
+GZ_NOTHING(OnNewDepthFrame, float)
+GZ_NOTHING(OnNewRGBPointCloud, float)
+GZ_NOTHING(OnNewImageFrame, unsigned char)
+GZ_NOTHING(OnNewReflectanceFrame, float)
+GZ_NOTHING(OnNewNormalsFrame, float)
+#undef GZ_NOTHING
 
 }  // namespace gazebo

@@ -133,7 +133,7 @@ void Sensor::Step(int64_t now_ns)
   take(now_ns);  // whether anybody wants it or not: when it measures must not depend on who listens since when
   // Of most nobody in C++ knows: Python's plugins measure by themselves.
   if (known_ ? IsActive() : listened())
-    Update(true);
+    Measure();
 }
 
 void Sensor::Update(bool force)
@@ -210,7 +210,15 @@ void SensorManager::removeOf(const std::string& model)
   for (const SensorPtr& sensor : *sensors_)
     if (sensor->ParentName().compare(0, model.size() + 2, model + "::") != 0)
       left->push_back(sensor);
-  sensors_ = left;
+    else
+      sensor->Fini();
+  replace(left);
+}
+
+void SensorManager::replace(const std::shared_ptr<Sensor_V>& sensors)
+{
+  sensors_ = sensors;
+  pictures_ = std::any_of(sensors->begin(), sensors->end(), [](const SensorPtr& each) { return each->Category() == IMAGE; });
 }
 
 namespace
@@ -236,6 +244,14 @@ SensorPtr made(const std::string& type)
     return std::make_shared<SonarSensor>();
   if (type == "logical_camera")
     return std::make_shared<LogicalCameraSensor>();
+  if (type == "camera")
+    return std::make_shared<CameraSensor>();
+  if (type == "depth" || type == "depth_camera" || type == "rgbd_camera")
+    return std::make_shared<DepthCameraSensor>();
+  if (type == "multicamera")
+    return std::make_shared<MultiCameraSensor>();
+  if (type == "wideanglecamera")
+    return std::make_shared<WideAngleCameraSensor>();
   return SensorPtr();
 }
 
@@ -262,7 +278,7 @@ void SensorManager::add(const physics::LinkPtr& link, const sdf::ElementPtr& sdf
   const std::lock_guard<std::mutex> lock(mutex_);
   auto more = std::make_shared<Sensor_V>(*sensors_);
   more->push_back(sensor);
-  sensors_ = more;
+  replace(more);
 }
 
 void SensorManager::addOf(const std::string& model)
@@ -294,8 +310,12 @@ void SensorManager::step()
   const common::Time now = physics::get_world()->SimTime();
   const int64_t now_ns = now.sec * INT64_C(1000000000) + now.nsec;
   const auto all = list();
+  if (pictures_)
+    event::Events::preRender();
   for (const SensorPtr& sensor : *all)
     sensor->Step(now_ns);
+  if (pictures_)
+    event::Events::render(), event::Events::postRender();
 }
 
 }  // namespace sensors

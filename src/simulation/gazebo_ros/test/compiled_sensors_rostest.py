@@ -125,8 +125,8 @@ class SensorsTest(Case):
         self.near(self.logical_camera(math.pi), (0.05,), 1e-3)
 
     def test_a_sensor_that_is_not_there_in_cpp_is_one_line(self):
-        self.done(self.sim.spawn("post", MODEL.format(yaw=0, sensors=SENSOR.format(type="camera", rate=5, block="<camera/>"))))
-        self.wait(lambda: any("plugin p" in line and "rays, contacts, IMU" in line for line in self.log))
+        self.done(self.sim.spawn("post", MODEL.format(yaw=0, sensors=SENSOR.format(type="force_torque", rate=5, block=""))))
+        self.wait(lambda: any("plugin p" in line and "a sensor of this type is not there in C++" in line for line in self.log))
         self.assertIn("post", self.sim.world().model_names)
 
     def test_a_plugin_of_rays_in_another_sensor_is_one_line(self):

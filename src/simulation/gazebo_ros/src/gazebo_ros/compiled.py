@@ -197,6 +197,8 @@ class Bridge:
         _core.set_host(self._insert, self._remove, self._order, self._step, self._parameter, self._plugin)
         _core.start(world.core.address, description.name, sdf_writer.world_text(description),
                     world.physics.real_time_update_rate, description.magnetic_field, description.spherical_coordinates)
+        from gazebo_ros.compiled_cameras import CompiledCameras
+        CompiledCameras(server)
         for model in world.models.values():
             self._add(model)
         world.on_spawn.append(self._add)

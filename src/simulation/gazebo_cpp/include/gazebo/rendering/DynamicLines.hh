@@ -1,19 +1,22 @@
-// Names alone, for plugins of visuals: see Visual.hh.
+// For plugins that draw: see Visual.hh.
 #pragma once
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include <ignition/math/Color.hh>
 #include <ignition/math/Vector3.hh>
 
 #include <gazebo/rendering/RenderTypes.hh>
+#include <gazebo/util/system.hh>
 
 namespace gazebo
 {
 namespace rendering
 {
 
-class DynamicLines
+/// Keeps its points; nothing draws them.
+class GAZEBO_VISIBLE DynamicLines
 {
 public:
   explicit DynamicLines(RenderOpType type = RENDERING_LINE_STRIP);
@@ -28,6 +31,9 @@ public:
   void Update();
   void setMaterial(const std::string& name);
   void setVisibilityFlags(uint32_t flags);
+
+private:
+  std::vector<ignition::math::Vector3d> points_;
 };
 
 }  // namespace rendering

@@ -1,1 +1,1 @@
-#error "there is no rendering of Gazebo here: a plugin that draws or reads cameras cannot be built"
+#error "there is no GpuLaser here: a gpu_ray sensor casts rays; its scans come from GpuRaySensor (ConnectNewLaserFrame, Ranges)"

@@ -1,1 +1,2 @@
-#error "there is no rendering of Gazebo here: a plugin that draws or reads cameras cannot be built"
+#error \
+    "lights of what is drawn are not here in C++: the service /gazebo/set_light_properties changes them, and a plugin in Python can (gazebo_ros.plugin)"

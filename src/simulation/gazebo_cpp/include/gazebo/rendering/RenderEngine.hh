@@ -1,1 +1,1 @@
-#error "there is no rendering of Gazebo here: a plugin that draws or reads cameras cannot be built"
+#error "there is no Ogre here: what cameras see is drawn by a process of its own, which plugins cannot enter"

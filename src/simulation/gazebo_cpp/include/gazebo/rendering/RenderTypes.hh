@@ -17,12 +17,22 @@ class Scene;
 class DynamicLines;
 class Camera;
 class DepthCamera;
+class WideAngleCamera;
+class Distortion;
+class UserCamera;
+class GpuLaser;
+class Light;
 typedef std::shared_ptr<Visual> VisualPtr;
 typedef std::weak_ptr<Visual> VisualWeakPtr;
 typedef boost::shared_ptr<Scene> ScenePtr;
 typedef std::shared_ptr<DynamicLines> DynamicLinesPtr;
 typedef boost::shared_ptr<Camera> CameraPtr;
 typedef boost::shared_ptr<DepthCamera> DepthCameraPtr;
+typedef boost::shared_ptr<WideAngleCamera> WideAngleCameraPtr;
+typedef boost::shared_ptr<Distortion> DistortionPtr;
+typedef boost::shared_ptr<UserCamera> UserCameraPtr;
+typedef boost::shared_ptr<GpuLaser> GpuLaserPtr;
+typedef boost::shared_ptr<Light> LightPtr;
 
 enum RenderOpType
 {

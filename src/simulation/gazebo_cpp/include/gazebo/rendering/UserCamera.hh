@@ -1,1 +1,1 @@
-#error "there is no rendering of Gazebo here: a plugin that draws or reads cameras cannot be built"
+#error "there is no window of Gazebo here, and no camera of it: gzclient is a page in a browser"

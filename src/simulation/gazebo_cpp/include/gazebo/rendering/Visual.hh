@@ -1,14 +1,18 @@
-// Nothing of Gazebo draws here. Plugins of visuals, which only decorate, are compiled against these names, so that the package that
-// brings them builds with all its others; none of them is loaded, and none of these functions is there to be called.
+// What is drawn of a model, a link or a <visual>, as plugins ask for it: where it is. What plugins would have drawn otherwise (colours,
+// lines) is left out with one line, and plugins of visuals, which only decorate, build and are not loaded.
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <string>
+#include <vector>
 
+#include <boost/weak_ptr.hpp>
 #include <ignition/math/Color.hh>
 #include <ignition/math/Pose3.hh>
 #include <ignition/math/Vector3.hh>
 #include <sdf/sdf.hh>
 
+#include <gazebo/physics/PhysicsTypes.hh>
 #include <gazebo/rendering/DynamicLines.hh>
 #include <gazebo/rendering/RenderTypes.hh>
 #include <gazebo/util/system.hh>
@@ -18,11 +22,13 @@ namespace gazebo
 namespace rendering
 {
 
-class Visual : public std::enable_shared_from_this<Visual>
+class GAZEBO_VISIBLE Visual : public std::enable_shared_from_this<Visual>
 {
 public:
+  /// \param X_EV in the frame of the entity, which it moves with
+  Visual(const std::string& name, physics::EntityPtr entity, const ignition::math::Pose3d& X_EV, sdf::ElementPtr sdf);
   virtual ~Visual();
-  std::string Name() const;
+  std::string Name() const { return name_; }
   uint32_t GetId() const;
   ScenePtr GetScene() const;
   VisualPtr GetParent() const;
@@ -57,6 +63,13 @@ public:
   ignition::math::Pose3d WorldPose() const;
   DynamicLines* CreateDynamicLine(RenderOpType type = RENDERING_LINE_STRIP);
   void DeleteDynamicLine(DynamicLines* line);
+
+private:
+  std::string name_;
+  boost::weak_ptr<physics::Entity> entity_;
+  ignition::math::Pose3d X_EV_;
+  sdf::ElementPtr sdf_;
+  std::vector<std::unique_ptr<DynamicLines>> lines_;
 };
 
 }  // namespace rendering

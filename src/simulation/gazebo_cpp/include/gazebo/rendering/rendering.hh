@@ -1,1 +1,11 @@
-#error "there is no rendering of Gazebo here: a plugin that draws or reads cameras cannot be built"
+#pragma once
+#include <gazebo/rendering/Camera.hh>
+#include <gazebo/rendering/DepthCamera.hh>
+#include <gazebo/rendering/Distortion.hh>
+#include <gazebo/rendering/DynamicLines.hh>
+#include <gazebo/rendering/RenderEvents.hh>
+#include <gazebo/rendering/RenderTypes.hh>
+#include <gazebo/rendering/RenderingIface.hh>
+#include <gazebo/rendering/Scene.hh>
+#include <gazebo/rendering/Visual.hh>
+#include <gazebo/rendering/WideAngleCamera.hh>

@@ -1,2 +1,1 @@
-#error \
-    "gazebo::sensors::ForceTorqueSensor is not here in C++: rays, contacts, IMU, GPS, altimeter, magnetometer, sonar and logical camera are; in Python it can be written (gazebo_ros.plugin)"
+#error "gazebo::sensors::ForceTorqueSensor is not here in C++; in Python it can be written (gazebo_ros.plugin)"

@@ -37,9 +37,9 @@ public:
   virtual void Fini();
   void SetParent(const std::string& name, uint32_t id) { parentName = name, parentId = id; }
   void SetLink(const physics::LinkPtr& link) { link_ = link; }
-  void Update(bool force);  // now, if it is due or forced
-  void Step(int64_t now_ns);
-  void Restart();  // time has gone back
+  virtual void Update(bool force);  // now, if it is due or forced
+  virtual void Step(int64_t now_ns);
+  virtual void Restart();  // time has gone back
 
   std::string Name() const { return name_; }
   std::string ScopedName() const;                        // world::model::link::sensor
@@ -54,11 +54,11 @@ public:
   virtual ignition::math::Pose3d Pose() const { return pose; }  // in the link
   virtual void SetPose(const ignition::math::Pose3d& X_LS) { pose = X_LS; }
   double UpdateRate() const { return rate_; }
-  void SetUpdateRate(double hz);
+  virtual void SetUpdateRate(double hz);
   virtual void SetActive(bool on) { active = on; }
   virtual bool IsActive() const;
-  common::Time LastUpdateTime() const { return lastUpdateTime; }
-  common::Time LastMeasurementTime() const { return lastMeasurementTime; }
+  virtual common::Time LastUpdateTime() const { return lastUpdateTime; }
+  virtual common::Time LastMeasurementTime() const { return lastMeasurementTime; }
   void ResetLastUpdateTime() { Restart(); }
   event::ConnectionPtr ConnectUpdated(std::function<void()> subscriber) { return updated_.Connect(subscriber); }
   NoisePtr Noise(SensorNoiseType type) const;
@@ -66,8 +66,11 @@ public:
   const sdf::ElementPtr Element() const { return sdf; }
 
 protected:
+  virtual void Measure() { Update(true); }
   virtual bool UpdateImpl(bool force) = 0;  // measure
-  bool listened() const;                    // to its topic
+  bool awaited() const { return updated_.ConnectionCount(); }
+  void tell() { updated_(); }  // that it has measured
+  bool listened() const;       // to its topic
   std::string topicOf(const std::string& end) const;
   ignition::math::Pose3d worldPose() const;
   ignition::math::Vector3d velocity() const;  // of the sensor's origin, world axes, m/s

@@ -1,4 +1,5 @@
 #pragma once
+#include <atomic>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -13,7 +14,7 @@ namespace gazebo
 namespace sensors
 {
 
-/// All sensors of the world's models. Those that need pictures (cameras) are not among them.
+/// All sensors of the world's models.
 class GAZEBO_VISIBLE SensorManager : public SingletonT<SensorManager>
 {
 public:
@@ -34,9 +35,11 @@ private:
   void addOf(const std::string& model);
   void removeOf(const std::string& model);
   void step();
+  void replace(const std::shared_ptr<Sensor_V>& sensors);
   std::shared_ptr<const Sensor_V> list() const;
   mutable std::mutex mutex_;
   std::shared_ptr<const Sensor_V> sensors_ = std::make_shared<Sensor_V>();
+  std::atomic<bool> pictures_{ false };  // there is a camera
   std::vector<event::ConnectionPtr> connections_;
 };
 

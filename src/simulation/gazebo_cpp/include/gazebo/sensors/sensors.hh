@@ -1,12 +1,15 @@
 #pragma once
 #include <gazebo/gazebo_config.h>
 #include <gazebo/sensors/AltimeterSensor.hh>
+#include <gazebo/sensors/CameraSensor.hh>
 #include <gazebo/sensors/ContactSensor.hh>
+#include <gazebo/sensors/DepthCameraSensor.hh>
 #include <gazebo/sensors/GpsSensor.hh>
 #include <gazebo/sensors/GpuRaySensor.hh>
 #include <gazebo/sensors/ImuSensor.hh>
 #include <gazebo/sensors/LogicalCameraSensor.hh>
 #include <gazebo/sensors/MagnetometerSensor.hh>
+#include <gazebo/sensors/MultiCameraSensor.hh>
 #include <gazebo/sensors/Noise.hh>
 #include <gazebo/sensors/RaySensor.hh>
 #include <gazebo/sensors/Sensor.hh>
@@ -14,3 +17,4 @@
 #include <gazebo/sensors/SensorTypes.hh>
 #include <gazebo/sensors/SensorsIface.hh>
 #include <gazebo/sensors/SonarSensor.hh>
+#include <gazebo/sensors/WideAngleCameraSensor.hh>
