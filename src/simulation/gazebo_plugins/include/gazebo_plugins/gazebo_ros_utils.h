@@ -41,9 +41,17 @@ inline std::string GetRobotNamespace(const physics::ModelPtr& parent, const sdf:
   return GetRobotNamespace(parent->GetName(), sdf, info);
 }
 
+/// Of a sensor: <robotNamespace>; the name of the model where that is empty; nothing where it is missing.
 inline std::string GetRobotNamespace(const sensors::SensorPtr& parent, const sdf::ElementPtr& sdf, const char* info = nullptr)
 {
-  return GetRobotNamespace(GetModelName(parent), sdf, info);
+  std::string space;
+  if (sdf->HasElement("robotNamespace"))
+    space = sdf->Get<std::string>("robotNamespace");
+  if (sdf->HasElement("robotNamespace") && space.empty())
+    space = GetModelName(parent);
+  if (info)
+    ROS_INFO_NAMED("utils", "%s Plugin: the namespace is '%s'", info, space.c_str());
+  return space;
 }
 
 class GazeboRos
