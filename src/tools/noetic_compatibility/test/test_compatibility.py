@@ -1,4 +1,5 @@
 """Small packages in Noetic's style, configured and built with plain CMake against the sourced workspace."""
+import ctypes
 import os
 import re
 import subprocess
@@ -218,6 +219,41 @@ def test_point_clouds_in_old_packages(package):
         }
         """, "add_definitions(-std=c++11)")
     assert ended.returncode == 0, ended.stdout + ended.stderr
+
+
+@pytest.mark.skipif(not Path("/usr/share/pcl_ros").is_dir(), reason="without pcl_ros")
+def test_boost_makes_the_pointers_of_pcl(package, tmp_path):
+    ended = package("pcl_ros roscpp", """
+        #include <cstdio>
+        #include <boost/make_shared.hpp>
+        #include <pcl_ros/point_cloud.h>
+        #include <pcl/PointIndices.h>
+        #include <pcl/filters/extract_indices.h>
+        #include <pcl/point_types.h>
+        #include <pcl/search/kdtree.h>
+        typedef pcl::PointXYZ Point;
+        typedef pcl::PointCloud<Point> Cloud;
+        struct Kept { boost::shared_ptr<Cloud> boosts = boost::make_shared<Cloud>(); Cloud::Ptr pcls = boost::make_shared<Cloud>(3, 1); };
+        extern "C" int sizes() {
+          Kept kept;
+          pcl::PointIndices indices;
+          indices.indices.push_back(1);
+          pcl::ExtractIndices<Point> extract;
+          extract.setInputCloud(kept.pcls);
+          extract.setIndices(boost::make_shared<pcl::PointIndices>(indices));
+          auto result = boost::make_shared<Cloud>();
+          extract.filter(*result);
+          Cloud::ConstPtr constant = result;
+          kept.pcls = boost::make_shared<Cloud>(*result);
+          pcl::search::KdTree<Point>::Ptr tree(boost::make_shared<pcl::search::KdTree<Point>>());
+          tree->setInputCloud(result);
+          const Cloud* object = result.get();
+          result.reset();
+          return constant.get() == object ? 10 * constant->size() + kept.pcls->size() : -1;
+        }
+        """, "add_definitions(-std=c++11)")
+    assert ended.returncode == 0, ended.stdout + ended.stderr
+    assert ctypes.CDLL(str(next(tmp_path.rglob("libp.so")))).sizes() == 11
 
 
 @pytest.mark.parametrize("header", ["class_loader.h", "class_loader.hpp"])
