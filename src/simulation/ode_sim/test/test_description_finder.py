@@ -68,6 +68,20 @@ def test_packages(home, monkeypatch):
     assert given.find("package://other/meshes/a%20b.stl") == mesh
 
 
+def test_a_file_of_a_package_that_is_named_by_another_path_is_told(home, monkeypatch):
+    """Worlds saved with a robot name its meshes as the author's machine had them."""
+    touch(home / "ws/src/pkg/package.xml")
+    touch(home / "ws/src/pkg/meshes/a b.stl")
+    monkeypatch.setenv("ROS_PACKAGE_PATH", f"{home}/ws/src")
+    finder = ResourceFinder(stock="")
+    told = "no such file; package://pkg/meshes/a%20b.stl is one, on any machine that has the package"
+    assert finder.explain("/home/author/ws/src/pkg/meshes/a b.stl") == finder.explain("file:///home/author/pkg/meshes/a%20b.stl") == told
+    assert finder.explain("/home/author/ws/src/pkg/meshes/b.stl") == finder.explain("/home/author/meshes/a b.stl") == "no such file"
+    assert finder.explain("model://pkg/meshes/a b.stl").endswith(
+        f"; the ROS package 'pkg' has it: name its parent in GAZEBO_MODEL_PATH, export GAZEBO_MODEL_PATH=$GAZEBO_MODEL_PATH:{home}/ws/src")
+    assert "ROS package" not in finder.explain("model://pkg/meshes/b.stl")
+
+
 def test_packages_may_be_models(home):
     expected = touch(home / "models/pkg/a.stl")
     assert ResourceFinder([home / "models"], stock="").find("package://pkg/a.stl") == expected

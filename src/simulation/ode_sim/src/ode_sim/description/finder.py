@@ -4,7 +4,7 @@ from __future__ import annotations
 import os
 from pathlib import Path
 from typing import Callable, Dict, Iterable, Iterator, List, Optional, Tuple
-from urllib.parse import unquote
+from urllib.parse import quote, unquote
 
 from ode_sim.description.model import DescriptionError, quoted
 from ode_sim.description.xmlsource import parse_xml, read_bytes, text_of
@@ -110,10 +110,29 @@ class ResourceFinder:
             return f"searched {folder}" if folder else f"there is no ROS package '{quoted(package)}'"
         if scheme in ("http", "https", "model") and rest:
             return ("" if scheme == "model" else "the network is never used; ") + "searched " + \
-                (":".join(self.model_paths) or "nothing, GAZEBO_MODEL_PATH is empty")
+                (":".join(self.model_paths) or "nothing, GAZEBO_MODEL_PATH is empty") + self._package_for_model(scheme, rest)
         if os.path.isabs(rest or uri):
-            return "no such file"
+            elsewhere = self._package_uri(unquote(rest) if rest else uri)
+            return "no such file" + (f"; {elsewhere} is one, on any machine that has the package" if elsewhere else "")
         return "searched " + ":".join([os.getcwd()] + self.resource_paths)
+
+    def _package_uri(self, path: str) -> str:
+        """A ``package://`` for the end of an absolute path of another machine, if a package here has that file; else ''."""
+        parts = path.strip("/").split("/")
+        for at, package in enumerate(parts[:-1]):
+            inside = "/".join(parts[at + 1:])
+            folder = self._package_path(package) if package not in ("", ".", "..") else None
+            if folder and self._first(_below(folder, inside)):
+                return f"package://{package}/{quote(inside)}"
+        return ""
+
+    def _package_for_model(self, scheme: str, rest: str) -> str:
+        package, _, inside = unquote(rest).partition("/")
+        folder = self._package_path(package) if scheme == "model" and inside and package not in ("", ".", "..") else None
+        if not folder or not self._first(_below(folder, inside)):
+            return ""
+        return (f"; the ROS package '{quoted(package)}' has it: name its parent in GAZEBO_MODEL_PATH, "
+                f"export GAZEBO_MODEL_PATH=$GAZEBO_MODEL_PATH:{os.path.dirname(folder)}")
 
     def find_world(self, name: str) -> Optional[str]:
         """A world file by path, URI, or name relative to the resource paths (``worlds/empty.world``)."""
