@@ -83,3 +83,11 @@ Debian has it.")
     message(FATAL_ERROR "The package '${name}', which ${PROJECT_NAME} asks for, is not here. ${what} ${_noetic_anyway}")
   endforeach()
 endfunction()
+
+# Repositories that bring gazebo_ros along, whose C++ is a part of Gazebo Classic itself: one sentence in place of the compiler's pages.
+function(noetic_check_copies)
+  if(EXISTS "${CMAKE_CURRENT_SOURCE_DIR}/src/gazebo_ros_api_plugin.cpp")
+    message(FATAL_ERROR "${CMAKE_CURRENT_SOURCE_DIR} is a copy of gazebo_ros, whose C++ works in Gazebo Classic alone; this platform \
+has a gazebo_ros of its own. Leave the copy out: `catkin config --skiplist ${PROJECT_NAME}`, or for catkin_make a file CATKIN_IGNORE in it.")
+  endif()
+endfunction()

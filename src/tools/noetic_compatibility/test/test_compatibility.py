@@ -50,6 +50,14 @@ def test_headers_of_packages_that_are_not_declared_are_found(package):
     assert ended.returncode == 0, ended.stdout
 
 
+def test_a_copy_of_gazebo_ros_is_told_from_the_platforms(package, tmp_path):
+    (tmp_path / "src").mkdir()
+    (tmp_path / "src/gazebo_ros_api_plugin.cpp").write_text("")
+    ended = package("roscpp")
+    told = " ".join(ended.stderr.split())
+    assert ended.returncode != 0 and f"{tmp_path} is a copy of gazebo_ros" in told and "catkin config --skiplist p`" in told, told
+
+
 @pytest.fixture
 def program(tmp_path, package):
     """Function that links a program with ``libraries`` in a package of these components."""
