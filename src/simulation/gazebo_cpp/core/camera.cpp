@@ -29,6 +29,7 @@ constexpr double most_pixels = 64e6;
 /// Of the picture whose callbacks run in this thread.
 thread_local const Camera* shown = nullptr;
 thread_local const Pose3d* shown_at = nullptr;
+thread_local int64_t shown_ns = 0;
 
 double number(const sdf::ElementPtr& sdf, const char* tag, double fallback)
 {
@@ -143,8 +144,12 @@ double Camera::RenderRate() const { return rate_ > 0 ? rate_.load() : std::numer
 
 // -- where it is --------------------------------------------------------------------------------------------------------------------
 
-Camera::During::During(const Camera& camera, const Pose3d& X_WC) { shown = &camera, shown_at = &X_WC; }
+Camera::During::During(const Camera& camera, const Pose3d& X_WC, int64_t time_ns)
+{
+  shown = &camera, shown_at = &X_WC, shown_ns = time_ns;
+}
 
+const int64_t* Camera::During::Time() { return shown ? &shown_ns : nullptr; }
 Camera::During::~During() { shown = nullptr, shown_at = nullptr; }
 
 void Camera::Mount(const physics::LinkPtr& link, const Pose3d& X_LS)

@@ -223,7 +223,7 @@ void PictureSensor::arrived(std::size_t index, int64_t time_ns, rendering::Pictu
   if (!forget(index, time_ns, &picture.X_WC))
     return;
   measured_ns_ = time_ns;
-  const rendering::Camera::During during(*cameras_[index], picture.X_WC);
+  const rendering::Camera::During during(*cameras_[index], picture.X_WC, time_ns);
   cameras_[index]->Develop(picture);
   finish(time_ns);
 }

@@ -39,7 +39,13 @@ ScenePtr get_scene(const std::string&)
 // -- Scene --------------------------------------------------------------------------------------------------------------------------
 
 Scene::~Scene() = default;
-common::Time Scene::SimTime() const { return physics::get_world()->SimTime(); }
+
+common::Time Scene::SimTime() const
+{
+  const int64_t* const ns = Camera::During::Time();
+  return ns ? common::Time(static_cast<int32_t>(*ns / 1000000000), static_cast<int32_t>(*ns % 1000000000))
+            : physics::get_world()->SimTime();
+}
 
 namespace
 {

@@ -165,6 +165,9 @@ class CamerasTest(Case):
         self.sim.step(100)
         self.wait(lambda: any("robot_eye" in line and "horizontal_fov 7" in line for line in self.log))
         self.assertEqual(len(got), 1)
+        self.order("robot", "hfov 0.9")
+        self.frames(got, 50, 2)
+        self.assertEqual(len([line for line in self.log if "horizontal_fov 7" in line]), 1)
 
     def test_a_picture_is_saved(self):
         import cv2

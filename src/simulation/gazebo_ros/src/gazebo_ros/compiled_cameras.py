@@ -29,7 +29,7 @@ class _Taken:
         self.model = link.model
         self._number, self._view = number, view
         self._label = f"sensor '{sensor.name}' of model '{link.model.name}'"
-        self._came = False
+        self._came, self._can_be = False, True
         self._world, self._rate, self._watch = server.world, sensor.update_rate, RateWatch()
         element = sensor.element.findall("camera")[index]
         given = (element.findtext("image/format") or "R8G8B8").strip()
@@ -46,9 +46,13 @@ class _Taken:
                        width=int(width), height=int(height), distortion=replace(self._camera.distortion, crop=bool(crop)))
 
     def shoot(self, view: Tuple[float, ...], outputs: Tuple[str, ...]) -> bool:
+        """:raises CameraError: what no camera can be, once; there are no pictures until it is told otherwise."""
         if view != self._view:
+            self._view, self._can_be = view, False
             self._shooting.change(self._as_told(view))
-            self._view = view
+            self._can_be = True
+        if not self._can_be:
+            return False
         taken = self._shooting.shoot(outputs, self._arrived)
         if self._came:  # the first one takes as long as the process that draws needs to start
             said = self._watch.asked(self._world.time_ns, taken, self._rate, 0.0, self._world.dt)
@@ -87,9 +91,6 @@ class CompiledCameras:
             return camera is not None and camera.shoot(tuple(view), tuple(outputs))
         except CameraError as error:
             rospy.logerr("sensor '%s' gives no pictures to compiled plugins: %s", sensor, error)
-            camera, self._cameras[number] = self._cameras[number], None
-            if camera is not None:
-                camera.close()
             return False
 
     def _open(self, number: int, name: str, index: int, view: Tuple[float, ...]) -> _Taken:

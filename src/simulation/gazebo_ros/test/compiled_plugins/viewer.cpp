@@ -62,7 +62,8 @@ private:
     const auto add = [&](double value) { message.data.push_back(value); };
     add(sensor_->LastMeasurementTime().Double()), add(number), add(width), add(height), add(depth), add(hash);
     add(count), add(left), add(right), add(top), add(bottom), add(camera.WorldPose().Pos().Y());
-    add(camera.ImageData() == image && camera.ImageFormat() == format), add(camera.HFOV().Radian());
+    const bool same = camera.ImageData() == image && camera.ImageFormat() == format;
+    add(same && camera.GetScene()->SimTime() == sensor_->LastMeasurementTime()), add(camera.HFOV().Radian());
     frames_.publish(message);
   }
 

@@ -20,6 +20,7 @@
 #include <gazebo/physics/PhysicsTypes.hh>
 #include <gazebo/rendering/Distortion.hh>
 #include <gazebo/rendering/RenderTypes.hh>
+#include <gazebo/transport/transport.hh>
 
 namespace gazebo
 {
@@ -118,11 +119,12 @@ public:
     unsigned int width = 320, height = 240;
   };
   View view() const;
-  /// While it lives, WorldPose() is in this thread that of a picture.
+  /// While it lives, WorldPose() and the scene's SimTime() are in this thread those of a picture.
   struct GAZEBO_VISIBLE During
   {
-    During(const Camera& camera, const ignition::math::Pose3d& X_WC);
+    During(const Camera& camera, const ignition::math::Pose3d& X_WC, int64_t time_ns);
     ~During();
+    static const int64_t* Time();  // null: none lives
   };
   void Mount(const physics::LinkPtr& link, const Pose3d& X_LS);
   Pose3d MountedPose() const;  // in the world, now

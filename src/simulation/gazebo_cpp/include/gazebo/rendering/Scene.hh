@@ -22,7 +22,7 @@ public:
   explicit Scene(const std::string& name) : name_(name) {}
   virtual ~Scene();
   std::string Name() const { return name_; }
-  common::Time SimTime() const;
+  common::Time SimTime() const;  // in a callback of a picture, its time
   VisualPtr WorldVisual() const { return VisualPtr(); }
   VisualPtr GetVisual(const std::string& name) const;  // model, model::link or model::link::visual; null: there is none
   VisualPtr GetVisual(uint32_t id) const;
