@@ -88,6 +88,6 @@ endfunction()
 function(noetic_check_copies)
   if(EXISTS "${CMAKE_CURRENT_SOURCE_DIR}/src/gazebo_ros_api_plugin.cpp")
     message(FATAL_ERROR "${CMAKE_CURRENT_SOURCE_DIR} is a copy of gazebo_ros, whose C++ works in Gazebo Classic alone; this platform \
-has a gazebo_ros of its own. Leave the copy out: `catkin config --skiplist ${PROJECT_NAME}`, or for catkin_make a file CATKIN_IGNORE in it.")
+has a gazebo_ros of its own. Leave the copy out: touch ${CMAKE_CURRENT_SOURCE_DIR}/CATKIN_IGNORE")
   endif()
 endfunction()
