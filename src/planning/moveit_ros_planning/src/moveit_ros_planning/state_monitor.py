@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import threading
 import time
-from typing import Callable, Dict, List, Optional, Sequence
+from typing import Callable, Dict, List, Optional, Sequence, Set
 
 import motion
 import numpy as np
@@ -30,6 +30,7 @@ class CurrentStateMonitor:
         self._news = threading.Condition(self._lock)
         self._state = model.state()
         self._stamps: Dict[str, rospy.Time] = {}
+        self._told: Set[str] = set()
         self._dynamics = dynamics
         self._callbacks: List[Callable[[], None]] = []
         single = set(states.one_variable_joints(model))
@@ -142,15 +143,29 @@ class CurrentStateMonitor:
         return [name for name in names if name in self._single and name not in passive]
 
     def wait_for_current(self, since: Optional[rospy.Time] = None, timeout: float = 1.0, group: str = "") -> bool:
-        """Wait until every joint was heard of at ``since`` (default: now) or later; ``timeout`` in wall seconds."""
+        """Wait until every joint was heard of at ``since`` (default: now) or later; ``timeout`` in wall seconds.
+
+        Joints that nobody publishes are waited for once and told of; from then on they have their default values, and
+        the state is current without them.
+        """
         since = rospy.Time.now() if since is None else since
         end = time.monotonic() + timeout
-        while self.missing(since, group):
+        while True:
+            late = [name for name in self.missing(since, group) if name not in self._told or name in self._stamps]
+            if not late:
+                return True
             left = end - time.monotonic()
             if left <= 0 or rospy.is_shutdown():
-                return False
+                return bool(self._stamps) and self._excuse(late)
             with self._lock:
                 self._news.wait(min(left, 0.05))
+
+    def _excuse(self, late: List[str]) -> bool:
+        """Whether ``late`` are joints never heard of, which are told of once, while the others are current."""
+        if any(name in self._stamps for name in late):
+            return False
+        rospy.logwarn("Nobody publishes the %s on %s: taken to be where a state begins by default", _names(late), self.topic)
+        self._told.update(late)
         return True
 
     def wait_for_next(self, joints: Sequence[str], timeout: float = 1.0) -> bool:

@@ -243,10 +243,8 @@ class TrajectoryExecution:
                                          f"Plan again from where the robot is now")
 
     def _heard_of(self, joints: Sequence[str], since: rospy.Time) -> bool:
-        if self.monitor.wait_for_current(since, 1.0):
-            return True
-        late = set(self.monitor.missing(since))
-        return not late & set(joints)
+        self.monitor.wait_for_current(since, 1.0)
+        return not set(self.monitor.missing(since)) & set(joints)
 
     def _distance(self, name: str, a: float, b: float) -> float:
         joint = self.model.joint(name)
