@@ -217,6 +217,29 @@ def cardboard_box():
     return [box(0.5, 0.4, 0.298, CARD).at(z=0.149), box(0.5, 0.05, 0.002, (0.85, 0.75, 0.55)).at(z=0.299)]
 
 
+# Concrete blocks with two holes: name of each wall, its size and its middle (m). What is seen collides.
+CINDER_BLOCKS = {
+    "cinder_block": (
+        ("left", (0.43495, 0.0339, 0.2032), (0, -0.08465, 0.1016)), ("right", (0.43495, 0.0339, 0.2032), (0, 0.08465, 0.1016)),
+        ("front", (0.0339, 0.1354, 0.203), (0.18625, 0, 0.1016)), ("middle", (0.0339, 0.1354, 0.203), (0, 0, 0.1016)),
+        ("back", (0.0339, 0.1354, 0.203), (-0.18625, 0, 0.1016))),
+    "cinder_block_2": (
+        ("top", (0.19368008, 0.396875, 0.0254), (0, 0, 0.130175)), ("bottom", (0.19368008, 0.396875, 0.0254), (0, 0, 0.0127)),
+        ("left", (0.19368008, 0.0254, 0.092075), (0, -0.1857375, 0.0714375)),
+        ("right", (0.19368008, 0.0254, 0.092075), (0, 0.1857375, 0.0714375)),
+        ("middle", (0.19368008, 0.0254, 0.092075), (0, 0, 0.0714375))),
+    "cinder_block_wide": (
+        ("top", (0.387353556, 0.387353556, 0.0254), (0, 0, 0.130175)), ("bottom", (0.387353556, 0.387353556, 0.0254), (0, 0, 0.0127)),
+        ("left", (0.387353556, 0.020643342, 0.092075), (0, -0.183355107, 0.0714375)),
+        ("right", (0.387353556, 0.020643342, 0.092075), (0, 0.183355107, 0.0714375)),
+        ("middle", (0.387353556, 0.0254, 0.092075), (0, 0, 0.0714375))),
+}
+
+
+def cinder_block(name):
+    return lambda: [box(*size, CONCRETE).at(*middle) for _, size, middle in CINDER_BLOCKS[name]]
+
+
 # model/meshes/file -> solids
 MESHES = {
     "jersey_barrier/meshes/jersey_barrier": lambda: [jersey_barrier(4.0656, 0.4064, 1.143, CONCRETE)],
@@ -242,6 +265,7 @@ MESHES = {
     "standpipe/meshes/standpipe": standpipe,
     "cardboard_box/meshes/cardboard_box": cardboard_box,
     "brick_box_3x1x3/meshes/simple_box": lambda: [box(3.0, 1.0, 3.0, (0.56, 0.3, 0.24))],
+    **{f"{name}/meshes/cinder_block": cinder_block(name) for name in CINDER_BLOCKS},
 }
 SCALES = {"dumpster": (1.5,) * 3, "construction_cone": (10.0,) * 3, "table_marble": (0.25,) * 3,
           "cardboard_box": (1.25931896, 1.007455168, 0.755591376), "brick_box_3x1x3": (3.0, 1.0, 3.0)}

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Dict, Optional, Tuple
 from xml.sax.saxutils import escape
 
-from make_meshes import SCALES
+from make_meshes import CINDER_BLOCKS, SCALES
 
 HERE = Path(__file__).resolve().parent
 GAZEBO_SCRIPT = "file://media/materials/scripts/gazebo.material"
@@ -153,6 +153,12 @@ def ogre_script(materials) -> str:
 WOOD, GREY = script("Gazebo/Wood"), script("Gazebo/Grey")
 STIFF = dict(kp=1e7, kd=1, max_vel=0.1, min_depth=0.001)
 HARD = dict(kp=1e5, kd=100, max_vel=100, min_depth=0.001)
+
+
+def cinder_block(name, description, mass, inertia, height, surface=""):
+    walls = tuple(Shape(wall, box(*size), middle, surface=surface) for wall, size, middle in CINDER_BLOCKS[name])
+    return Model(name.replace("_", " ").capitalize(), description, walls, mass=mass, inertia=inertia, com=(0, 0, height),
+                 mesh="cinder_block.dae")
 
 
 def jersey_boxes(length):
@@ -348,6 +354,11 @@ MODELS = {
     "kinect": Model(
         "Kinect", "A depth camera, 640 by 480 at 20 Hz.", (Shape("collision", box(0.073, 0.276, 0.072)),), mass=0.1,
         pose=(0, 0, 0.036), mesh="kinect.dae", extra=CAMERA_SENSOR),
+    "cinder_block": cinder_block("cinder_block", "A concrete block with two holes, upright.", 17.0, (0.0976, 0.2508, 0.2348), 0.1016),
+    "cinder_block_2": cinder_block("cinder_block_2", "A light block with two holes, lying.", 5.0, (0.028705, 0.073708, 0.06908), 0.1016,
+                                   contact(max_vel=0.1, min_depth=0.001)),
+    "cinder_block_wide": cinder_block("cinder_block_wide", "A light square block with two holes, lying.", 5.0,
+                                      (0.06814656667, 0.06814656667, 0.1248075), 0.0714375, contact(max_vel=0.1, min_depth=0.001)),
     "unit_box": unit_shape("box", box(1, 1, 1), (1 / 6,) * 3),
     "unit_sphere": unit_shape("sphere", sphere(0.5), (0.1,) * 3),
     "unit_cylinder": unit_shape("cylinder", cylinder(0.5, 1.0), (0.1458333333, 0.1458333333, 0.125)),

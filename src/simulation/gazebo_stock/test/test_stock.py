@@ -35,6 +35,11 @@ def test_files_are_what_their_script_writes(folder, script, monkeypatch):
         assert (STOCK / folder / name).read_text() == text, f"run {folder}/{script}.py"
 
 
+@pytest.mark.parametrize("name", ["cinder_block", "cinder_block_2", "cinder_block_wide"])
+def test_worlds_that_were_saved_with_a_block_find_its_mesh(name):
+    assert FINDER.find(f"model://{name}/meshes/cinder_block.dae")
+
+
 @pytest.mark.parametrize("name", MODELS)
 def test_a_model_loads_without_a_word_and_its_meshes_are_whole(name):
     world, problems = load_world(included(name), FINDER)
