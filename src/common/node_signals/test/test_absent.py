@@ -1,7 +1,10 @@
 """What is said of packages that are not there."""
+import pytest
 import rospkg
-
-from node_signals.absent import in_one_line
+from node_signals import launching
+from node_signals.absent import in_one_line, of_program
+from roslaunch import node_args
+from roslaunch.core import Node
 
 
 def told(name):
@@ -14,6 +17,7 @@ def test_known():
     assert told("amcl").startswith("the package 'amcl' is not here. It belongs to the navigation stack, which is not")
     assert "ros-planning/navigation" in told("map_server")
     assert "\\" not in told("gmapping")
+    assert told("smach_ros").endswith("build it from source in your workspace (ros/executive_smach, branch noetic-devel).")
 
 
 def test_of_debian():
@@ -26,3 +30,52 @@ def test_unknown():
 
 def test_other_texts_stay():
     assert told("a file was not found in x.launch") == "a file was not found in x.launch"
+
+
+@pytest.fixture
+def package(tmp_path, monkeypatch):
+    folder = tmp_path / "my_arm"
+    (folder / "scripts").mkdir(parents=True)
+    (folder / "package.xml").write_text("<package format='2'><name>my_arm</name><version>0.0.1</version><description>d</description>"
+                                        "<maintainer email='a@b.cd'>a</maintainer><license>BSD</license></package>")
+    monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path))
+    return folder
+
+
+def program(path, mode=0o755):
+    path.write_text("#!/bin/sh\n")
+    path.chmod(mode)
+
+
+def test_a_program_that_noetic_calls_otherwise():
+    assert of_program("robot_state_publisher", "state_publisher") == "Noetic calls it robot_state_publisher"
+
+
+def test_a_script_that_is_not_executable(package):
+    program(package / "scripts/move.py", 0o644)
+    assert of_program("my_arm", "move.py") == f"Such a file is there and is not executable: chmod +x {package}/scripts/move.py"
+
+
+def test_a_program_in_cpp_that_is_not_built(package):
+    (package / "CMakeLists.txt").write_text("# add_executable(old old.cpp)\nadd_executable( arm_node src/arm.cpp)\n")
+    assert of_program("my_arm", "arm_node").endswith("is not built: catkin build my_arm")
+    assert of_program("my_arm", "old") == of_program("my_arm", "arm") == "The package has no programs at all"
+
+
+def test_what_there_is_instead(package):
+    for name in ("move_arm.py", "grip.py", *(f"node{number:02}" for number in range(20))):
+        program(package / "scripts" / name)
+    assert of_program("my_arm", "move.py") == ("The package has grip.py, move_arm.py, node00, node01, node02, node03, node04, node05, node06, "
+                                               "node07, node08, node09 and 10 more")
+
+
+def test_nothing_of_a_package_that_is_not_there():
+    assert of_program("no_such_package", "x") == ""
+
+
+def test_roslaunch_adds_it_to_its_own_line(package):
+    def missing(node, machine, env):
+        raise node_args.NodeParamsException("Cannot locate node of type [a] in package [my_arm]")
+    with pytest.raises(node_args.NodeParamsException) as told:
+        launching._saying_what_a_package_has(missing)(Node("my_arm", "a"), None)
+    assert str(told.value) == "Cannot locate node of type [a] in package [my_arm]. The package has no programs at all"

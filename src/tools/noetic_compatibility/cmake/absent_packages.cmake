@@ -10,24 +10,53 @@ macro(_noetic_absent sentence)
   endforeach()
 endmacro()
 
+set(_noetic_built "It is not supplied here, and Debian does not package it; build it from source \
+in your workspace")
 _noetic_absent("It belongs to the navigation stack, which is not supplied here and which Debian does not package; build it from \
 source in your workspace (ros-planning/navigation, branch noetic-devel)."
   amcl base_local_planner carrot_planner clear_costmap_recovery costmap_2d dwa_local_planner fake_localization global_planner
-  map_server move_base move_slow_and_clear nav_core navfn navigation robot_pose_ekf rotate_recovery voxel_grid)
-_noetic_absent("It is not supplied here, and Debian does not package it; build it from source in your workspace \
-(ros-perception/slam_gmapping and ros-perception/openslam_gmapping)." gmapping openslam_gmapping slam_gmapping)
+  map_server move_base move_slow_and_clear nav_core navfn navigation rotate_recovery voxel_grid)
+_noetic_absent("${_noetic_built} (ros-perception/slam_gmapping and ros-perception/openslam_gmapping)."
+  gmapping openslam_gmapping slam_gmapping)
+_noetic_absent("${_noetic_built} (tu-darmstadt-ros-pkg/hector_slam, branch noetic-devel)."
+  hector_compressed_map_transport hector_geotiff hector_geotiff_launch hector_geotiff_plugins hector_imu_attitude_to_tf
+  hector_map_server hector_map_tools hector_mapping hector_marker_drawing hector_nav_msgs hector_slam hector_slam_launch
+  hector_trajectory_server)
+_noetic_absent("${_noetic_built} (ros-planning/robot_pose_ekf)." robot_pose_ekf)
+_noetic_absent("${_noetic_built} (hrnr/m-explore, branch noetic-devel)." explore_lite multirobot_map_merge)
+_noetic_absent("${_noetic_built} (paulbovbel/frontier_exploration)."
+  frontier_exploration exploration_msgs exploration_server polygon_layer)
+_noetic_absent("${_noetic_built} (ros/executive_smach, branch noetic-devel)." executive_smach smach smach_msgs smach_ros)
+_noetic_absent("${_noetic_built} (RobotWebTools/rosbridge_suite, branch ros1, and GT-RAIL/rosauth)."
+  rosapi rosauth rosbridge_library rosbridge_msgs rosbridge_server rosbridge_suite)
+_noetic_absent("${_noetic_built} (RobotWebTools/tf2_web_republisher)." tf2_web_republisher)
+_noetic_absent("${_noetic_built} (AprilRobotics/apriltag_ros)." apriltag_ros)
+_noetic_absent("${_noetic_built} (pal-robotics/aruco_ros, branch noetic-devel)." aruco aruco_msgs aruco_ros)
+_noetic_absent("${_noetic_built} (machinekoder/ar_track_alvar, branch noetic-devel)." ar_track_alvar ar_track_alvar_msgs)
+_noetic_absent("${_noetic_built} (ros-drivers/usb_cam, branch develop)." usb_cam)
+_noetic_absent("${_noetic_built} (ros-drivers/rosserial, branch noetic-devel)."
+  rosserial rosserial_arduino rosserial_client rosserial_msgs rosserial_python rosserial_server)
+_noetic_absent("${_noetic_built} (wjwwood/serial)." serial)
+_noetic_absent("${_noetic_built} (Slamtec/rplidar_ros)." rplidar_ros)
+_noetic_absent("${_noetic_built} (ROBOTIS-GIT/DynamixelSDK, branch noetic-devel)." dynamixel_sdk)
+_noetic_absent("${_noetic_built} (ROBOTIS-GIT/dynamixel-workbench, branch noetic-devel, and what its packages need)."
+  dynamixel_workbench dynamixel_workbench_controllers dynamixel_workbench_operators dynamixel_workbench_toolbox)
+_noetic_absent("${_noetic_built} (rst-tu-dortmund/costmap_converter)." costmap_converter)
+_noetic_absent("${_noetic_built} (pal-robotics/ddynamic_reconfigure, branch kinetic-devel)." ddynamic_reconfigure)
+_noetic_absent("${_noetic_built} (ros/filters, branch noetic-devel)." filters)
+_noetic_absent("${_noetic_built} (ros/common_tutorials, branch noetic-devel)." nodelet_tutorial_math pluginlib_tutorials)
+_noetic_absent("${_noetic_built} (ros-visualization/visualization_tutorials, branch noetic-devel)."
+  interactive_marker_tutorials librviz_tutorial rviz_python_tutorial visualization_marker_tutorials)
+_noetic_absent("Its sources (ros-visualization/visualization_tutorials) declare Ogre::Vector3 as a class, which it is not in Debian's \
+OGRE: in a copy of them replace the declaration by #include <OGRE/OgreVector3.h>." rviz_plugin_tutorials)
+_noetic_absent("It is written for FFmpeg 4, Debian has a newer one; rosrun rqt_image_view rqt_image_view shows pictures." web_video_server)
+_noetic_absent("It needs g2o, which Debian does not package, and move_base_flex: build all three from source." teb_local_planner)
 _noetic_absent("It makes maps or places robots in them, and is not supplied here; build it from source in your workspace."
-  cartographer_ros hector_mapping hector_slam karto_slam slam_toolbox)
+  cartographer_ros karto_slam slam_toolbox)
 _noetic_absent("It is made for Gazebo Classic, whose C++ API is supplied (find_package(gazebo)): build it from source in your \
 workspace." gazebo_ros_control_select_joints)
 _noetic_absent("It is no package of catkin: find it by itself, without COMPONENTS." gazebo sdformat)
-_noetic_absent("It belongs to the tutorials of desktop-full, is not supplied here, and builds from source in your workspace."
-  nodelet_tutorial_math pluginlib_tutorials
-  visualization_marker_tutorials librviz_tutorial rviz_plugin_tutorials stage stage_ros)
-_noetic_absent("It is small, is not packaged by Debian, and builds from source in your workspace." costmap_converter ddynamic_reconfigure
-  filters laser_assembler
-  teb_local_planner smach smach_ros executive_smach
-  serial rosserial rosserial_python rosbridge_server rosauth imu_tools warehouse_ros)
+_noetic_absent("${_noetic_built}." imu_tools laser_assembler stage stage_ros warehouse_ros)
 
 # _noetic_debian_packages(NAME VARIABLE): Debian's packages for a ROS package, from the rules that Debian ships for rosdep.
 function(_noetic_debian_packages name variable)

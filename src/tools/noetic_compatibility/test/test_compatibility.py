@@ -298,6 +298,7 @@ def test_an_absent_package_is_explained_in_one_paragraph(package):
     said = paragraph(package("roscpp amcl"))
     assert "The package 'amcl', which p asks for, is not here. It belongs to the navigation stack" in said
     assert "--continue-on-failure" in said and "Could not find a package configuration file" not in said
+    assert "from source in your workspace (ros/executive_smach, branch noetic-devel)." in paragraph(package("smach"))
 
 
 def test_a_package_of_the_course_that_is_not_built_is_explained(package):

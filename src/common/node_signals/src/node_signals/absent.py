@@ -1,13 +1,20 @@
-"""What is known of a package that a launch file names and that is not there: one line, not all folders searched."""
+"""What is known of a package, or a program of one, that a launch file names and that is not there: one line, not all folders searched."""
 from __future__ import annotations
 
+import os
 import re
 from pathlib import Path
+from typing import List
 
 import rospkg
+from catkin.find_in_workspaces import find_in_workspaces
 
 _DEBIAN_RULES = Path("/usr/share/python3-rosdep2/debian.yaml")
 _UNKNOWN = "Is it built in your workspace, and that sourced? `rosdep resolve {name}` says whether Debian has it."
+
+#: Programs that packages of Noetic no longer have, and what they are called.
+_RENAMED = {("robot_state_publisher", "state_publisher"): "robot_state_publisher"}
+_MOST_NAMED = 12
 
 
 def explanation(name: str) -> str:
@@ -34,7 +41,8 @@ def _known_sentence(name: str) -> str:
         return ""
     for sentence, names in re.findall(r'^_noetic_absent\("([^"]*)"([^)]*)\)', listed, re.MULTILINE):
         if name in names.split():
-            return sentence.replace("\\\n", "")
+            variables = dict(re.findall(r'^set\((\w+) "([^"]*)"\)', listed, re.MULTILINE))
+            return re.sub(r"\$\{(\w+)\}", lambda used: variables[used[1]], sentence).replace("\\\n", "")
     return ""
 
 
@@ -42,3 +50,31 @@ def in_one_line(error: rospkg.ResourceNotFound) -> str:
     """For rospkg.ResourceNotFound.__str__."""
     what = str(error.args[0]) if error.args else ""
     return f"the package '{what}' is not here. {explanation(what)}" if re.fullmatch(r"[A-Za-z][\w-]*", what) else what
+
+
+def of_program(package: str, name: str) -> str:
+    """Why a package that is there has no program of that name, as far as its files tell; "" if they tell nothing."""
+    renamed = _RENAMED.get((package, name))
+    if renamed:
+        return f"Noetic calls it {renamed}"
+    try:
+        folder = Path(rospkg.RosPack().get_path(package))
+    except rospkg.ResourceNotFound:
+        return ""
+    files = [path for path in sorted(folder.rglob(name)) if path.is_file()]
+    if files:
+        return f"Such a file is there and is not executable: chmod +x {files[0]}"
+    cmake = folder / "CMakeLists.txt"
+    if cmake.is_file() and re.search(rf"^[ \t]*add_executable\(\s*{re.escape(name)}\b", cmake.read_text(errors="replace"), re.MULTILINE):
+        return f"The package makes it of C++ and is not built: catkin build {package}"
+    there = _programs(package, folder)
+    others = f" and {len(there) - _MOST_NAMED} more" if len(there) > _MOST_NAMED else ""
+    return f"The package has {', '.join(there[:_MOST_NAMED])}{others}" if there else "The package has no programs at all"
+
+
+def _programs(package: str, folder: Path) -> List[str]:
+    """What rosrun finds in a package, without the files of its own making."""
+    built = [Path(place) for place in find_in_workspaces(["libexec"], project=package, first_matching_workspace_only=True)]
+    sources = [path for path in (folder / "scripts", folder / "nodes", folder / "src", folder / "bin") if path.is_dir()]
+    return sorted({path.name for place in built + sources for path in place.rglob("*")
+                   if path.is_file() and os.access(path, os.X_OK) and path.suffix in ("", ".py", ".sh")})

@@ -22,9 +22,9 @@ from node_signals import quick_start
 quick_start.prepare()  # before roslaunch is imported
 import rospkg  # noqa: E402
 import roslaunch  # noqa: E402
-from roslaunch import core, launch, nodeprocess, pmon  # noqa: E402
+from roslaunch import core, launch, node_args, nodeprocess, pmon  # noqa: E402
 
-from node_signals.absent import in_one_line
+from node_signals.absent import in_one_line, of_program
 from node_signals.children import end_with_parent
 from node_signals.display import asked_for, missing_display
 from node_signals.interpreter import supply_python
@@ -134,6 +134,17 @@ def _naming_windows_without_display(start):
     return checked
 
 
+def _saying_what_a_package_has(make_arguments):
+    """Upstream's line for a node that is not found, and why."""
+    def checked(node, machine, env=None):
+        try:
+            return make_arguments(node, machine, env)
+        except node_args.NodeParamsException as error:
+            why = of_program(node.package, node.type) if "Cannot locate node" in str(error) else ""
+            raise node_args.NodeParamsException(f"{error}. {why}" if why else str(error)) from error
+    return checked
+
+
 def _mend() -> None:
     """Debian's roslaunch, from here on as this module says."""
     signal.signal(signal.SIGINT, signal.SIG_DFL)  # nothing has been started yet; pmon takes over with its first process
@@ -145,6 +156,7 @@ def _mend() -> None:
     core.Master.is_running = _unless_ending(core.Master.is_running)
     nodeprocess.LocalProcess._stop_unix = _master_first_by_sigterm(nodeprocess.LocalProcess._stop_unix)
     nodeprocess.LocalProcess.start = _naming_windows_without_display(nodeprocess.LocalProcess.start)
+    nodeprocess.create_local_process_args = _saying_what_a_package_has(nodeprocess.create_local_process_args)
     rospkg.ResourceNotFound.__str__ = in_one_line
     roslaunch.handle_exception = _silent_when_ending(roslaunch.handle_exception)
 
