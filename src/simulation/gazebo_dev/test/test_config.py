@@ -108,7 +108,8 @@ def test_pkg_config_finds_gazebo_and_sdformat(tmp_path):
     """As Gazebo's first tutorials and the map makers of courses ask for it."""
     (tmp_path / "CMakeLists.txt").write_text(PKG_CONFIG)
     (tmp_path / "plugin.cc").write_text(PLUGIN)
-    for command in (["cmake", "-S", tmp_path, "-B", tmp_path / "build", "-DCMAKE_CXX_STANDARD=17"], ["cmake", "--build", tmp_path / "build"]):
+    for command in (["cmake", "-S", tmp_path, "-B", tmp_path / "build", "-DCMAKE_CXX_STANDARD=17"],
+                    ["cmake", "--build", tmp_path / "build"]):
         done = subprocess.run(command, capture_output=True, text=True, timeout=300)
         assert done.returncode == 0, done.stdout + done.stderr
         if "found" in done.stdout:
