@@ -63,10 +63,10 @@ def test_a_program_in_cpp_that_is_not_built(package):
 
 
 def test_what_there_is_instead(package):
-    for name in ("move_arm.py", "grip.py", *(f"node{number:02}" for number in range(20))):
+    for name in ("move_arm.py", "grip.py", *(f"n{number:02}" for number in range(20))):
         program(package / "scripts" / name)
-    assert of_program("my_arm", "move.py") == ("The package has grip.py, move_arm.py, node00, node01, node02, node03, node04, node05, node06, "
-                                               "node07, node08, node09 and 10 more")
+    ten = ", ".join(f"n{number:02}" for number in range(10))
+    assert of_program("my_arm", "move.py") == f"The package has grip.py, move_arm.py, {ten} and 10 more"
 
 
 def test_nothing_of_a_package_that_is_not_there():
