@@ -50,6 +50,13 @@ def test_wrong_options_exit_with_2(arguments):
     assert end.value.code == 2
 
 
+@pytest.mark.parametrize("name, letter", [("-roll", "-R"), ("-pitch", "-P"), ("-yaw", "-Y"), ("--yaw", "-Y")])
+def test_an_angle_by_its_whole_name_is_told_its_letter(name, letter, capsys):
+    with pytest.raises(SystemExit) as end:
+        parse(f"-sdf -file f -model kinect -x 1.0 -y 0.0 {name} 3.1415")
+    assert end.value.code == 2 and capsys.readouterr().err.endswith(f"the angle is called {letter}\n")
+
+
 def text_of(arguments):
     return spawn_model.model_text(parse(arguments))[0]
 

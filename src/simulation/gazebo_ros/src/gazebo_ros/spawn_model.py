@@ -49,6 +49,9 @@ def parse(arguments: List[str]) -> argparse.Namespace:
                         help="initial position of a joint, rad or m; may be repeated")
     parser.add_argument("-package_to_model", action="store_true", help="turn package:// of meshes into model://")
     parser.add_argument("-b", action="store_true", dest="bond", help="stay, and delete the model when ended")
+    for name in ("roll", "pitch", "yaw"):
+        if f"-{name}" in arguments or f"--{name}" in arguments:  # Python's own words are of a -y whose number is 'aw'
+            parser.error(f"argument -{name}: the angle is called -{name[0].upper()}")
     options = parser.parse_args(arguments)
     for joint in options.joints:
         try:
