@@ -59,6 +59,20 @@ def test_a_copy_of_gazebo_ros_is_told_from_the_platforms(package, tmp_path):
     assert f"touch {tmp_path}/CATKIN_IGNORE" in told, told  # rospack heeds it, too, and no skiplist
 
 
+def test_headers_of_a_workspace_below_are_found_undeclared(package, tmp_path, monkeypatch):
+    """Navigation is built from source here, beside /opt/ros/noetic's one folder: sources include what they do not declare."""
+    (tmp_path / "below/devel/include/costs_msgs").mkdir(parents=True)
+    (tmp_path / "below/devel/include/costs_msgs/Cost.h").write_text("")
+    for folder in ("below/src/costs", "below/src/stack/plans"):
+        headers = tmp_path / folder / "include" / folder.rpartition("/")[2]
+        headers.mkdir(parents=True)
+        (headers / "all.h").write_text("")
+    (tmp_path / "below/devel/.catkin").write_text(str(tmp_path / "below/src"))
+    monkeypatch.setenv("CMAKE_PREFIX_PATH", f"{tmp_path}/below/devel:{os.environ['CMAKE_PREFIX_PATH']}")
+    ended = package("roscpp", "#include <costs/all.h>\n#include <plans/all.h>\n#include <costs_msgs/Cost.h>\n")
+    assert ended.returncode == 0, ended.stdout + ended.stderr
+
+
 @pytest.fixture
 def program(tmp_path, package):
     """Function that links a program with ``libraries`` in a package of these components."""
