@@ -56,6 +56,8 @@ _noetic_absent("It makes maps or places robots in them, and is not supplied here
 _noetic_absent("It is made for Gazebo Classic, whose C++ API is supplied (find_package(gazebo)): build it from source in your \
 workspace." gazebo_ros_control_select_joints)
 _noetic_absent("It is no package of catkin: find it by itself, without COMPONENTS." gazebo sdformat)
+_noetic_absent("It is no package of catkin, on Noetic neither: take it out of COMPONENTS, and write find_package(OpenCV) beside it."
+  opencv opencv2 opencv3)
 _noetic_absent("${_noetic_built}." imu_tools laser_assembler stage stage_ros warehouse_ros)
 
 # _noetic_debian_packages(NAME VARIABLE): Debian's packages for a ROS package, from the rules that Debian ships for rosdep.

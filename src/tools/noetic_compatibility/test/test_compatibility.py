@@ -315,6 +315,10 @@ def test_an_absent_package_is_explained_in_one_paragraph(package):
     assert "from source in your workspace (ros/executive_smach, branch noetic-devel)." in paragraph(package("smach"))
 
 
+def test_opencv_is_no_package_of_catkin(package):
+    assert "write find_package(OpenCV) beside it" in paragraph(package("roscpp opencv"))
+
+
 def test_a_package_of_the_course_that_is_not_built_is_explained(package):
     said = paragraph(package("no_such_course_msgs"))
     assert "'no_such_course_msgs'" in said and "has to stand in this workspace's src folder" in said
