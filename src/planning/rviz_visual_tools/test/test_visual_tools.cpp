@@ -55,6 +55,24 @@ TEST_F(VisualTools, MarkersAreSentTogether) {
   EXPECT_NE(markers[5].id, markers[1].id);
 }
 
+// Kinetic's programs have no Isometry3d.
+TEST_F(VisualTools, AnAffinePoseIsTakenAsWell) {
+  Eigen::Affine3d pose = Eigen::Affine3d::Identity();
+  pose.translation().z() = 4.0;
+  EXPECT_TRUE(tools_.publishText(pose, "Welcome", rvt::WHITE, rvt::XXXXLARGE));
+  EXPECT_TRUE(tools_.publishSphere(pose, rvt::RED));
+  EXPECT_TRUE(tools_.publishCuboid(pose, 0.1, 0.2, 0.3));
+  EXPECT_TRUE(tools_.publishAxisLabeled(pose, "here"));
+  const Eigen::Affine3d turned = pose * Eigen::AngleAxisd(1.0, Eigen::Vector3d::UnitX());
+  EXPECT_TRUE(tools_.publishArrow(turned));
+  const std::vector<Marker> markers = taken();
+  ASSERT_EQ(markers.size(), 8u);
+  for (const Marker& marker : {markers[0], markers[1], markers[2], markers.back()}) EXPECT_EQ(marker.pose.position.z, 4.0);
+  EXPECT_EQ(markers[0].text, "Welcome");
+  EXPECT_EQ(markers[2].scale.z, 0.3);
+  EXPECT_TRUE(rvt::RvizVisualTools::convertPose(markers.back().pose).linear().isApprox(turned.linear()));
+}
+
 TEST_F(VisualTools, AxesPointWhereTheyShould) {
   tools_.publishAxis(Eigen::Isometry3d::Identity(), 0.2, 0.01);
   tools_.publishZArrow(Eigen::Isometry3d::Identity());

@@ -4,6 +4,8 @@
 #include <array>
 #include <memory>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <boost/shared_ptr.hpp>
@@ -338,6 +340,27 @@ class RvizVisualTools {
                    bool static_id = true);
   bool publishText(const geometry_msgs::Pose& pose, const std::string& text, colors color, const geometry_msgs::Vector3 scale,
                    bool static_id = true);
+
+  // Kinetic's programs give an Affine3d, which Eigen does not turn into an Isometry3d by itself; its matrix is taken as it is.
+#define RVIZ_VISUAL_TOOLS_TAKES_AFFINE(method)                                                                      \
+  template <typename Pose, typename... Rest, std::enable_if_t<std::is_same<Pose, Eigen::Affine3d>::value, int> = 0> \
+  bool method(const Pose& pose, Rest&&... rest) {                                                                   \
+    return method(Eigen::Isometry3d(pose.matrix()), std::forward<Rest>(rest)...);                                   \
+  }
+  RVIZ_VISUAL_TOOLS_TAKES_AFFINE(publishSphere)
+  RVIZ_VISUAL_TOOLS_TAKES_AFFINE(publishXArrow)
+  RVIZ_VISUAL_TOOLS_TAKES_AFFINE(publishYArrow)
+  RVIZ_VISUAL_TOOLS_TAKES_AFFINE(publishZArrow)
+  RVIZ_VISUAL_TOOLS_TAKES_AFFINE(publishArrow)
+  RVIZ_VISUAL_TOOLS_TAKES_AFFINE(publishCuboid)
+  RVIZ_VISUAL_TOOLS_TAKES_AFFINE(publishWireframeCuboid)
+  RVIZ_VISUAL_TOOLS_TAKES_AFFINE(publishWireframeRectangle)
+  RVIZ_VISUAL_TOOLS_TAKES_AFFINE(publishAxisLabeled)
+  RVIZ_VISUAL_TOOLS_TAKES_AFFINE(publishAxis)
+  RVIZ_VISUAL_TOOLS_TAKES_AFFINE(publishCylinder)
+  RVIZ_VISUAL_TOOLS_TAKES_AFFINE(publishMesh)
+  RVIZ_VISUAL_TOOLS_TAKES_AFFINE(publishText)
+#undef RVIZ_VISUAL_TOOLS_TAKES_AFFINE
 
   static geometry_msgs::Pose convertPose(const Eigen::Isometry3d& pose);
   static void convertPoseSafe(const Eigen::Isometry3d& pose, geometry_msgs::Pose& pose_msg);
