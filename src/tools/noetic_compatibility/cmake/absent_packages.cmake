@@ -44,6 +44,13 @@ _noetic_absent("${_noetic_built} (ROBOTIS-GIT/dynamixel-workbench, branch noetic
 _noetic_absent("${_noetic_built} (rst-tu-dortmund/costmap_converter)." costmap_converter)
 _noetic_absent("${_noetic_built} (pal-robotics/ddynamic_reconfigure, branch kinetic-devel)." ddynamic_reconfigure)
 _noetic_absent("${_noetic_built} (ros/filters, branch noetic-devel)." filters)
+_noetic_absent("${_noetic_built} (ros-perception/laser_assembler, branch noetic-devel)." laser_assembler)
+_noetic_absent("${_noetic_built} (iralabdisco/ira_laser_tools)." ira_laser_tools)
+_noetic_absent("${_noetic_built} (tu-darmstadt-ros-pkg/hector_localization)."
+  hector_localization hector_pose_estimation hector_pose_estimation_core message_to_tf)
+_noetic_absent("${_noetic_built} (CCNYRoboticsLab/imu_tools, branch noetic; its filters are supplied)." imu_tools rviz_imu_plugin)
+_noetic_absent("${_noetic_built} (ros-planning/warehouse_ros, branch kinetic-devel)." warehouse_ros)
+_noetic_absent("${_noetic_built} (eric-wieser/ros_numpy)." ros_numpy)
 _noetic_absent("${_noetic_built} (ros/common_tutorials, branch noetic-devel)." nodelet_tutorial_math pluginlib_tutorials)
 _noetic_absent("${_noetic_built} (ros-visualization/visualization_tutorials, branch noetic-devel)."
   interactive_marker_tutorials librviz_tutorial rviz_python_tutorial visualization_marker_tutorials)
@@ -58,7 +65,7 @@ workspace." gazebo_ros_control_select_joints)
 _noetic_absent("It is no package of catkin: find it by itself, without COMPONENTS." gazebo sdformat)
 _noetic_absent("It is no package of catkin, on Noetic neither: take it out of COMPONENTS, and write find_package(OpenCV) beside it."
   opencv opencv2 opencv3)
-_noetic_absent("${_noetic_built}." imu_tools laser_assembler stage stage_ros warehouse_ros)
+_noetic_absent("${_noetic_built}." stage stage_ros)
 
 # _noetic_debian_packages(NAME VARIABLE): Debian's packages for a ROS package, from the rules that Debian ships for rosdep.
 function(_noetic_debian_packages name variable)
