@@ -112,7 +112,8 @@ void ModelBuilder::finishGroup(JointModelGroup& group, const std::set<int>& join
   {
     const JointModel& joint = model_.joints[j];
     group.links.push_back(joint.child_link);
-    updated.insert(joint.descendant_links.begin(), joint.descendant_links.end());
+    if (joint.variable_count > 0)  // a chain that begins with a fixed joint does not move its base
+      updated.insert(joint.descendant_links.begin(), joint.descendant_links.end());
     if (!joint.active())
       continue;
     group.active_joints.push_back(j);

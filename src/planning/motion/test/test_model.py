@@ -290,3 +290,18 @@ def test_packages_are_found_by_the_name_in_their_manifest(tmp_path, monkeypatch)
     assert found and os.path.samefile(found, inside / "part.stl")
     assert resolve("package://arm_description/part.stl") == resolve("package://old_name/part.stl") == ""
     assert find_package("ignored") is None
+
+
+def test_a_chain_that_begins_with_a_fixed_joint_does_not_move_its_base():
+    """A robot stands on the floor of its scene; a group that begins at its base_footprint is asked about what it moves alone."""
+    box = '<collision><geometry><box size="0.4 0.4 0.4"/></geometry></collision>'
+    model = motion.load_model(
+        f'<robot name="r"><link name="base_footprint"/><link name="base">{box}</link><link name="arm">{box}</link>'
+        '<joint name="foot" type="fixed"><parent link="base_footprint"/><child link="base"/></joint>'
+        '<joint name="turn" type="revolute"><parent link="base"/><child link="arm"/><origin xyz="0 0 1"/><axis xyz="0 0 1"/>'
+        '<limit lower="-1" upper="1" velocity="1" effort="1"/></joint></robot>',
+        '<robot name="r"><group name="chain"><chain base_link="base_footprint" tip_link="arm"/></group></robot>')
+    assert model.group("chain").updated_links == ["arm"]
+    scene = motion.PlanningScene(model)
+    scene.add_object("floor", [motion.Box(6, 6, 0.05)])
+    assert scene.check() and not scene.check(group="chain")
