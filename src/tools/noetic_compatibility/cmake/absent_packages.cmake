@@ -37,6 +37,10 @@ _noetic_absent("${_noetic_built} (ros-drivers/usb_cam, branch develop)." usb_cam
 _noetic_absent("${_noetic_built} (ros-drivers/rosserial, branch noetic-devel)."
   rosserial rosserial_arduino rosserial_client rosserial_msgs rosserial_python rosserial_server)
 _noetic_absent("${_noetic_built} (wjwwood/serial)." serial)
+_noetic_absent("${_noetic_built} (stonier/ecl_core, branch release/0.62-noetic, ecl_lite and ecl_tools, branches release/0.61-noetic)."
+  ecl_build ecl_concepts ecl_config ecl_errors ecl_exceptions ecl_mpl ecl_threads ecl_time ecl_time_lite ecl_type_traits ecl_utilities)
+_noetic_absent("${_noetic_built} (yujinrobot/yujin_ocs; the smoother with stonier's ecl_core, ecl_lite and ecl_tools)."
+  yocs_cmd_vel_mux yocs_velocity_smoother)
 _noetic_absent("${_noetic_built} (Slamtec/rplidar_ros)." rplidar_ros)
 _noetic_absent("${_noetic_built} (ROBOTIS-GIT/DynamixelSDK, branch noetic-devel)." dynamixel_sdk)
 _noetic_absent("${_noetic_built} (ROBOTIS-GIT/dynamixel-workbench, branch noetic-devel, and what its packages need)."
@@ -59,7 +63,9 @@ OGRE: in a copy of them replace the declaration by #include <OGRE/OgreVector3.h>
 _noetic_absent("It is written for FFmpeg 4, Debian has a newer one; rosrun rqt_image_view rqt_image_view shows pictures." web_video_server)
 _noetic_absent("It needs g2o, which Debian does not package, and move_base_flex: build all three from source." teb_local_planner)
 _noetic_absent("It makes maps or places robots in them, and is not supplied here; build it from source in your workspace."
-  cartographer_ros karto_slam slam_toolbox)
+  cartographer_ros slam_toolbox)
+_noetic_absent("${_noetic_built} (ros-perception/slam_karto, open_karto and sparse_bundle_adjustment, branches melodic-devel)."
+  open_karto slam_karto sparse_bundle_adjustment)
 _noetic_absent("It is made for Gazebo Classic, whose C++ API is supplied (find_package(gazebo)): build it from source in your \
 workspace." gazebo_ros_control_select_joints)
 _noetic_absent("It is no package of catkin: find it by itself, without COMPONENTS." gazebo sdformat)
