@@ -3,11 +3,12 @@
 import json
 import os
 import pathlib
+import re
 import subprocess
 import time
 
 import pytest
-from lab_check import sandbox, spec
+from lab_check import group, sandbox, spec
 from lab_check.check import check
 
 ROOT = pathlib.Path(__file__).resolve().parents[4]
@@ -76,6 +77,25 @@ def test_fork_bomb_is_ended_and_told(place):
     _, _, page = submit(place, "f() { f | f & }; f; sleep 60\n")
     assert "more than 100 processes" in page
     assert not processes_with(EVIL)
+
+
+def test_threads_are_counted_as_well(place):
+    with group.bounded(1) as bound:
+        if not bound and os.getuid() == 0:
+            pytest.skip("root can make no control group here, and nothing else holds for root")
+    _, log, _ = submit(place, """python3 -c '
+import threading
+over, count = threading.Event(), 0
+try:
+    while count < 2000:
+        threading.Thread(target=over.wait).start()
+        count += 1
+except RuntimeError as error:
+    print(count, "threads, then:", error, flush=True)
+over.set()'
+""")
+    found = re.search(r"(\d+) threads, then: can't start new thread", log)
+    assert found and 600 < int(found[1]) < 800, log
 
 
 def test_a_full_disk_is_the_submissions_own(place):

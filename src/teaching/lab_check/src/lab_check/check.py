@@ -14,8 +14,8 @@ import uuid
 from dataclasses import asdict
 from typing import Optional
 
-from . import report, sandbox, scratch
-from .job import Job
+from . import group, report, sandbox, scratch
+from .job import Job, most_tasks
 from .outcome import Result
 from .spec import Spec
 from .supervise import STRETCH, die_with_parent
@@ -63,26 +63,25 @@ def check(spec: Spec, submission: pathlib.Path, out: pathlib.Path, unsafe: bool 
             shutil.rmtree(path) if path.is_dir() else path.unlink(missing_ok=True)
     out.mkdir(parents=True, exist_ok=True)
     keep_bytecode()
-    with scratch.folder("lab_check.") as place:
-        result = _examine(spec, submission, out, place, unsafe, films, port)
+    limits = {name: spec.limit(name) for name in spec.data["limits"]}
+    with scratch.folder("lab_check.") as place, group.bounded(most_tasks(limits)) as processes:
+        os.chmod(place, 0o755)
+        job = Job(spec.data, str(spec.path.parent), os.path.abspath(submission), str(place), str(out.resolve()), unsafe,
+                  free_port(port) if unsafe else 11311, limits, asdict(sandbox.Platform.here()), f"LAB_CHECK_RUN={uuid.uuid4().hex}",
+                  films=films, group=processes)
+        result = _examine(job, spec, submission, out)
     report.write(result, spec, out)
     return result
 
 
-def _examine(spec: Spec, submission: pathlib.Path, out: pathlib.Path, place: pathlib.Path, unsafe: bool, films: bool, port: int) -> Result:
-    """:param place: what the submission writes to lies there"""
-    os.chmod(place, 0o755)
-    limits = {name: spec.limit(name) for name in spec.data["limits"]}
-    job = Job(spec.data, str(spec.path.parent), os.path.abspath(submission), str(place), str(out.resolve()), unsafe,
-              free_port(port) if unsafe else 11311, limits, asdict(sandbox.Platform.here()), f"LAB_CHECK_RUN={uuid.uuid4().hex}",
-              films=films)
+def _examine(job: Job, spec: Spec, submission: pathlib.Path, out: pathlib.Path) -> Result:
     job_file = out / ".job"
     job.save(job_file)
     words = [sys.executable, "-m", "lab_check.examiner", str(job_file)]
     sessions = len({task["launch"] for task in spec.data["tasks"]})
-    patience = STRETCH * (spec.data["build"]["timeout"] * 2 + sessions * (limits["time"] + 90))
+    patience = STRETCH * (spec.data["build"]["timeout"] * 2 + sessions * (job.limits["time"] + 90))
     try:
-        fault = _run(words if unsafe else sandbox.outer_words() + words, out, patience)
+        fault = _run(words if job.unsafe else sandbox.outer_words() + words, out, patience)
         return _read(out, fault, spec, submission)
     finally:
         for name in (".job", ".job.json"):

@@ -28,6 +28,7 @@ class Job:
     mark: str
     packages: Dict[str, str] = field(default_factory=dict)  # name -> folder below home
     films: bool = True
+    group: str = ""  # the control group of all that the submission starts
 
     def save(self, path: "str | os.PathLike") -> None:
         pathlib.Path(path).write_text(json.dumps(asdict(self)), encoding="utf-8")
@@ -65,8 +66,12 @@ class Job:
         environment = {**sandbox.environment(self.port, self.inner_home), "LAB_CHECK_PLATFORM_PYTHON": python,
                        self.mark.partition("=")[0]: self.mark.partition("=")[2]}
         if self.unsafe:
-            return Program(words, self.limits, environment, cwd=self.home)
+            return Program(words, self.limits, environment, self.home, self.group)
         platform = sandbox.Platform(**self.platform)
-        # The kernel counts threads, and not at all for root: the Guard counts processes as well.
-        most = ["prlimit", f"--nproc={int(self.limits['processes']) * 8}", "--"]
-        return Program(sandbox.inner_words(platform, self.home, environment) + most + words, self.limits)
+        most = ["prlimit", f"--nproc={most_tasks(self.limits)}", "--"]
+        return Program(sandbox.inner_words(platform, self.home, environment) + most + words, self.limits, place=self.group)
+
+
+def most_tasks(limits: Dict[str, float]) -> int:
+    """The bound that the kernel keeps, on processes and threads; the Guard counts processes."""
+    return int(limits["processes"]) * 8

@@ -10,6 +10,8 @@ import threading
 import time
 from typing import Callable, Dict, List, Optional, Tuple
 
+from . import group
+
 _HEAD, _TAIL = 400_000, 200_000  # bytes of output that are kept
 _LOOK = 0.1  # s between two looks at memory and processes
 STRETCH = 10.0  # wall time, in limits of time, after which a submission is ended even on the busiest machine
@@ -45,19 +47,23 @@ class Program:
     """A process with all that it starts, its output kept.
 
     :param limits: of the spec, in bytes and numbers: memory, processes, log
+    :param place: the control group that it enters, see :mod:`lab_check.group`
     """
 
-    def __init__(self, words: List[str], limits: Dict[str, float], environment: Optional[Dict[str, str]] = None, cwd: Optional[str] = None):
+    def __init__(self, words: List[str], limits: Dict[str, float], environment: Optional[Dict[str, str]] = None, cwd: Optional[str] = None,
+                 place: str = ""):
         self.output = Output()
         self.broke = ""  # the limit that it broke, in words
         self.words = words
         self._limits = limits
+        self._place = place
         self.process = subprocess.Popen(words, env=environment, cwd=cwd, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
                                         stderr=subprocess.STDOUT, start_new_session=True, preexec_fn=self._bound)
         self._reader = threading.Thread(target=self._read, daemon=True)
         self._reader.start()
 
     def _bound(self) -> None:
+        group.enter(self._place)
         signal.signal(signal.SIGINT, signal.SIG_DFL)
         for what, most in ((resource.RLIMIT_CORE, 0), (resource.RLIMIT_FSIZE, int(self._limits.get("disk", 1e9))),
                            (resource.RLIMIT_NOFILE, 4096)):
