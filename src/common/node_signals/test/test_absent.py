@@ -69,6 +69,12 @@ def test_what_there_is_instead(package):
     assert of_program("my_arm", "move.py") == f"The package has grip.py, move_arm.py, {ten} and 10 more"
 
 
+@pytest.mark.parametrize("name", ["", "/usr/bin/move", "../move", "[", "mo*"])
+def test_a_name_that_is_no_files_name(package, name):
+    program(package / "scripts/move")
+    assert of_program("my_arm", name) == "The package has move"
+
+
 def test_nothing_of_a_package_that_is_not_there():
     assert of_program("no_such_package", "x") == ""
 

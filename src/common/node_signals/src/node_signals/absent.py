@@ -61,7 +61,7 @@ def of_program(package: str, name: str) -> str:
         folder = Path(rospkg.RosPack().get_path(package))
     except rospkg.ResourceNotFound:
         return ""
-    files = [path for path in sorted(folder.rglob(name)) if path.is_file()]
+    files = [path for path in sorted(folder.rglob("*")) if path.name == name and path.is_file()]
     if files:
         return f"Such a file is there and is not executable: chmod +x {files[0]}"
     cmake = folder / "CMakeLists.txt"
