@@ -9,13 +9,12 @@ import unittest
 
 import rospy
 import rostest
-from rosgraph_msgs.msg import Log
 from std_msgs.msg import Float64MultiArray, String
 from test_support.hearing import heard
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from processes import Server  # noqa: E402
-from simulator import Case  # noqa: E402
+from simulator import Case, HearingCase  # noqa: E402
 
 BOX = """<sdf version="1.6"><model name="box"><static>1</static><pose>3 0 0.5 0 0 0</pose><link name="l"><visual name="v">
 <geometry><box><size>1 1 1</size></box></geometry><material><ambient>1 0 0 1</ambient><diffuse>1 0 0 1</diffuse></material>
@@ -41,21 +40,11 @@ def robot(name="robot", kind="camera", cameras="", on=1, plugin="", viewer=True,
 
 
 @unittest.skipUnless(importlib.util.find_spec("gazebo_cpp._core"), "this system lacks what Gazebo's headers need")
-class CamerasTest(Case):
+class CamerasTest(HearingCase):
     def setUp(self):
-        self.log, self.subscribers, self.orders = [], [], {}
-        self.listen("/rosout", Log, lambda m: self.log.append(m.msg))
-        self.wait(lambda: heard(self.subscribers))
-        self.sim.empty("reset_simulation")
+        super().setUp()
+        self.orders = {}
         self.done(self.sim.spawn("box", BOX, kind="sdf"))
-
-    def tearDown(self):
-        self.clear(self.subscribers[1:])
-        for subscriber in self.subscribers:
-            subscriber.unregister()
-
-    def listen(self, topic, kind, f):
-        self.subscribers.append(rospy.Subscriber(topic, kind, f))
 
     def spawned(self, name="robot", topic="/view/", **more):
         """All that the plugin of this robot publishes."""

@@ -8,12 +8,11 @@ import unittest
 
 import rospy
 import rostest
-from rosgraph_msgs.msg import Log
 from std_msgs.msg import Float64MultiArray
 from test_support.hearing import heard
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from simulator import Case  # noqa: E402
+from simulator import HearingCase  # noqa: E402
 
 MODEL = """<sdf version="1.6"><model name="post"><pose>0 0 0.5 0 0 {yaw}</pose><link name="l"><inertial><mass>2</mass></inertial>
 <collision name="c"><geometry><box><size>1 1 1</size></box></geometry></collision>{sensors}</link></model></sdf>"""
@@ -28,20 +27,10 @@ SENSOR = """<sensor name="{type}" type="{type}"><update_rate>{rate}</update_rate
 
 
 @unittest.skipUnless(importlib.util.find_spec("gazebo_cpp._core"), "this system lacks what Gazebo's headers need")
-class SensorsTest(Case):
+class SensorsTest(HearingCase):
     def setUp(self):
-        self.log, self.got, self.subscribers = [], {}, []
-        self.listen("/rosout", Log, lambda m: self.log.append(m.msg))
-        self.wait(lambda: heard(self.subscribers))
-        self.sim.empty("reset_simulation")
-
-    def tearDown(self):
-        self.clear(self.subscribers[1:])
-        for subscriber in self.subscribers:
-            subscriber.unregister()
-
-    def listen(self, topic, kind, f):
-        self.subscribers.append(rospy.Subscriber(topic, kind, f))
+        super().setUp()
+        self.got = {}
 
     def values(self, topic, sensors, steps, count, yaw=0.0):
         """The values of a topic, with the one that is latched at the start, after so many steps."""

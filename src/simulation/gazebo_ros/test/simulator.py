@@ -6,6 +6,7 @@ import test_support
 from gazebo_msgs import srv
 from gazebo_msgs.msg import LinkState, ModelState, ODEJointProperties, ODEPhysics
 from geometry_msgs.msg import Point, Pose, Quaternion, Twist, Vector3, Wrench
+from rosgraph_msgs.msg import Log
 from std_msgs.msg import Bool
 from std_srvs.srv import Empty
 from test_support.hearing import heard
@@ -161,3 +162,21 @@ class Case(test_support.TestCase):
     def near(self, a, b, places=9):
         for x, y in zip(a, b):
             self.assertAlmostEqual(x, y, places)
+
+
+class HearingCase(Case):
+    """Hears what the server says in its log, and the topics of models' plugins until they are gone."""
+
+    def setUp(self):
+        self.log, self.subscribers = [], []
+        self.listen("/rosout", Log, lambda message: self.log.append(message.msg))
+        self.wait(lambda: heard(self.subscribers))
+        self.sim.empty("reset_simulation")
+
+    def tearDown(self):
+        self.clear(self.subscribers[1:])
+        for subscriber in self.subscribers:
+            subscriber.unregister()
+
+    def listen(self, topic, kind, f):
+        self.subscribers.append(rospy.Subscriber(topic, kind, f))
