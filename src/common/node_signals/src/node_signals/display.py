@@ -1,7 +1,7 @@
 """Windows on a machine without a screen: one line that says what to do, where Qt prints a page and dumps core.
 
 ``rosrun`` and ``rviz`` of this package look first whether a window is asked for, and run what comes next on PATH; ``rosrun`` gives
-nodes a ``python`` and puts a working program in the place of one that Debian's cannot be.
+nodes a ``python``, puts a working program in the place of one that Debian's cannot be, and finds programs in less time than Debian's.
 """
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ import os
 import sys
 from typing import List, Optional
 
+from node_signals import programs
 from node_signals.interpreter import supply_python
 
 #: Programs that open a window and do not look for a display themselves, by package. rqt's and turtlesim's do.
@@ -84,8 +85,10 @@ def main() -> None:
     if problem:
         sys.exit(f"{window}: {problem}")
     supply_python(os.environ)
-    program = next_on_path(sys.argv[0])
+    program, words = next_on_path(sys.argv[0]), in_working_order(sys.argv)
+    if program == programs.DEBIANS:
+        programs.run(words)
     try:
-        os.execv(program, [program, *in_working_order(sys.argv)[1:]])
+        os.execv(program, [program, *words[1:]])
     except OSError as error:
         sys.exit(f"{program}: {error.strerror}; scripts/setup installs it")

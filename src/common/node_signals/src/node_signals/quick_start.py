@@ -13,7 +13,7 @@ import os
 import runpy
 import shlex
 import sys
-from typing import Dict, NamedTuple, Optional
+from typing import Any, Dict, List, NamedTuple, Optional
 from xml.etree import ElementTree
 
 import rospkg.rospack
@@ -107,11 +107,23 @@ def prepare() -> None:
     """Once, in a program that goes on as roslaunch, rostest or the like."""
     _distutils_of_python()
     _configuration_of_logs()
-    import catkin.find_in_workspaces  # noqa: F401  the package's attribute of that name is a function in some releases
     import roslaunch.loader
-    sys.modules["catkin.find_in_workspaces"].find_packages = packages_below  # type: ignore[attr-defined]
+    _searching_once()
     rospkg.rospack.list_by_path = _remembering(rospkg.rospack.list_by_path)
     roslaunch.loader.Loader.param_value = _answering_versions(roslaunch.loader.Loader.param_value, roslaunch.loader.convert_value)
+
+
+def _searching_once() -> Any:
+    """catkin's module that searches the workspaces, whose search for packages is `packages_below` from here on."""
+    import catkin.find_in_workspaces  # noqa: F401  the package's attribute of that name is a function in some releases
+    module: Any = sys.modules["catkin.find_in_workspaces"]
+    module.find_packages = packages_below
+    return module
+
+
+def find_in_workspaces(*arguments, **named) -> List[str]:
+    """catkin's function of that name: folders or files of a package in the workspaces."""
+    return _searching_once().find_in_workspaces(*arguments, **named)
 
 
 def become(command: str) -> None:

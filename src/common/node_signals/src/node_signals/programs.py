@@ -1,0 +1,83 @@
+"""The program that ``rosrun`` runs, found as Debian's finds it and in this process.
+
+Debian's script starts the search of the catkin workspaces two to four times, each in a Python of its own, before the node begins.
+"""
+from __future__ import annotations
+
+import contextlib
+import os
+import subprocess
+import sys
+from typing import List, NamedTuple, Optional
+
+DEBIANS = "/usr/bin/rosrun"
+
+
+class Command(NamedTuple):
+    """``rosrun [--prefix PREFIX] PACKAGE PROGRAM ARGUMENT...``"""
+    prefix: str
+    package: str
+    program: str
+    arguments: List[str]
+
+
+def command(words: List[str]) -> Optional[Command]:
+    """What was typed, ``words[0]`` being rosrun's name; None where Debian's has more to say than what the program says."""
+    rest, prefix = words[1:], ""
+    while len(rest) > 2 and rest[0] in ("-p", "--prefix"):
+        prefix, rest = rest[1], rest[2:]
+    if len(rest) < 2 or rest[0].startswith("-") or "/" in rest[1]:
+        return None
+    return Command(prefix, rest[0], rest[1], rest[2:])
+
+
+def find(package: str, name: str) -> List[str]:
+    """The files that could be meant; each is run where there is one, where there are several somebody has to choose."""
+    catkins, own = _catkin_folders(["libexec", "share"], package), _folder_of(package)
+    if not own:
+        return []
+    found = _executables([*catkins, own], own, name)
+    if len(found) == 2:  # a relay in the workspace's development space, and what it stands for
+        shared = _catkin_folders(["share"], package)
+        relays = [path for path in found if not any(path.startswith(folder) for folder in shared)]
+        found = relays if len(relays) == 1 else found
+    return found
+
+
+def _catkin_folders(kinds: List[str], package: str) -> List[str]:
+    from node_signals.quick_start import find_in_workspaces
+    return list(find_in_workspaces(kinds, project=package, first_matching_workspace_only=True))
+
+
+def _folder_of(package: str) -> str:
+    found = subprocess.run(["rospack", "find", package], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+    return found.stdout.strip()
+
+
+def _executables(folders: List[str], own: str, name: str) -> List[str]:
+    """In the order of ``folders``; what two neighbouring folders show is there once."""
+    found = subprocess.run(["find", "-L", *folders, "-name", name, "-type", "f", "-perm", "/111", "!", "-regex", f".*{own}/build/.*"],
+                           stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True).stdout.splitlines()
+    return [path for path, before in zip(found, ["", *found]) if path != before]
+
+
+def run(words: List[str]) -> None:
+    """Become the program, if it is clear which it is; otherwise return, when Debian's rosrun has its say. Why it will find nothing
+    stands before that."""
+    asked = command(words)
+    if asked is None:
+        return
+    found = find(asked.package, asked.program)
+    if len(found) == 1:
+        line = [*asked.prefix.split(), found[0], *asked.arguments]
+        with contextlib.suppress(OSError):  # a script without its first line, a prefix that is no program: the shell's own way with them
+            os.execvp(line[0], line)
+    elif not found:
+        print(f"rosrun: {_why_nothing(asked.package, asked.program)}", file=sys.stderr, flush=True)
+
+
+def _why_nothing(package: str, name: str) -> str:
+    from node_signals.absent import explanation, of_program
+    if not _folder_of(package):
+        return f"the package '{package}' is not here. {explanation(package)}"
+    return f"the package {package} has no program {name} that can be run. {of_program(package, name)}".rstrip()

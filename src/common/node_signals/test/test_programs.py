@@ -1,0 +1,70 @@
+"""Programs that rosrun finds: those of Debian's rosrun, and what is said where it finds none."""
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from node_signals import programs
+
+BIN = Path(__file__).resolve().parents[1] / "bin"
+MANIFEST = ("<package format='2'><name>my_arm</name><version>0.0.1</version><description>d</description>"
+            "<maintainer email='a@b.cd'>a</maintainer><license>BSD</license></package>")
+
+
+def script(path, says, mode=0o755):
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(f'#!/bin/sh\necho {says} "$0" "$#" "$@"\n')
+    path.chmod(mode)
+
+
+@pytest.fixture
+def workspace(tmp_path, monkeypatch):
+    """A workspace that catkin built: my_arm with a relay in its development space."""
+    source, devel = tmp_path / "src" / "my_arm", tmp_path / "devel"
+    script(source / "scripts" / "node.py", "source")
+    script(source / "build" / "left.py", "built")
+    script(source / "scripts" / "left.py", "source")
+    script(source / "scripts" / "plain.py", "source", 0o644)
+    script(source / "scripts" / "twice.py", "first")
+    script(source / "nodes" / "twice.py", "second")
+    script(source / "scripts" / "relayed.py", "source")
+    script(devel / "lib" / "my_arm" / "relayed.py", "relay")
+    (source / "package.xml").write_text(MANIFEST)
+    (devel / ".catkin").write_text(str(source))
+    for name, value in (("CMAKE_PREFIX_PATH", str(devel)), ("ROS_PACKAGE_PATH", str(source.parent)), ("ROS_HOME", str(tmp_path / "home")),
+                        ("PATH", f"{BIN}:/usr/bin:/bin")):
+        monkeypatch.setenv(name, value)
+    return source
+
+
+def run(program, *words):
+    ended = subprocess.run([*program, *words], stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=60)
+    return ended.returncode, ended.stdout, ended.stderr
+
+
+OWN, DEBIANS = [sys.executable, str(BIN / "rosrun")], ["/usr/bin/rosrun"]
+
+
+@pytest.mark.parametrize("words", [["my_arm", "node.py", "a b", "*"], ["--prefix", "nice -n 1", "my_arm", "relayed.py"],
+                                   ["my_arm", "left.py"], ["my_arm", "nod*.py"], ["my_arm", "twice.py"], ["my_arm", "plain.py"]])
+def test_runs_what_debians_runs(workspace, words):
+    code, printed, _ = run(OWN, *words)
+    assert (code, printed) == run(DEBIANS, *words)[:2]
+
+
+def test_debians_need_not_be_asked(workspace):
+    assert programs.find("my_arm", "relayed.py") == [os.environ["CMAKE_PREFIX_PATH"] + "/lib/my_arm/relayed.py"]
+
+
+
+def test_why_there_is_nothing_to_run(workspace):
+    assert f"no program plain.py that can be run. Such a file is there and is not executable: chmod +x {workspace}" in run(
+        OWN, "my_arm", "plain.py")[2]
+    assert run(OWN, "my_leg", "x")[2].startswith("rosrun: the package 'my_leg' is not here. Is it built in your workspace")
+
+
+@pytest.mark.parametrize("words", [["rosrun"], ["rosrun", "my_arm"], ["rosrun", "--debug", "my_arm", "a"], ["rosrun", "my_arm", "x/a"],
+                                   ["rosrun", "-p"]])
+def test_the_rest_is_debians(words):
+    assert programs.command(words) is None
