@@ -6,7 +6,11 @@ from python_qt_binding.QtCore import QObject, QSocketNotifier
 
 
 class Interrupts(QObject):
-    """From its creation on a signal calls ``on_interrupt()``; a second one ends the process the hard way."""
+    """From its creation on a signal has the event loop call ``on_interrupt()``; a second one ends the process the hard way.
+
+    Never the signal's handler itself: Python runs that in whatever Qt has called it for, an event filter in the midst of painting
+    among others, and windows that lose their docks there crash.
+    """
 
     def __init__(self, on_interrupt, parent=None):
         super().__init__(parent)
@@ -27,13 +31,12 @@ class Interrupts(QObject):
         except BlockingIOError:
             pass
         if self.fired:
-            self._on_interrupt()  # again: an event loop that had not begun then could not be ended
+            self._on_interrupt()
 
     def _on_signal(self, number, _frame):
         for each in (signal.SIGINT, signal.SIGTERM):
             signal.signal(each, signal.SIG_DFL)
         self.fired = True
-        self._on_interrupt()
 
     def stop(self):
         """Give up the hold on Python's wake-up descriptor."""
