@@ -224,9 +224,15 @@ class Browser:
         return self._find(self._input(label), f"field {label}").get_attribute("value")
 
     def choose(self, label, value):
-        """An entry of the list of that label."""
-        self._press(self._input(label), f"list {label}")
-        self._press(f"//*[@role='option'][normalize-space(.)={_quoted(value)}]", f"entry {value}")
+        """An entry of the list of that label; again when the list was still folding up from an earlier choice."""
+        def chosen():
+            self._press(self._input(label), f"list {label}")
+            self._press(f"//*[@role='option'][normalize-space(.)={_quoted(value)}]", f"entry {value}")
+            until = time.monotonic() + 2.0
+            while self.value(label) != value and time.monotonic() < until:
+                time.sleep(0.05)
+            return self.value(label) == value
+        wait(chosen, f"{value} as what list {label} shows")
 
     @staticmethod
     def _input(label, kind="", part=1):
