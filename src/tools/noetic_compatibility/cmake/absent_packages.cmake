@@ -60,7 +60,6 @@ _noetic_absent("${_noetic_built} (ros-visualization/visualization_tutorials, bra
   interactive_marker_tutorials librviz_tutorial rviz_python_tutorial visualization_marker_tutorials)
 _noetic_absent("Its sources (ros-visualization/visualization_tutorials) declare Ogre::Vector3 as a class, which it is not in Debian's \
 OGRE: in a copy of them replace the declaration by #include <OGRE/OgreVector3.h>." rviz_plugin_tutorials)
-_noetic_absent("It is written for FFmpeg 4, Debian has a newer one; rosrun rqt_image_view rqt_image_view shows pictures." web_video_server)
 _noetic_absent("It needs g2o, which Debian does not package, and move_base_flex: build all three from source." teb_local_planner)
 _noetic_absent("It makes maps or places robots in them, and is not supplied here; build it from source in your workspace."
   cartographer_ros slam_toolbox)
