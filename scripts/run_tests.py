@@ -198,8 +198,14 @@ def _listen_to_ctrl_c() -> None:
 
 def run(job: Job, scratch: Path) -> Result:
     """One file in a session of its own; whatever it leaves behind is ended and counts as a failure."""
+    with tempfile.TemporaryDirectory(prefix="t_", ignore_cleanup_errors=True) as temporary:  # short: paths of sockets have 107 bytes
+        return _run_in(job, scratch, temporary)
+
+
+def _run_in(job: Job, scratch: Path, temporary: str) -> Result:
+    """:param temporary: the folder for what its processes, which may be killed, would leave in /tmp"""
     home = Path(tempfile.mkdtemp(prefix=job.package.name + "_", dir=scratch))
-    environment = dict(os.environ, ROS_HOME=str(home), ROS_TEST_RESULTS_DIR=str(home / "results"),
+    environment = dict(os.environ, ROS_HOME=str(home), ROS_TEST_RESULTS_DIR=str(home / "results"), TMPDIR=temporary,
                        GAZEBO_MASTER_URI=f"http://localhost:{_gazebo_port()}",
                        PYTHONUNBUFFERED="1")  # tests read what nodes print, as it is printed
     environment.pop("PYTHONDONTWRITEBYTECODE", None)  # every node of every test would compile all messages anew
