@@ -52,7 +52,7 @@ def test_a_model_loads_without_a_word_and_its_meshes_are_whole(name):
                     assert mesh.mass_properties(surface).volume > 0.0
 
 
-@pytest.mark.parametrize("name", [name for name in MODELS if name not in ("sun", "ground_plane")])
+@pytest.mark.parametrize("name", [name for name in MODELS if name not in ("sun", "ground_plane") and not name.startswith("number")])
 def test_what_collides_is_where_it_is_seen(name):
     """The boxes around visuals and collisions of a model agree to a few centimetres."""
     import numpy as np

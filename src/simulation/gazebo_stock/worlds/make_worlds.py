@@ -11,7 +11,7 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "models"))
 
-from make_models import box, box_inertia, numbers, pose, script, tag  # noqa: E402
+from pieces import box, box_inertia, numbers, pose, script, tag  # noqa: E402
 
 from building_editor import building, sdf_model  # noqa: E402
 
