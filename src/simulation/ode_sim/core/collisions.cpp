@@ -64,7 +64,7 @@ int missed_contacts(dGeomID ga, dGeomID gb, dContactGeom* found) {
 
 bool still(const Link& l) {
   const Cluster& c = cluster_of(l);
-  return !c.root ? !l.moving : c.asleep;
+  return !c.root ? !l.moving && !l.led : c.asleep;
 }
 
 bool may_touch(const Scene& scene, const Shape& a, const Shape& b) {

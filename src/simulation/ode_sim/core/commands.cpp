@@ -1,5 +1,8 @@
 // What is asked for between two steps: poses, velocities, targets of position drives, welds.
 #include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <string>
 #include <stdexcept>
 
 #include "phases.hpp"
@@ -8,6 +11,18 @@
 namespace ode_sim {
 
 // ------------------------------------------------------------------------------------------------ commands
+
+namespace {
+
+// A link of a finished static model, with all that shows where it is.
+void put(Scene& scene, Link& l, const Pose& X_WL) {
+  l.X_WL = l.X_RL = X_WL;
+  place_shapes(scene, l);
+  const double row[] = {X_WL.p.x, X_WL.p.y, X_WL.p.z, X_WL.q.x, X_WL.q.y, X_WL.q.z, X_WL.q.w};
+  std::copy(std::begin(row), std::end(row), scene.link_poses->begin() + 7 * l.row);
+}
+
+}  // namespace
 
 // However far its parts may have flown apart, a model can be put back.
 void World::set_model_pose(Model& model, const Pose& old, const Pose& wanted) {
@@ -18,6 +33,11 @@ void World::set_model_pose(Model& model, const Pose& old, const Pose& wanted) {
   std::vector<Pose> bolts;
   for (auto& j : model.joints)
     bolts.push_back(j->parent ? j->X_PJ : checked(X * j->X_PJ, "a joint of the model, so placed,", kOutOfReach));
+  if (model.is_static && model.finished) {  // moved by somebody in every step, maybe: nothing else in the world has changed
+    refresh();
+    for (size_t i = 0; i < poses.size(); ++i) put(scene_, *model.links[i], normalized(poses[i]));
+    return;
+  }
   for (size_t i = 0; i < poses.size(); ++i) {
     Link& l = *model.links[i];
     l.X_WL = poses[i];
@@ -46,6 +66,36 @@ void World::set_link_pose(Link& link, const Pose& X_WL) {
   model.dirty = true;
   refresh();
   read_back(scene_);
+}
+
+namespace {
+
+// rad/s, of what turns from one to the other in so many seconds.
+Vec3 spin_between(const Quat& from, const Quat& to, double seconds) {
+  Quat turn = to * conjugate(from);
+  if (turn.w < 0) turn = {-turn.x, -turn.y, -turn.z, -turn.w};
+  const Vec3 axis{turn.x, turn.y, turn.z};
+  const double sine = norm(axis);
+  return sine > 0 ? axis * (2 * std::atan2(sine, turn.w) / (sine * seconds)) : Vec3{};
+}
+
+}  // namespace
+
+void World::lead_links(Model& model, const std::vector<Pose>& X_WL, double seconds) {
+  const OdeScope scope;
+  if (!model.is_static || !model.finished) throw std::invalid_argument("only the links of a static model in the world are led");
+  if (X_WL.size() != model.links.size())
+    throw std::invalid_argument(std::to_string(X_WL.size()) + " poses for " + std::to_string(model.links.size()) + " links");
+  for (const Pose& X : X_WL) checked(X, "a link of the model, so placed,", kOutOfReach);
+  refresh();
+  for (size_t i = 0; i < X_WL.size(); ++i) {
+    Link& l = *model.links[i];
+    const Pose X = normalized(X_WL[i]);
+    l.v = seconds > 0 ? (X.p - l.X_WL.p) * (1 / seconds) : Vec3{};
+    l.w = seconds > 0 ? spin_between(l.X_WL.q, X.q, seconds) : Vec3{};
+    l.led = dot(l.v, l.v) + dot(l.w, l.w) > 0;
+    put(scene_, l, X);
+  }
 }
 
 namespace {

@@ -68,7 +68,7 @@ void set_surface_speed(const StepState& state, const Contact& c, const Vec3& n, 
   if (c.swapped) std::swap(l1, l2);
   auto driven = [&](const Link* l) {
     const Cluster& k = cluster_of(*l);
-    return l->moving || (k.root && k.root->kinematic) || (k.by && !state.of(*cluster_of(*k.by).root->model).jump);
+    return l->moving || l->led || (k.root && k.root->kinematic) || (k.by && !state.of(*cluster_of(*k.by).root->model).jump);
   };
   const bool driven1 = driven(l1), driven2 = driven(l2);
   if (!driven1 && !driven2 && !l1->belt.told && !l2->belt.told) return;

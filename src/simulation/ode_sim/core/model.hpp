@@ -118,6 +118,7 @@ struct Link {
   Joint* up = nullptr;  // merged joint towards the root
   Link* up_link = nullptr;
   bool moving = false;   // a position drive lies between it and the root
+  bool led = false;      // of a static model, moved from outside: what it touches is pushed at its velocity
   bool carrier = false;  // its own body moves kinematically, because an ODE joint hangs on it
   Pose X_RL;             // in the root link's frame (in the world for anchored clusters)
   int visit = 0;         // number of the search that came by last, see links_beyond

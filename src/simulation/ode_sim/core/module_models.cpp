@@ -41,6 +41,21 @@ OwnedGeom make_plane(Shape& shape, const Vec3& normal, double height) {
   return OwnedGeom(dCreatePlane(nullptr, normal.x, normal.y, normal.z, height));
 }
 
+// Links of a static model, in order: `poses` (n, 7) of each in the frame of the link that `parents` (n) names, which comes before it; -1: the
+// world. See World::lead_links.
+void lead(Model& model, const Doubles& poses, const std::vector<int>& parents, double seconds) {
+  if (poses.ndim() != 2 || poses.shape(1) != 7 || poses.shape(0) != static_cast<py::ssize_t>(parents.size()))
+    throw std::invalid_argument("poses of links are rows of seven numbers, with a parent for each");
+  std::vector<Pose> X_WL;
+  for (int i = 0; i < static_cast<int>(parents.size()); ++i) {
+    const double* p = poses.data(i, 0);
+    const Pose X = in(T7{p[0], p[1], p[2], p[3], p[4], p[5], p[6]});
+    if (parents[i] >= i) throw std::invalid_argument("a link is told after the one that it hangs on");
+    X_WL.push_back(parents[i] < 0 ? X : X_WL[parents[i]] * X);
+  }
+  world_of(&model).lead_links(model, X_WL, seconds);
+}
+
 // What is handed out keeps the model, and so all that it points at.
 void bind_solids(ModelClass& model) {
   model
@@ -121,6 +136,7 @@ void bind_models(py::module_& m) {
            py::arg("X_CJ"))
       .def("finish", [](Model& model) { world_of(&model).finish(model); })
       .def("set_pose", [](Model& model, T7 from, T7 to) { world_of(&model).set_model_pose(model, in(from, kInf), in(to)); })
+      .def("lead", &lead)
       .def("add_twist",
            [](Model& m, T3 v, T3 w, T3 at) {
              world_of(&m).add_model_twist(m, limited(in(v), kFastestSet, "a velocity"),

@@ -176,9 +176,14 @@ def test_population_grid(finder):
     assert sorted({m.pose.p[1] for m in w.models}) == [-1.0, 1.0]
 
 
-def test_actors_and_roads_are_named_and_left_out(finder):
-    w, problems = world('<actor name="walker"/><road name="street"/><model name="m"><link name="l"/></model>', finder)
-    assert names(w.models) == ["m"] and "actors" in text(problems) and "roads" in text(problems)
+def test_roads_are_named_and_left_out(finder):
+    w, problems = world('<road name="street"/><model name="m"><link name="l"/></model>', finder)
+    assert names(w.models) == ["m"] and "roads" in text(problems)
+
+
+def test_an_actor_without_anything_is_there(finder):
+    w, problems = world('<actor name="walker"/>', finder)
+    assert names(w.models) == ["walker"] and not problems and [link.name for link in w.models[0].links] == ["walker_pose"]
 
 
 # ---------------------------------------------------------------------------------------------- texts to spawn

@@ -26,23 +26,23 @@ def read_dae(path: str, data: bytes) -> List[MeshPart]:
 
     :raises DescriptionError: one line that names the file. A broken file may raise anything else.
     """
-    _Check(path).run(data)
-    document = _document(data)
-    unit = float(document.assetInfo.unitmeter or 1.0)
-    if document.scene is None:
+    check_document(path, data)
+    scene = document(data)
+    unit = float(scene.assetInfo.unitmeter or 1.0)
+    if scene.scene is None:
         raise DescriptionError(f"mesh {path}: the Collada file has no visual scene")
     parts: List[MeshPart] = []
     triangles = 0
-    for geometry in document.scene.objects("geometry"):
+    for geometry in scene.scene.objects("geometry"):
         for primitive in geometry.primitives():
-            found = _parts(primitive, geometry.original, unit, path)
+            found = [part for part, _ in parts_of(primitive, geometry.original, primitive.material, path, unit)]
             triangles += sum(len(part.triangles) for part in found)
             check_triangles(triangles, path)
             parts += found
     return parts
 
 
-def _document(data: bytes):
+def document(data: bytes):
     """What the library reads. A shape is there all the same where how it looks is told wrongly, as in Gazebo."""
     import collada
     from collada.common import DaeBrokenRefError, DaeError, DaeUnsupportedError
@@ -83,13 +83,14 @@ def _is_shading(told: ElementTree.Element) -> bool:
     return kind == "color" and len(numbers) >= 3 or kind == "float" and len(numbers) == 1
 
 
-def _parts(primitive, geometry, unit: float, path: str) -> List[MeshPart]:
+def parts_of(primitive, geometry, material, path: str, unit: float = 1.0) -> List[Tuple[MeshPart, np.ndarray]]:
+    """Its triangles as parts, each with the numbers of the shape's corners (V,) that its own are."""
     if hasattr(primitive, "triangleset"):
         primitive = primitive.triangleset()
     if not hasattr(primitive, "vertex_index") or primitive.vertex_index is None \
             or np.ndim(primitive.vertex_index) != 2 or primitive.vertex_index.shape[1] != 3:
         return []  # lines
-    material = _material(primitive.material, path)
+    material = _material(material, path)
     columns = [primitive.vertex_index.ravel()]
     has_normals = primitive.normal is not None and primitive.normal_index is not None
     has_uv = bool(primitive.texcoordset) and bool(material.texture)
@@ -97,8 +98,14 @@ def _parts(primitive, geometry, unit: float, path: str) -> List[MeshPart]:
     columns.append(primitive.texcoord_indexset[0].ravel() if has_uv else np.zeros_like(columns[0]))
     unique, inverse = np.unique(np.stack(columns, axis=1), axis=0, return_inverse=True)
     normals = primitive.normal[unique[:, 1]] if has_normals else None
-    return [MeshPart(geometry.name or geometry.id, primitive.vertex[unique[:, 0]] * unit, inverse.reshape(-1, 3), normals,
-                     primitive.texcoordset[0][unique[:, 2], :2] if has_uv else None, material)]
+    part = MeshPart(geometry.name or geometry.id, primitive.vertex[unique[:, 0]] * unit, inverse.reshape(-1, 3), normals,
+                    primitive.texcoordset[0][unique[:, 2], :2] if has_uv else None, material)
+    return [(part, unique[:, 0])]
+
+
+def check_document(path: str, data: bytes) -> None:
+    """:raises DescriptionError: what no XML parser should be fed with."""
+    _Check(path).run(data)
 
 
 class _Check:

@@ -17,6 +17,8 @@ from ode_sim.description.model import FARTHEST, DescriptionError, Material, Mesh
 from ode_sim.mesh_files import MeshPart, read_parts, weld
 
 UNIT_SCALE: Vec3 = (1.0, 1.0, 1.0)
+#: Before the name of a bone: the submesh of a file with a skin that is this bone's piece, in the bone's frame.
+SKIN_PIECE = "skin of "
 
 
 @dataclass(frozen=True)
@@ -133,6 +135,9 @@ def _visual(path: str, scale: Vec3, submesh: str, center: bool, stamp) -> Tuple[
 
 
 def _selected(path: str, submesh: str, center: bool, stamp) -> List[MeshPart]:
+    if submesh.startswith(SKIN_PIECE):
+        from ode_sim.actors.skin import load_piece  # which needs this module
+        return load_piece(path, submesh)
     parts = read_parts(path, stamp)
     if submesh:
         chosen = [part for part in parts if part.name == submesh]

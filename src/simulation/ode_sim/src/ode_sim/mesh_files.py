@@ -40,7 +40,7 @@ def read_parts(path: str, stamp) -> List[MeshPart]:
         raise DescriptionError(f"mesh {path}: '{suffix}' files cannot be read; use .stl, .dae or .obj")
     try:
         with np.errstate(all="ignore"):  # numbers that overflow are refused below
-            parts = readers[suffix](path, _content(path, suffix))
+            parts = readers[suffix](path, file_content(path, suffix))
     except DescriptionError:
         raise
     except ImportError as error:
@@ -54,10 +54,11 @@ def read_parts(path: str, stamp) -> List[MeshPart]:
     parts = [part for part in parts if len(part.triangles)]
     if not parts:
         raise DescriptionError(f"mesh {path}: holds no triangles")
-    return [_usable(part, path) for part in parts]
+    return [usable(part, path) for part in parts]
 
 
-def _content(path: str, suffix: str) -> bytes:
+def file_content(path: str, suffix: str) -> bytes:
+    """:raises DescriptionError: no file, or larger than makes sense."""
     most = MOST_BYTES if suffix.startswith(".stl") else MOST_TEXT
     if not os.path.isfile(path):
         raise DescriptionError(f"mesh {path}: is no file")  # a pipe would be waited for
@@ -74,7 +75,7 @@ def check_triangles(count: int, path: str) -> None:
         raise DescriptionError(f"mesh {path}: has more than {MOST_TRIANGLES // 1_000_000} million triangles; reduce them")
 
 
-def _usable(part: MeshPart, path: str) -> MeshPart:
+def usable(part: MeshPart, path: str) -> MeshPart:
     """With vertices that can be drawn and collided with; normals and texture coordinates that are no use are left out.
 
     :raises DescriptionError: broken.

@@ -9,6 +9,7 @@ from typing import Callable, Dict, Iterable, List, Optional, Tuple, Union
 import numpy as np
 
 from ode_sim import _core
+from ode_sim.actors.puppet import Puppet
 from ode_sim.builder import Builder
 from ode_sim.core_numbers import flat, unit_pose
 from ode_sim.description import model as d
@@ -27,7 +28,7 @@ class Snapshot:
 
     models: Tuple[str, ...]
     state: bytes
-    generators: bytes  # seed and state of World.rng, JSON
+    generators: bytes  # seed and state of World.rng, what actors play; JSON
     welds: Tuple[int, ...] = field(default=(), compare=False)  # by which Attachment objects find theirs; no part of the state
 
     def __bytes__(self) -> bytes:
@@ -56,6 +57,7 @@ class World:
         self.scene = description.scene
         self.lights: Dict[str, d.Light] = {}
         self.models: Dict[str, ModelHandle] = {}
+        self.actors: Dict[str, Puppet] = {}  # those of the models that are actors
         self.messages: List[str] = []
         self.before_step: List[Callable[["World"], None]] = []
         self.after_step: List[Callable[["World"], None]] = []
@@ -179,6 +181,9 @@ class World:
         except (ValueError, TypeError, OverflowError, RuntimeError) as error:  # a number that no world can hold
             raise d.DescriptionError(f"model '{name}' cannot be simulated: {error}") from error
         self.models[name] = handle
+        if model.actor is not None:
+            self.actors[name] = Puppet(handle, self.time_ns)
+            builder.problems += [d.Problem("warning", f"actor '{name}': {line}", model.source) for line in self.actors[name].problems]
         for link in handle.links.values():
             for collision in link.collisions.values():
                 self._collisions[collision.id] = collision
@@ -217,6 +222,7 @@ class World:
                 callback(handle)
         finally:
             del self.models[name]
+            self.actors.pop(name, None)
             for link in handle.links.values():
                 for collision in link.collisions.values():
                     self._collisions.pop(collision.id, None)
@@ -271,7 +277,7 @@ class World:
             raise ValueError(f"cannot step {n} times")
         done, told = 0, False
         while done < n:
-            if not self.before_step and not self.after_step:
+            if not self.before_step and not self.after_step and not self.actors:
                 many = min(n - done, _MOST_STEPS)
                 told |= self.core.step(many)
                 done += many
@@ -281,6 +287,8 @@ class World:
                 try:
                     for callback in list(self.before_step):
                         callback(self)
+                    for actor in self.actors.values():
+                        actor.advance(self._time_ns, self.core.dt)
                 finally:
                     self._time_ns = None
                 told |= self.core.step(1)
@@ -301,13 +309,15 @@ class World:
                 for axis in range(joint.axis_count):
                     joint.set_position(0.0, axis)
             model.put_together()
-        self.reset_poses()
         self.core.time_ns = 0
         self.core.iterations = 0
+        self.reset_poses()
         self._generators.clear()
 
     def reset_time(self) -> None:
         """Time 0; where everything is, how it moves and how many steps were taken stays."""
+        for actor in self.actors.values():
+            actor.shift(-self.core.time_ns)
         self.core.time_ns = 0
 
     def reset_poses(self) -> None:
@@ -316,11 +326,14 @@ class World:
         for model in self.models.values():
             model.pose = model.initial_pose
             model.core.zero_velocities()
+        for actor in self.actors.values():
+            actor.restart(self.core.time_ns)
 
     def save(self) -> Snapshot:
         """The whole state: continuing from it gives the same bits as going on without saving."""
         states = [(name, generator.bit_generator.state) for name, generator in sorted(self._generators.items())]
-        return Snapshot(tuple(self.models), self.core.save(), json.dumps({"seed": self._seed, "streams": states}).encode(),
+        kept = {"seed": self._seed, "streams": states, "actors": [actor.state() for actor in self.actors.values()]}
+        return Snapshot(tuple(self.models), self.core.save(), json.dumps(kept).encode(),
                         tuple(self.core.welds()))
 
     def restore(self, snapshot: Snapshot) -> None:
@@ -333,7 +346,9 @@ class World:
                              f"the world has {', '.join(self.models) or 'none'}")
         try:
             saved = json.loads(snapshot.generators)
-            seed, generators = int(saved["seed"]), {}
+            seed, generators, actors = int(saved["seed"]), {}, saved["actors"]
+            if len(actors) != len(self.actors):
+                raise ValueError("it is of other actors")
             for stream, state in saved["streams"]:
                 generators[stream] = np.random.Generator(np.random.PCG64())
                 generators[stream].bit_generator.state = state
@@ -341,6 +356,8 @@ class World:
             raise ValueError(f"the snapshot cannot be restored: its random numbers are damaged ({error})") from None
         self.core.restore(snapshot.state, snapshot.welds)
         self._seed, self._generators = seed, generators
+        for actor, state in zip(self.actors.values(), actors):
+            actor.set_state(state)
 
     # ------------------------------------------------------------------------------------------ state, contacts, rays
 

@@ -34,8 +34,6 @@ class SpawnServices:
             entity = Entity(request.model_xml, self._server.finder)
             if urdf_only and entity.kind != "urdf":
                 raise Refused(f"the text is SDF (<{entity.kind}>), not a URDF <robot>; use spawn_sdf_model (spawn_model -sdf)")
-            if entity.kind == "actor":
-                raise Refused("actors are not simulated here; spawn a <model> or <light>")
             x_fe = pose_of(request.initial_pose, "initial_pose")
             if entity.kind == "light":
                 self._spawn_light(entity, request, x_fe)

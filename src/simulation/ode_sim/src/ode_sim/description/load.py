@@ -63,7 +63,7 @@ class Entity:
         """The model, and what was noticed while reading it. :param name: takes the place of the one in the text."""
         if self.kind == "urdf":
             model = urdf_to_model(cast(Element, self._element), self._reader)
-        elif self.kind == "model":
+        elif self.kind in ("model", "actor"):
             model = self._reader.model(self._element)
         else:
             raise fault(self._element, "is no <model>")

@@ -279,6 +279,52 @@ class Joint:
 
 
 @dataclass(frozen=True)
+class Waypoint:
+    time: float  # s
+    pose: Pose  # in the world
+
+
+@dataclass(frozen=True)
+class Trajectory:
+    """``type`` names the animation that is played on the way; without waypoints the actor is where that has it."""
+
+    id: int
+    type: str
+    waypoints: Tuple[Waypoint, ...] = ()
+    tension: float = 0.0  # 0: a smooth curve, 1: straight from point to point
+
+
+@dataclass(frozen=True)
+class ActorAnimation:
+    """``path`` is a resolved absolute file name. ``interpolate_x``: it goes on with the way walked, not with time."""
+
+    name: str
+    path: str
+    scale: float = 1.0
+    interpolate_x: bool = False
+
+
+@dataclass(frozen=True)
+class ActorScript:
+    loop: bool = True
+    delay_start: float = 0.0  # s
+    auto_start: bool = True
+    trajectories: Tuple[Trajectory, ...] = ()
+
+
+@dataclass(frozen=True)
+class Actor:
+    """What makes a model an ``<actor>``: it moves by a script. ``skin`` is a resolved file name, '' if none. ``element`` is the
+    whole ``<actor>`` element."""
+
+    skin: str = ""
+    scale: float = 1.0
+    animations: Tuple[ActorAnimation, ...] = ()
+    script: ActorScript = ActorScript()
+    element: Optional[ET.Element] = field(default=None, compare=False)
+
+
+@dataclass(frozen=True)
 class Model:
     name: str
     pose: Pose = Pose()  # X_WM
@@ -288,6 +334,7 @@ class Model:
     static: bool = False
     self_collide: bool = False
     allow_auto_disable: bool = True
+    actor: Optional[Actor] = None  # its first link is the model's frame, then the bones of its skin
     source: Source = Source()
 
 

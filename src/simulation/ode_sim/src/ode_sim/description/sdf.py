@@ -16,8 +16,8 @@ from ode_sim.description.model import (
     quoted)
 from ode_sim.description.population import population
 from ode_sim.description.scaling import largest_size, scaled_model
+from ode_sim.description.sdf_actor import SdfActors
 from ode_sim.description.sdf_frames import relative_to, world_frames
-from ode_sim.description.sdf_model import SdfModels
 from ode_sim.description.xmlsource import is_true, source_of, text_of
 
 _UNSCALED = (1.0, 1.0, 1.0)
@@ -41,18 +41,14 @@ class _Contents:
     def add(self, child: ET.Element) -> None:
         """An element of ``<world>``; what is neither model nor light is left out, with a word if it should be seen."""
         reader = self._reader
-        if child.tag == "model":
+        if child.tag in ("model", "actor"):
             self._add_model(child)
         elif child.tag == "light":
             self._add_light(child)
         elif child.tag == "include":
             included = reader.include(child)
-            if included is None:
-                return
-            if included.tag in ("model", "light"):
+            if included is not None:
                 self.add(included)
-            else:
-                reader.warn(child, "actors are not simulated; left out")
         elif child.tag == "population":
             template = child.find("model")
             include = child.find("include")
@@ -60,8 +56,8 @@ class _Contents:
                 template = reader.include(include)
             for copy in population(reader, child, template):
                 self._add_model(copy)
-        elif child.tag in ("actor", "road"):
-            reader.warn(child, f"{child.tag}s are not simulated; left out")
+        elif child.tag == "road":
+            reader.warn(child, "roads are not simulated; left out")
         elif child.tag == "joint":
             reader.warn(child, "joints between models of a world file are not simulated; left out")
 
@@ -69,7 +65,7 @@ class _Contents:
         try:
             model = self._reader.model(source)
         except DescriptionError as error:
-            self._reader.warn(error.source, f"{error.message}; model '{quoted(source.get('name'))}' is left out", "error")
+            self._reader.warn(error.source, f"{error.message}; {source.tag} '{quoted(source.get('name'))}' is left out", "error")
             return
         if model.name in self._taken:
             self._reader.warn(source, f"a model named '{quoted(model.name)}' is there already; this one is left out")
@@ -87,7 +83,7 @@ class _Contents:
             self._reader.warn(error.source, f"{error.message}; light '{quoted(source.get('name'))}' is left out", "error")
 
 
-class SdfReader(SdfModels):
+class SdfReader(SdfActors):
     """Reads one file or text, worlds included; collects :attr:`problems` on the way."""
 
     def world(self, element: ET.Element) -> World:
@@ -97,7 +93,7 @@ class SdfReader(SdfModels):
             contents.add(child)
         state = self._state(element.find("state"))
         for inserted in element.findall("state/insertions/*"):
-            if inserted.tag in ("model", "light"):
+            if inserted.tag in ("model", "light", "actor"):
                 contents.add(inserted)
         models = contents.models if state is None else self._scaled(contents.models, state, element)
         coordinates = element.find("spherical_coordinates")

@@ -97,6 +97,9 @@ def _pose(parent: ET.Element, pose: d.Pose) -> None:
 
 
 def _model(parent: ET.Element, model: d.Model) -> None:
+    if model.actor is not None and model.actor.element is not None:
+        _actor(parent, model, model.actor)
+        return
     element = ET.SubElement(parent, "model", name=model.name)
     _pose(element, model.pose)
     _leaf(element, "static", model.static, False)
@@ -107,6 +110,25 @@ def _model(parent: ET.Element, model: d.Model) -> None:
     for joint in model.joints:
         _joint(element, joint)
     _plugins(element, model.plugins)
+
+
+def _actor(parent: ET.Element, model: d.Model, actor: d.Actor) -> None:
+    """As it was written; files by names that are good everywhere."""
+    assert actor.element is not None
+    element = _plain(actor.element)
+    element.set("name", model.name)
+    for pose in element.findall("pose"):
+        element.remove(pose)
+    _pose(element, model.pose)
+    paths = {"skin": [actor.skin], "animation": [animation.path for animation in actor.animations]}
+    for tag, found in paths.items():
+        for entry in element.iter(tag):
+            name = entry.find("filename")
+            text = (name.text or "").strip() if name is not None else ""
+            path = next((path for path in found if "://" not in text and text and path.endswith(os.path.basename(text))), "")
+            if name is not None and path:
+                name.text = "file://" + path
+    parent.append(element)
 
 
 def _plugins(parent: ET.Element, plugins: Iterable[d.Plugin]) -> None:

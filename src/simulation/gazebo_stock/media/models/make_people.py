@@ -1,0 +1,148 @@
+#!/usr/bin/env python3
+"""Writes the person that walks through worlds (walk.dae ...) as Collada files with a skin and an animation.
+
+The files are found under the names of Gazebo's. Run after a change: ``python3 make_people.py``.
+"""
+from pathlib import Path
+
+import numpy as np
+from person_body import COLOURS, bones, places, solids
+from person_gaits import animations
+
+from ode_sim import math3
+
+HERE = Path(__file__).resolve().parent
+#: Axes of the bone Hips as Gazebo's files have them, which plugins that turn a person count on: x left, y up, z forward.
+ROOT = np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
+
+
+def text_of(rows, digits=4):
+    return " ".join(f"{round(float(value), digits) + 0.0:g}" for value in np.asarray(rows).ravel())
+
+
+def source(name, rows, stride, kind="float"):
+    values = " ".join(rows) if kind in ("Name", "IDREF") else text_of(rows)
+    parameters = '<param name="X" type="float"/><param name="Y" type="float"/><param name="Z" type="float"/>' if stride == 3 else \
+        f'<param name="V" type="{"float4x4" if stride == 16 else kind.lower()}"/>'
+    count = np.size(rows)
+    return (f'<source id="{name}"><{kind}_array id="{name}-array" count="{count}">{values}</{kind}_array><technique_common>'
+            f'<accessor source="#{name}-array" count="{count // stride}" stride="{stride}">{parameters}</accessor>'
+            '</technique_common></source>')
+
+
+def matrix(turn, place):
+    result = np.eye(4)
+    result[:3, :3], result[:3, 3] = turn, place
+    return result
+
+
+def turned(roll, pitch, yaw):
+    """In the axes of the bones, all of which are those of the hips."""
+    person = np.array(math3.quat_to_matrix(math3.quat_from_rpy(roll, pitch, yaw)))
+    return ROOT.T @ person @ ROOT
+
+
+def local_poses(frame=None):
+    """Name -> (4, 4) of each bone in its parent; at rest without a frame."""
+    found = {}
+    for name, parent, place in bones():
+        angles = frame.turns.get(name, (0.0, 0.0, 0.0)) if frame else (0.0, 0.0, 0.0)
+        if parent is None:
+            facing = np.array(math3.quat_to_matrix(math3.quat_from_rpy(0.0, 0.0, frame.facing))) if frame else np.eye(3)
+            found[name] = matrix(facing @ ROOT, frame.root if frame else place)
+        else:
+            found[name] = matrix(turned(*angles), ROOT.T @ np.array(place, float))
+    return found
+
+
+def shading():
+    effects = [f'<effect id="{name}-effect"><profile_COMMON><technique sid="common"><lambert>'
+               f'<ambient><color>{text_of(rgb)} 1</color></ambient><diffuse><color>{text_of(rgb)} 1</color></diffuse>'
+               '</lambert></technique></profile_COMMON></effect>' for name, rgb in COLOURS.items()]
+    materials = [f'<material id="{name}" name="{name}"><instance_effect url="#{name}-effect"/></material>' for name in COLOURS]
+    return ["<library_effects>", *effects, "</library_effects>", "<library_materials>", *materials, "</library_materials>"]
+
+
+def body():
+    """The shape in the axes of the person, and of each corner the bone that it hangs on."""
+    at = places()
+    vertices, owners, triangles = [], [], {}
+    for bone, colour, corners, faces in solids():
+        triangles.setdefault(colour, []).append(faces + sum(map(len, vertices)))
+        vertices.append(corners + at[bone])
+        owners += [bone] * len(corners)
+    return np.concatenate(vertices), owners, {colour: np.concatenate(faces) for colour, faces in triangles.items()}
+
+
+def shape(vertices, triangles):
+    lines = ['<library_geometries><geometry id="body" name="body"><mesh>', source("body-positions", vertices, 3),
+             '<vertices id="body-vertices"><input semantic="POSITION" source="#body-positions"/></vertices>']
+    for colour, faces in triangles.items():
+        lines.append(f'<triangles material="{colour}" count="{len(faces)}"><input semantic="VERTEX" source="#body-vertices" offset="0"/>'
+                     f'<p>{" ".join(map(str, faces.ravel()))}</p></triangles>')
+    return lines + ["</mesh></geometry></library_geometries>"]
+
+
+def skin(owners):
+    names = [name for name, _, _ in bones()]
+    at = places()
+    inverse = [np.linalg.inv(matrix(ROOT, at[name])) for name in names]
+    return ['<library_controllers><controller id="person-skin"><skin source="#body">',
+            f'<bind_shape_matrix>{text_of(np.eye(4))}</bind_shape_matrix>',
+            source("skin-joints", names, 1, "Name"), source("skin-bind", inverse, 16), source("skin-weights", [1.0], 1),
+            '<joints><input semantic="JOINT" source="#skin-joints"/><input semantic="INV_BIND_MATRIX" source="#skin-bind"/></joints>',
+            f'<vertex_weights count="{len(owners)}"><input semantic="JOINT" source="#skin-joints" offset="0"/>'
+            '<input semantic="WEIGHT" source="#skin-weights" offset="1"/>',
+            f'<vcount>{" ".join("1" for _ in owners)}</vcount>', f'<v>{" ".join(f"{names.index(owner)} 0" for owner in owners)}</v>',
+            "</vertex_weights></skin></controller></library_controllers>"]
+
+
+def animation(frames):
+    lines = ["<library_animations>"]
+    poses = [local_poses(frame) for _, frame in frames]
+    times = [time for time, _ in frames]
+    rest = local_poses()
+    for name, parent, _ in bones():
+        rows = np.array([pose[name] for pose in poses])
+        if parent is not None and np.abs(rows - rest[name]).max() < 1e-9:
+            continue
+        key = f"{name}-motion"
+        lines += [f'<animation id="{key}">', source(f"{key}-input", times, 1), source(f"{key}-output", rows, 16),
+                  source(f"{key}-interpolation", ["LINEAR"] * len(times), 1, "Name"),
+                  f'<sampler id="{key}-sampler"><input semantic="INPUT" source="#{key}-input"/>'
+                  f'<input semantic="OUTPUT" source="#{key}-output"/>'
+                  f'<input semantic="INTERPOLATION" source="#{key}-interpolation"/></sampler>',
+                  f'<channel source="#{key}-sampler" target="{name}/transform"/></animation>']
+    return lines + ["</library_animations>"]
+
+
+def scene():
+    children = {}
+    for name, parent, _ in bones():
+        children.setdefault(parent, []).append(name)
+    rest = local_poses()
+
+    def node(name):
+        return (f'<node id="{name}" name="{name}" sid="{name}" type="JOINT"><matrix sid="transform">{text_of(rest[name])}</matrix>'
+                + "".join(node(child) for child in children.get(name, ())) + "</node>")
+
+    bind = "".join(f'<instance_material symbol="{name}" target="#{name}"/>' for name in COLOURS)
+    return ['<library_visual_scenes><visual_scene id="scene" name="scene">', node("Hips"),
+            '<node id="person" name="person" type="NODE"><instance_controller url="#person-skin"><skeleton>#Hips</skeleton>'
+            f'<bind_material><technique_common>{bind}</technique_common></bind_material></instance_controller></node>',
+            "</visual_scene></library_visual_scenes>", '<scene><instance_visual_scene url="#scene"/></scene>']
+
+
+def files():
+    """Name of each file in this directory -> its text."""
+    vertices, owners, triangles = body()
+    head = ['<?xml version="1.0" encoding="utf-8"?>', '<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">',
+            '<asset><created>2024-01-01T00:00:00</created><modified>2024-01-01T00:00:00</modified>'
+            '<unit name="meter" meter="1"/><up_axis>Z_UP</up_axis></asset>']
+    common = head + shading() + shape(vertices, triangles) + skin(owners)
+    return {f"{name}.dae": "\n".join(common + animation(frames) + scene() + ["</COLLADA>", ""]) for name, frames in animations().items()}
+
+
+if __name__ == "__main__":
+    for name, text in files().items():
+        (HERE / name).write_text(text)

@@ -1,0 +1,66 @@
+"""The person that walks through worlds: the files are what their script writes, and the person keeps its feet on the ground."""
+import importlib.util
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from ode_sim import World, math3
+from ode_sim.description import ResourceFinder
+
+STOCK = Path(__file__).resolve().parents[1]
+FOLDER = STOCK / "media/models"
+FINDER = ResourceFinder(environment=False, stock=str(STOCK))
+PEOPLE = sorted(path.name for path in FOLDER.glob("*.dae"))
+UP_TO = {"walk.dae": 1.36, "run.dae": 4.58, "moonwalk.dae": 1.24}  # m, along x in one round
+
+
+def test_files_are_what_their_script_writes(monkeypatch):
+    monkeypatch.syspath_prepend(str(FOLDER))
+    spec = importlib.util.spec_from_file_location("make_people", FOLDER / "make_people.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    for name, text in module.files().items():
+        assert (FOLDER / name).read_text() == text, "run media/models/make_people.py"
+    assert PEOPLE == sorted(module.files())
+
+
+def walker(name, waypoints="", along="true"):
+    return (f"<sdf version='1.6'><world name='w'><actor name='p'><skin><filename>{name}</filename></skin><animation name='a'>"
+            f"<filename>file://media/models/{name}</filename><interpolate_x>{along}</interpolate_x></animation>"
+            f"<script><loop>false</loop><trajectory id='0' type='a'>{waypoints}</trajectory></script></actor></world></sdf>")
+
+
+@pytest.mark.parametrize("name", PEOPLE)
+def test_a_person_stands_on_its_feet_and_keeps_them_all_the_time(name):
+    world = World.load(walker(name), finder=FINDER)
+    assert not world.problems, [str(problem) for problem in world.problems]
+    actor = world.actors["p"]
+    length = actor.script.length
+    for part in np.linspace(0.0, 1.0, 40):
+        actor._play(int(part * length * 1e9), 0.0)
+        low, high = _extent(world.models["p"])
+        assert -0.03 < low < (0.16 if name == "run.dae" else 0.03), (part, low)
+        assert (1.25 if "sit" in name or "stand_up" in name else 1.6) < high < 1.85
+    assert world.models["p"].pose.p[0] == pytest.approx(UP_TO.get(name, world.models["p"].pose.p[0]), abs=0.01)
+
+
+def _extent(model):
+    boxes = [shape.bounding_box() for link in model.links.values() for name, shape in link.collisions.items() if name.endswith("_skin")]
+    return min(low[2] for low, _ in boxes), max(high[2] for _, high in boxes)
+
+
+def test_the_feet_of_who_walks_hardly_slide():
+    """With <interpolate_x> and a straight way: while the sole of a foot is on the ground its ankle stays where it is."""
+    way = ("<waypoint><time>0</time><pose>0 0 0 0 0 0</pose></waypoint><waypoint><time>4</time><pose>4 0 0 0 0 0</pose></waypoint>")
+    world = World.load(walker("walk.dae", way), finder=FINDER)
+    on_ground = {"LeftFoot": [], "RightFoot": []}
+    for _ in range(110):
+        world.step(34)
+        for foot, found in on_ground.items():
+            link = world.models["p"].links[foot]
+            low = link.collisions[foot + "_skin"].bounding_box()[0][2]
+            flat = abs(math3.rotate(link.pose, (0.0, 0.0, 1.0))[2]) < 0.02  # the bone's z axis is forward
+            found.append(link.pose.p[0] if flat and low < 0.01 else None)
+    slides = [abs(b - a) for found in on_ground.values() for a, b in zip(found, found[1:]) if a is not None and b is not None]
+    assert len(slides) > 30 and max(slides) < 0.012

@@ -1,0 +1,102 @@
+"""A Collada file as XML with its ids, for what pycollada does not tell: skeletons and animations."""
+from __future__ import annotations
+
+from typing import Dict, Iterator, List, Optional, Tuple
+from xml.etree import ElementTree
+
+import numpy as np
+
+from ode_sim.collada_mesh import check_document
+from ode_sim.description.model import DescriptionError, quoted
+from ode_sim.mesh_files import file_content
+
+Element = ElementTree.Element
+
+
+def tag(element: Element) -> str:
+    return str(element.tag).rpartition("}")[2]
+
+
+def children(element: Optional[Element], name: str) -> List[Element]:
+    return [child for child in element if tag(child) == name] if element is not None else []
+
+
+def child(element: Optional[Element], *names: str) -> Optional[Element]:
+    """The first child of that name, its first child of the next ..."""
+    for name in names:
+        element = next(iter(children(element, name)), None)
+    return element
+
+
+class ColladaTree:
+    """:raises DescriptionError: one line that names the file."""
+
+    def __init__(self, path: str):
+        self.path = path
+        data = file_content(path, ".dae")
+        check_document(path, data)
+        self.root = ElementTree.fromstring(data)
+        self._ids: Dict[Tuple[str, str], Element] = {}
+        for element in self.root.iter():
+            name = element.get("id")
+            if name:
+                self._ids.setdefault((tag(element), name), element)
+        unit = child(self.root, "asset", "unit")
+        self.unit = self.number(unit.get("meter", "1"), "its unit") if unit is not None else 1.0
+
+    def fault(self, reason: str) -> DescriptionError:
+        return DescriptionError(f"{self.path}: {reason}")
+
+    def number(self, text: str, what: str) -> float:
+        try:
+            value = float(text)
+        except ValueError:
+            value = np.nan
+        if not np.isfinite(value):
+            raise self.fault(f"{what} is '{quoted(text)}', no number")
+        return value
+
+    def numbers(self, element: Optional[Element], what: str) -> np.ndarray:
+        """Those in the text of an element."""
+        if element is None:
+            raise self.fault(f"{what} is missing")
+        try:
+            values = np.array((element.text or "").split(), float)
+        except ValueError:
+            values = np.array([np.nan])
+        if not np.isfinite(values).all():
+            raise self.fault(f"{what} holds something that is no finite number")
+        return values
+
+    def matrix(self, element: Optional[Element], what: str) -> np.ndarray:
+        """(4, 4)."""
+        values = self.numbers(element, what)
+        if len(values) != 16:
+            raise self.fault(f"{what} holds {len(values)} numbers; a matrix has 16")
+        return values.reshape(4, 4)
+
+    def by_url(self, url: Optional[str], kind: str) -> Optional[Element]:
+        """The element of that tag and id: another one may have the same id."""
+        return self._ids.get((kind, (url or "").strip().lstrip("#")))
+
+    def source(self, inputs: Element, semantic: str) -> Optional[Element]:
+        """The ``<source>`` that an ``<input>`` of that meaning names."""
+        found = next((entry for entry in children(inputs, "input") if entry.get("semantic") == semantic), None)
+        return self.by_url(found.get("source"), "source") if found is not None else None
+
+    def words(self, source: Optional[Element], what: str) -> List[str]:
+        array = child(source, "Name_array")
+        array = child(source, "IDREF_array") if array is None else array
+        if array is None:
+            raise self.fault(f"{what} is missing")
+        return (array.text or "").split()
+
+    def scene(self) -> Element:
+        instance = child(self.root, "scene", "instance_visual_scene")
+        found = self.by_url(instance.get("url"), "visual_scene") if instance is not None else None
+        if found is None:
+            raise self.fault("has no visual scene")
+        return found
+
+    def iter(self, name: str) -> Iterator[Element]:
+        return (element for element in self.root.iter() if tag(element) == name)
