@@ -273,8 +273,11 @@ SCALES = {"dumpster": (1.5,) * 3, "construction_cone": (10.0,) * 3, "table_marbl
 
 # ---------------------------------------------------------------------------------------------- files
 
-def collada(solids, scale=(1.0, 1.0, 1.0)) -> str:
-    """A Collada 1.4.1 document, one geometry for each colour."""
+def collada(solids, scale=(1.0, 1.0, 1.0), names=()) -> str:
+    """A Collada 1.4.1 document, one geometry for each colour.
+
+    :param names: of the geometries, in the order of their first solids
+    """
     by_colour = {}
     for solid in solids:
         by_colour.setdefault(solid.colour, []).append(solid)
@@ -285,18 +288,19 @@ def collada(solids, scale=(1.0, 1.0, 1.0)) -> str:
         triangles = np.concatenate([solid.triangles + offset for solid, offset in zip(group, offsets)])
         vertices, triangles, normals, _ = with_normals(vertices, triangles, None)
         rgba = " ".join(f"{c:g}" for c in colour) + " 1"
+        name, node = (names[i], names[i]) if i < len(names) else (f"g{i}", f"o{i}")
         effects.append(f'<effect id="e{i}"><profile_COMMON><technique sid="c"><phong>'
                        f"<ambient><color>{rgba}</color></ambient><diffuse><color>{rgba}</color></diffuse>"
                        "<specular><color>0.1 0.1 0.1 1</color></specular></phong></technique></profile_COMMON>"
                        "</effect>")
         materials.append(f'<material id="m{i}" name="m{i}"><instance_effect url="#e{i}"/></material>')
         geometries.append(
-            f'<geometry id="g{i}" name="g{i}"><mesh>{_source(f"p{i}", vertices)}{_source(f"n{i}", normals)}'
+            f'<geometry id="g{i}" name="{name}"><mesh>{_source(f"p{i}", vertices)}{_source(f"n{i}", normals)}'
             f'<vertices id="v{i}"><input semantic="POSITION" source="#p{i}"/>'
             f'<input semantic="NORMAL" source="#n{i}"/></vertices>'
             f'<triangles count="{len(triangles)}" material="s"><input semantic="VERTEX" source="#v{i}" offset="0"/>'
             f'<p>{" ".join(map(str, triangles.ravel()))}</p></triangles></mesh></geometry>')
-        nodes.append(f'<node id="o{i}" name="o{i}"><instance_geometry url="#g{i}"><bind_material><technique_common>'
+        nodes.append(f'<node id="o{i}" name="{node}"><instance_geometry url="#g{i}"><bind_material><technique_common>'
                      f'<instance_material symbol="s" target="#m{i}"/></technique_common></bind_material>'
                      "</instance_geometry></node>")
     return "\n".join([

@@ -173,7 +173,9 @@ def openings(x0: float, x1: float, y: float, storeys: int, height: float, side: 
                 found.append(block(f"door_{i}", (x - 0.5, y - 0.03, 0), (x + 0.5, y + 0.03, 2.1), DOOR, collides=False))
             else:
                 found.append(
-                    block(f"{side}_window_{storey}_{i}", (x - 0.55, y - 0.03, z + 0.9), (x + 0.55, y + 0.03, z + 2.1), GLASS, collides=False)
+                    block(
+                        f"{side}_window_{storey}_{i}", (x - 0.55, y - 0.03, z + 0.9), (x + 0.55, y + 0.03, z + 2.1), GLASS, collides=False
+                    )
                 )
     return tuple(found)
 
@@ -368,8 +370,15 @@ def static(title: str, description: str, shapes: Tuple[Shape, ...], name: str = 
 
 
 TOWN: Dict[str, Model] = {
-    "pine_tree": static("Pine tree", "A conifer, 5 m high.", pine()),
-    "oak_tree": static("Oak tree", "A tree with a wide crown, 6.5 m high.", oak()),
+    "pine_tree": static(
+        "Pine tree", "A conifer, 5 m high.", pine(), scripts={"PineTree/Branch": (0.1, 0.3, 0.14), "PineTree/Bark": (0.32, 0.22, 0.13)}
+    ),
+    "oak_tree": static(
+        "Oak tree",
+        "A tree with a wide crown, 6.5 m high.",
+        oak(),
+        scripts={"OakTree/Branch": (0.2, 0.4, 0.14), "OakTree/Bark": (0.32, 0.22, 0.13)},
+    ),
     "lamp_post": static("Lamp post", "A street lamp, 9.3 m high, its arm to -y.", lamp(), "Lamp Post"),
     "telephone_pole": static("Telephone pole", "A wooden pole, 9.1 m high.", telephone_pole()),
     "stop_light_post": static("Stop light post", "Traffic lights on an arm to -x, 6 m high.", stop_light()),
@@ -383,14 +392,41 @@ TOWN: Dict[str, Model] = {
     "ambulance": static("Ambulance", "An ambulance, 7.5 m long.", coach((-1.48, -3.85, 0), (1.48, 3.69, 2.87), WHITE, RED, 1.6)),
     "fire_truck": static("Fire truck", "A fire engine, 12.4 m long.", coach((-1.77, -6.55, 0), (1.77, 5.88, 3.35), RED, WHITE)),
     "house_1": static(
-        "House 1", "A house of two storeys, 16.5 m by 13 m.", house((-8.64, -6.84, 0), (7.85, 6.09, 7.69), 5.0, CREAM, 1.5), "House 1"
+        "House 1",
+        "A house of two storeys, 16.5 m by 13 m.",
+        house((-8.64, -6.84, 0), (7.85, 6.09, 7.69), 5.0, CREAM, 1.5),
+        "House 1",
+        scripts={"House_1/Diffuse": (0.85, 0.8, 0.68)},
     ),
-    "house_2": static("House 2", "A house, 12.7 m by 9.8 m.", house((-5.15, -4.11, 0), (7.56, 5.66, 7.19), 4.4, BRICK), "House 2"),
+    "house_2": static(
+        "House 2",
+        "A house, 12.7 m by 9.8 m.",
+        house((-5.15, -4.11, 0), (7.56, 5.66, 7.19), 4.4, BRICK),
+        "House 2",
+        scripts={"House_2/Diffuse": (0.56, 0.3, 0.24)},
+    ),
     "house_3": static(
-        "House 3", "A house of two storeys, 13 m by 8.7 m.", house((-7.08, -4.37, 0), (6.1, 4.34, 9.17), 5.8, WHITE, 1.2), "House 3"
+        "House 3",
+        "A house of two storeys, 13 m by 8.7 m.",
+        house((-7.08, -4.37, 0), (6.1, 4.34, 9.17), 5.8, WHITE, 1.2),
+        "House 3",
+        scripts={"House_3/Diffuse": (0.9, 0.9, 0.88)},
     ),
-    "gas_station": static("Gas station", "A shop, pumps under a canopy and a sign.", gas_station(), "Gas Station"),
-    "fast_food": static("Fast food", "A restaurant with a sign.", fast_food(), "Fast Food", link_pose=(0, 0, 3.15931296)),
+    "gas_station": static(
+        "Gas station",
+        "A shop, pumps under a canopy and a sign.",
+        gas_station(),
+        "Gas Station",
+        scripts={"GasStation/Diffuse": (0.85, 0.8, 0.68)},
+    ),
+    "fast_food": static(
+        "Fast food",
+        "A restaurant with a sign.",
+        fast_food(),
+        "Fast Food",
+        link_pose=(0, 0, 3.15931296),
+        scripts={"FastFood/Diffuse": (0.7, 0.08, 0.06)},
+    ),
     "cafe": static("Cafe", "A room of 9.4 m by 22.6 m, without a roof.", cafe()),
     "fire_station": static("Fire station", "A building with three gates, at +y.", fire_station()),
     "post_office": static("Post office", "A low building, 10.4 m wide.", flat((-5.2, -2.18, 0), (5.2, 5.12, 3.93), BRICK, 1, BLUE)),

@@ -28,7 +28,7 @@ def generated(folder, script):
 
 
 @pytest.mark.parametrize("folder, script", [
-    ("models", "make_meshes"), ("models", "make_models"), ("worlds", "make_worlds")])
+    ("models", "make_meshes"), ("models", "make_models"), ("models", "make_town_meshes"), ("worlds", "make_worlds")])
 def test_files_are_what_their_script_writes(folder, script, monkeypatch):
     monkeypatch.syspath_prepend(str(STOCK / "models"))
     for name, text in generated(folder, script).items():
@@ -72,6 +72,23 @@ def test_what_collides_is_where_it_is_seen(name):
 
     link = load_world(included(name), FINDER)[0].models[0].links[0]
     assert np.abs(extent(link.collisions) - extent(link.visuals)).max() < 0.11
+
+
+def test_worlds_that_were_saved_with_a_model_of_the_town_see_it_at_the_same_place(monkeypatch):
+    """They hold the model's SDF, which names a mesh, its scale and its place."""
+    monkeypatch.syspath_prepend(str(STOCK / "models"))
+    import make_town_meshes as town
+
+    for name in town.TOWN:
+        file = town.FILES.get(name, town.File(f"{name}.dae"))
+        vertices = mesh.load_surface(str(STOCK / "models" / name / "meshes" / file.name), file.scale).vertices
+        pose = math3.from_rpy(0, file.y, 0, 0, 0, file.yaw)
+        seen = np.array([math3.transform(pose, tuple(vertex)) for vertex in vertices])
+        whole = np.concatenate([town.solid(shape).at(*shape.pose).vertices for shape in town.TOWN[name].shapes])
+        np.testing.assert_allclose([seen.min(axis=0), seen.max(axis=0)], [whole.min(axis=0), whole.max(axis=0)], atol=0.02, err_msg=name)
+    for name, parts in town.PARTS.items():
+        for part in parts:
+            assert len(mesh.load_surface(str(STOCK / "models" / name / "meshes" / f"{name}.dae"), submesh=part).vertices), (name, part)
 
 
 FALLING = [name for name in MODELS if name != "sun" and not load_world(included(name), FINDER)[0].models[0].static]
