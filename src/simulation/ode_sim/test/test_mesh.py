@@ -1,5 +1,6 @@
 """Mesh files written by the test, read back."""
 import os
+import re
 import struct
 import time
 import warnings
@@ -146,6 +147,22 @@ def test_a_shape_is_there_and_red_though_its_shader_is_faulty_as_in_gazebo(tmp_p
     assert len(red.triangles) == len(painted.triangles) == 1
     assert red.material.diffuse == (1.0, 0.0, 0.0, 1.0)
     assert len(mesh.load_surface(str(file)).triangles) == 2
+
+
+def test_a_submesh_of_collada_is_a_node_by_its_name(tmp_path):
+    """As in Gazebo; a shape's own name does where no node has it."""
+    library = '<library_nodes><node id="b" name="Twig"><instance_geometry url="#tri"/></node></library_nodes>'
+    scene = """<node id="a" name="Branch"><translate>1 0 0</translate><node id="d"><instance_geometry url="#tri"/></node></node>
+               <node id="c" name="Bark"><instance_node url="#b"/><instance_geometry url="#tri"/></node></visual_scene>"""
+    text = re.sub(r"<node .*</visual_scene>", scene, DAE.format(up=""), flags=re.DOTALL)
+    text = text.replace("<library_visual_scenes>", library + "<library_visual_scenes>")
+    file = tmp_path / "t.dae"
+    file.write_text(text)
+    for name, corners in (("Branch", [0.01]), ("Bark", [0.0]), ("Twig", [0.0]), ("tri", [0.01, 0.0, 0.0])):
+        parts = mesh.load_visual(str(file), submesh=name)
+        assert [part.vertices[:, 0].min() for part in parts[::2]] == pytest.approx(corners), name
+    with pytest.raises(DescriptionError, match="no submesh 'Root', only Bark, Branch, Twig"):
+        mesh.load_visual(str(file), submesh="Root")
 
 
 def test_a_shader_without_its_colour_leaves_the_shape(tmp_path):

@@ -5,7 +5,8 @@ import io
 import logging
 import os
 import zipfile
-from typing import Dict, List, Optional, Tuple
+from dataclasses import replace
+from typing import Any, Dict, Iterator, List, Optional, Tuple
 from urllib.parse import unquote
 from xml.etree import ElementTree
 from xml.parsers import expat
@@ -33,13 +34,23 @@ def read_dae(path: str, data: bytes) -> List[MeshPart]:
         raise DescriptionError(f"mesh {path}: the Collada file has no visual scene")
     parts: List[MeshPart] = []
     triangles = 0
-    for geometry in scene.scene.objects("geometry"):
+    for node, geometry in _placed(scene.scene.nodes):
         for primitive in geometry.primitives():
-            found = [part for part, _ in parts_of(primitive, geometry.original, primitive.material, path, unit)]
+            found = [replace(part, node=node) for part, _ in parts_of(primitive, geometry.original, primitive.material, path, unit)]
             triangles += sum(len(part.triangles) for part in found)
             check_triangles(triangles, path)
             parts += found
     return parts
+
+
+def _placed(nodes, matrix=None, name: str = "") -> Iterator[Tuple[str, Any]]:
+    """(name of the node that it is in, geometry in its place) of all shapes below these nodes."""
+    for node in nodes:
+        if hasattr(node, "children"):
+            inner = node.matrix if matrix is None else matrix @ node.matrix
+            yield from _placed(node.children, inner, getattr(node, "node", node).xmlnode.get("name") or name)
+        else:
+            yield from ((name, geometry) for geometry in node.objects("geometry", matrix))
 
 
 def document(data: bytes):

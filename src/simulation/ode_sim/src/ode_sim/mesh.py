@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import functools
 import os
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import List, Optional, Tuple
 
 import numpy as np
@@ -140,15 +140,15 @@ def _selected(path: str, submesh: str, center: bool, stamp) -> List[MeshPart]:
         return load_piece(path, submesh)
     parts = read_parts(path, stamp)
     if submesh:
-        chosen = [part for part in parts if part.name == submesh]
+        chosen = [part for part in parts if part.node == submesh] or [part for part in parts if part.name == submesh]
         if not chosen:
-            names = ", ".join(sorted({part.name for part in parts}))
+            names = ", ".join(sorted({part.node or part.name for part in parts}))
             raise DescriptionError(f"mesh {path}: has no submesh '{submesh}', only {names}")
         parts = chosen
         if center:
             points = np.concatenate([part.vertices for part in parts])
             middle = 0.5 * (points.min(axis=0) + points.max(axis=0))
-            parts = [MeshPart(p.name, p.vertices - middle, p.triangles, p.normals, p.uv, p.material) for p in parts]
+            parts = [replace(part, vertices=part.vertices - middle) for part in parts]
     return parts
 
 

@@ -30,6 +30,7 @@ class MeshPart:
     normals: Optional[np.ndarray]  # (V, 3)
     uv: Optional[np.ndarray]  # (V, 2)
     material: Material
+    node: str = ""  # of a Collada scene, that the piece is in
 
 
 @functools.lru_cache(maxsize=64)
