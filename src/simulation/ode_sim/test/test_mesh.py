@@ -190,6 +190,14 @@ def test_submesh_by_name_centred(tmp_path):
         mesh.load_surface(str(file), submesh="middle")
 
 
+def test_a_submesh_of_obj_is_a_group_too(tmp_path):
+    """As of car bodies that name their wheels so."""
+    file = tmp_path / "car.obj"
+    file.write_text("v 0 0 0\nv 2 0 0\nv 0 2 0\ng body paint\nf 1 2 3\nv 0 0 5\nv 2 0 5\nv 0 2 5\ng wheel\nf 4 5 6\no roof\nf 1 3 4\n")
+    for name, corners in (("body", [0, 0, 0]), ("wheel", [5, 5, 5]), ("roof", [0, 0, 5]), ("car.obj", [0, 0, 0, 5, 5, 5])):
+        assert sorted(mesh.load_surface(str(file), submesh=name).vertices[:, 2]) == corners, name
+
+
 def test_read_once_until_the_file_changes(tmp_path):
     file = tmp_path / "c.stl"
     first = mesh.load_surface(binary_stl(file))

@@ -138,7 +138,7 @@ def _selected(path: str, submesh: str, center: bool, stamp) -> List[MeshPart]:
     if submesh.startswith(SKIN_PIECE):
         from ode_sim.actors.skin import load_piece  # which needs this module
         return load_piece(path, submesh)
-    parts = read_parts(path, stamp)
+    parts = read_parts(path, stamp, groups=bool(submesh))
     if submesh:
         chosen = [part for part in parts if part.node == submesh] or [part for part in parts if part.name == submesh]
         if not chosen:
