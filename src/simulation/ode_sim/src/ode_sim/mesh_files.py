@@ -35,8 +35,9 @@ class MeshPart:
 
 @functools.lru_cache(maxsize=64)
 def read_parts(path: str, stamp, groups: bool = False) -> List[MeshPart]:
-    """:param groups: the groups of an OBJ file are pieces of their own, as who asks for one of them wants; drawn whole, fewer are quicker"""
-    readers = {".stl": _read_stl, ".stlb": _read_stl, ".stla": _read_stl, ".dae": _read_dae, ".obj": functools.partial(_read_obj, groups=groups)}
+    """:param groups: the groups of an OBJ file are pieces of their own, for who asks for one of them; fewer are drawn quicker"""
+    readers = {".stl": _read_stl, ".stlb": _read_stl, ".stla": _read_stl, ".dae": _read_dae,
+               ".obj": functools.partial(_read_obj, groups=groups)}
     suffix = os.path.splitext(path)[1].lower()
     if suffix not in readers:
         raise DescriptionError(f"mesh {path}: '{suffix}' files cannot be read; use .stl, .dae or .obj")
