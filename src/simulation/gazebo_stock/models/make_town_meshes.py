@@ -17,32 +17,36 @@ HERE = Path(__file__).resolve().parent
 
 
 class File(NamedTuple):
-    """:param scale: by which worlds multiply the mesh. :param yaw, y: where they put it in the link"""
+    """:param scale: by which worlds multiply the mesh. :param yaw, at: where they put it in the link"""
 
     name: str
     scale: Tuple[float, float, float] = (1.0, 1.0, 1.0)
     yaw: float = 0.0
-    y: float = 0.0
+    at: Tuple[float, float, float] = (0.0, 0.0, 0.0)
 
 
 QUARTER = math.pi / 2
 FILES: Dict[str, File] = {
     "ambulance": File("ambulance.obj", (0.0254,) * 3),
     "bus": File("bus.obj", (0.01,) * 3),
+    "drc_practice_truss": File("truss.dae"),
+    "drc_practice_yellow_parking_block": File("block.dae"),
+    "euro_pallet": File("pallet.dae", (0.1,) * 3, at=(0, 0, 0.05)),
     "fast_food": File("fast_food.dae", (3.0, 3.0, 2.0)),
     "fire_truck": File("fire_truck.obj", (0.1,) * 3),
     "grey_tote": File("tote.dae"),
-    "grocery_store": File("grocery_store.dae", y=-1.961551703),
+    "grocery_store": File("grocery_store.dae", at=(0, -1.961551703, 0)),
     **{name: File("hatchback.obj", (0.0254,) * 3, QUARTER) for name in ("hatchback", "hatchback_blue", "hatchback_red")},
     **{f"house_{i}": File(f"house_{i}.dae", (1.5,) * 3) for i in (1, 2, 3)},
     "lamp_post": File("lamp_post.dae", (3.0,) * 3),
     **{f"number{digit}": File("number.dae") for digit in range(1, 10)},
     "pickup": File("pickup.dae", yaw=-QUARTER),
-    "salon": File("salon.dae", y=-0.90360491),
+    "salon": File("salon.dae", at=(0, -0.90360491, 0)),
     "speed_limit_sign": File("speed_limit_sign.dae", (10.0,) * 3),
     "stop_light_post": File("stop_light_post.obj", (0.01,) * 3),
+    "stop_light": File("stop_light.obj", (0.01,) * 3),
     "suv": File("suv.obj", (0.06,) * 3, -QUARTER),
-    "thrift_shop": File("thrift_shop.dae", y=-0.912490988),
+    "thrift_shop": File("thrift_shop.dae", at=(0, -0.912490988, 0)),
 }
 #: parts of meshes that worlds name
 PARTS = {"pine_tree": ("Bark", "Branch"), "oak_tree": ("Bark", "Branch")}
@@ -53,7 +57,7 @@ def solids(name: str) -> List[Solid]:
     file = FILES.get(name, File(""))
     found = []
     for shape in TOWN[name].shapes:
-        found.append(solid(shape).at(*shape.pose).at(y=-file.y).at(yaw=-file.yaw))
+        found.append(solid(shape).at(*shape.pose).at(*(-value for value in file.at)).at(yaw=-file.yaw))
     return found
 
 

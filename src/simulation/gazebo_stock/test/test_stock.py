@@ -82,7 +82,7 @@ def test_worlds_that_were_saved_with_a_model_of_the_town_see_it_at_the_same_plac
     for name in town.TOWN:
         file = town.FILES.get(name, town.File(f"{name}.dae"))
         vertices = mesh.load_surface(str(STOCK / "models" / name / "meshes" / file.name), file.scale).vertices
-        pose = math3.from_rpy(0, file.y, 0, 0, 0, file.yaw)
+        pose = math3.from_rpy(*file.at, 0, 0, file.yaw)
         seen = np.array([math3.transform(pose, tuple(vertex)) for vertex in vertices])
         whole = np.concatenate([town.solid(shape).at(*shape.pose).vertices for shape in town.TOWN[name].shapes])
         np.testing.assert_allclose([seen.min(axis=0), seen.max(axis=0)], [whole.min(axis=0), whole.max(axis=0)], atol=0.02, err_msg=name)
@@ -94,11 +94,16 @@ def test_worlds_that_were_saved_with_a_model_of_the_town_see_it_at_the_same_plac
 FALLING = [name for name in MODELS if name != "sun" and not load_world(included(name), FINDER)[0].models[0].static]
 
 
+CENTRED = {"euro_pallet": 0.07, "drc_practice_truss": 0.145}  # m from the ground to the origin, which the database has in the middle
+
+
 @pytest.mark.parametrize("name", FALLING)
 def test_what_can_fall_stands(name):
     """Put down where its file puts it, a model comes to rest upright, neither sinking in nor jumping off."""
     world = World.load(included("ground_plane", name), finder=FINDER)
     _, model = world.models.values()
+    if name in CENTRED:
+        model.pose = math3.from_rpy(0, 0, CENTRED[name], 0, 0, 0)
     link = next(iter(model.links.values()))
     start = link.pose.p
     world.step(1500)
