@@ -24,6 +24,11 @@ from std_srvs.srv import Empty
 
 LASER = (0.5, 0.3)  # where the scanners stand in the room
 ROOM = (3.0, 2.0)  # half sides
+#: Walks 2 m in 4 s at y = -1; its <pose> is that of the service, which the script overrides.
+PERSON = """<sdf version="1.6"><actor name="person"><skin><filename>walk.dae</filename></skin>
+<animation name="walking"><filename>walk.dae</filename><interpolate_x>true</interpolate_x></animation>
+<script><loop>false</loop><trajectory id="0" type="walking"><waypoint><time>0</time><pose>-1 -1 0 0 0 0</pose></waypoint>
+<waypoint><time>4</time><pose>1 -1 0 0 0 0</pose></waypoint></trajectory></script></actor></sdf>"""
 COVERS = "<vertical><samples>3</samples><min_angle>-0.2</min_angle><max_angle>0.2</max_angle></vertical>"
 
 
@@ -64,6 +69,42 @@ class Plugins(PluginWorld):
         scan = self.scanner("gazebo_ros_gpu_laser", LaserScan, kind="gpu_ray", samples=90)
         np.testing.assert_allclose(np.minimum(scan.ranges, 3.2), np.minimum(to_wall(np.linspace(-math.pi, 3.12413936, 90)), 3.2),
                                    atol=1e-4)
+
+    def test_a_person_walks_by_and_both_kinds_of_laser_see_it(self):
+        def look(kind):
+            ranges = np.array(self.scanner("gazebo_ros_laser", LaserScan, kind=kind, far=10).ranges)
+            self._delete_model("scanner")
+            return ranges
+
+        empty = {kind: look(kind) for kind in ("ray", "gpu_ray")}
+        self.spawn("person", PERSON, 9.0, 9.0)
+        self.addCleanup(self._delete_model, "person")
+        self.step(0.01)
+        started = self.pose("person").position.x
+        for kind, walls in empty.items():
+            seen = look(kind)
+            at = self.pose("person").position
+            nearer = seen < walls - 0.1
+            self.assertTrue(3 < np.count_nonzero(nearer) < 90, np.count_nonzero(nearer))
+            distance = math.hypot(at.x - LASER[0], at.y - LASER[1])
+            self.assertAlmostEqual(seen[nearer].min(), distance, delta=0.5)
+        self.assertGreater(at.x, started + 0.5)
+        self.assertAlmostEqual(at.y, -1.0, delta=0.05)
+        self.assertAlmostEqual(at.z, 1.0, delta=0.05)  # the hips
+        self._reset()
+        self.step(0.01)
+        self.assertAlmostEqual(self.pose("person").position.x, -1.0, delta=0.02)
+
+    def test_a_person_wanders_between_obstacles(self):
+        wanders = PERSON.replace("</actor>", "<plugin name='w' filename='libActorPlugin.so'><target>0 -1 1.2138</target></plugin></actor>")
+        self.spawn("person", wanders, -1.0, 1.0, 1.2138)
+        self.addCleanup(self._delete_model, "person")
+        places = []
+        for _ in range(8):
+            self.step(1.0)
+            places.append(self.pose("person").position)
+        self.assertTrue(all(-3.0 <= p.x <= 3.5 and -10.0 <= p.y <= 2.0 and abs(p.z - 1.2138) < 1e-6 for p in places))
+        self.assertGreater(max(math.hypot(p.x - places[0].x, p.y - places[0].y) for p in places), 0.3)
 
     def test_noise_of_a_laser(self):
         scan = self.scanner("gazebo_ros_laser", LaserScan, noise=0.02, far=10)

@@ -149,6 +149,18 @@ def elevator():
                  SUN, FLOOR, lift, shaft, *storeys, ramp)
 
 
+def actor():
+    """A person that walks round a circle of 2 m at 1 m/s: the way between two points is a smooth curve."""
+    radius, corners = 2.0, 16
+    points = [(2.0 * math.pi * radius * i / corners, 2.0 * math.pi * i / corners) for i in range(corners + 1)]
+    waypoints = [tag("waypoint", tag("time", f"{time:.3f}"), pose(
+        (radius * math.sin(angle), radius - radius * math.cos(angle), 0, 0, 0, angle))) for time, angle in points]
+    walk = tag("filename", "file://media/models/walk.dae")
+    return world("A person that walks round and round.", SUN, FLOOR, tag(
+        "actor", tag("skin", walk), tag("animation", walk, tag("interpolate_x", "true"), name="walking"),
+        tag("script", tag("loop", "true"), tag("trajectory", *waypoints, id="0", type="walking")), name="actor"))
+
+
 def plan(name):
     return building.read_plan(str(HERE / "plans" / f"{name}.yaml"))
 
@@ -164,7 +176,7 @@ def files():
     """Name of each file, seen from this directory -> its text."""
     return {"stacks.world": stacks(), "friction_demo.world": friction_demo(), "rubble.world": rubble(),
             "mud.world": mud(), "camera.world": camera(), "elevator_ros.world": elevator(),
-            "cafe.world": sdf_model.world_text(plan("cafe")), "willowgarage.world": willowgarage(),
+            "actor.world": actor(), "cafe.world": sdf_model.world_text(plan("cafe")), "willowgarage.world": willowgarage(),
             "../models/willowgarage/model.sdf": sdf_model.model_text(plan("willowgarage")),
             "../models/willowgarage/model.config": sdf_model.config_text(plan("willowgarage"))}
 

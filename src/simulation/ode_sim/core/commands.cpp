@@ -70,6 +70,8 @@ void World::set_link_pose(Link& link, const Pose& X_WL) {
 
 namespace {
 
+constexpr double kFastestLed = 30;  // m/s: faster ones were put elsewhere
+
 // rad/s, of what turns from one to the other in so many seconds.
 Vec3 spin_between(const Quat& from, const Quat& to, double seconds) {
   Quat turn = to * conjugate(from);
@@ -81,6 +83,25 @@ Vec3 spin_between(const Quat& from, const Quat& to, double seconds) {
 
 }  // namespace
 
+void take_led_velocities(Scene& scene) {
+  for (auto& m : scene.models) {
+    if (!(m->led_seconds > 0)) continue;
+    for (auto& l : m->links) {
+      l->v = (l->X_WL.p - l->X_was.p) * (1 / m->led_seconds);
+      l->w = spin_between(l->X_was.q, l->X_WL.q, m->led_seconds);
+      if (norm(l->v) > kFastestLed) l->v = l->w = {};
+    }
+  }
+}
+
+void forget_led(Scene& scene) {
+  for (auto& m : scene.models) {
+    if (!(m->led_seconds > 0)) continue;
+    m->led_seconds = 0;
+    for (auto& l : m->links) l->led = false;
+  }
+}
+
 void World::lead_links(Model& model, const std::vector<Pose>& X_WL, double seconds) {
   const OdeScope scope;
   if (!model.is_static || !model.finished) throw std::invalid_argument("only the links of a static model in the world are led");
@@ -91,11 +112,11 @@ void World::lead_links(Model& model, const std::vector<Pose>& X_WL, double secon
   for (size_t i = 0; i < X_WL.size(); ++i) {
     Link& l = *model.links[i];
     const Pose X = normalized(X_WL[i]);
-    l.v = seconds > 0 ? (X.p - l.X_WL.p) * (1 / seconds) : Vec3{};
-    l.w = seconds > 0 ? spin_between(l.X_WL.q, X.q, seconds) : Vec3{};
-    l.led = dot(l.v, l.v) + dot(l.w, l.w) > 0;
+    l.led = seconds > 0;
+    l.X_was = l.X_WL;
     put(scene_, l, X);
   }
+  model.led_seconds = std::max(seconds, 0.0);
 }
 
 namespace {

@@ -118,7 +118,8 @@ struct Link {
   Joint* up = nullptr;  // merged joint towards the root
   Link* up_link = nullptr;
   bool moving = false;   // a position drive lies between it and the root
-  bool led = false;      // of a static model, moved from outside: what it touches is pushed at its velocity
+  bool led = false;      // of a static model, moved from outside for the next step: what it touches is pushed at its velocity
+  Pose X_was;            // of one that is led: where it was in the last step
   bool carrier = false;  // its own body moves kinematically, because an ODE joint hangs on it
   Pose X_RL;             // in the root link's frame (in the world for anchored clusters)
   int visit = 0;         // number of the search that came by last, see links_beyond
@@ -149,8 +150,9 @@ struct Model {
 
   std::set<std::pair<int, int>> exempt;  // shape pairs that already touched when the position drives were engaged
   bool take_exempt = false;
-  double emerging = 0;  // s, for which it still counts as what was put deep into something static and comes out of it
-  int visits = 0;       // searches that went over its links
+  double led_seconds = 0;  // since its links were where they were in the last step; 0: they are not led
+  double emerging = 0;     // s, for which it still counts as what was put deep into something static and comes out of it
+  int visits = 0;          // searches that went over its links
 };
 
 // Two links of any models held together while the world runs, or a link held where it is in the world.

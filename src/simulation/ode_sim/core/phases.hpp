@@ -86,6 +86,8 @@ void read_loads(const Scene& scene, StepState& state);
 // results.cpp: from the bodies to the links, from the links to whoever looks
 void pull(Scene& scene, bool drives = true);
 void place_shapes(Scene& scene, Link& link);
+void take_led_velocities(Scene& scene);  // commands.cpp: of links that were led since the last step
+void forget_led(Scene& scene);
 // Shapes and shared arrays from the links; first the readings of joints, but for those of which they are known.
 void publish(Scene& scene, const std::function<bool(const Joint&)>& known);
 void read_back(Scene& scene);

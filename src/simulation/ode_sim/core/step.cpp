@@ -112,6 +112,7 @@ void step_once(Scene& scene, StepState& state) {
   state.number(scene);
   start_drives(scene, state);
   wake_pushed(scene);
+  take_led_velocities(scene);
   collide(scene, state);
   yield_to_contacts(scene, state);
 
@@ -128,6 +129,7 @@ void step_once(Scene& scene, StepState& state) {
   for (auto& m : scene.models)
     if (!scene.settings.like_gazebo || m->has_drives) project_joints(scene, state, *m);
   forget_forces(scene);
+  forget_led(scene);
   pull(scene);
   publish(scene, [&](const Joint& j) { return state.of(j).projected; });
   read_loads(scene, state);

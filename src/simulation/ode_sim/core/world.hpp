@@ -45,8 +45,8 @@ class World {
   // Between steps, see commands.cpp.
   void set_model_pose(Model& model, const Pose& X_WM_old, const Pose& X_WM_new);
   void set_link_pose(Link& link, const Pose& X_WL);
-  // All links of a static model, as the limbs of one that walks. With `seconds` since they were placed last, they push in the next step
-  // at the velocity that this makes.
+  // All links of a static model, as the limbs of one that walks. With `seconds` since the last step they push in the next one, at the
+  // velocity at which they have come by then.
   void lead_links(Model& model, const std::vector<Pose>& X_WL, double seconds);
   void set_link_twist(Link& link, const Vec3& v, const Vec3& w);
   bool set_joint_position(Joint& joint, int axis, double q);

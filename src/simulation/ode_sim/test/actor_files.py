@@ -26,7 +26,8 @@ RIG = """<?xml version="1.0"?>
 {animation}
 <library_visual_scenes><visual_scene id="scene" name="scene">
 <node id="hips-id" name="hips" sid="hips" type="JOINT"><matrix sid="transform">1 0 0 0 0 1 0 0 0 0 1 {high} 0 0 0 1</matrix>
-<node id="arm-id" name="arm" sid="arm" type="JOINT"><translate sid="place">0 0 {arm}</translate><rotate sid="bend">0 1 0 0</rotate></node></node>
+<node id="arm-id" name="arm" sid="arm" type="JOINT"><translate sid="place">0 0 {arm}</translate>
+<rotate sid="bend">0 1 0 0</rotate></node></node>
 <node id="it" name="it"><instance_controller url="#skin-of-it"><skeleton>#hips-id</skeleton><bind_material><technique_common>
 <instance_material symbol="cloth" target="#red"/></technique_common></bind_material></instance_controller></node>
 </visual_scene></library_visual_scenes><scene><instance_visual_scene url="#scene"/></scene></COLLADA>"""

@@ -302,6 +302,7 @@ def test_a_reset_of_poses_begins_the_script_anew_and_one_of_time_does_not(skin):
     w.step(10)
     assert w.time == pytest.approx(0.01) and place(w) == pytest.approx(before, abs=0.05)
     w.reset_poses()
+    assert place(w) == pytest.approx([0.0, 2.0, 1.0])  # at once, as while paused nothing else shows it
     w.step(10)
     assert place(w)[0] == pytest.approx(0.0, abs=0.05)
 
@@ -360,6 +361,13 @@ def test_a_saved_world_has_the_actor_again(skin):
     assert not again.problems and list(again.models["walker"].links) == ["walker_pose", "hips", "arm"]
     again.step(1000)
     assert again.models["walker"].pose.p[0] > 0.5
+
+
+def test_it_travels_to_other_processes_whole(skin):
+    from ode_sim.description import exchange
+
+    description = load(actor(skin)).models["walker"].description
+    assert exchange.loads(exchange.dumps(description)).actor == description.actor
 
 
 def test_a_camera_sees_it_walk(skin):

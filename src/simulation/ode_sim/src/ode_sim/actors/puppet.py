@@ -63,10 +63,6 @@ class Puppet:
         self._parents = self._join()
         self._fixed = np.array([(*link.description.pose.p, *link.description.pose.q) for link in self._links])
         self.restart(time_ns)
-        if self.script.auto_start and not model.description.plugins:
-            self._play(0, 0.0)
-        else:
-            self._bend(model.initial_pose, self._first_animation(), 0.0, 0.0)
 
     def _load(self, actor: Actor) -> None:
         try:
@@ -97,7 +93,7 @@ class Puppet:
     # ------------------------------------------------------------------ playing
 
     def restart(self, time_ns: int) -> None:
-        """As just spawned, at that time; its links are placed in the next step."""
+        """As just spawned, at that time: where its script begins, or where it was put if that is another's work."""
         self.active = self.script.auto_start
         self.started_ns = time_ns
         self.custom = None
@@ -105,6 +101,10 @@ class Puppet:
         self.script_time = 0.0
         self._frame = -1
         self._tell(anew=True)
+        if self.active and not self.model.description.plugins:
+            self._play(0, 0.0)
+        else:
+            self._bend(self.model.initial_pose, self._first_animation(), 0.0, 0.0)
 
     def take_over(self, animation: str) -> None:
         """From now on a plugin moves the model and sets :attr:`script_time`, until a reset."""
