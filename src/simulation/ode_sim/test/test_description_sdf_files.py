@@ -116,6 +116,14 @@ def test_the_newest_supported_file_of_a_model_config_is_taken(models, finder):
 
 # ---------------------------------------------------------------------------------------------- state, population
 
+def test_what_had_fallen_out_of_a_saved_world_is_left_out_alone(finder):
+    w, problems = world("""<model name="cup"><link name="l"/></model><model name="can"><link name="l"/></model><state world_name="w">
+        <model name="cup"><link name="l"><pose>4.5e7 0 -2e8 0 0 0</pose></link></model>
+        <model name="can"><pose>1 0 0 0 0 0</pose></model></state>""", finder)
+    assert w.state.deletions == ("cup",) and [(m.name, m.pose.p) for m in w.state.models] == [("can", (1.0, 0.0, 0.0))]
+    assert "it has fallen out of this world; model 'cup' is left out" in text(problems)
+
+
 def test_state_of_a_saved_world(finder):
     w, _ = world("""<model name="m"><link name="l"/></model><state world_name="w"><sim_time>12 500000000</sim_time>
         <iterations>12500</iterations>

@@ -188,14 +188,6 @@ class SdfReader(SdfActors):
         if element is None:
             return None
 
-        def link_states(model: ET.Element, scope: str) -> Iterator[LinkState]:
-            for link in model.findall("link"):
-                velocity = self.vector(link, "velocity", (0.0,) * 6, most=FARTHEST)
-                yield LinkState(scope + (link.get("name") or ""), self.pose(link.find("pose")),
-                                velocity[:3], velocity[3:])
-            for sub in model.findall("model"):
-                yield from link_states(sub, f"{scope}{sub.get('name')}::")
-
         time = element.find("sim_time")
         given = text_of(time).split(None, 2) or ["0"]
         try:
@@ -205,12 +197,28 @@ class SdfReader(SdfActors):
         if not 0.0 <= sim_time <= _LONGEST_TIME:
             self.warn(time, f"'{quoted(text_of(time))}' is no time; starting from 0")
             sim_time = 0.0
+        models, lost = [], []
+        for model in element.findall("model"):
+            try:
+                models.append(self._model_state(model))
+            except DescriptionError as error:
+                lost.append(model.get("name") or "")
+                self.warn(error.source, f"{error.message}: it has fallen out of this world; model '{quoted(lost[-1])}' is left out")
         return WorldState(
-            sim_time=sim_time, iterations=self.whole(element, "iterations", 0, 0, 2 ** 62),
-            models=tuple(ModelState(
-                model.get("name") or "", self.pose(model.find("pose")) if model.find("pose") is not None else None,
-                self.vector(model, "scale", (1.0, 1.0, 1.0)), tuple(link_states(model, "")))
-                for model in element.findall("model")),
+            sim_time=sim_time, iterations=self.whole(element, "iterations", 0, 0, 2 ** 62), models=tuple(models),
             light_poses=tuple((light.get("name") or "", self.pose(light.find("pose")))
                               for light in element.findall("light") if light.find("pose") is not None),
-            deletions=tuple(text_of(name) for name in element.findall("deletions/name")))
+            deletions=(*(text_of(name) for name in element.findall("deletions/name")), *lost))
+
+    def _model_state(self, model: ET.Element) -> ModelState:
+        """:raises DescriptionError: it is farther away than anything can be"""
+        pose = model.find("pose")
+        return ModelState(model.get("name") or "", self.pose(pose) if pose is not None else None,
+                          self.vector(model, "scale", (1.0, 1.0, 1.0)), tuple(self._link_states(model, "")))
+
+    def _link_states(self, model: ET.Element, scope: str) -> Iterator[LinkState]:
+        for link in model.findall("link"):
+            velocity = self.vector(link, "velocity", (0.0,) * 6, most=FARTHEST)
+            yield LinkState(scope + (link.get("name") or ""), self.pose(link.find("pose")), velocity[:3], velocity[3:])
+        for sub in model.findall("model"):
+            yield from self._link_states(sub, f"{scope}{sub.get('name')}::")
