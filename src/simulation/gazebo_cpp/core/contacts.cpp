@@ -38,6 +38,20 @@ ignition::math::AxisAlignedBox Collision::BoundingBox() const
 
 Vector3d Collision::WorldLinearVel() const { return ign(core_->link->velocity_at((core_->link->X_WL * core_->X_LC).p)); }
 Vector3d Collision::WorldAngularVel() const { return ign(core_->link->w); }
+
+void Collision::SetInitialRelativePose(const Pose3d& pose)
+{
+  Entity::SetInitialRelativePose(pose);
+  ode_sim::World* const core = core_ ? world_of(core_->link->model) : nullptr;
+  if (!core || pose == ign(core_->X_LC))
+    return;
+  change(GetScopedName(), [&] {
+    core_->X_LC = ode_sim::normalized(ode_sim::checked(ode(pose), "a pose", ode_sim::kFarthestPart));
+    core_->link->model->dirty = true;
+    core->refresh();
+  });
+}
+
 LinkPtr Collision::GetLink() const { return boost::dynamic_pointer_cast<Link>(GetParent()); }
 ModelPtr Collision::GetModel() const
 {
@@ -64,6 +78,19 @@ void FrictionPyramid::SetMuPrimary(double mu) { core_->surface.mu = mu >= 0 ? st
 void FrictionPyramid::SetMuSecondary(double mu) { core_->surface.mu2 = mu >= 0 ? std::min(mu, ode_sim::kRoughest) : 0; }
 
 // -- shapes -------------------------------------------------------------------------------------------------------------------------
+
+void BoxShape::SetSize(const Vector3d& size)
+{
+  const auto core = collision_->Core();
+  change(collision_->GetScopedName(), [&] {
+    const ode_sim::OdeScope scope;
+    for (double side : { size.X(), size.Y(), size.Z() })
+      ode_sim::checked_size(side, "a side of a box");
+    if (core && core->geom)
+      dGeomBoxSetLengths(core->geom, size.X(), size.Y(), size.Z());
+    size_ = size;
+  });
+}
 
 Shape::Shape(CollisionPtr parent, EntityType type) : Base(parent)
 {

@@ -16,6 +16,17 @@ using ignition::math::Vector3d;
 Link::Link(EntityPtr parent) : Entity(parent), inertial(new Inertial) { AddType(LINK); }
 Link::~Link() = default;
 
+void Link::Init()
+{
+  const auto actor = boost::dynamic_pointer_cast<Actor>(GetModel());
+  if (!actor)
+    return;
+  for (const CollisionPtr& collision : collisions_)
+    if (!boost::dynamic_pointer_cast<MeshShape>(collision->GetShape()))  // the skin is what rays see
+      collision->SetCollideBits(GZ_ALL_COLLIDE & 0xFFFF);
+  actor->LetCollide();
+}
+
 bool Link::IsStatic() const { return core_->model->is_static; }
 
 const Pose3d& Link::WorldPose() const { return worldPose = ign(core_->X_WL); }

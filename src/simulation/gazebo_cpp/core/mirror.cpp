@@ -234,7 +234,10 @@ void Mirror::addJoint(Model& model, const JointRecord& record)
 
 void Mirror::Add(const ModelRecord& record)
 {
-  const ModelPtr model(new Model(BasePtr()));
+  const boost::shared_ptr<Actor> actor(record.actor ? new Actor(BasePtr()) : nullptr);
+  const ModelPtr model = actor ? ModelPtr(actor) : ModelPtr(new Model(BasePtr()));
+  for (const auto& [name, length] : record.animations)
+    actor->animations_.emplace(name, new common::SkeletonAnimation(name, length));
   model->SetWorld(world_);
   model->SetName(record.name);
   model->text_ = record.text;
@@ -257,6 +260,11 @@ void Mirror::Add(const ModelRecord& record)
   const WorldLock::Without unlocked;
   event::Events::addEntity(record.name);
   topics_->TellOf(*model);
+}
+
+ActorPtr Mirror::FindActor(const std::string& name) const
+{
+  return boost::dynamic_pointer_cast<Actor>(world_ ? world_->ModelByName(name) : ModelPtr());
 }
 
 void Mirror::Remove(const std::string& name)

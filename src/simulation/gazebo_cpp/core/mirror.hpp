@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gazebo/common/common.hh>
@@ -46,6 +47,8 @@ struct ModelRecord
   ode_sim::Pose X_WM;
   std::vector<LinkRecord> links;
   std::vector<JointRecord> joints;
+  bool actor = false;
+  std::vector<std::pair<std::string, double>> animations;  // of an actor: names and lengths, s
 };
 
 /// What the simulator alone can do. May be called in any thread; it is done between two steps.
@@ -103,6 +106,7 @@ public:
   Topics* GetTopics() const { return topics_; }
   void Add(const ModelRecord& record);
   void Remove(const std::string& name);
+  ActorPtr FindActor(const std::string& name) const;
   void SetPaused(bool paused);
   void WasReset(bool time);
   void before(int64_t time_ns) override;

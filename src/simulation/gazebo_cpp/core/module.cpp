@@ -1,6 +1,8 @@
 // The bridge to Python: the server starts the mirror of its world, tells it of models, and loads plugins.
 #include <dlfcn.h>
 
+#include <optional>
+
 #include <gazebo/gazebo.hh>
 #include <gazebo/sensors/PictureSensor.hh>
 #include <gazebo/sensors/SensorManager.hh>
@@ -29,6 +31,7 @@ using Numbers = std::vector<double>;
 using CollisionTuple = std::tuple<std::string, int, std::string, Numbers, std::string, double>;
 using LinkTuple = std::tuple<std::string, int, std::vector<CollisionTuple>, std::vector<std::string>>;
 using JointTuple = std::tuple<std::string, std::string, int>;
+using Animations = std::vector<std::pair<std::string, double>>;
 
 /// Python loads its modules so that no other library sees what they bring; plugins that were linked carelessly find Gazebo here.
 void show_to_all()
@@ -59,10 +62,10 @@ void start(std::uintptr_t core, const std::string& name, const std::string& text
 }
 
 void add_model(const std::string& name, const std::string& text, int id, const Numbers& X, const std::vector<LinkTuple>& links,
-               const std::vector<JointTuple>& joints)
+               const std::vector<JointTuple>& joints, const std::optional<Animations>& animations)
 {
   const ode_sim::Pose X_WM{ { X.at(0), X.at(1), X.at(2) }, { X.at(3), X.at(4), X.at(5), X.at(6) } };
-  gazebo::physics::ModelRecord model{ name, text, id, X_WM, {}, {} };
+  gazebo::physics::ModelRecord model{ name, text, id, X_WM, {}, {}, animations.has_value(), animations.value_or(Animations()) };
   for (const auto& [link_name, link_id, collisions, sensors] : links)
   {
     model.links.push_back({ link_name, link_id, {}, sensors });
@@ -72,6 +75,23 @@ void add_model(const std::string& name, const std::string& text, int id, const N
   for (const auto& [joint, type, joint_id] : joints)
     model.joints.push_back({ joint, type, joint_id });
   Mirror::Get().Add(model);
+}
+
+/// What plugins want of an actor: animation in place of its script or None, script time, whether it plays, since when, whether it collides.
+std::tuple<std::optional<std::string>, double, bool, int64_t, bool> actor_wanted(const std::string& name)
+{
+  const gazebo::physics::ActorPtr actor = Mirror::Get().FindActor(name);
+  if (!actor)
+    throw std::runtime_error("there is no actor '" + name + "' in the mirror");
+  const auto wanted = actor->Wanted();
+  return { wanted.custom ? std::optional<std::string>(wanted.type) : std::nullopt, wanted.script_time, wanted.active,
+           wanted.started_ns, wanted.collides };
+}
+
+void actor_plays(const std::string& name, double script_time, bool active, int64_t started_ns, bool anew)
+{
+  if (const gazebo::physics::ActorPtr actor = Mirror::Get().FindActor(name))
+    actor->Plays({ false, "", script_time, active, started_ns, false }, anew);
 }
 
 void set_host(std::function<void(std::string, Numbers)> insert, std::function<void(std::string)> remove,
@@ -196,7 +216,10 @@ PYBIND11_MODULE(_core, m)
       .def("__exit__", [](WorldLock&, const py::args&) { WorldLock::Give(); });
   m.def("set_reporter", &gazebo::internal::SetReporter);
   m.def("set_verbose", [](bool on) { gazebo::common::Console::SetQuiet(!on); });
-  m.def("add_model", &add_model, Free());
+  m.def("add_model", &add_model, py::arg("name"), py::arg("text"), py::arg("id"), py::arg("pose"), py::arg("links"),
+        py::arg("joints"), py::arg("animations") = std::nullopt, Free());
+  m.def("actor_wanted", &actor_wanted, Free());
+  m.def("actor_plays", &actor_plays, Free());
   m.def(
       "remove_model", [](const std::string& name) { Mirror::Get().Remove(name); }, Free());
   m.def(

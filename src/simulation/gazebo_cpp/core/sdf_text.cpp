@@ -29,11 +29,14 @@ sdf::ElementPtr child(const std::string& text, const std::string& tag, const std
   return sdf::ElementPtr();
 }
 
+constexpr const char* kAnyModel = "<sdf version='1.6'><model name='any'><link name='link'/></model></sdf>";
+
 }  // namespace
 
 sdf::ElementPtr model_element(const std::string& text, const std::string& name)
 {
-  const auto found = child(text, "model", "<sdf version='1.6'><model name='any'><link name='link'/></model></sdf>");
+  const sdf::ElementPtr root = text.find("<actor") == std::string::npos ? sdf::ElementPtr() : read(text);
+  const auto found = root && root->HasElement("actor") ? root->GetElement("actor") : child(text, "model", kAnyModel);
   if (found)
     found->GetAttribute("name")->SetFromString(name);
   return found;

@@ -14,7 +14,7 @@ from std_srvs.srv import Empty
 from test_support.hearing import heard
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from simulator import Case  # noqa: E402
+from simulator import Case, pose  # noqa: E402
 
 URDF = """<robot name="arm"><link name="world"/><link name="base"><inertial><mass value="1"/>
 <inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>
@@ -25,6 +25,15 @@ URDF = """<robot name="arm"><link name="world"/><link name="base"><inertial><mas
 <gazebo><plugin name="worker" filename="libgazebo_ros_test_{library}.so">{more}</plugin></gazebo></robot>"""
 BOX = """<sdf version="1.6"><model name="box"><pose>5 0 50 0 0 0</pose><link name="tip"><inertial><mass>2</mass></inertial></link>
 <plugin name="worker" filename="gazebo_ros_test_worker"><force>0 6 0</force></plugin></model></sdf>"""
+
+ACTOR = """<sdf version="1.6"><actor name="walker"><skin><filename>walk.dae</filename></skin>
+<animation name="walking"><filename>walk.dae</filename><interpolate_x>true</interpolate_x></animation>
+<script><trajectory id="0" type="walking"><waypoint><time>0</time><pose>9 9 0 0 0 0</pose></waypoint>
+<waypoint><time>9</time><pose>0 9 0 0 0 0</pose></waypoint></trajectory></script>
+<plugin name="walker" filename="libgazebo_ros_test_walker.so">{more}</plugin></actor></sdf>"""
+CRATE = """<sdf version="1.6"><model name="crate"><pose>1 0 0.5 0 0 0</pose><link name="l"><inertial><mass>5</mass></inertial>
+<collision name="c"><geometry><box><size>0.2 1 1</size></box></geometry>
+<surface><friction><ode><mu>0.3</mu><mu2>0.3</mu2></ode></friction></surface></collision></link></model></sdf>"""
 
 
 @unittest.skipUnless(importlib.util.find_spec("gazebo_cpp._core"), "this system lacks what Gazebo's headers need")
@@ -94,6 +103,32 @@ class CompiledTest(Case):
         for _ in range(5):
             self.sim.step(1)
             self.assertAlmostEqual(self.sim.joint("elbow").rate[0], 0.5, delta=1e-6)
+
+    def test_model_plugin_walks_an_actor_through_what_it_meets(self):
+        self.done(self.sim.spawn("walker", ACTOR.format(more=""), pose(z=1.2)))
+        self.done(self.sim.spawn("crate", CRATE))
+        self.sim.step(500)
+        at = self.sim.model("walker").pose
+        self.near((at.position.x, at.position.y, at.position.z), (0.4, 0.0, 1.2), 6)  # not where the script would have it
+        knees = [self.sim.link(f"walker::{side}Leg").link_state.pose.position for side in ("Left", "Right")]
+        self.assertGreater(abs(knees[0].x - knees[1].x) + abs(knees[0].z - knees[1].z), 0.05)
+        self.sim.step(1500)
+        self.near([self.sim.model("crate").pose.position.x], [1.0], 3)
+        self.sim.empty("reset_simulation")
+        self.sim.step(250)
+        self.near([self.sim.model("walker").pose.position.x], [0.2], 3)
+
+    def test_an_actor_that_its_plugin_lets_collide_pushes(self):
+        self.done(self.sim.spawn("walker", ACTOR.format(more="<thick>6</thick>"), pose(z=1.0)))
+        self.done(self.sim.spawn("crate", CRATE))
+        self.sim.step(2000)
+        walked = self.sim.model("walker").pose.position.x
+        self.assertAlmostEqual(walked, 1.6, delta=1e-6)
+        self.assertTrue(walked < self.sim.model("crate").pose.position.x < 5.0, self.sim.model("crate").pose.position)
+
+    def test_a_plugin_of_an_actor_on_a_model_is_one_line(self):
+        self.spawn_arm(library="walker")
+        self.logged("plugin worker", "of model arm", "its Load() threw this is no actor")
 
     def test_private_parameters_are_those_of_the_simulator(self):
         rospy.set_param("/gazebo/worker_effort", 0.5)

@@ -216,8 +216,11 @@ class Bridge:
         links = [(link.name, link.core.id, [_collision(c) for c in link.collisions.values()],
                   [sensor.name for sensor in link.description.sensors]) for link in model.links.values()]
         joints = [(joint.name, joint.description.type, joint.core.id) for joint in model.joints.values()]
-        pose = model.initial_pose
-        _core.add_model(model.name, sdf_writer.model_text(model.description), model.core.id, (*pose.p, *pose.q), links, joints)
+        pose, actor = model.initial_pose, model.world.actors.get(model.name)
+        _core.add_model(model.name, sdf_writer.model_text(model.description), model.core.id, (*pose.p, *pose.q), links, joints,
+                        None if actor is None else list(actor.lengths.items()))
+        if actor is not None:
+            actor.direct(Director(model.name))
 
     @staticmethod
     def _went_back(world) -> None:
@@ -281,6 +284,20 @@ class Bridge:
         physics = self._server.world.physics
         whole = isinstance(getattr(physics, name), int)
         self._later(lambda: setattr(physics, name, int(value) if whole else value), f"{name} = {value:g}")
+
+
+class Director:
+    """Plugins in C++ direct an actor: the simulator asks what they want and tells what it plays."""
+
+    def __init__(self, name: str):
+        self._name = name
+
+    def wanted(self) -> Tuple[Optional[str], float, bool, int, bool]:
+        """Animation in place of the script, script time s, whether it plays, since when ns, whether it collides."""
+        return _core.actor_wanted(self._name)
+
+    def plays(self, script_time: float, active: bool, started_ns: int, anew: bool) -> None:
+        _core.actor_plays(self._name, script_time, active, started_ns, anew)
 
 
 def _collision(handle) -> Tuple[str, int, str, List[float], str, float]:

@@ -14,6 +14,7 @@ class GAZEBO_VISIBLE Collision : public Entity
 public:
   explicit Collision(LinkPtr link);
   const ignition::math::Pose3d& WorldPose() const override;
+  void SetInitialRelativePose(const ignition::math::Pose3d& pose);  // and there it is
   ignition::math::AxisAlignedBox BoundingBox() const override;
   ignition::math::Vector3d WorldLinearVel() const override;
   ignition::math::Vector3d WorldAngularVel() const override;

@@ -23,6 +23,7 @@ class GAZEBO_VISIBLE Link : public Entity
 public:
   explicit Link(EntityPtr parent);
   ~Link() override;
+  void Init() override;  // of an actor: its collisions touch others from then on
   bool IsStatic() const override;
   const ignition::math::Pose3d& WorldPose() const override;
   virtual void SetEnabled(bool enable) const;

@@ -57,6 +57,8 @@ GZ_PHYSICS(PolylineShape)
 GZ_PHYSICS(SphereShape)
 #undef GZ_PHYSICS
 class ContactManager;
+class TrajectoryInfo;
+typedef std::shared_ptr<TrajectoryInfo> TrajectoryInfoPtr;
 class JointWrench;
 class ModelState;
 class LinkState;

@@ -13,7 +13,7 @@ namespace gazebo
 namespace physics
 {
 
-/// The geometry of a collision, as it was described. Only rays can be changed.
+/// The geometry of a collision, as it was described. Rays and boxes can be changed.
 class GAZEBO_VISIBLE Shape : public Base
 {
 public:
@@ -26,11 +26,18 @@ public:
 class GAZEBO_VISIBLE BoxShape : public Shape
 {
 public:
-  BoxShape(CollisionPtr parent, const ignition::math::Vector3d& size) : Shape(parent, BOX_SHAPE), size_(size) {}
+  BoxShape(CollisionPtr parent, const ignition::math::Vector3d& size)
+    : Shape(parent, BOX_SHAPE)
+    , collision_(parent.get())
+    , size_(size)
+  {
+  }
   ignition::math::Vector3d Size() const { return size_; }
+  void SetSize(const ignition::math::Vector3d& size);
   double ComputeVolume() const override { return size_.X() * size_.Y() * size_.Z(); }
 
 private:
+  Collision* collision_;  // which has it
   ignition::math::Vector3d size_;
 };
 

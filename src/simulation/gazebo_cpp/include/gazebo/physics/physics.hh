@@ -1,5 +1,6 @@
 #pragma once
 #include <gazebo/gazebo_config.h>
+#include <gazebo/physics/Actor.hh>
 #include <gazebo/physics/Base.hh>
 #include <gazebo/physics/Collision.hh>
 #include <gazebo/physics/Contact.hh>
