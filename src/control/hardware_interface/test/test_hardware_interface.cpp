@@ -1,6 +1,8 @@
 // Handles, interfaces, claims, and robots made of others, in C++.
 #include <gtest/gtest.h>
 
+#include <type_traits>
+
 #include <hardware_interface/actuator_command_interface.h>
 #include <hardware_interface/force_torque_sensor_interface.h>
 #include <hardware_interface/imu_sensor_interface.h>
@@ -167,6 +169,18 @@ TEST(Interfaces, TheSecondOfANameReplacesTheFirst)
 class Gripper : public HardwareInterface
 {
 };
+
+TEST(Interfaces, SayWhatTheyHold)
+{
+  struct Derived : EffortJointInterface
+  {
+    void registerHandle(const ResourceHandleType& handle) { EffortJointInterface::registerHandle(handle); }
+  } interface;
+  Numbers numbers;
+  interface.registerHandle(numbers.joint("j"));
+  EXPECT_TRUE((std::is_same<JointHandle, EffortJointInterface::ResourceHandleType>::value));
+  EXPECT_EQ("j", interface.getHandle("j").getName());
+}
 
 TEST(Robots, OfferInterfacesByType)
 {

@@ -26,6 +26,9 @@ template <class ResourceHandle, class ClaimPolicy = DontClaimResources>
 class HardwareResourceManager : public HardwareInterface, public ResourceManager<ResourceHandle>
 {
 public:
+  /// Tells a template, and a class derived from an interface, what the interface holds.
+  typedef ResourceHandle ResourceHandleType;
+
   /// A copy of the handle, claimed as the policy says. \throws HardwareInterfaceException there is none of that name.
   ResourceHandle getHandle(const std::string& name)
   {
