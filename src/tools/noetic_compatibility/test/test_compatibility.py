@@ -160,6 +160,26 @@ def test_old_sources_build(package, standard):
     assert "global namespace is deprecated" not in ended.stdout + ended.stderr
 
 
+@pytest.mark.parametrize("header", ["tree", "chain", "kinfam_io", "joint", "chainiksolverpos_lma"])
+def test_kdl_calls_a_fixed_joint_as_noetics_does(program, tmp_path, header):
+    program("roscpp kdl_parser", f"""
+        #include <kdl/{header}.hpp>
+        #include <kdl_parser/kdl_parser.hpp>
+        #include <iostream>
+        int main() {{
+          KDL::Chain chain;
+          chain.addSegment(KDL::Segment());
+          chain.addSegment(KDL::Segment(KDL::Joint("j", KDL::Joint::RotZ)));
+          chain.addSegment(KDL::Segment(KDL::Joint(KDL::Joint::None)));
+          for (const auto& segment : chain.segments)
+            std::cout << segment.getJoint().getTypeName() << " ";
+          std::cout << chain.getNrOfJoints();
+        }}
+        """, "${catkin_LIBRARIES} orocos-kdl")
+    ended = subprocess.run([next((tmp_path / "build").rglob("program"))], capture_output=True, text=True, timeout=20)
+    assert ended.stdout == "None RotZ None 1", ended.stdout + ended.stderr
+
+
 @pytest.mark.parametrize("minimum, before, after", [
     ("3.0.2", "add_compile_options(-std=c++11)", ""), ("3.22", "add_compile_options(-std=c++11)", ""),
     ("3.0.2", "add_definitions(-DX -std=c++11)", ""), ("3.22", "add_definitions(-std=c++11)", ""),

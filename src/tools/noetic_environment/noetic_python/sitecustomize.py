@@ -1,4 +1,4 @@
-"""Names that the Python of Noetic (Ubuntu 20.04: Python 3.8, NumPy 1.17, PyYAML 5.3, Matplotlib 3.1) has and Debian's has dropped.
+"""Names that the Python of Noetic (Ubuntu 20.04: Python 3.8, NumPy 1.17, PyYAML 5.3, Matplotlib 3.1, KDL 1.4) has and Debian's has dropped.
 
 Python imports this when it starts in a shell that is sourced. Nothing is imported here: what is missing is put into a module
 when a program imports that module, and a name that is there stays as it is.
@@ -94,8 +94,18 @@ def _pyplot(module):
     module.gca = lambda **kwargs: module.gcf().gca(**kwargs)
 
 
+def _pykdl(module):
+    """Debian's KDL, 1.5, calls the type of a joint that does not move "Fixed"; Noetic's, 1.4, "None"."""
+    new_name = module.Joint.getTypeName
+
+    def getTypeName(self):
+        name = new_name(self)
+        return "None" if name == "Fixed" else name
+    module.Joint.getTypeName = getTypeName
+
+
 MISSING = {"collections": _collections, "fractions": _fractions, "threading": _threading, "base64": _base64, "inspect": _inspect,
-           "numpy": _numpy, "yaml": _yaml, "matplotlib.figure": _figure, "matplotlib.pyplot": _pyplot}
+           "numpy": _numpy, "yaml": _yaml, "PyKDL": _pykdl, "matplotlib.figure": _figure, "matplotlib.pyplot": _pyplot}
 
 
 def _complete(name, module):

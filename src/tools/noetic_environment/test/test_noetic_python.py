@@ -20,6 +20,8 @@ SCRIPTS = {
     "import threading; print(threading.current_thread().isAlive())": "True",
     "import base64; print(base64.decodestring(base64.encodestring(b'ab')))": "b'ab'",
     "import inspect; print(inspect.getargspec(lambda a, b=1, *c: 0).args)": "['a', 'b']",
+    "import PyKDL; print(PyKDL.Joint().getTypeName(), PyKDL.Joint('j', PyKDL.Joint.RotZ).getTypeName(),"
+    " PyKDL.Segment(PyKDL.Joint(PyKDL.Joint.Fixed)).getJoint().getTypeName())": "None RotZ None",
     "import matplotlib; matplotlib.use('Agg'); import matplotlib.pyplot as plt; f = plt.figure(); a = f.gca(projection='3d');"
     "print(a.name, plt.gca() is a, f.gca(projection='3d') is a, plt.figure().gca().name)": "3d True True rectilinear",
 }
