@@ -4,18 +4,20 @@ from __future__ import annotations
 import hashlib
 import json
 from dataclasses import dataclass, field, replace
-from typing import Callable, Dict, Iterable, List, Optional, Tuple, Union
+from typing import TYPE_CHECKING, Callable, Dict, Iterable, List, Optional, Tuple, Union
 
 import numpy as np
 
 from ode_sim import _core
-from ode_sim.actors.puppet import Puppet
 from ode_sim.builder import Builder
 from ode_sim.core_numbers import flat, unit_pose
 from ode_sim.description import model as d
 from ode_sim.handles import Attachment, CollisionHandle, JointHandle, LinkHandle, ModelHandle
 from ode_sim.math3 import compose
 from ode_sim.physics import PhysicsSettings, check_gravity, check_physics, usable_physics
+
+if TYPE_CHECKING:
+    from ode_sim.actors.puppet import Puppet
 
 Entity = Union[ModelHandle, LinkHandle, CollisionHandle]
 _MOST_STEPS = 1_000_000  # in one call into the core
@@ -182,6 +184,8 @@ class World:
             raise d.DescriptionError(f"model '{name}' cannot be simulated: {error}") from error
         self.models[name] = handle
         if model.actor is not None:
+            from ode_sim.actors.puppet import Puppet  # here: few worlds have actors, and all would wait for it
+
             self.actors[name] = Puppet(handle, self.time_ns)
             builder.problems += [d.Problem("warning", f"actor '{name}': {line}", model.source) for line in self.actors[name].problems]
         for link in handle.links.values():
