@@ -64,3 +64,10 @@ def test_the_feet_of_who_walks_hardly_slide():
             found.append(link.pose.p[0] if flat and low < 0.01 else None)
     slides = [abs(b - a) for found in on_ground.values() for a, b in zip(found, found[1:]) if a is not None and b is not None]
     assert len(slides) > 30 and max(slides) < 0.012
+
+
+def test_who_is_played_by_a_plugin_stands_where_it_was_put_until_then():
+    text = walker("walk.dae").replace("<skin>", "<pose>3 4 1.02 0 0 0</pose><plugin name='x' filename='libx.so'/><skin>")
+    model = World.load(text, finder=FINDER).models["p"]
+    low, high = _extent(model)
+    assert model.pose.p == (3.0, 4.0, 1.02) and abs(low) < 0.05 and high > 1.6

@@ -23,6 +23,7 @@ class Rig:
         self.parents = [bone.parent for bone in skeleton.bones]
         self._size = size
         self._rest = np.column_stack([skeleton.rest[:, :3, 3], quaternions.from_matrices(skeleton.rest[:, :3, :3])])
+        self.stands = tuple(self._rest[0, 3:].tolist())  # rotation of the root, as the skin was bound
 
     def bend(self, animation: Optional[Tuple[Animation, ActorAnimation]], time: float) -> np.ndarray:
         """(N, 7) x y z qx qy qz qw of each bone in its parent; at rest without an animation."""
@@ -104,7 +105,7 @@ class Puppet:
         if self.active and not self.model.description.plugins:
             self._play(0, 0.0)
         else:
-            self._bend(self.model.initial_pose, self._first_animation(), 0.0, 0.0)
+            self._bend(self.model.initial_pose, self._first_animation(), 0.0, 0.0, waits=True)
 
     def take_over(self, animation: str) -> None:
         """From now on a plugin moves the model and sets :attr:`script_time`, until a reset."""
@@ -218,10 +219,12 @@ class Puppet:
                 return time
         return moment.time
 
-    def _bend(self, root: Pose, found: Optional[Tuple[Animation, ActorAnimation]], time: float, seconds: float) -> None:
+    def _bend(self, root: Pose, found: Optional[Tuple[Animation, ActorAnimation]], time: float, seconds: float,
+              waits: bool = False) -> None:
+        """:param waits: nobody plays it yet, and it stands as its skin was bound; those who play turn the whole of it."""
         poses = self._fixed.copy()
         if self._rig is not None:
             poses[self._rows] = self._rig.bend(found, time)[self._bones]
-            poses[self._rows[0]] = _NOWHERE  # the root is the model's frame
+            poses[self._rows[0]] = (0.0, 0.0, 0.0, *self._rig.stands) if waits else _NOWHERE  # the root is the model's frame
         poses[0] = (*root.p, *root.q)
         self.model.core.lead(poses, self._parents, seconds)
