@@ -75,7 +75,8 @@ class Wanderer(ModelPlugin):
         """At least 2 m from here and from all that stands in the room."""
         random = self._world.rng(f"actor {self._model.name}")
         for _ in range(_TRIES):
-            target = (*(float(random.uniform(low, high)) for low, high in _ROOM), self._target[2])
+            x, y = (float(random.uniform(low, high)) for low, high in _ROOM)
+            target = x, y, self._target[2]
             near = [self._target] + [model.pose.p for model in self._world.models.values()]
             if all(math.dist(target, place) >= 2.0 for place in near):
                 return target

@@ -11,6 +11,7 @@ from ode_sim.actors.collada_tree import ColladaTree, Element, child, children, t
 from ode_sim.actors.quaternions import from_matrices, slerp
 from ode_sim.actors.skeleton import Bone, Skeleton, matrices_of, read_skeleton, told_in_one_line
 from ode_sim.description.model import DescriptionError
+from ode_sim.math3 import Quat
 from ode_sim.mesh import file_stamp
 
 _MOST_NUMBERS = 5_000_000  # frames times bones
@@ -28,7 +29,7 @@ class Animation:
     positions: np.ndarray
     rotations: np.ndarray
     moved: np.ndarray
-    root_turn: Optional[Tuple[float, ...]] = None  # x y z w, by which a path is turned: of BVH files, in which y is up
+    root_turn: Optional[Quat] = None  # x y z w, by which a path is turned: of BVH files, in which y is up
 
     @property
     def length(self) -> float:

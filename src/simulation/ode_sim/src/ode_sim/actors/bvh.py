@@ -1,6 +1,7 @@
 """BVH files: motion capture as a text. Its bones point elsewhere than those of the skin; they are turned to it as Gazebo does."""
 from __future__ import annotations
 
+import math
 import os
 from typing import Dict, List, Optional, Tuple
 
@@ -10,6 +11,7 @@ from ode_sim.actors.animation import Animation
 from ode_sim.actors.quaternions import from_matrices, to_matrices
 from ode_sim.actors.skeleton import MOST_BONES, Bone, Skeleton, matrices_of
 from ode_sim.description.model import DescriptionError, quoted
+from ode_sim.math3 import Quat
 
 _MOST_BYTES = 64_000_000
 _MOST_NUMBERS = 5_000_000
@@ -124,7 +126,12 @@ def fitted(animation: Animation, skin: Skeleton) -> Animation:
     turns = to_matrices(animation.rotations)
     turns[:, 1:] = before[1:] @ turns[:, 1:] @ after[1:]
     return Animation(animation.skeleton, animation.times, positions, from_matrices(turns), animation.moved,
-                     root_turn=tuple(from_matrices(before[0]).tolist()))
+                     root_turn=_quat(before[0]))
+
+
+def _quat(turn: np.ndarray) -> Quat:
+    x, y, z, w = from_matrices(turn).tolist()
+    return x, y, z, w
 
 
 def _aligners(bvh: Skeleton, skin: Skeleton) -> Tuple[np.ndarray, np.ndarray]:
@@ -141,7 +148,7 @@ def _aligners(bvh: Skeleton, skin: Skeleton) -> Tuple[np.ndarray, np.ndarray]:
             continue
         child = bvh.children(index)[0]
         way, wanted = frames[child, :3, 3] - frames[index, :3, 3], skin_frames[child, :3, 3] - skin_frames[index, :3, 3]
-        size = np.linalg.norm(way) * np.linalg.norm(wanted)
+        size = float(np.linalg.norm(way) * np.linalg.norm(wanted))
         if size < 1e-12:
             continue
         turn = _between(way, wanted, size)
@@ -157,8 +164,8 @@ def _aligners(bvh: Skeleton, skin: Skeleton) -> Tuple[np.ndarray, np.ndarray]:
 def _between(way: np.ndarray, wanted: np.ndarray, size: float) -> np.ndarray:
     """(3, 3), by upstream's rule: the angle is never more than a right one."""
     axis = np.cross(way, wanted)
-    sine = np.linalg.norm(axis) / size
+    sine = float(np.linalg.norm(axis)) / size
     if sine < 1e-12:
         return np.eye(3)
-    angle = np.degrees(np.arcsin(min(sine, 1.0)))
+    angle = math.degrees(math.asin(min(sine, 1.0)))
     return matrices_of("rotate", np.array([[*axis, angle]]))[0, :3, :3]

@@ -89,6 +89,7 @@ class SdfActors(SdfModels):
         from ode_sim.actors.skin import load_pieces, piece_name
 
         skeleton, skin = load_skeleton(path), element.find("skin")
+        source = source_of(element if skin is None else skin)
         try:
             pieces = load_pieces(path, bent_by)
         except DescriptionError as error:
@@ -108,13 +109,13 @@ class SdfActors(SdfModels):
             if bone.name in pieces:
                 uri = text_of(skin.find("filename")) if skin is not None else path
                 mesh = Mesh(path, uri, (scale,) * 3, piece_name(bone.name, bent_by))
-                visuals = (Visual(f"{bone.name}_skin", Pose(), mesh, source=source_of(skin)),)
-                shapes.append(Collision(f"{bone.name}_skin", Pose(), mesh, _TOUCHES_NOTHING, source=source_of(skin)))
+                visuals = (Visual(f"{bone.name}_skin", Pose(), mesh, source=source),)
+                shapes.append(Collision(f"{bone.name}_skin", Pose(), mesh, _TOUCHES_NOTHING, source=source))
             for child in skeleton.children(index):
                 shapes += _bone_box(bone.name, skeleton.bones[child].name, frames[index], frames[child], turned[index],
                                     skeleton.rest[child, :3, 3] * scale)
             links.append(Link(bone.name, Pose(math3.scale(pose.p, scale), pose.q), _BONE, tuple(shapes), visuals, gravity=False,
-                              source=source_of(skin)))
+                              source=source))
         return links
 
     # ------------------------------------------------------------------ animations and script
@@ -136,15 +137,15 @@ class SdfActors(SdfModels):
                        self._scale(entry), self.boolean(entry, "interpolate_x", False)) for entry in written]
         found: Dict[str, ActorAnimation] = {}
         skeleton = load_skeleton(skin)
-        for entry, kind, path, scale, along in wanted:
+        for entry, called, path, scale, along in wanted:
             if not path:
                 continue
             try:
                 animation_for(path, skeleton)
-                found[kind] = ActorAnimation(kind, path, scale, along)
+                found[called] = ActorAnimation(called, path, scale, along)
             except DescriptionError as error:
                 if written:
-                    self.warn(entry, f"actor '{quoted(name)}' has no animation '{quoted(kind)}': {error}")
+                    self.warn(entry, f"actor '{quoted(name)}' has no animation '{quoted(called)}': {error}")
         return tuple(found.values())
 
     def _script(self, element: ET.Element) -> ActorScript:
