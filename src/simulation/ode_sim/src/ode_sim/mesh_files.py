@@ -5,7 +5,7 @@ import functools
 import os
 import struct
 from dataclasses import dataclass, replace
-from typing import Any, Dict, List, Optional, Tuple
+from typing import Any, Callable, Dict, List, Optional, Tuple
 
 import numpy as np
 
@@ -36,8 +36,8 @@ class MeshPart:
 @functools.lru_cache(maxsize=64)
 def read_parts(path: str, stamp, groups: bool = False) -> List[MeshPart]:
     """:param groups: the groups of an OBJ file are pieces of their own, for who asks for one of them; fewer are drawn quicker"""
-    readers = {".stl": _read_stl, ".stlb": _read_stl, ".stla": _read_stl, ".dae": _read_dae,
-               ".obj": functools.partial(_read_obj, groups=groups)}
+    readers: Dict[str, Callable[[str, bytes], List[MeshPart]]] = {
+        ".stl": _read_stl, ".stlb": _read_stl, ".stla": _read_stl, ".dae": _read_dae, ".obj": functools.partial(_read_obj, groups=groups)}
     suffix = os.path.splitext(path)[1].lower()
     if suffix not in readers:
         raise DescriptionError(f"mesh {path}: '{suffix}' files cannot be read; use .stl, .dae or .obj")

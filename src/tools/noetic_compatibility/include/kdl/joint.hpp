@@ -6,12 +6,12 @@
 
 // Before the class's own getTypeName(), which gets another name, comes this one. It is never a symbol, as the library has one of its
 // name that answers differently.
-#define getTypeName                                        \
-  __attribute__((always_inline)) getTypeName() const       \
-  {                                                        \
-    const std::string name = typeNameInDebian();           \
-    return name == "Fixed" ? std::string("None") : name;   \
-  }                                                        \
+#define getTypeName                                      \
+  __attribute__((always_inline)) getTypeName() const     \
+  {                                                      \
+    const std::string name = typeNameInDebian();         \
+    return name == "Fixed" ? std::string("None") : name; \
+  }                                                      \
   const std::string typeNameInDebian
 #include_next <kdl/joint.hpp>
 #undef getTypeName
