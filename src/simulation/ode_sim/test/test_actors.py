@@ -350,6 +350,14 @@ def test_what_was_let_collide_pushes(skin):
     run_to(w, 1.5)
     ball = w.models["ball"].pose.p
     assert ball[0] > place(w)[0] + 0.3 and ball[0] < 6.0
+    w.reset()
+    run_to(w, 0.9)  # just before they touch
+    kept = w.save()
+    w.step(300)
+    ahead = bytes(w.save())
+    w.restore(kept)
+    w.step(300)
+    assert bytes(w.save()) == ahead and w.models["ball"].pose.p[0] > 1.05
 
 
 def test_a_saved_world_has_the_actor_again(skin):
@@ -383,3 +391,10 @@ def test_a_camera_sees_it_walk(skin):
         assert len(red) > 4
         middles.append(red[:, 1].mean())
     assert middles[0] + 4 < middles[1] < middles[2] - 4  # to the right, along x
+
+
+def test_scales_that_lead_too_far_are_one_line(skin):
+    animation = f'<animation name="walk"><filename>{skin}</filename><scale>1e6</scale></animation>'
+    w = load(actor(skin, animation=animation, scale=1e6))
+    w.step(1000)
+    assert [line for line in w.messages if "walker" in line and "stays where it is" in line] == w.messages and len(w.messages) == 1

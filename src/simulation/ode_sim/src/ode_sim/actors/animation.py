@@ -9,7 +9,7 @@ import numpy as np
 
 from ode_sim.actors.collada_tree import ColladaTree, Element, child, children, tag
 from ode_sim.actors.quaternions import from_matrices, slerp
-from ode_sim.actors.skeleton import Bone, Skeleton, matrices_of, read_skeleton, told_in_one_line
+from ode_sim.actors.skeleton import FARTHEST_BONE, Bone, Skeleton, matrices_of, read_skeleton, told_in_one_line
 from ode_sim.description.model import DescriptionError
 from ode_sim.math3 import Quat
 from ode_sim.mesh import file_stamp
@@ -134,6 +134,8 @@ def assembled(tree, skeleton: Skeleton, moved: Dict[int, Tuple[np.ndarray, np.nd
         place = matrices[:, :3, 3]
         positions[:, index] = place[at] + part[:, None] * (place[after] - place[at])
         rotations[:, index] = slerp(own_rotations[at], own_rotations[after], part[:, None])
+    if not (np.abs(positions) <= FARTHEST_BONE).all() or not np.isfinite(rotations).all():
+        raise tree.fault(f"its animation moves a bone farther than {FARTHEST_BONE:g} m")
     flags = np.zeros(count, bool)
     flags[list(moved)] = True
     return Animation(skeleton, times, positions, rotations, flags)

@@ -9,7 +9,7 @@ import numpy as np
 
 from ode_sim.actors.animation import Animation
 from ode_sim.actors.quaternions import from_matrices, to_matrices
-from ode_sim.actors.skeleton import MOST_BONES, Bone, Skeleton, matrices_of
+from ode_sim.actors.skeleton import FARTHEST_BONE, MOST_BONES, Bone, Skeleton, matrices_of
 from ode_sim.description.model import DescriptionError, quoted
 from ode_sim.math3 import Quat
 
@@ -80,8 +80,8 @@ class _Reader:
         if not rows or not 0.0 < step < 1e3 or len(rows) * len(self.bones) > _MOST_NUMBERS:
             raise self.fault(f"has {len(rows)} usable frames at {step:g} s; that is nothing to play")
         values = np.array(rows, float)
-        if not np.isfinite(values).all():
-            raise self.fault("holds a number that is none")
+        if not (np.abs(values) <= FARTHEST_BONE).all() or not (np.abs(self.offsets) <= FARTHEST_BONE).all():
+            raise self.fault(f"holds a number that is none, or one beyond {FARTHEST_BONE:g}")
         return step, values
 
 

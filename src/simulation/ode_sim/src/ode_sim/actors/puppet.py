@@ -58,6 +58,7 @@ class Puppet:
         self.script_time = 0.0
         self.collides = False
         self._director: Any = None
+        self._refused = False
         self._links = list(model.links.values())
         self._bones: List[int] = []  # which bone each link is, of those that are one
         self._rows: List[int] = []  # and which link that is
@@ -227,4 +228,9 @@ class Puppet:
             poses[self._rows] = self._rig.bend(found, time)[self._bones]
             poses[self._rows[0]] = (0.0, 0.0, 0.0, *self._rig.stands) if waits else _NOWHERE  # the root is the model's frame
         poses[0] = (*root.p, *root.q)
-        self.model.core.lead(poses, self._parents, seconds)
+        try:
+            self.model.core.lead(poses, self._parents, seconds)
+        except ValueError as error:  # scales and waypoints, each of which may be, lead too far together
+            if not self._refused:
+                self.model.world.messages.append(f"actor '{self.model.name}' stays where it is: {error}")
+            self._refused = True

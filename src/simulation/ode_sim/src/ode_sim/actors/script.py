@@ -11,6 +11,7 @@ from ode_sim.math3 import norm, sub
 
 FRAME_RATE = 30  # Hz of sim time, Gazebo's
 _NANO = 1_000_000_000
+_MOST_SAMPLES = 50_000  # of a path, to measure its length
 
 
 class Path:
@@ -27,7 +28,8 @@ class Path:
         self._poses = poses
         self._positions = PositionSpline([pose.p for pose in poses], tension)
         self._rotations = RotationSpline([pose.q for pose in poses])
-        self._lengths = self._measure()
+        self._step = max(1.0 / FRAME_RATE, self.duration / _MOST_SAMPLES)  # s
+        self._lengths: List[float] = []  # ways walked until each, m; measured when somebody asks
 
     def pose(self, time: float) -> Pose:
         """In the world."""
@@ -44,8 +46,6 @@ class Path:
         return Pose(self._positions.at(after - 1, part), self._rotations.at(after - 1, part))
 
     def _measure(self) -> List[float]:
-        """Ways walked until each frame, m; at most a quarter of a million of them."""
-        self._step = max(1.0 / FRAME_RATE, self.duration / 250_000)
         lengths, at = [0.0], self._poses[0].p
         for number in range(1, int(self.duration / self._step) + 2):
             now = self.pose(number * self._step).p
@@ -55,6 +55,7 @@ class Path:
 
     def walked(self, time: float) -> float:
         """The way from the beginning until then, m."""
+        self._lengths = self._lengths or self._measure()
         frame = min(max(time, 0.0), self.duration) / self._step
         before = min(int(frame), len(self._lengths) - 2)
         return self._lengths[before] + (frame - before) * (self._lengths[before + 1] - self._lengths[before])

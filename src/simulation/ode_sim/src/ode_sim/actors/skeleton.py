@@ -12,6 +12,7 @@ from ode_sim.description.model import DescriptionError, one_line, quoted
 from ode_sim.mesh import file_stamp
 
 MOST_BONES = 500
+FARTHEST_BONE = 1e5  # m
 T = TypeVar("T")
 
 
@@ -103,7 +104,10 @@ def read_skeleton(tree: ColladaTree) -> Skeleton:
     skeleton = Skeleton(tree.path, tuple(bones), np.array([matrix_of(bone.transforms) for bone in bones]),
                         {})
     inverse_bind = _inverse_bind(tree, child(controller, "skin"), skeleton)
-    return Skeleton(tree.path, skeleton.bones, _at_bind(skeleton, inverse_bind, tree.unit), inverse_bind)
+    bound = Skeleton(tree.path, skeleton.bones, _at_bind(skeleton, inverse_bind, tree.unit), inverse_bind)
+    if not (np.abs(bound.rest) <= FARTHEST_BONE).all() or not (np.abs(bound.model_frames()) <= FARTHEST_BONE).all():
+        raise tree.fault(f"a bone of its skeleton lies farther than {FARTHEST_BONE:g} m from another one")
+    return bound
 
 
 def skin_of(tree: ColladaTree) -> Tuple[Element, Element]:
