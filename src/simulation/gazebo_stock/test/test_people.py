@@ -22,7 +22,7 @@ def test_files_are_what_their_script_writes(monkeypatch):
     spec.loader.exec_module(module)
     for name, text in module.files().items():
         assert (FOLDER / name).read_text() == text, "run media/models/make_people.py"
-    assert PEOPLE == sorted(module.files())
+    assert PEOPLE == sorted(name for name in module.files() if "/" not in name)
 
 
 def walker(name, waypoints="", along="true"):

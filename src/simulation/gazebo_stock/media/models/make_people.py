@@ -1,19 +1,24 @@
 #!/usr/bin/env python3
 """Writes the person that walks through worlds (walk.dae ...) as Collada files with a skin and an animation.
 
-The files are found under the names of Gazebo's. Run after a change: ``python3 make_people.py``.
+The files are found under the names of Gazebo's. The models person_standing and person_walking are the same person, still.
+Run after a change: ``python3 make_people.py``.
 """
 from pathlib import Path
 
 import numpy as np
 from person_body import COLOURS, bones, places, solids
-from person_gaits import animations
+from person_gaits import WALK, animations, standing, stride
 
 from ode_sim import math3
 
 HERE = Path(__file__).resolve().parent
 #: Axes of the bone Hips as Gazebo's files have them, which plugins that turn a person count on: x left, y up, z forward.
 ROOT = np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
+
+HEAD = ['<?xml version="1.0" encoding="utf-8"?>', '<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">',
+        '<asset><created>2024-01-01T00:00:00</created><modified>2024-01-01T00:00:00</modified>'
+        '<unit name="meter" meter="1"/><up_axis>Z_UP</up_axis></asset>']
 
 
 def text_of(rows, digits=4):
@@ -133,16 +138,66 @@ def scene():
             "</visual_scene></library_visual_scenes>", '<scene><instance_visual_scene url="#scene"/></scene>']
 
 
+def still(frame):
+    """The shape in the axes of the person, the hips over the origin, as a frame has it."""
+    local, world = local_poses(frame), {}
+    for name, parent, _ in bones():
+        world[name] = local[name] if parent is None else world[parent] @ local[name]
+    vertices, triangles = [], {}
+    for bone, colour, corners, faces in solids():
+        triangles.setdefault(colour, []).append(faces + sum(map(len, vertices)))
+        turn = world[bone] @ matrix(ROOT.T, np.zeros(3))
+        vertices.append(corners @ turn[:3, :3].T + turn[:3, 3])
+    points = np.concatenate(vertices)
+    points -= [frame.root[0], frame.root[1], points[:, 2].min()]
+    return points, {colour: np.concatenate(faces) for colour, faces in triangles.items()}
+
+
+def mesh_text(vertices, triangles):
+    bind = "".join(f'<instance_material symbol="{name}" target="#{name}"/>' for name in COLOURS)
+    return "\n".join([*HEAD, *shading(), *shape(vertices, triangles), '<library_visual_scenes><visual_scene id="scene" name="scene">',
+                      '<node id="person" name="person"><instance_geometry url="#body"><bind_material><technique_common>' + bind
+                      + "</technique_common></bind_material></instance_geometry></node></visual_scene></library_visual_scenes>",
+                      '<scene><instance_visual_scene url="#scene"/></scene></COLLADA>', ""])
+
+
+def model_text(name, mesh, y, foot, moments):
+    """As the model database has it: 80 kg on a flat foot, looking along -y."""
+    ixx, iyy, izz = moments
+    body = (f"<pose>0 {y} 0.005 0 0 -1.570796</pose><geometry><mesh><uri>model://{name}/meshes/{mesh}.dae</uri></mesh></geometry>")
+    return "\n".join([
+        '<?xml version="1.0"?>', '<sdf version="1.5">', f'  <model name="{name}">', '    <link name="link">',
+        f"      <inertial><pose>0 {y} 0.95 0 0 0</pose><mass>80</mass><inertia><ixx>{ixx}</ixx><ixy>0</ixy><ixz>0</ixz><iyy>{iyy}</iyy>"
+        f"<iyz>0</iyz><izz>{izz}</izz></inertia></inertial>",
+        f'      <collision name="bottom"><pose>0 {y} 0.01 0 0 0</pose><geometry><box><size>{foot}</size></box></geometry></collision>',
+        f'      <collision name="person">{body}</collision>', f'      <visual name="visual">{body}</visual>',
+        "    </link>", "  </model>", "</sdf>", ""])
+
+
+def still_models():
+    """The two of the model database, see :func:`files`."""
+    found = {}
+    for name, mesh, frame, y, foot, moments in (
+            ("person_standing", "standing", standing(0.4), -0.1, "0.5 0.35 0.02", (24.88, 25.73, 2.48)),
+            ("person_walking", "walking", stride(WALK, 0.04, 0.0), 0, "0.35 0.75 0.02", (27.82, 24.88, 4.57))):
+        folder = f"../../models/{name}/"
+        found[f"{folder}meshes/{mesh}.dae"] = mesh_text(*still(frame))
+        found[f"{folder}model.sdf"] = model_text(name, mesh, y, foot, moments)
+        found[f"{folder}model.config"] = "\n".join([
+            '<?xml version="1.0"?>', "<model>", f"  <name>{name.replace('_', ' ')}</name>", '  <sdf version="1.5">model.sdf</sdf>',
+            f"  <description>A person, {mesh}, that does not move.</description>", "</model>", ""])
+    return found
+
+
 def files():
-    """Name of each file in this directory -> its text."""
+    """Name of each file, seen from this directory -> its text."""
     vertices, owners, triangles = body()
-    head = ['<?xml version="1.0" encoding="utf-8"?>', '<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">',
-            '<asset><created>2024-01-01T00:00:00</created><modified>2024-01-01T00:00:00</modified>'
-            '<unit name="meter" meter="1"/><up_axis>Z_UP</up_axis></asset>']
-    common = head + shading() + shape(vertices, triangles) + skin(owners)
-    return {f"{name}.dae": "\n".join(common + animation(frames) + scene() + ["</COLLADA>", ""]) for name, frames in animations().items()}
+    common = HEAD + shading() + shape(vertices, triangles) + skin(owners)
+    people = {f"{name}.dae": "\n".join(common + animation(frames) + scene() + ["</COLLADA>", ""]) for name, frames in animations().items()}
+    return {**people, **still_models()}
 
 
 if __name__ == "__main__":
     for name, text in files().items():
+        (HERE / name).parent.mkdir(parents=True, exist_ok=True)
         (HERE / name).write_text(text)
