@@ -1,9 +1,12 @@
 // Base, Entity, Inertial.
+#include <gazebo/common/Animation.hh>
 #include <gazebo/physics/physics.hh>
 
 #include <algorithm>
 #include <atomic>
 #include <iostream>
+#include <map>
+#include <vector>
 
 #include "mirror.hpp"
 
@@ -139,6 +142,71 @@ void Entity::SetRelativePose(const ignition::math::Pose3d& pose, bool notify, bo
 void Entity::SetWorldPose(const ignition::math::Pose3d& pose, bool, bool)
 {
   change(GetScopedName(), [&] { place(pose); });
+}
+
+namespace
+{
+
+// Entities that move along an animation. Apart from them, so that what was built on the headers fits with and without it.
+struct Animated
+{
+  boost::weak_ptr<Base> entity;
+  common::PoseAnimationPtr animation;
+  boost::function<void()> on_complete;
+  common::Time until;
+};
+
+std::map<const Entity*, Animated>& animated()
+{
+  static auto* all = new std::map<const Entity*, Animated>;  // as long as the process: plugins may ask at its end
+  return *all;
+}
+
+void animate(Animated& one, const common::UpdateInfo& info)
+{
+  const BasePtr base = one.entity.lock();
+  one.animation->AddTime((info.simTime - one.until).Double());
+  one.until = info.simTime;
+  common::PoseKeyFrame now(0);
+  one.animation->GetInterpolatedKeyFrame(now);
+  boost::static_pointer_cast<Entity>(base)->SetWorldPose({ now.Translation(), now.Rotation() });
+}
+
+void animate_all(const common::UpdateInfo& info)
+{
+  const boost::recursive_mutex::scoped_lock lock(step_mutex());
+  std::vector<boost::function<void()>> ended;
+  for (auto at = animated().begin(); at != animated().end();)
+  {
+    Animated& one = at->second;
+    const bool gone = one.entity.expired();
+    if (!gone)
+      animate(one, info);
+    const bool done = gone || one.animation->GetTime() >= one.animation->GetLength();
+    if (done && !gone && one.on_complete)
+      ended.push_back(one.on_complete);
+    at = done ? animated().erase(at) : std::next(at);
+  }
+  for (const auto& each : ended)  // which may begin another one
+    each();
+}
+
+}  // namespace
+
+void Entity::SetAnimation(const common::PoseAnimationPtr& animation, boost::function<void()> on_complete)
+{
+  const boost::recursive_mutex::scoped_lock lock(step_mutex());
+  static auto* every_step = new event::ConnectionPtr(event::Events::ConnectWorldUpdateBegin(&animate_all));
+  (void)every_step;
+  animated().erase(this);
+  if (animation)
+    animated()[this] = { shared_from_this(), animation, on_complete, GetWorld() ? GetWorld()->SimTime() : common::Time() };
+}
+
+void Entity::StopAnimation()
+{
+  const boost::recursive_mutex::scoped_lock lock(step_mutex());
+  animated().erase(this);
 }
 
 ModelPtr Entity::GetParentModel()

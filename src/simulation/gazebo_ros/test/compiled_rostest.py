@@ -126,6 +126,15 @@ class CompiledTest(Case):
         self.assertAlmostEqual(walked, 1.6, delta=1e-6)
         self.assertTrue(walked < self.sim.model("crate").pose.position.x < 5.0, self.sim.model("crate").pose.position)
 
+    def test_model_plugin_moves_its_model_along_an_animation(self):
+        moved = CRATE.replace("</model>", '<static>1</static><plugin name="m" filename="gazebo_ros_test_mover"/></model>')
+        self.done(self.sim.spawn("crate", moved))
+        for steps, x, z in ((1000, 1.0, 1.0), (500, 1.5625, 1.0), (499, 1.9995, 1.0), (2, 2.0, 5.0), (500, 2.0, 5.0)):
+            self.sim.step(steps)
+            place = self.sim.model("crate").pose.position
+            self.assertAlmostEqual(place.x, x, delta=2e-3)
+            self.assertAlmostEqual(place.z, z, delta=1e-9)
+
     def test_a_plugin_of_an_actor_on_a_model_is_one_line(self):
         self.spawn_arm(library="walker")
         self.logged("plugin worker", "of model arm", "its Load() threw this is no actor")

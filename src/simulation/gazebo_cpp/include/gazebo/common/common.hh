@@ -1,4 +1,5 @@
 #pragma once
+#include <gazebo/common/Animation.hh>
 #include <gazebo/common/Assert.hh>
 #include <gazebo/common/CommonTypes.hh>
 #include <gazebo/common/Console.hh>
@@ -6,9 +7,11 @@
 #include <gazebo/common/Events.hh>
 #include <gazebo/common/Exception.hh>
 #include <gazebo/common/Image.hh>
+#include <gazebo/common/KeyFrame.hh>
 #include <gazebo/common/PID.hh>
 #include <gazebo/common/Plugin.hh>
 #include <gazebo/common/SingletonT.hh>
+#include <gazebo/common/SkeletonAnimation.hh>
 #include <gazebo/common/SphericalCoordinates.hh>
 #include <gazebo/common/SystemPaths.hh>
 #include <gazebo/common/Time.hh>

@@ -1,10 +1,12 @@
 #pragma once
 #include <string>
 
+#include <boost/function.hpp>
 #include <ignition/math/AxisAlignedBox.hh>
 #include <ignition/math/Pose3.hh>
 #include <ignition/math/Vector3.hh>
 
+#include <gazebo/common/CommonTypes.hh>
 #include <gazebo/msgs/msgs.hh>
 #include <gazebo/physics/Base.hh>
 
@@ -45,7 +47,10 @@ public:
   LinkPtr GetChildLink(const std::string& name);
   void GetNearestEntityBelow(double& distance, std::string& name);
   void PlaceOnNearestEntityBelow();
-  virtual void StopAnimation() {}
+  /// Moves it along from the next step on, until the animation ends; one that loops never does.
+  void SetAnimation(common::PoseAnimationPtr animation) { SetAnimation(animation, {}); }
+  void SetAnimation(const common::PoseAnimationPtr& animation, boost::function<void()> on_complete);
+  virtual void StopAnimation();
 
 protected:
   virtual void place(const ignition::math::Pose3d& X_WE) { worldPose = X_WE; }
