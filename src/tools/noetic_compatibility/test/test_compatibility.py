@@ -160,6 +160,22 @@ def test_old_sources_build(package, standard):
     assert "global namespace is deprecated" not in ended.stdout + ended.stderr
 
 
+@pytest.mark.parametrize("standard", ["14", "17", "20"])
+def test_elements_of_vectors_of_bool_are_swapped(package, standard):
+    """By std::swap, with its full name; libstdc++ 12 has it for calls without std:: only."""
+    ended = package("roscpp", """
+        #include <vector>
+        void f(std::vector<bool>& v, bool& b) {
+          std::swap(v[0], v.back());
+          std::swap(v[0], b);
+          std::swap(b, v[0]);
+          using std::swap;
+          swap(v[0], v[1]);
+        }
+        """, f"add_compile_options(-std=c++{standard})")
+    assert ended.returncode == 0, ended.stdout + ended.stderr
+
+
 @pytest.mark.parametrize("header", ["tree", "chain", "kinfam_io", "joint", "chainiksolverpos_lma"])
 def test_kdl_calls_a_fixed_joint_as_noetics_does(program, tmp_path, header):
     program("roscpp kdl_parser", f"""
