@@ -7,6 +7,7 @@ import pytest
 
 from ode_sim import World, math3
 from ode_sim.description import ResourceFinder
+from ode_sim.mesh import load as load_mesh
 
 STOCK = Path(__file__).resolve().parents[1]
 FOLDER = STOCK / "media/models"
@@ -45,9 +46,19 @@ def test_a_person_stands_on_its_feet_and_keeps_them_all_the_time(name):
     assert world.models["p"].pose.p[0] == pytest.approx(UP_TO.get(name, world.models["p"].pose.p[0]), abs=0.01)
 
 
+def _heights(link):
+    """Of each corner of the skin that hangs on this link."""
+    corners = load_mesh(link.collisions[f"{link.name}_skin"].description.geometry).vertices
+    return corners @ np.array(math3.quat_to_matrix(link.pose.q))[2] + link.pose.p[2]
+
+
 def _extent(model):
-    boxes = [shape.bounding_box() for link in model.links.values() for name, shape in link.collisions.items() if name.endswith("_skin")]
-    return min(low[2] for low, _ in boxes), max(high[2] for _, high in boxes)
+    heights = np.concatenate([_heights(link) for link in model.links.values() if f"{link.name}_skin" in link.collisions])
+    return heights.min(), heights.max()
+
+
+#: In the axes of a foot's bone, which lies along its y and points down to the toes: where the sole points.
+TOES = (0.0, 0.96, -0.28)
 
 
 def test_the_feet_of_who_walks_hardly_slide():
@@ -59,8 +70,8 @@ def test_the_feet_of_who_walks_hardly_slide():
         world.step(34)
         for foot, found in on_ground.items():
             link = world.models["p"].links[foot]
-            low = link.collisions[foot + "_skin"].bounding_box()[0][2]
-            flat = abs(math3.rotate(link.pose, (0.0, 0.0, 1.0))[2]) < 0.02  # the bone's z axis is forward
+            low = _heights(link).min()
+            flat = abs(math3.rotate(link.pose, TOES)[2]) < 0.02
             found.append(link.pose.p[0] if flat and low < 0.01 else None)
     slides = [abs(b - a) for found in on_ground.values() for a, b in zip(found, found[1:]) if a is not None and b is not None]
     assert len(slides) > 30 and max(slides) < 0.012
@@ -71,3 +82,13 @@ def test_who_is_played_by_a_plugin_stands_where_it_was_put_until_then():
     model = World.load(text, finder=FINDER).models["p"]
     low, high = _extent(model)
     assert model.pose.p == (3.0, 4.0, 1.02) and abs(low) < 0.05 and high > 1.6
+
+
+def test_bones_lie_along_their_y_as_those_of_gazebos_files():
+    """So a skin of those files is bent by our animations, and the other way round."""
+    links = World.load(walker("walk.dae"), finder=FINDER).models["p"].links
+    for bone, child in (("LeftUpLeg", "LeftLeg"), ("RightLeg", "RightFoot"), ("LeftArm", "LeftForeArm"), ("RightForeArm", "RightHand"),
+                        ("Spine", "Spine1")):
+        along = np.subtract(links[child].pose.p, links[bone].pose.p)
+        y_axis = math3.rotate(links[bone].pose, (0.0, 1.0, 0.0))
+        assert np.dot(along, y_axis) / np.linalg.norm(along) > 0.99, bone

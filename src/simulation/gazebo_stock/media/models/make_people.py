@@ -13,8 +13,31 @@ from person_gaits import WALK, animations, standing, stride
 from ode_sim import math3
 
 HERE = Path(__file__).resolve().parent
-#: Axes of the bone Hips as Gazebo's files have them, which plugins that turn a person count on: x left, y up, z forward.
-ROOT = np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
+_LEFT = (0, 1, 0)
+#: Bone -> its x and its y axis at rest, in the axes of the person, as Gazebo's files have them: most bones lie along their y. Skins and
+#: animations of those files fit ours by that, and plugins that turn a person count on those of the hips.
+BONE_AXES = {
+    "Hips": (_LEFT, (0, 0, 1)), "LHipJoint": ((-.66, -.41, -.64), (.30, .64, -.71)), "RHipJoint": ((.68, -.39, .62), (.30, -.62, -.73)),
+    "LowerBack": (_LEFT, (.2, 0, .98)), "Spine": (_LEFT, (0, 0, 1)), "Spine1": (_LEFT, (0, 0, 1)), "Neck": (_LEFT, (.13, 0, .99)),
+    "Neck1": (_LEFT, (-.15, 0, .99)), "Head": (_LEFT, (-.06, 0, 1)),
+    "LeftShoulder": ((.15, .26, -.95), (-.20, .95, .23)), "RightShoulder": ((-.10, .34, .94), (-.14, -.94, .32))}
+for _side, _sign in (("Left", 1), ("Right", -1)):
+    BONE_AXES.update({f"{_side}{part}": ((0, -1, 0), (0, 0, -1)) for part in ("UpLeg", "Leg")})
+    BONE_AXES.update({f"{_side}Foot": (_LEFT, (.96, 0, -.28)), f"{_side}ToeBase": (_LEFT, (1, 0, 0))})
+    # Arms hang at rest; Gazebo's files have them stretched out to the sides.
+    BONE_AXES.update({f"{_side}{part}": ((0, -1, 0), (0, 0, -1)) for part in ("Arm", "ForeArm", "Hand", "FingerBase", "HandIndex1")})
+    BONE_AXES[f"{_side[0]}Thumb"] = ((-.5 * _sign, -.71, -.5), (.71, 0, -.71))
+
+
+def _axes(x, y):
+    """Columns x, y, z; y is kept, x made square to it."""
+    y = np.array(y, float) / np.linalg.norm(y)
+    x = np.array(x, float) - np.dot(x, y) * y
+    x /= np.linalg.norm(x)
+    return np.column_stack([x, y, np.cross(x, y)])
+
+
+AXES = {name: _axes(*pair) for name, pair in BONE_AXES.items()}
 
 HEAD = ['<?xml version="1.0" encoding="utf-8"?>', '<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">',
         '<asset><created>2024-01-01T00:00:00</created><modified>2024-01-01T00:00:00</modified>'
@@ -42,9 +65,7 @@ def matrix(turn, place):
 
 
 def turned(roll, pitch, yaw):
-    """In the axes of the bones, all of which are those of the hips."""
-    person = np.array(math3.quat_to_matrix(math3.quat_from_rpy(roll, pitch, yaw)))
-    return ROOT.T @ person @ ROOT
+    return np.array(math3.quat_to_matrix(math3.quat_from_rpy(roll, pitch, yaw)))
 
 
 def local_poses(frame=None):
@@ -53,10 +74,10 @@ def local_poses(frame=None):
     for name, parent, place in bones():
         angles = frame.turns.get(name, (0.0, 0.0, 0.0)) if frame else (0.0, 0.0, 0.0)
         if parent is None:
-            facing = np.array(math3.quat_to_matrix(math3.quat_from_rpy(0.0, 0.0, frame.facing))) if frame else np.eye(3)
-            found[name] = matrix(facing @ ROOT, frame.root if frame else place)
+            facing = turned(0.0, 0.0, frame.facing) if frame else np.eye(3)
+            found[name] = matrix(facing @ AXES[name], frame.root if frame else place)
         else:
-            found[name] = matrix(turned(*angles), ROOT.T @ np.array(place, float))
+            found[name] = matrix(AXES[parent].T @ turned(*angles) @ AXES[name], AXES[parent].T @ np.array(place, float))
     return found
 
 
@@ -91,7 +112,7 @@ def shape(vertices, triangles):
 def skin(owners):
     names = [name for name, _, _ in bones()]
     at = places()
-    inverse = [np.linalg.inv(matrix(ROOT, at[name])) for name in names]
+    inverse = [np.linalg.inv(matrix(AXES[name], at[name])) for name in names]
     return ['<library_controllers><controller id="person-skin"><skin source="#body">',
             f'<bind_shape_matrix>{text_of(np.eye(4))}</bind_shape_matrix>',
             source("skin-joints", names, 1, "Name"), source("skin-bind", inverse, 16), source("skin-weights", [1.0], 1),
@@ -146,7 +167,7 @@ def still(frame):
     vertices, triangles = [], {}
     for bone, colour, corners, faces in solids():
         triangles.setdefault(colour, []).append(faces + sum(map(len, vertices)))
-        turn = world[bone] @ matrix(ROOT.T, np.zeros(3))
+        turn = world[bone] @ matrix(AXES[bone].T, np.zeros(3))
         vertices.append(corners @ turn[:3, :3].T + turn[:3, 3])
     points = np.concatenate(vertices)
     points -= [frame.root[0], frame.root[1], points[:, 2].min()]

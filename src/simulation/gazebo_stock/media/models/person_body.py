@@ -21,7 +21,7 @@ COLOURS = {"skin": SKIN, "hair": HAIR, "shirt": SHIRT, "trousers": TROUSERS, "sh
 
 
 def bones():
-    """(name, parent, place in the parent's axes at rest) of each, parents first; all axes are those of the person."""
+    """(name, parent, place seen from the parent, at rest and in the axes of the person) of each, parents first."""
     found = [("Hips", None, (0, 0, 0))]
     for side, y in (("Left", 1), ("Right", -1)):
         found += [(f"{side[0]}HipJoint", "Hips", (0, 0, 0)), (f"{side}UpLeg", f"{side[0]}HipJoint", (0, 0.09 * y, -HIP)),
