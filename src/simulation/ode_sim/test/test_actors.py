@@ -15,6 +15,7 @@ from ode_sim.description import ResourceFinder, read_model
 from ode_sim.description.model import ActorScript, DescriptionError, Pose, Trajectory, Waypoint
 from ode_sim.description.sdf_writer import world_text
 from ode_sim.math3 import quat_from_rpy
+from ode_sim.mesh import load_surface, load_visual
 
 
 FINDER = ResourceFinder(environment=False, package_path=lambda name: None)
@@ -142,6 +143,21 @@ def test_bones_rest_and_move_as_the_file_says(tmp_path, unit):
     assert turns[1] == pytest.approx(quat_from_rpy(0.0, math.radians(22.5), 0.0))
     assert animation.pose_at(2.5)[0] == pytest.approx(places) and animation.length == 2.0
     assert animation.time_at(0.25) == pytest.approx(0.5) and animation.time_at(2.25) == pytest.approx(0.5)
+
+
+@pytest.mark.parametrize("unit", [1.0, 0.01])
+def test_a_skin_of_a_plain_mesh_is_there_as_it_was_bound(tmp_path, unit):
+    path = tmp_path / "person.dae"
+    shifted = rig(unit=unit).replace("1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1</bind", f"1 0 0 {3 / unit} 0 1 0 0 0 0 1 0 0 0 0 1</bind")
+    path.write_text(shifted)
+    parts = load_visual(str(path))
+    corners = np.concatenate([part.vertices for part in parts])
+    assert corners.min(axis=0) == pytest.approx([3.0, 0.0, 1.0]) and corners.max(axis=0) == pytest.approx([3.2, 0.2, 1.7])
+    assert {part.material.diffuse for part in parts} == {(1.0, 0.0, 0.0, 1.0)}
+    assert len(load_surface(str(path)).triangles) == len(load_surface(str(path), submesh="it").triangles) == 8
+    path.write_text(shifted.replace('url="#skin-of-it"', 'url="#nothing"'))
+    with pytest.raises(DescriptionError, match="person.dae: holds no triangles"):
+        load_surface(str(path))
 
 
 def test_a_skin_is_cut_into_one_piece_for_each_bone_in_its_frame(skin):

@@ -28,7 +28,7 @@ def read_dae(path: str, data: bytes) -> List[MeshPart]:
     :raises DescriptionError: one line that names the file. A broken file may raise anything else.
     """
     check_document(path, data)
-    scene = document(data)
+    scene = document(_without_bones(data))
     unit = float(scene.assetInfo.unitmeter or 1.0)
     if scene.scene is None:
         raise DescriptionError(f"mesh {path}: the Collada file has no visual scene")
@@ -51,6 +51,35 @@ def _placed(nodes, matrix=None, name: str = "") -> Iterator[Tuple[str, Any]]:
             yield from _placed(node.children, inner, getattr(node, "node", node).xmlnode.get("name") or name)
         else:
             yield from ((name, geometry) for geometry in node.objects("geometry", matrix))
+
+
+def _without_bones(data: bytes) -> bytes:
+    """The same file with each shape that has a skin in the pose in which it was bound, and nothing that moves it."""
+    if b"<library_controllers" not in data and b"<library_animations" not in data:
+        return data
+    root = ElementTree.fromstring(data)
+    skins = {controller.get("id"): skin for controller in root.iter() if _tag(controller) == "controller"
+             for skin in controller if _tag(skin) == "skin"}
+    for node in list(root.iter()):
+        for instance in [entry for entry in node if _tag(entry) == "instance_controller"]:
+            node.remove(instance)
+            skin = skins.get((instance.get("url") or "").lstrip("#"))
+            if skin is not None:
+                node.append(_bound(instance, skin))
+    for library in [entry for entry in root if _tag(entry) in ("library_controllers", "library_animations", "library_animation_clips")]:
+        root.remove(library)
+    return ElementTree.tostring(root)
+
+
+def _bound(instance: ElementTree.Element, skin: ElementTree.Element) -> ElementTree.Element:
+    """A node with the shape below the skin."""
+    namespace = instance.tag[:-len("instance_controller")]
+    place = ElementTree.Element(namespace + "node")
+    for matrix in (entry for entry in skin if _tag(entry) == "bind_shape_matrix"):
+        ElementTree.SubElement(place, namespace + "matrix").text = matrix.text
+    shape = ElementTree.SubElement(place, namespace + "instance_geometry", url="#" + (skin.get("source") or "").lstrip("#"))
+    shape.extend(entry for entry in instance if _tag(entry) == "bind_material")
+    return place
 
 
 def document(data: bytes):
