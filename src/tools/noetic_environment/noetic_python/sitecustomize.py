@@ -78,8 +78,11 @@ def _yaml(module):
 
 
 def _figure(module):
+    from functools import wraps  # pyplot asks the function of which class it is
+
     new_gca = module.Figure.gca
 
+    @wraps(new_gca)
     def gca(self, **kwargs):
         """The current axes; with arguments (``projection="3d"``) those of that kind, made if the current ones are others."""
         if not kwargs:

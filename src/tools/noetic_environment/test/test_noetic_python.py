@@ -24,6 +24,7 @@ SCRIPTS = {
     " PyKDL.Segment(PyKDL.Joint(PyKDL.Joint.Fixed)).getJoint().getTypeName())": "None RotZ None",
     "import matplotlib; matplotlib.use('Agg'); import matplotlib.pyplot as plt; f = plt.figure(); a = f.gca(projection='3d');"
     "print(a.name, plt.gca() is a, f.gca(projection='3d') is a, plt.figure().gca().name)": "3d True True rectilinear",
+    "from matplotlib.figure import Figure; print(Figure.gca.__qualname__)": "FigureBase.gca",  # pyplot of Debian 13 asks for it
 }
 
 
