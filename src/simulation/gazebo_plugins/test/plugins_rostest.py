@@ -88,6 +88,8 @@ class Plugins(PluginWorld):
             self.assertTrue(3 < np.count_nonzero(nearer) < 90, np.count_nonzero(nearer))
             distance = math.hypot(at.x - LASER[0], at.y - LASER[1])
             self.assertAlmostEqual(seen[nearer].min(), distance, delta=0.5)
+        self.step(1.0)
+        at = self.pose("person").position
         self.assertGreater(at.x, started + 0.5)
         self.assertAlmostEqual(at.y, -1.0, delta=0.05)
         self.assertAlmostEqual(at.z, 1.0, delta=0.05)  # the hips
