@@ -85,7 +85,8 @@ ROOTS = {"ode_sim": "SimulationError", "hardware_interface": "ControlError", "no
          "launch_gallery": "GalleryError", "rviz_offscreen": "OffscreenError", "rosmon_core": "RosmonError",
          "arbotix_python": "ArbotiXException", "srdfdom": "ParseError", "qt_dotgraph": "LayoutError", "turtlesim": "WorldError",
          "moveit_setup_assistant": "AssistantError", "laser_filters": "FilterError", "topic_tools": "ExpressionError",
-         "robot_localization": "FrameMissing", "turtle_actionlib": "PolygonError", "xacro": "PackageNotFoundError"}
+         "robot_localization": "FrameMissing", "turtle_actionlib": "PolygonError", "xacro": "PackageNotFoundError",
+         "web_video_server": "VideoError"}
 
 
 @pytest.mark.parametrize("package", sorted(PACKAGES))

@@ -7,11 +7,11 @@ import cv2
 import cv_bridge
 import numpy as np
 
-from web_video_server.request import Request
+from web_video_server.request import Request, VideoError
 
 
-class NoPicture(ValueError):
-    """A message that cannot be shown; one sentence."""
+class NoPicture(VideoError):
+    """A message that cannot be shown."""
 
 
 def encoded(message: Any, request: Request) -> bytes:

@@ -13,8 +13,12 @@ FILMS = ("vp8", "vp9", "h264")
 LARGEST = 8192  # pixels along a side that an address may ask for
 
 
-class BadRequest(ValueError):
-    """One sentence for who asked."""
+class VideoError(ValueError):
+    """One sentence."""
+
+
+class BadRequest(VideoError):
+    """For who asked."""
 
 
 @dataclass(frozen=True)
