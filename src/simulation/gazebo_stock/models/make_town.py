@@ -1,4 +1,4 @@
-"""Models of a town: trees, posts, cars and buildings, all static.
+"""Models of a town: trees, posts, cars and buildings, which are static, and a tote, a pallet and a truss, which are not.
 
 Their extents are those of the Gazebo model database, so that worlds that place them side by side look as they were meant to; what they
 are composed of is our own. Cars stand along x with the front at +x, ambulances, buses and fire trucks along y with the front at -y.
