@@ -1,5 +1,7 @@
 """Actors: where the script has them at what time, what of them is in the world, and what broken files do."""
+import json
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -286,6 +288,19 @@ def test_boxes_move_as_their_actor_without_any_skin():
              f'</collision></link><script>{WALK}</script></actor>')
     run_to(w, 2.0)
     assert place(w, "box") == pytest.approx([2.0, 2.0, 0.0], abs=0.05)
+
+
+def test_a_snapshot_whose_actors_are_damaged_changes_nothing(skin):
+    w = load(actor(skin))
+    early = w.save()
+    run_to(w, 1.0)
+    now = bytes(w.save())
+    for damaged in ('[]', '[[1, 2]]', '[["x", true, 0, null, 0.0, false]]', '[null]'):
+        kept = json.loads(early.generators)
+        kept["actors"] = json.loads(damaged)
+        with pytest.raises(ValueError, match="its random numbers or actors are damaged"):
+            w.restore(replace(early, generators=json.dumps(kept).encode()))
+        assert bytes(w.save()) == now, damaged
 
 
 def test_the_same_bits_in_every_run_after_a_reset_and_after_going_back(skin):

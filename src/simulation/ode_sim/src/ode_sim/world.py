@@ -350,14 +350,15 @@ class World:
                              f"the world has {', '.join(self.models) or 'none'}")
         try:
             saved = json.loads(snapshot.generators)
-            seed, generators, actors = int(saved["seed"]), {}, saved["actors"]
-            if len(actors) != len(self.actors):
+            seed, generators = int(saved["seed"]), {}
+            if len(saved["actors"]) != len(self.actors):
                 raise ValueError("it is of other actors")
+            actors = [actor.read_state(state) for actor, state in zip(self.actors.values(), saved["actors"])]
             for stream, state in saved["streams"]:
                 generators[stream] = np.random.Generator(np.random.PCG64())
                 generators[stream].bit_generator.state = state
         except (ValueError, TypeError, KeyError) as error:
-            raise ValueError(f"the snapshot cannot be restored: its random numbers are damaged ({error})") from None
+            raise ValueError(f"the snapshot cannot be restored: its random numbers or actors are damaged ({error})") from None
         self.core.restore(snapshot.state, snapshot.welds)
         self._seed, self._generators = seed, generators
         for actor, state in zip(self.actors.values(), actors):

@@ -147,11 +147,17 @@ class Puppet:
         """For snapshots; numbers and texts."""
         return [self.started_ns, self.active, self._frame, self.custom, self.script_time, self.collides]
 
-    def set_state(self, state: List[Any]) -> None:
+    @staticmethod
+    def read_state(state: List[Any]) -> Tuple[int, bool, int, Optional[str], float, bool]:
+        """What :meth:`state` gave, for :meth:`set_state`.
+
+        :raises ValueError, TypeError: it is damaged
+        """
         started, active, frame, custom, script_time, collides = state
-        self.started_ns, self.active, self._frame = int(started), bool(active), int(frame)
-        self.custom = None if custom is None else str(custom)
-        self.script_time, self.collides = float(script_time), bool(collides)
+        return int(started), bool(active), int(frame), None if custom is None else str(custom), float(script_time), bool(collides)
+
+    def set_state(self, state: Tuple[int, bool, int, Optional[str], float, bool]) -> None:
+        self.started_ns, self.active, self._frame, self.custom, self.script_time, self.collides = state
         if self.custom is None:
             self._tell(anew=True)
 
