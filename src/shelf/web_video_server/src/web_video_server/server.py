@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import select
 import socket
+import sys
 import time
 from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
@@ -41,7 +42,10 @@ class Server(ThreadingHTTPServer):
         super().__init__((address, port), _Handler)
 
     def handle_error(self, _request: Any, _address: Any) -> None:
-        """A browser that has gone is no error, and any other was told where it was."""
+        """One line; a browser that has gone is no error."""
+        error = sys.exc_info()[1]
+        if not isinstance(error, OSError):
+            rospy.logerr("%s: %s", type(error).__name__, error)
 
 
 class _Handler(BaseHTTPRequestHandler):
@@ -75,7 +79,7 @@ class _Handler(BaseHTTPRequestHandler):
         self._page(viewer_page(requests.read(query, self.server.default_type).topic, query))
 
     def _snapshot(self, query: str) -> None:
-        """Of any type but PNG: a JPEG, as upstream."""
+        """A JPEG, as all of upstream's are, unless the address asks for another type."""
         asked = self._known(requests.read(query))
         until = time.monotonic() + _PATIENCE
         with self._listening(asked) as latest:
