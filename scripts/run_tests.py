@@ -6,6 +6,8 @@ in full, and kept with the rest in --logs.
 
 With --again up to five files that failed run once more, up to twice, one after the other, when all others have ended. What passes
 then counts as passed, but a line ``unsteady: ...`` says what had failed: a fault of the test or of what it tests, to be found.
+What takes long is marked as slow, a test of pytest by ``@pytest.mark.slow``, a file of rostest by the comment ``<!-- slow -->``. It is
+left out, unless packages are named, or --all or --since is given.
 With --since COMMIT only what a change since that commit can break is tested: the packages with a file that differs, what needs them,
 whose tests use any of these, and the scripts.
 With --coverage the lines of Python that were run are counted, in nodes as well; the pages are in out/coverage.
@@ -16,6 +18,7 @@ import argparse
 import os
 import queue
 import random
+import re
 import shutil
 import signal
 import socket
@@ -28,7 +31,7 @@ import xml.etree.ElementTree as ET
 from collections import deque
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Container, Iterator, List, Optional, Set
+from typing import Container, Dict, Iterator, List, Optional, Set, Tuple
 
 import changed_packages
 import coverage_of_tests
@@ -42,6 +45,8 @@ REASON = 200  # characters of the reason of a case, with --quiet
 SECOND_TRIES = 5  # files; if more have failed, it is no accident
 MOST_WORKERS = 3  # one more than two cores: rostests wait for wall time as well, and two workers leave a third of the cores idle
 AGAIN = 2  # times that each of them runs once more
+SLOW = "<!-- slow -->"  # in a file of rostest
+NONE_CHOSEN = 5  # pytest's exit code, if all tests of a folder are left out
 
 
 @dataclass
@@ -49,6 +54,7 @@ class Job:
     package: Path
     kind: str
     path: Path
+    slow: bool = True  # pytest: the slow tests too
 
     @property
     def name(self) -> str:
@@ -74,10 +80,11 @@ class Result:
     seconds: float
     output: str
     reasons: List[str] = field(default_factory=list)
+    left_out: int = 0
 
 
-def find_jobs(packages: Container[str], kind: str, scripts: bool) -> List[Job]:
-    """All test files of these packages, and those of scripts/ if asked for."""
+def find_jobs(packages: Container[str], kind: str, scripts: bool, slow: bool) -> List[Job]:
+    """All test files of these packages, and those of scripts/ if asked for; with or without what is slow."""
     jobs: List[Job] = []
     for manifest in sorted([*(ROOT / "src").rglob("package.xml"), *(ROOT / "docs").rglob("package.xml")]):
         package = manifest.parent
@@ -87,11 +94,11 @@ def find_jobs(packages: Container[str], kind: str, scripts: bool) -> List[Job]:
         if not test.is_dir():
             continue
         if kind in ("rostest", "all"):
-            jobs += [Job(package, "rostest", path) for path in sorted(test.rglob("*.test"))]
+            jobs += [Job(package, "rostest", path) for path in sorted(test.rglob("*.test")) if slow or SLOW not in path.read_text()]
         if kind in ("pytest", "all") and any(test.rglob("test_*.py")):
-            jobs.append(Job(package, "pytest", test))
+            jobs.append(Job(package, "pytest", test, slow))
     if scripts and kind in ("pytest", "all"):
-        jobs += [Job(ROOT, "pytest", path) for path in sorted((ROOT / "scripts").glob("test_*.py"))]
+        jobs += [Job(ROOT, "pytest", path, slow) for path in sorted((ROOT / "scripts").glob("test_*.py"))]
     return sorted(jobs, key=lambda job: -job.files)  # what takes long first: at the end all have something to do
 
 
@@ -149,7 +156,7 @@ def run_all(jobs: List[Job], workers: int, scratch: Path) -> Iterator[Result]:
         yield results.get()
 
 
-def count(report: Path) -> tuple:
+def count(report: Path) -> Tuple[int, int, int]:
     """(passed, failed, skipped) from a JUnit file; a missing one counts as one failure."""
     try:
         root = ET.parse(report).getroot()
@@ -162,6 +169,23 @@ def count(report: Path) -> tuple:
         failed += int(suite.get("failures", 0)) + int(suite.get("errors", 0))
         skipped += int(suite.get("skipped", suite.get("skip", 0)) or 0)
     return total - failed - skipped, failed, skipped
+
+
+def counts(job: Job, home: Path) -> Tuple[int, int, int]:
+    """(passed, failed, skipped) from the reports that a job has left in its folder."""
+    if job.kind == "pytest":
+        return count(home / "report.xml")
+    # rosunit-*.xml hold the test cases; rostest-*.xml also knows of test nodes that died without a report.
+    results = home / "results"
+    cases = [count(report) for report in sorted(results.rglob("rosunit-*.xml"))]
+    nodes = [count(report) for report in sorted(results.rglob("rostest-*.xml"))] or [(0, 1, 0)]
+    return sum(c[0] for c in cases), max(sum(c[1] for c in cases), sum(n[1] for n in nodes)), sum(c[2] for c in cases)
+
+
+def left_out(output: str) -> int:
+    """How many tests pytest says that it left out."""
+    found = re.search(r"(\d+) deselected", output)
+    return int(found.group(1)) if found else 0
 
 
 def reasons(home: Path) -> Iterator[str]:
@@ -213,7 +237,7 @@ def _run_in(job: Job, scratch: Path, temporary: str) -> Result:
         environment["ROS_PACKAGE_PATH"] = f"{job.package}:{environment.get('ROS_PACKAGE_PATH', '')}"
     if job.kind == "pytest":
         command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "--durations=5", "--durations-min=2",
-                   f"--junitxml={home / 'report.xml'}", str(job.path)]
+                   f"--junitxml={home / 'report.xml'}", *([] if job.slow else ["-m", "not slow"]), str(job.path)]
     else:
         command = ["rostest", str(job.path)]
     start = time.monotonic()
@@ -231,23 +255,18 @@ def _run_in(job: Job, scratch: Path, temporary: str) -> Result:
             output, _ = process.communicate()
         output += f"\n{job.name}: stopped after {job.time_limit} s\n"
     seconds = time.monotonic() - start
-    if job.kind == "pytest":
-        passed, failed, skipped = count(home / "report.xml")
-    else:
-        # rosunit-*.xml hold the test cases; rostest-*.xml also knows of test nodes that died without a report.
-        results = home / "results"
-        cases = [count(report) for report in sorted(results.rglob("rosunit-*.xml"))]
-        nodes = [count(report) for report in sorted(results.rglob("rostest-*.xml"))] or [(0, 1, 0)]
-        passed, skipped = sum(c[0] for c in cases), sum(c[2] for c in cases)
-        failed = max(sum(c[1] for c in cases), sum(n[1] for n in nodes))
-    if process.returncode != 0 and failed == 0:
-        failed += 1
-        output += f"\n{job.name}: exit code {process.returncode}\n"
-    if passed + failed == 0:
-        failed += 1
-        output += f"\n{job.name}: no test ran\n"
+    aside = 0 if job.slow else left_out(output)
+    nothing_chosen = aside > 0 and process.returncode == NONE_CHOSEN
+    passed, failed, skipped = (0, 0, 0) if nothing_chosen else counts(job, home)
+    if not nothing_chosen:
+        if process.returncode != 0 and failed == 0:
+            failed += 1
+            output += f"\n{job.name}: exit code {process.returncode}\n"
+        if passed + failed == 0:
+            failed += 1
+            output += f"\n{job.name}: no test ran\n"
     (scratch / (job.name.replace("/", "__") + ".log")).write_text(output)
-    return Result(job, passed, failed, skipped, seconds, output, list(reasons(home)) if failed else [])
+    return Result(job, passed, failed, skipped, seconds, output, list(reasons(home)) if failed else [], aside)
 
 
 def faults(result: Result) -> List[str]:
@@ -267,9 +286,25 @@ def tell(result: Result, quiet: bool) -> None:
         print("\n".join(f"     {reason}" for reason in result.reasons), result.output, sep="\n", flush=True)
 
 
-def main() -> int:
+def second_tries(results: Dict[Path, Result], scratch: Path, quiet: bool) -> List[str]:
+    """Runs the few files that failed again and puts what comes of it into ``results``; one line for each case that was unsteady."""
+    unsteady: List[str] = []
+    broken = [result for result in results.values() if result.failed]
+    for first in broken if len(broken) <= SECOND_TRIES else []:
+        for _ in range(AGAIN):
+            print(f"once more: {first.job.name}", flush=True)
+            another = results[first.job.path] = run(first.job, scratch)
+            tell(another, quiet)
+            if not another.failed:
+                unsteady += faults(first)
+                break
+    return unsteady
+
+
+def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("packages", nargs="*", help="only these packages")
+    parser.add_argument("--all", action="store_true", help="what is marked as slow too")
     parser.add_argument("--since", metavar="COMMIT", help="only what a change since this commit can break, uncommitted files included")
     parser.add_argument("-k", "--kind", choices=["all", "pytest", "rostest"], default="all")
     parser.add_argument("-j", "--jobs", type=int, default=min(MOST_WORKERS, (os.cpu_count() or 1) + 1))
@@ -277,6 +312,11 @@ def main() -> int:
     parser.add_argument("--quiet", action="store_true", help="tell only what fails")
     parser.add_argument("--coverage", action="store_true", help="count the lines of Python that are run; pages in out/coverage")
     parser.add_argument("--logs", default=None, help="keep all output in this folder")
+    return parser
+
+
+def main() -> int:
+    parser = _parser()
     options = parser.parse_args()
     scratch = Path(options.logs or tempfile.mkdtemp(prefix="noetic_labs_test_")).resolve()
     scratch.mkdir(parents=True, exist_ok=True)
@@ -284,7 +324,8 @@ def main() -> int:
         packages = chosen(options.packages, options.since)
     except (UnknownPackage, changed_packages.UnknownCommit) as error:
         parser.error(str(error))
-    jobs = find_jobs(packages, options.kind, scripts=not options.packages)
+    slow = bool(options.all or options.packages or options.since)
+    jobs = find_jobs(packages, options.kind, scripts=not options.packages, slow=slow)
     if options.since:
         print(f"since {options.since}: {len(packages)} packages can be broken, {len(jobs)} files of tests", flush=True)
     if not jobs:
@@ -296,21 +337,11 @@ def main() -> int:
         coverage_of_tests.install()
         os.environ.update(coverage_of_tests.environment(scratch / "coverage"))
     start = time.monotonic()
-    results = {}
+    results: Dict[Path, Result] = {}
     for result in run_all(jobs, options.jobs, scratch):
         results[result.job.path] = result
         tell(result, options.quiet)
-    unsteady: List[str] = []
-    broken = [result for result in results.values() if result.failed]
-    if options.again and len(broken) <= SECOND_TRIES:
-        for first in broken:
-            for _ in range(AGAIN):
-                print(f"once more: {first.job.name}", flush=True)
-                another = results[first.job.path] = run(first.job, scratch)
-                tell(another, options.quiet)
-                if not another.failed:
-                    unsteady += faults(first)
-                    break
+    unsteady = second_tries(results, scratch, options.quiet) if options.again else []
     if options.quiet:
         for result in results.values():
             if result.failed:
@@ -321,6 +352,10 @@ def main() -> int:
     passed, failed, skipped = (sum(getattr(result, kind) for result in results.values()) for kind in ("passed", "failed", "skipped"))
     if not failed and not unsteady and not options.logs:
         shutil.rmtree(scratch, ignore_errors=True)
+    if not slow:
+        files = len(find_jobs(packages, options.kind, scripts=True, slow=True)) - len(jobs)
+        tests = sum(result.left_out for result in results.values())
+        print(f"left out as slow: {files} files of rostest and {tests} tests of pytest; --all runs them too")
     print("".join(f"unsteady: {fault}\n" for fault in unsteady), end="")
     print("".join(f"failed: {fault}\n" for result in results.values() if result.failed for fault in faults(result)), end="")
     print(f"{passed} passed, {failed} failed, {skipped} skipped")

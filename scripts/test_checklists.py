@@ -17,6 +17,7 @@ def test_each_course_has_one():
     assert names() == ["arm", "mbot", "motor", "ur5"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", names("--quick"))
 def test_as_the_course_says(name):
     ended = subprocess.run([CHECKLISTS, "--setup", ROOT / "devel/setup.bash", name], capture_output=True, text=True)
@@ -32,6 +33,7 @@ def test_what_is_not_said_fails(tmp_path):
     assert ended.returncode == 1 and "silent.transcript:2: T1: 'two' was not said" in ended.stdout, ended.stdout
 
 
+@pytest.mark.slow
 def test_a_simulator_that_dies_is_told_at_once(tmp_path):
     transcript = tmp_path / "dead.transcript"
     transcript.write_text("T1& echo 'ImportError: no such symbol'; echo '[gazebo-2] process has died [pid 7]'; seq 5; sleep 500\n"

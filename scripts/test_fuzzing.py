@@ -143,6 +143,7 @@ def fuzz(*arguments, timeout=280):
     return process.returncode, output
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", sorted(SHORT))
 def test_a_short_run_finds_nothing(kind, tmp_path):
     code, output = fuzz("--kind", kind, "--cases", SHORT[kind], "--seed", 1, "--output", tmp_path, "--patience", 5)
@@ -150,6 +151,7 @@ def test_a_short_run_finds_nothing(kind, tmp_path):
     assert f"{kind}: {SHORT[kind]} cases in" in output
 
 
+@pytest.mark.slow
 def test_what_once_broke_something_breaks_nothing():
     files = sorted(path for path in CORPUS.iterdir() if not path.name.startswith("nodes_"))
     code, output = fuzz(*files)

@@ -19,7 +19,7 @@ def whole_run(monkeypatch, tmp_path, capsys):
             failed = tries[job.path.name].pop(0)
             return run_tests.Result(job, 2 - failed, failed, 0, 0.1, "output", [f"case: reason {failed}"] * failed)
 
-        monkeypatch.setattr(run_tests, "find_jobs", lambda packages, kind, scripts: jobs)
+        monkeypatch.setattr(run_tests, "find_jobs", lambda packages, kind, scripts, slow: jobs)
         monkeypatch.setattr(run_tests, "run", run_one)
         monkeypatch.setattr(sys, "argv", ["run_tests.py", *options])
         return run_tests.main(), capsys.readouterr().out.splitlines()
@@ -60,3 +60,58 @@ def test_quiet_tells_what_fails_alone(whole_run):
     assert not any(line.startswith("ok") for line in lines)
     assert lines.index("     case: reason 1") < lines.index("output")  # what failed first, then how
     assert lines[-1] == "3 passed, 1 failed, 0 skipped"
+
+
+FAST, SLOW = "<launch/>", "<launch>\n  <!-- slow -->\n</launch>"
+
+
+@pytest.fixture
+def package(monkeypatch, tmp_path):
+    """A workspace of one package with these tests: {name of a file: its text}."""
+    monkeypatch.setattr(run_tests, "ROOT", tmp_path)
+    (tmp_path / "src" / "box" / "test").mkdir(parents=True)
+    (tmp_path / "docs").mkdir()
+    (tmp_path / "src" / "box" / "package.xml").write_text("<package/>")
+
+    def write(files):
+        for name, text in files.items():
+            (tmp_path / "src" / "box" / "test" / name).write_text(text)
+    return write
+
+
+def test_slow_files_of_rostest_are_left_out(package):
+    package({"fast.test": FAST, "slow.test": SLOW})
+    for slow, names in ((False, ["fast.test"]), (True, ["fast.test", "slow.test"])):
+        assert sorted(job.path.name for job in run_tests.find_jobs({"box"}, "all", scripts=False, slow=slow)) == names
+
+
+@pytest.mark.parametrize("slow, counts", [(False, (1, 1)), (True, (2, 0))])
+def test_slow_tests_of_pytest_are_left_out(package, tmp_path, slow, counts):
+    package({"test_a.py": "import pytest\ndef test_fast(): pass\n@pytest.mark.slow\ndef test_slow(): pass\n"})
+    job, = run_tests.find_jobs({"box"}, "all", scripts=False, slow=slow)
+    result = run_tests.run(job, tmp_path)
+    assert (result.passed, result.left_out) == counts and not result.failed, result.output
+
+
+@pytest.mark.parametrize("slow, text", [
+    (True, "import pytest\n"), (False, "import pytest\n"), (True, "syntax error"), (False, "syntax error")])
+def test_a_folder_without_tests_fails_if_they_are_not_left_out_but_missing(package, tmp_path, slow, text):
+    package({"test_a.py": text})
+    job, = run_tests.find_jobs({"box"}, "all", scripts=False, slow=slow)
+    assert run_tests.run(job, tmp_path).failed == 1
+
+
+def test_a_folder_of_slow_tests_does_not_fail(package, tmp_path):
+    package({"test_a.py": "import pytest\n@pytest.mark.slow\ndef test_slow(): pass\n"})
+    job, = run_tests.find_jobs({"box"}, "all", scripts=False, slow=False)
+    result = run_tests.run(job, tmp_path)
+    assert (result.passed, result.failed, result.left_out) == (0, 0, 1)
+
+
+@pytest.mark.parametrize("options, slow", [([], False), (["--all"], True), (["--since", "HEAD"], True), (["ode_sim"], True)])
+def test_who_asks_for_all_or_for_a_package_gets_what_is_slow(monkeypatch, options, slow):
+    asked = []
+    monkeypatch.setattr(run_tests, "find_jobs", lambda packages, kind, scripts, slow: asked.append(slow) or [])
+    monkeypatch.setattr(sys, "argv", ["run_tests.py", *options])
+    run_tests.main()
+    assert asked == [slow]

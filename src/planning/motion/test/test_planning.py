@@ -190,6 +190,7 @@ OPTIMISING = ["RRTstar", "PRMstar", "LazyPRMstar", "BITstar", "ABITstar", "AITst
               "SPARS", "SPARStwo", "AnytimePathShortening"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("planner", FAST + OPTIMISING)
 def test_every_planner_of_the_tables(model, planner):
     """An easy problem. The optimising ones use all their time: there is little of it."""
@@ -231,6 +232,7 @@ def test_parameters_reach_the_planner(scene, model):
     assert "range" in motion.planners()["RRTConnect"] and motion.planner_problem("RRT", {"range": 1}) == ""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("condition, ends", (("Iteration[40]", True), ("", False)))
 def test_a_planner_ends_when_its_condition_says(scene, model, condition, ends):
     """RRTstar uses all its time but for this."""

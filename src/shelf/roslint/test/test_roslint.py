@@ -30,6 +30,7 @@ def make(folder, files):
     return subprocess.run(["cmake", "--build", build, "--target", "roslint"], capture_output=True, text=True, env=os.environ)
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not shutil.which("pycodestyle"), reason="pycodestyle is not installed")
 @pytest.mark.parametrize("files", ["", "good.py bad.py"])
 def test_python_files_are_judged(tmp_path, files):

@@ -38,6 +38,7 @@ int main()
 """
 
 
+@pytest.mark.slow
 def test_packages_of_others_find_both(tmp_path):
     (tmp_path / "CMakeLists.txt").write_text(PROJECT)
     (tmp_path / "main.cpp").write_text(SOURCE)

@@ -2,6 +2,8 @@
 import os
 import subprocess
 
+import pytest
+
 PROJECT = "cmake_minimum_required(VERSION 3.5)\nproject(plugins)\n{before}find_package(gazebo REQUIRED)\n{after}"
 
 
@@ -14,6 +16,7 @@ def configure(folder, before="", source="", file="src/plugin.cpp", after="add_li
     return done.returncode, " ".join((done.stdout + done.stderr).split())
 
 
+@pytest.mark.slow
 def test_sources_for_gazebo_7_are_named_and_configure(tmp_path):
     for number, call in enumerate(("model->GetWorldPose()", "joint->GetAngle(0).Radian()", "world->GetPhysicsEngine()")):
         folder = tmp_path / str(number)
@@ -22,6 +25,7 @@ def test_sources_for_gazebo_7_are_named_and_configure(tmp_path):
         assert code == 0 and "src/plugin.cpp is written for Gazebo 7 or older" in text, text
 
 
+@pytest.mark.slow
 def test_they_are_found_in_any_folder_of_the_package_if_it_compiles_them(tmp_path):
     ways = {"named": ("add_library(p {file})", True), "globbed": ("file(GLOB all plugins/*.cc)\nadd_library(p SHARED ${{all}})", True),
             "asked": ("option(OLD OFF)\nif(OLD)\n  add_library(p {file})\nendif()", False)}
@@ -31,6 +35,7 @@ def test_they_are_found_in_any_folder_of_the_package_if_it_compiles_them(tmp_pat
         assert code == 0 and ("plugins/plugin.cc is written for Gazebo 7 or older" in text) == found, text
 
 
+@pytest.mark.slow
 def test_sources_that_know_both_or_are_new_are_not(tmp_path):
     for name, source in (("both", "#if GAZEBO_MAJOR_VERSION < 8\nmodel->GetWorldPose();\n#endif\n"),
                          ("other", "#include <matrix/math.hpp>\nmath::Quaternion q;\n"),
@@ -61,6 +66,7 @@ def test_protos_are_found_by_packages_that_look_for_a_folder_of_the_version(tmp_
     assert '#include "vector3d.pb.h"' in (tmp_path / "own.pb.h").read_text()
 
 
+@pytest.mark.slow
 def test_who_names_gazebo_ros_or_gazebo_plugins_alone_links_what_those_of_noetic_bring(tmp_path):
     """A node with an action client, as many have it: upstream's gazebo_ros depends on tf, that on tf2_ros, that on actionlib."""
     (tmp_path / "node.cpp").write_text(
@@ -104,6 +110,7 @@ GZ_REGISTER_WORLD_PLUGIN(Named)
 """
 
 
+@pytest.mark.slow
 def test_pkg_config_finds_gazebo_and_sdformat(tmp_path):
     """As Gazebo's first tutorials and the map makers of courses ask for it."""
     (tmp_path / "CMakeLists.txt").write_text(PKG_CONFIG)

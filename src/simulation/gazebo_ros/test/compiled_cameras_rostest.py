@@ -39,6 +39,20 @@ def robot(name="robot", kind="camera", cameras="", on=1, plugin="", viewer=True,
     return MODEL.format(name=name, sensor=sensor, plugin=VIEWER.format(sensor=name + "_eye", more=more) if viewer else "")
 
 
+def answer_of(case, topic, text):
+    """Of the viewer plugin to an order. Without waiting for it, the publisher might be gone before the order is sent."""
+    answers = []
+    subscriber = rospy.Subscriber(topic + "/done", String, lambda m: answers.append(m.data))
+    publisher = rospy.Publisher(topic + "/order", String, queue_size=10)
+    case.wait(lambda: heard([subscriber]) and publisher.get_num_connections())
+    before = len(answers)
+    publisher.publish(text)
+    case.wait(lambda: len(answers) > before and answers[-1].split()[0] == text.split()[0])
+    subscriber.unregister()
+    publisher.unregister()
+    return answers[-1]
+
+
 @unittest.skipUnless(importlib.util.find_spec("gazebo_cpp._core"), "this system lacks what Gazebo's headers need")
 class CamerasTest(HearingCase):
     def setUp(self):
@@ -63,16 +77,7 @@ class CamerasTest(HearingCase):
         return got
 
     def order(self, name, text):
-        answers = []
-        subscriber = rospy.Subscriber(f"/view/{name}_eye/done", String, lambda m: answers.append(m.data))
-        publisher = rospy.Publisher(f"/view/{name}_eye/order", String, queue_size=10)
-        self.wait(lambda: heard([subscriber]) and publisher.get_num_connections())
-        before = len(answers)
-        publisher.publish(text)
-        self.wait(lambda: len(answers) > before and answers[-1].split()[0] == text.split()[0])
-        subscriber.unregister()
-        publisher.unregister()
-        return answers[-1]
+        return answer_of(self, f"/view/{name}_eye", text)
 
     # -- pictures
 
@@ -242,12 +247,6 @@ class ProcessTest(Case):
                 continue
         return found
 
-    def order(self, text):
-        publisher = rospy.Publisher("/eyes/view/robot_eye/order", String, queue_size=10)
-        self.wait(publisher.get_num_connections)
-        publisher.publish(text)
-        publisher.unregister()
-
     def listened(self):
         got = []
         subscriber = rospy.Subscriber("/eyes/view/robot_eye", Float64MultiArray, lambda m: got.append(m.data[TIME]))
@@ -268,7 +267,7 @@ class ProcessTest(Case):
             self.passes(sim, 0.5)
             self.assertEqual(self.drawing(server), [])
             got, subscriber = self.listened()
-            self.order("active 1")
+            answer_of(self, "/eyes/view/robot_eye", "active 1")
             self.wait(lambda: len(got) > 3)
             self.assertEqual(len(self.drawing(server)), 1)
             self.assertEqual([round((time - got[0]) / 0.05, 6) % 1 for time in got], [0] * len(got))

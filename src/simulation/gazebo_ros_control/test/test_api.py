@@ -31,11 +31,13 @@ def compile_all(folder, standard, components, find, sources):
         assert done.returncode == 0, "\n".join(line for line in done.stderr.splitlines() if "rror" in line)[:2000]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("standard", ["c++11", "c++14", "c++17"])
 def test_control(tmp_path, standard):
     compile_all(tmp_path, standard, CONTROL, "", ["hardware.cpp", "control.cpp"])
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not importlib.util.find_spec("gazebo_cpp._core"), reason="this system lacks what Gazebo's headers need")
 def test_simulated(tmp_path):
     compile_all(tmp_path, "c++11", "gazebo_ros_control pluginlib roscpp", "find_package(gazebo REQUIRED)", ["simulated.cpp"])

@@ -120,6 +120,7 @@ def test_without_gymnasium_the_remedy_is_named():
     assert "scripts/setup --teaching" in subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60).stdout
 
 
+@pytest.mark.slow
 def test_the_example_learns(tmp_path):
     pytest.importorskip("cma", reason="cma is not installed: scripts/setup --teaching")
     example, film = pathlib.Path(CARTPOLE).with_name("balance.py"), tmp_path / "pole.mp4"

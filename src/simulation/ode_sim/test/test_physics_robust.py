@@ -331,6 +331,7 @@ def work(model):
     return min(times)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["revolute", "fixed"])
 @pytest.mark.parametrize("parent", [lambda i: i - 1, lambda i: (i - 1) // 2], ids=["chain", "tree"])
 def test_spawning_takes_time_in_proportion_to_the_links(kind, parent):

@@ -62,6 +62,7 @@ class Rover:
         return np.array([*pose.p[:2], quat_to_rpy(pose.q)[2]])
 
 
+@pytest.mark.slow
 def test_a_base_on_sixty_rollers_stands():
     rover = Rover()
     before = rover.place()
@@ -70,6 +71,7 @@ def test_a_base_on_sixty_rollers_stands():
     assert rover.world.core.counters.trees > 0 and rover.world.core.counters.quick == 0 and not rover.world.messages
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("speeds, motion", [((4, 4, 4, 4), (1, 0, 0)), ((-4, 4, 4, -4), (0, 1, 0)),
                                             ((-4, 4, -4, 4), (0, 0, 1 / (2 * HALF)))], ids=["ahead", "left", "round"])
 def test_it_goes_where_its_wheels_take_it(speeds, motion):
@@ -84,6 +86,7 @@ def test_it_goes_where_its_wheels_take_it(speeds, motion):
     assert along == pytest.approx(np.array(motion) * 4 * REACH, abs=0.06 * 4 * REACH)  # treads of straight pieces
 
 
+@pytest.mark.slow
 def test_the_same_bits_again_and_from_a_snapshot():
     def run(rover):
         rover.world.step(200)
@@ -125,6 +128,7 @@ def built(direct):
     return world, model
 
 
+@pytest.mark.slow
 def test_as_the_direct_solver_has_it():
     """Thirty-two joints on sixteen feet: the same poses and joint loads as ODE's direct solver of all rows together."""
     results = []

@@ -21,6 +21,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 # ---------------------------------------------------------------------------------------------- determinism
 
 
+@pytest.mark.slow
 def test_two_processes_give_the_same_bits_one_of_them_under_load():
     run = [sys.executable, os.path.join(HERE, "physics_determinism.py"), "2000"]
     alone = subprocess.run(run, capture_output=True, text=True, check=True).stdout
@@ -59,6 +60,7 @@ def test_random_streams_depend_on_seed_and_name_alone():
     assert ode_sim.World(seed=6).rng("laser").normal() != ode_sim.World(seed=5).rng("laser").normal()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("moment", [50, 700, 1300])
 def test_going_on_from_a_snapshot_gives_the_same_bits(moment):
     world = busy_world()
@@ -470,6 +472,7 @@ def test_stepping_backwards_is_refused():
         ode_sim.World().step(-1)
 
 
+@pytest.mark.slow
 def test_nothing_is_printed(capfd):
     world = ode_sim.World()
     world.spawn(ground())

@@ -91,6 +91,7 @@ def test_the_same_bytes_as_in_this_process(studio_of):
         assert take(studio, key)["image"] == expected.tobytes()
 
 
+@pytest.mark.slow
 def test_two_processes_two_runs_same_bytes(studio_of):
     runs = []
     for _ in range(2):
@@ -149,6 +150,7 @@ def test_cameras_of_any_size_added_and_removed(studio_of):
     assert len(take(studio, keys[33])["image"]) == 33 * 33 * 3
 
 
+@pytest.mark.slow
 def test_a_camera_that_is_changed(studio_of):
     world = World(ball("a", (2, 0, 0), (1, 0, 0)))
     studio, _ = studio_of(world)
@@ -179,6 +181,7 @@ def test_fewer_frames_under_way_than_there_is_room_for(studio_of):
     assert len(got) == 2
 
 
+@pytest.mark.slow
 def test_waited_for_frames_come_in_order_and_none_is_missing(studio_of):
     world = World(ball("a", (2, 0, 0), (1, 0, 0)))
     studio, _ = studio_of(world)
@@ -191,6 +194,7 @@ def test_waited_for_frames_come_in_order_and_none_is_missing(studio_of):
     assert stamps == list(range(40))
 
 
+@pytest.mark.slow
 def test_an_unwaited_frame_shows_its_own_moment(studio_of):
     world = World(ball("a", (2, 0, 0), (1, 0, 0)))
     studio, _ = studio_of(world)
@@ -228,6 +232,7 @@ def test_compressed_images(studio_of):
     assert len(data["jpeg:10"]) < len(data["jpeg:95"]) < len(data["image"]) / 4
 
 
+@pytest.mark.slow
 def test_depth_images_and_cloud(studio_of):
     wall = Model("wall", links=(Link("link", visuals=(shape("wall", Box((0.2, 1.0, 1.0)), (2.1, 0, 0), (1, 0, 0)),
                                                       shape("near", Box((0.2, 0.1, 0.1)), (0.4, 0.15, 0),
@@ -303,6 +308,7 @@ def test_no_gl_is_said_and_nothing_else_breaks(studio_of, monkeypatch):
     assert len(errors) == 2 and "ODE_SIM_GL" in errors[0] and "\n" not in errors[0]
 
 
+@pytest.mark.slow
 def test_a_crashed_process_is_replaced(studio_of):
     world = World(ball("a", (2, 0, 0), (1, 0, 0)))
     studio, lines = studio_of(world)
@@ -334,6 +340,7 @@ def test_a_receiver_that_fails_disturbs_nobody(studio_of):
     take(studio, key)
 
 
+@pytest.mark.slow
 def test_no_orphan_after_kill_9():
     code = ("import sys, time; sys.path[:0] = {path!r}\n"
             "from test_rendering_process import World, CAMERA, take\nfrom ode_sim.rendering import RenderProcess\n"
@@ -400,6 +407,7 @@ BAD_TEXTURES = {
     "cut.tif": b"II*\0\x08\0\0\0\xff\xff" + b"\1" * 40, "cut.gif": b"GIF89a\1\0\1\0\x80", "cut.dds": b"DDS " + b"\x7c" * 200}
 
 
+@pytest.mark.slow
 def test_no_texture_or_mesh_ends_the_cameras(studio_of, tmp_path):
     visuals = []
     for name, content in BAD_TEXTURES.items():

@@ -75,6 +75,7 @@ def test_the_guard_stands_before_every_request():
         website.close()
 
 
+@pytest.mark.slow
 def test_the_page_is_given_to_whoever_knocks_first_and_what_comes_next_waits_for_the_server():
     website = Website(port=0, title="The <lab>")
 

@@ -42,10 +42,12 @@ def changed():
     return before, after
 
 
+@pytest.mark.slow
 def test_the_light_by_a_picture_is_taken_out_of_the_program_of_this_viser():
     assert re.search(r"=null\?null:\w+\.hdri_data;if\(", changed()[1])
 
 
+@pytest.mark.slow
 def test_who_draws_is_asked_later_and_of_the_canvas_that_is_there():
     before, after = changed()
     later = re.search(r"setTimeout\(\(\)=>\{let (\w+)=([\w$]+)\(\);console\.log\(`WebGL support.*?\},5e3\)\},\[\]\),null\}", after)
@@ -55,6 +57,7 @@ def test_who_draws_is_asked_later_and_of_the_canvas_that_is_there():
     assert "`data-engine`" in before  # three.js marks its canvas so
 
 
+@pytest.mark.slow
 def test_a_button_does_not_take_the_place_of_a_value_that_waits_to_be_sent():
     before, after = changed()
     sender = re.search(r"let n=!0,r=!1,i=null,a=null;function o\(s\)\{.*?return\{send:o,flush:s,cancel:c\}\}", after).group()
@@ -64,6 +67,7 @@ def test_a_button_does_not_take_the_place_of_a_value_that_waits_to_be_sent():
     assert "(i=s,n?(c.sendMessage(s),r=!1,n=!1," in before
 
 
+@pytest.mark.slow
 def test_a_handle_that_is_drawn_through_a_body_is_hit_before_it():
     before, after = changed()
     order = re.search(r"\.sort\(\((\w+),(\w+)\)=>\{let grip=(o=>.*?),first=grip\(\2\.object\)-grip\(\1\.object\);"
@@ -75,6 +79,7 @@ def test_a_handle_that_is_drawn_through_a_body_is_hit_before_it():
     assert "!o.visible&&o.parent?.matrixAutoUpdate===!1" in order.group(3)
 
 
+@pytest.mark.slow
 def test_the_field_of_a_colour_takes_nothing_back_that_was_typed():
     before, after = changed()
     field = re.search(r"fixOnBlur:!1,onBlur:\(\)=>\{let (\w)=c\(d\);\1\?l\(\1,t\)\|\|u\(e,\1\):f\(s\(t\)\)\}", after)

@@ -25,6 +25,7 @@ def short(tmp_path_factory):
     return spec.load(place)
 
 
+@pytest.mark.slow
 def test_the_same_marks_to_the_last_digit(short, tmp_path):
     first, second = (check(short, ARM, tmp_path / name, films=False) for name in "ab")
     assert not first.fault and first.points == first.of == 55, [v.reason for t in first.tasks for v in t.verdicts if not v.passed]
@@ -32,6 +33,7 @@ def test_the_same_marks_to_the_last_digit(short, tmp_path):
     assert (tmp_path / "a" / "pictures").is_dir()
 
 
+@pytest.mark.slow
 def test_a_node_that_does_nothing_loses_its_own_points_only(short, tmp_path):
     fault = [f for f in faults.FAULTS if f.name == "node_sleeps"]
     faults.make(ARM, tmp_path / "class", 1, faults=fault)

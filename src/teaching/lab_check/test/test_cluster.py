@@ -121,6 +121,7 @@ def examiner_of(name):
     return None
 
 
+@pytest.mark.slow
 def test_rays_local_cluster_gives_the_pools_marks_and_tries_a_killed_worker_again(course, engine):
     book = store.Store(course / "class.sqlite")
     (course / "submissions" / "slash").symlink_to("/")

@@ -30,6 +30,8 @@ POINTS = ["5.0", "3.0", "5.0", "3.0", "5.0", "3.0"]  # of the submissions in tur
 
 wait_until = functools.partial(wait, timeout=300.0)  # a busy machine is given its time
 
+pytestmark = pytest.mark.slow
+
 
 def asleep():
     """Number of a submission -> process that sleeps for it."""

@@ -29,6 +29,7 @@ def place():
     assert not os.path.exists(place)
 
 
+@pytest.mark.slow
 def test_programs_of_a_submission_start_no_more_than_they_may_together(place):
     limits = {"log": 1e6}
     waits = Program(["sleep", "60"], limits, place=place)

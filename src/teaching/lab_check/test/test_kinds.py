@@ -27,6 +27,7 @@ def test_everything_that_a_spec_can_say_is_in_this_one():
     assert set(definitions["command"]["properties"]) == {kind for task in tasks for command in task["do"] for kind in command}
 
 
+@pytest.mark.slow
 def test_what_is_met_is_told_as_met(examined):
     result, _ = examined
     assert not result.fault
@@ -47,12 +48,14 @@ robot moved by|prize is|0 of 1 points were passed|came within|touched robot|1 er
 nobody listens to /cmd_well; your nodes subscribe to /cmd_vel"""
 
 
+@pytest.mark.slow
 def test_reasons_say_what_is_wrong(examined):
     said = "\n".join(v.reason for task in examined[0].tasks for v in task.verdicts if not v.passed)
     missing = [words for words in REASONS.replace("\n", "|").split("|") if words not in said]
     assert not missing, f"{missing} is not in\n{said}"
 
 
+@pytest.mark.slow
 def test_the_report_has_pictures_films_plots_and_what_to_type(examined):
     result, out = examined
     page = (out / "report.html").read_text()

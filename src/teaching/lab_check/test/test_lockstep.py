@@ -49,6 +49,7 @@ def test_who_never_rests_is_given_up_after_so_much_work_and_named(program):
     assert found.restless_names and found.settle(patience=0.5)  # without it, all rest
 
 
+@pytest.mark.slow
 def test_waiting_for_a_processor_is_no_work(program, monkeypatch):
     """On a machine that gives it next to none, even a loop is waited for until the wall time that is the last bound."""
     program("print('begun', flush=True)\nwhile True: pass")

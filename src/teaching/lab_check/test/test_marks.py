@@ -318,6 +318,7 @@ def test_reasons_hold_no_wall_time():
     assert explain.timeless("[ERROR] [1795390434.547]: y") == "[ERROR] y"
 
 
+@pytest.mark.slow
 def test_a_full_disk_is_one_line_and_the_same_command_goes_on(tmp_path):
     """In a mount namespace of its own, with a disk of 120 kB for the class."""
     (tmp_path / "spec.yaml").write_text("title: t\ntasks: [{name: a, points: 1, launch: '', expect: [{file: {path: '*/x'}}]}]\n")

@@ -27,6 +27,8 @@ MANIFEST = (
     "<maintainer email='mallory@example.org'>x</maintainer><license>x</license><buildtool_depend>catkin</buildtool_depend></package>"
 )
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture(scope="module", autouse=True)
 def namespaces():

@@ -92,6 +92,7 @@ LABS = PACKAGE.parents[1] / "labs"
 FIND = "python3 -c 'from roslaunch.substitution_args import resolve_args as r; print(r(\"$(find arm_gazebo)/worlds/arm.world\"))'"
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not LABS.is_dir(), reason="installed without the labs")
 def test_the_labs_are_there_in_the_clones_own_shell_and_in_no_workspace_that_stands_on_it(tmp_path):
     package = tmp_path / "src/arm_gazebo"

@@ -24,6 +24,7 @@ def rosdep(tmp_path_factory):
     return run
 
 
+@pytest.mark.slow
 def test_what_is_covered_resolves_and_what_is_not_is_named(rosdep, tmp_path):
     package = tmp_path / "src/p"
     package.mkdir(parents=True)

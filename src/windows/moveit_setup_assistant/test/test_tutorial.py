@@ -120,6 +120,7 @@ def click_through(student, urdf, folder):
     student.picture("files")
 
 
+@pytest.mark.slow
 def test_clicks_and_the_command_make_the_same_package(student, tmp_path):
     urdf = Path(rospkg.RosPack().get_path("myur5_description")) / "urdf" / "myur5.urdf.xacro"
     clicked = tmp_path / "myur5_moveit_config"

@@ -96,6 +96,7 @@ def test_nodes_that_are_hidden_because_they_were_slow_are_named(there):
         assert line.isHidden()
 
 
+@pytest.mark.slow
 def test_files_are_saved_and_loaded(there, tmp_path, monkeypatch):
     with open_plugin("rqt_graph") as gui:
         pane = gui.plugin.pane

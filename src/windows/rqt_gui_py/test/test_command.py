@@ -150,6 +150,7 @@ def test_ctrl_c_while_it_starts_says_nothing(environment):
     assert process.returncode in (-signal.SIGINT, 0) and "Traceback" not in rest
 
 
+@pytest.mark.slow
 def test_waits_for_a_master_and_outlives_it(start, workspace_of_files):
     workspace_of_files("rqt_watched", WATCHED)
     first = Master()
@@ -191,6 +192,7 @@ def workspace_of_files(tmp_path):
     return make
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(shutil.which("dbus-run-session") is None, reason="no dbus-run-session")
 def test_commands_over_dbus(environment, workspace_of_files):
     workspace_of_files("rqt_watched", WATCHED)

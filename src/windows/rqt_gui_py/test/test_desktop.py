@@ -32,6 +32,7 @@ def rqt(tmp_path):
         yield desktop, lambda *arguments: desktop.run(["rqt", *arguments], **variables)
 
 
+@pytest.mark.slow
 def test_open_from_the_menu_use_minimise_close_and_reopen(rqt):
     desktop, start = rqt
     window = start()
@@ -62,6 +63,7 @@ def test_open_from_the_menu_use_minimise_close_and_reopen(rqt):
     assert window.process.wait(30) == 0
 
 
+@pytest.mark.slow
 def test_perspective_is_made_and_chosen_by_its_menu(rqt):
     desktop, start = rqt
     window = start()
@@ -81,6 +83,7 @@ def test_perspective_is_made_and_chosen_by_its_menu(rqt):
     assert window.end() == 0 and window.output() == ""
 
 
+@pytest.mark.slow
 def test_dragged_dock_stays_where_it_was_put(rqt):
     desktop, start = rqt
     window = start()

@@ -18,6 +18,7 @@ def port():
         yield place.getsockname()[1]
 
 
+@pytest.mark.slow
 def test_ctrl_c_leaves_no_process(tmp_path, port):
     environment = dict(os.environ, ROS_MASTER_URI="http://localhost:%d" % port, ROS_HOME=str(tmp_path))
     log = tmp_path / "launch.log"

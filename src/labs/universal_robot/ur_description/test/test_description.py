@@ -98,6 +98,7 @@ def test_mesh_outlines(kind, name):
     np.testing.assert_allclose(mesh.bounds, OUTLINES[name], atol=7e-4)
 
 
+@pytest.mark.slow
 def test_meshes_are_in_step(tmp_path):
     subprocess.run([sys.executable, PACKAGE / "scripts" / "make_meshes.py", tmp_path], check=True)
     for drawn in tmp_path.glob("*/*"):
