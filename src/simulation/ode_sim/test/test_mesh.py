@@ -149,6 +149,18 @@ def test_a_shape_is_there_and_red_though_its_shader_is_faulty_as_in_gazebo(tmp_p
     assert len(mesh.load_surface(str(file)).triangles) == 2
 
 
+@pytest.mark.parametrize("sound, written", [
+    (b'<node id="n">', b'<node id="<STL_BINARY>" name=\'<a&b>\'>'),  # by Assimp, as in velodyne_description
+    (b"<asset>", b"<asset><contributor><author>Tom & Jerry</author></contributor>"),
+    (b'<?xml version="1.0"?>', b'<?xml version="1.0" encoding="utf-8"?><!-- M\xfcller -->'),
+    (b'name="tri"', b'name="\xb5&_<1"')])
+def test_what_an_exporter_did_not_escape_is_read_as_in_gazebo(tmp_path, sound, written):
+    file = tmp_path / "t.dae"
+    assert sound in DAE.format(up="").encode()
+    file.write_bytes(DAE.format(up="").encode().replace(sound, written))
+    assert len(mesh.load_visual(str(file))) == 2
+
+
 def test_a_submesh_of_collada_is_a_node_by_its_name(tmp_path):
     """As in Gazebo; a shape's own name does where no node has it."""
     library = '<library_nodes><node id="b" name="Twig"><instance_geometry url="#tri"/></node></library_nodes>'
@@ -262,7 +274,9 @@ DOUBLING = "".join(f'<node id="n{i}"><instance_node url="#n{i - 1}"/><instance_n
      "its nodes stand for each other more than 50000 times"),
     (DAE.format(up="").replace("<library_geometries>", '<library_nodes><node id="n"><instance_node url="#n"/></node>'
                                "</library_nodes><library_geometries>"), "node 'n' stands for itself"),
-], ids=["bomb", "xxe", "parameter", "deep", "doubling", "circle"])
+    (doctype(BOMB).replace('<node id="n">', '<node id="<n>">'), "declares the entity 'a0'"),
+    (DAE.format(up="").replace("<asset>", '<asset a="<">' + "<a b=" * 300_000 + "<a" + " " * 300_000), "is broken, "),
+], ids=["bomb", "xxe", "parameter", "deep", "doubling", "circle", "bomb to be mended", "long to mend"])
 def test_a_collada_file_that_is_a_trap_is_refused_at_once(tmp_path, text, message):
     path = tmp_path / "trap.dae"
     path.write_text(text)

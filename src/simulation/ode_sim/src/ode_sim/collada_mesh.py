@@ -4,6 +4,7 @@ from __future__ import annotations
 import io
 import logging
 import os
+import re
 import zipfile
 from dataclasses import replace
 from typing import Any, Dict, Iterator, List, Optional, Tuple
@@ -20,6 +21,9 @@ from ode_sim.mesh_files import MeshPart, check_triangles
 logging.getLogger("collada").setLevel(logging.ERROR)
 _MOST_INSTANCES = 50_000  # of nodes and shapes in the scene
 _SHADERS = ("phong", "lambert", "blinn", "constant")
+_START_TAG = re.compile(rb"""<([A-Za-z_][^\s<>/"']*)((?:\s+[^\s<>/="']+\s*=\s*(?:"[^"]*"|'[^']*'))+)""")
+_LONE_AMPERSAND = re.compile(rb"&(?!(?:amp|lt|gt|quot|apos|#\d+|#x[0-9A-Fa-f]+);)")
+_ENCODING = re.compile(rb"""\s*<\?xml[^>]*\sencoding\s*=\s*["']([^"']*)["']""")
 
 
 def read_dae(path: str, data: bytes) -> List[MeshPart]:
@@ -27,8 +31,7 @@ def read_dae(path: str, data: bytes) -> List[MeshPart]:
 
     :raises DescriptionError: one line that names the file. A broken file may raise anything else.
     """
-    check_document(path, data)
-    scene = document(_without_bones(data))
+    scene = document(_without_bones(sound_document(path, data)))
     unit = float(scene.assetInfo.unitmeter or 1.0)
     if scene.scene is None:
         raise DescriptionError(f"mesh {path}: the Collada file has no visual scene")
@@ -143,9 +146,31 @@ def parts_of(primitive, geometry, material, path: str, unit: float = 1.0) -> Lis
     return [(part, unique[:, 0])]
 
 
-def check_document(path: str, data: bytes) -> None:
-    """:raises DescriptionError: what no XML parser should be fed with."""
-    _Check(path).run(data)
+def sound_document(path: str, data: bytes) -> bytes:
+    """What parsers of XML can be fed with: the file, or what its exporter meant where Gazebo's parser is not as strict.
+
+    :raises DescriptionError: what no parser should be fed with.
+    """
+    try:
+        _Check(path).run(data)
+    except expat.ExpatError as error:
+        mended = _escaped(data)
+        try:
+            _Check(path).run(mended)
+        except expat.ExpatError:
+            raise DescriptionError(f"mesh {path}: is broken, {error}") from None
+        return mended
+    return data
+
+
+def _escaped(data: bytes) -> bytes:
+    """With ``<`` in attributes (Assimp names what was an STL file ``<STL_BINARY>``), lone ``&`` and old encodings put right."""
+    data = _LONE_AMPERSAND.sub(b"&amp;", data)
+    data = _START_TAG.sub(lambda tag: b"<" + tag[1] + tag[2].replace(b"<", b"&lt;"), data)
+    encoding = _ENCODING.match(data)
+    if encoding is None or encoding[1].lower() == b"utf-8":
+        data = data.decode("utf-8", "replace").encode()
+    return data
 
 
 class _Check:
@@ -159,6 +184,7 @@ class _Check:
         self._refers: Dict[str, List[str]] = {"": []}  # and what it stands for
 
     def run(self, data: bytes) -> None:
+        """:raises DescriptionError: refused. :raises ExpatError: no XML."""
         if zipfile.is_zipfile(io.BytesIO(data)):
             raise self._error("is a zip archive; unpack it")
         parser = expat.ParserCreate()
@@ -166,8 +192,6 @@ class _Check:
         parser.EntityDeclHandler = self._entity
         try:
             parser.Parse(data, True)
-        except expat.ExpatError as error:
-            raise self._error(f"is broken, {error}") from None
         finally:
             parser.StartElementHandler = parser.EndElementHandler = parser.EntityDeclHandler = None
         if self._instances() > _MOST_INSTANCES:

@@ -6,7 +6,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 
-from ode_sim.collada_mesh import check_document
+from ode_sim.collada_mesh import sound_document
 from ode_sim.description.model import DescriptionError, quoted
 from ode_sim.mesh_files import file_content
 
@@ -33,9 +33,7 @@ class ColladaTree:
 
     def __init__(self, path: str):
         self.path = path
-        data = file_content(path, ".dae")
-        check_document(path, data)
-        self.root = ElementTree.fromstring(data)
+        self.root = ElementTree.fromstring(sound_document(path, file_content(path, ".dae")))
         self._ids: Dict[Tuple[str, str], Element] = {}
         for element in self.root.iter():
             name = element.get("id")
