@@ -327,6 +327,16 @@ def test_boost_makes_the_pointers_of_pcl(package, tmp_path):
     assert ctypes.CDLL(str(next(tmp_path.rglob("libp.so")))).sizes() == 11
 
 
+@pytest.mark.skipif(not Path("/usr/share/pcl_ros").is_dir(), reason="without pcl_ros")
+def test_the_windows_of_pcl_are_found(package):
+    ended = package("pcl_ros roscpp", """
+        #include <pcl/visualization/cloud_viewer.h>
+        typedef pcl::PointCloud<pcl::PointXYZRGB> Cloud;
+        void shows(const Cloud::ConstPtr& cloud, pcl::visualization::CloudViewer& window) { window.showCloud(cloud); }
+        """)
+    assert ended.returncode == 0, ended.stdout + ended.stderr
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("header", ["class_loader.h", "class_loader.hpp"])
 def test_pluginlib_brings_what_noetics_brings(package, header):
