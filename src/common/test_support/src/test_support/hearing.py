@@ -1,4 +1,4 @@
-"""Who hears whom, for tests that talk to nodes. Imports rospy, which nothing else here does."""
+"""Who hears whom, and how much, for tests that talk to nodes. Imports rospy, which nothing else here does."""
 import xmlrpc.client
 from typing import Any, Iterable
 
@@ -23,3 +23,22 @@ def heard(subscribers: Iterable[Any]) -> bool:
         return any(link[1] == rospy.get_name() and link[2] == "o" and link[4] == topic for link in links)
     return all(publishers.get(each.resolved_name) and all(sends(node, each.resolved_name) for node in publishers[each.resolved_name])
                for each in subscribers)
+
+
+def received(publisher: Any, count: int) -> bool:
+    """Whether every node that listens has received ``count`` messages from this one. rospy says that it has published a message while
+    this is on its way, and a test that goes on by a service call overtakes it.
+
+    :param publisher: a rospy.Publisher of this node, with one subscriber at least; ``count`` is what it has published since it has them
+    """
+    topic = publisher.resolved_name
+    master = rosgraph.Master(rospy.get_name())
+    nodes = dict(master.getSystemState()[1]).get(topic, [])
+
+    def received_by(node: str) -> bool:
+        try:
+            listening = dict(xmlrpc.client.ServerProxy(master.lookupNode(node)).getBusStats(rospy.get_name())[2][1])
+        except (rosgraph.MasterException, OSError):  # it has gone meanwhile
+            return False
+        return sum(link[2] for link in listening.get(topic, [])) >= count
+    return bool(nodes) and all(map(received_by, nodes))
