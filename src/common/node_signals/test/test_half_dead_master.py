@@ -44,6 +44,7 @@ def half_dead_master():
     master.server_close()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", sorted(COMMANDS))
 def test_ctrl_c_ends_it_while_it_waits_for_the_master(half_dead_master, tmp_path, name):
     command = subprocess.Popen(COMMANDS[name], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env={

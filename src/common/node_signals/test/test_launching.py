@@ -58,12 +58,14 @@ def ended_at(process, moment):
     assert "Traceback" not in text and "RLException" not in text, text
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("moment", ["logging to", "auto-starting new master", "process[master]", "setting /run_id",
                                     "process[rosout-1]", "started core service", "process[one-2]", "process[two-3]"])
 def test_ctrl_c_at_any_line_of_the_start(tmp_path, moment):
     ended_at(launch(tmp_path), moment)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("moment", ["logging to", "auto-starting new master", "process[master]", "started core service"])
 def test_ctrl_c_at_any_line_of_roscore(tmp_path, moment):
     ended_at(started(tmp_path, ["roscore"]), moment)
@@ -78,6 +80,7 @@ def test_ctrl_c_while_files_are_read_is_silent(tmp_path):
     assert seconds < AT_ONCE and "Traceback" not in text and "auto-starting" not in text, text
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("variable", ["ROS_HOME", "ROS_LOG_DIR"])
 def test_a_home_that_takes_no_files_is_replaced(tmp_path, variable):
     """As with one that is read-only or full."""
@@ -94,6 +97,7 @@ def test_a_home_that_takes_no_files_is_replaced(tmp_path, variable):
     assert text.count("nothing can be written") == 1
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("display, platform, times", [("", "", 1), ("nowhere:77", "", 1), ("", "offscreen", 0)])
 def test_a_window_without_a_display_is_one_line_that_names_the_remedy(tmp_path, display, platform, times):
     windows = "".join(f'<node name="w{i}" pkg="rviz" type="rviz" args="--help"/>' for i in range(2))

@@ -46,6 +46,7 @@ def run(program, *words):
 OWN, DEBIANS = [sys.executable, str(BIN / "rosrun")], ["/usr/bin/rosrun"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("words", [["my_arm", "node.py", "a b", "*"], ["--prefix", "nice -n 1", "my_arm", "relayed.py"],
                                    ["my_arm", "left.py"], ["my_arm", "nod*.py"], ["my_arm", "twice.py"], ["my_arm", "plain.py"]])
 def test_runs_what_debians_runs(workspace, words):

@@ -11,7 +11,7 @@ HERE = Path(__file__).resolve().parents[1]
 LIST = HERE / "cmake/absent_packages.cmake"
 PREFIX = next((Path(prefix) for prefix in os.environ.get("CMAKE_PREFIX_PATH", "").split(":")
                if (Path(prefix) / "share/catkin/cmake/absent_packages.cmake").is_file()), None)
-pytestmark = pytest.mark.skipif(PREFIX is None, reason="no sourced workspace has noetic_compatibility")
+pytestmark = [pytest.mark.slow, pytest.mark.skipif(PREFIX is None, reason="no sourced workspace has noetic_compatibility")]
 
 
 @pytest.fixture
@@ -40,7 +40,6 @@ def package(tmp_path):
     return make
 
 
-@pytest.mark.slow
 def test_headers_of_packages_that_are_not_declared_are_found(package):
     """All of Noetic's headers lie in one folder: sources include what their package.xml does not name."""
     ended = package("moveit_ros_planning_interface", """
@@ -60,7 +59,6 @@ def test_a_copy_of_gazebo_ros_is_told_from_the_platforms(package, tmp_path):
     assert f"touch {tmp_path}/CATKIN_IGNORE" in told, told  # rospack heeds it, too, and no skiplist
 
 
-@pytest.mark.slow
 def test_headers_of_a_workspace_below_are_found_undeclared(package, tmp_path, monkeypatch):
     """Navigation is built from source here, beside /opt/ros/noetic's one folder: sources include what they do not declare."""
     (tmp_path / "below/devel/include/costs_msgs").mkdir(parents=True)
@@ -89,13 +87,11 @@ def program(tmp_path, package):
     return link
 
 
-@pytest.mark.slow
 def test_libraries_of_packages_that_are_not_declared_are_found(program):
     """All of Noetic's libraries lie in one folder, too: packages link them by their bare names."""
     program("roscpp", "int main() {}\n", "-Wl,--no-as-needed controller_manager")
 
 
-@pytest.mark.slow
 def test_rosbag_storage_hands_on_boosts_options(program):
     """slam_gmapping's replay links them so."""
     program("roscpp rosbag_storage", "#include <boost/program_options.hpp>\nint main() { boost::program_options::variables_map map; }\n",
@@ -122,7 +118,6 @@ def asked(tmp_path, package):
     return build
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("folder", ["", "nodes"])
 def test_messages_come_before_the_nodes_that_include_them(asked, tmp_path, folder):
     lists = "add_executable(node ${PROJECT_SOURCE_DIR}/p.cpp)\n"
@@ -134,14 +129,12 @@ def test_messages_come_before_the_nodes_that_include_them(asked, tmp_path, folde
     assert ended.returncode == 0, ended.stdout + ended.stderr
 
 
-@pytest.mark.slow
 def test_a_program_that_messages_wait_for_does_not_wait_for_them(asked, tmp_path):
     (tmp_path / "first.cpp").write_text("int main() {}\n")
     ended = asked("add_executable(first first.cpp)\nadd_dependencies(p_generate_messages_cpp first)\n", "first")
     assert ended.returncode == 0, ended.stdout + ended.stderr
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("standard", ["", "add_compile_options(-std=c++11)"])
 def test_old_sources_build(package, standard):
     """Placeholders without namespace, an undeclared package's messages, headers under their names of before 2018."""
@@ -167,7 +160,6 @@ def test_old_sources_build(package, standard):
     assert "global namespace is deprecated" not in ended.stdout + ended.stderr
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("standard", ["14", "17", "20"])
 def test_elements_of_vectors_of_bool_are_swapped(package, standard):
     """By std::swap, with its full name; libstdc++ 12 has it for calls without std:: only."""
@@ -184,7 +176,6 @@ def test_elements_of_vectors_of_bool_are_swapped(package, standard):
     assert ended.returncode == 0, ended.stdout + ended.stderr
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("header", ["tree", "chain", "kinfam_io", "joint", "chainiksolverpos_lma"])
 def test_kdl_calls_a_fixed_joint_as_noetics_does(program, tmp_path, header):
     program("roscpp kdl_parser", f"""
@@ -230,7 +221,6 @@ def test_an_older_standard_is_raised(tmp_path, minimum, before, after):
         assert ended.returncode == 0, ended.stdout + ended.stderr
 
 
-@pytest.mark.slow
 def test_a_standard_is_raised_no_further_than_needed(tmp_path):
     """One that suffices, or says more, is what it was."""
     (tmp_path / "p.cpp").write_text("static_assert(__cplusplus == WANTED);\n")
@@ -257,7 +247,6 @@ def test_a_standard_is_raised_no_further_than_needed(tmp_path):
         assert ended.returncode == 0, ended.stdout + ended.stderr
 
 
-@pytest.mark.slow
 @pytest.mark.skipif(not Path("/usr/share/pcl_ros").is_dir(), reason="without pcl_ros")
 def test_point_clouds_in_old_packages(package):
     """PCL of Debian 12 asks for C++14, Noetic's packages say C++11; its pointers are std's, Noetic's were boost's as those of roscpp."""
@@ -291,7 +280,6 @@ def test_point_clouds_in_old_packages(package):
     assert ended.returncode == 0, ended.stdout + ended.stderr
 
 
-@pytest.mark.slow
 @pytest.mark.skipif(not Path("/usr/share/pcl_ros").is_dir(), reason="without pcl_ros")
 def test_boost_makes_the_pointers_of_pcl(package, tmp_path):
     ended = package("pcl_ros roscpp", """
@@ -337,7 +325,6 @@ def test_the_windows_of_pcl_are_found(package):
     assert ended.returncode == 0, ended.stdout + ended.stderr
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("header", ["class_loader.h", "class_loader.hpp"])
 def test_pluginlib_brings_what_noetics_brings(package, header):
     ended = package("pluginlib roscpp", f"""
@@ -347,7 +334,6 @@ def test_pluginlib_brings_what_noetics_brings(package, header):
     assert ended.returncode == 0, ended.stdout + ended.stderr
 
 
-@pytest.mark.slow
 def test_packages_of_catkin_make_find_the_old_headers_too(package, tmp_path):
     """catkin_make configures all packages in one run of CMake, with a find_package(catkin) of its own before theirs."""
     package("roscpp pluginlib", "#include <class_loader/class_loader.h>\n#include <pluginlib/class_list_macros.h>\n",
