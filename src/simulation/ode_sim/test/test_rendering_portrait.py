@@ -42,9 +42,13 @@ def seen(camera, points):
 @pytest.mark.parametrize("view", VIEWS)
 @pytest.mark.parametrize("size", [(320, 200), (200, 320)])
 @pytest.mark.parametrize("stretch", [(1, 1, 1), (8, 1, 0.2), (0.1, 0.1, 3)])
-def test_all_of_it_is_in_the_frame_and_fills_it(view, size, stretch):
-    corners = np.array([[x, y, z] for x in (4, 5) for y in (-3, -2) for z in (0, 1)]) * stretch
+@pytest.mark.parametrize("place", [(4, -3, 0), (-30, 20, 0), (30, -20, 3), (700, 900, 800), (-700, -900, -800)])
+def test_all_of_it_is_in_the_frame_and_fills_it(view, size, stretch, place):
+    """Wherever it is: towards the origin of the world or away from it."""
+    corners = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)]) * stretch + place
     camera = camera_for(corners, view, *size)
+    ahead = (corners - camera.pose.p) @ np.array(ode_sim.math3.quat_to_matrix(camera.pose.q))[:, 0]
+    assert camera.near < ahead.min() and ahead.max() < camera.far
     pixels = seen(camera, corners)
     low, high = pixels.min(axis=0), pixels.max(axis=0)
     assert (low >= 0).all() and (high <= np.array(size)).all()

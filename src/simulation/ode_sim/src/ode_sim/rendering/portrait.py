@@ -94,11 +94,10 @@ def camera_for(corners: np.ndarray, view: str, width: int, height: int) -> Camer
     high, low = (across / slopes - depth[:, None]).max(axis=0), (-across / slopes - depth[:, None]).max(axis=0)
     distance = max(float(((high + low) / 2).max()), _LEAST - float(depth.min()))
     middle = [_balanced(across[:, side], depth + distance) for side in (0, 1)]
-    target = axes.T @ np.array([0.0, *middle])
-    eye = target - towards * distance
+    eye = axes.T @ np.array([-distance, *middle])
     nearest = float(depth.min()) + distance
-    return Camera("portrait", width, height, _HFOV, near=max(0.005, 0.2 * nearest), far=distance + 500.0,
-                  pose=look_at(tuple(eye), tuple(target)))
+    return Camera("portrait", width, height, _HFOV, near=max(0.005, 0.2 * nearest), far=float(depth.max()) + distance + 500.0,
+                  pose=look_at(tuple(eye), tuple(eye + towards)))
 
 
 def without_foreground(camera: Camera, corners: np.ndarray) -> Camera:
