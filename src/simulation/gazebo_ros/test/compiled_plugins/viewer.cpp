@@ -22,7 +22,7 @@ public:
     throws_ = sdf->HasElement("throws") ? sdf->Get<int>("throws") : -1;
     frames_ = nh_.advertise<std_msgs::Float64MultiArray>("view/" + name, 1000, true);
     orders_ = nh_.subscribe("view/" + name + "/order", 10, &Viewer::OnOrder, this);
-    done_ = nh_.advertise<std_msgs::String>("view/" + name + "/done", 10, true);
+    done_ = nh_.advertise<std_msgs::String>("view/" + name + "/done", 10);
     if (const auto several = std::dynamic_pointer_cast<sensors::MultiCameraSensor>(sensor_))
       for (unsigned int i = 0; i < several->CameraCount(); ++i)
         Watch(several->Camera(i), i);
