@@ -147,6 +147,6 @@ def test_every_textured_gazebo_material_has_its_picture():
     assert {"Gazebo/Wood", "Gazebo/Bricks", "Gazebo/CeilingTiled", "Gazebo/Grass", "Gazebo/Road"} <= set(pictures)
     for picture in set(pictures.values()):
         with Image.open(picture) as image:
-            assert image.size == (128, 128)
+            assert image.size in ((128, 128), (256, 256))  # roads: their lines are thin
     named = {look.texture for look in materials._LOOKS.values() if look.texture}
     assert named == {picture.rpartition("/")[2] for picture in pictures.values()}

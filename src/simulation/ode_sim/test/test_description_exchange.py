@@ -1,5 +1,6 @@
 """Descriptions that travel to another process and into a world file come back as they were."""
 import xml.etree.ElementTree as ET
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -63,6 +64,16 @@ def test_a_light_is_read_as_the_same():
     light = d.Light("lamp", "spot", d.Pose((1.0, 2.0, 3.0)), diffuse=(0.5, 0.25, 1.0, 1.0), range=7.0,
                     spot=(0.2, 0.4, 1.0))
     assert dumps(read_light(light_text(light))[0]) == dumps(light)
+
+
+def test_a_road_is_saved_as_it_was_read():
+    road = """<road name="street"><width>7.5</width><point>0 0 0</point><point>1 2 0.1</point>
+        <material><script><uri>file://media/materials/scripts/gazebo.material</uri><name>Gazebo/Lanes_4</name></script></material></road>"""
+    world = World.load(f"<sdf version='1.6'><world name='w'>{road}</world></sdf>")
+    again = World.load(world_text(describe_now(world)))
+    assert len(world.scene.roads) == 1 and not again.problems
+    assert [dumps(replace(r, source=d.Source())) for r in again.scene.roads] == [
+        dumps(replace(r, source=d.Source())) for r in world.scene.roads]
 
 
 @pytest.mark.parametrize("name", ["worlds/shapes.world", "worlds/seesaw.world", "worlds/cafe.world"])

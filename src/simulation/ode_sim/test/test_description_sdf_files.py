@@ -6,7 +6,7 @@ import pytest
 from ode_sim import math3
 from ode_sim.description import (DescriptionError, Entity, ResourceFinder, load_world, read_light, read_model, read_sdf_model,
                                  root_kind, xmlsource)
-from ode_sim.description.model import Box, Cylinder, Inertial, Plane, Sphere
+from ode_sim.description.model import Box, Cylinder, Inertial, Plane, Ribbon, Sphere
 from sdf_texts import MODEL, finder, model, models, names, text, world
 
 
@@ -184,9 +184,26 @@ def test_population_grid(finder):
     assert sorted({m.pose.p[1] for m in w.models}) == [-1.0, 1.0]
 
 
-def test_roads_are_named_and_left_out(finder):
-    w, problems = world('<road name="street"/><model name="m"><link name="l"/></model>', finder)
-    assert names(w.models) == ["m"] and "roads" in text(problems)
+def test_a_road_is_scenery_and_no_model(finder):
+    w, problems = world("""<road name="street"><width>7.5</width><point>0 0 0</point><point>1 2 0.1</point><point>1 2 0.1</point>
+        <point>5 2 0.1</point></road><road name="own"><point>0 0 0</point><point>1 0 0</point>
+        <material><diffuse>1 0 0 1</diffuse></material></road>""", finder)
+    street, own = w.scene.roads
+    assert street.geometry == Ribbon(((0.0, 0.0, 0.0), (1.0, 2.0, 0.1), (5.0, 2.0, 0.1)), 7.5)
+    assert street.material.name == "Gazebo/Road" and not street.cast_shadows
+    assert (own.geometry.width, own.material.diffuse) == (1.0, (1.0, 0.0, 0.0, 1.0))
+    assert not w.models and not problems
+
+
+@pytest.mark.parametrize("inside, word", [
+    ("", "two points"), ("<point>1 1 0</point><point>1 1 2</point>", "two points"),
+    ("<width>-1</width><point>0 0 0</point><point>1 0 0</point>", "-1"),
+    ("<point>0 0 0</point><point>nan 0 0</point>", "nan"),
+    ("<point>0 0 0</point><point>1 0 0</point>" * 60_000, "120000")])
+def test_a_road_that_is_none_is_one_line_and_the_rest_loads(finder, inside, word):
+    w, problems = world(f'<road name="street">{inside}</road><model name="m"><link name="l"/></model>', finder)
+    assert names(w.models) == ["m"] and not w.scene.roads
+    assert len(problems) == 1 and word in text(problems) and "road 'street' is left out" in text(problems)
 
 
 def test_an_actor_without_anything_is_there(finder):

@@ -1,14 +1,16 @@
 """Pictures of scenes whose pixels are known by geometry: empty, mirrored, upside-down or wrongly coloured ones fail."""
 import gc
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from ode_sim.description.model import (Box, Cylinder, DescriptionError, Heightmap, Light, Link, Material, Mesh, Model,
-                                       Plane, Polyline, Pose, Scene, Sphere, Visual)
+                                       Plane, Polyline, Pose, Ribbon, Scene, Sphere, Visual)
 from ode_sim.math3 import from_rpy
 from ode_sim.rendering import NOTHING, Camera, CameraError, Distortion, Renderer, arrange, look_at
 from ode_sim.rendering.assets import Assets
+from ode_sim.rendering.geometry import ribbon
 from ode_sim.rendering.context import RenderingUnavailable
 
 RED, GREEN, BLUE, YELLOW = (1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 0)
@@ -277,6 +279,33 @@ def test_heights_of_a_terrain(renderer, tmp_path):
     renderer.set_scene(scene_of(terrain))
     depth = renderer.depth(camera, ORIGIN)
     assert depth[60, 40] == pytest.approx(7.5, abs=0.01) and depth[20, 40] == pytest.approx(5.5, abs=0.01)
+
+
+def test_a_road_has_its_width_in_bends_too_and_its_picture_runs_along_it(renderer, tmp_path):
+    from PIL import Image
+    picture = np.zeros((64, 64, 3), np.uint8)
+    picture[:, :32], picture[:, 32:] = (255, 0, 0), (0, 255, 0)  # left, right
+    Image.fromarray(picture).save(tmp_path / "half.png")
+    way = ((0.0, -4.0, 0.0), (0.0, 2.0, 0.0), (6.0, 2.0, 0.0))  # up, then right
+    road = Visual("street", Pose(), Ribbon(way, 2.0), Material(texture=str(tmp_path / "half.png")), cast_shadows=False)
+    camera = Camera(width=200, height=200, hfov=1.0, near=0.1, far=50, pose=look_at((0.0, -0.001, 12.0), (0.0, 0.0, 0.0)))
+    seen = draw(renderer, arrange([], scene=replace(FULL_AMBIENT, roads=(road,)))[0], camera, np.zeros((0, 7)))
+
+    def at(x, y):
+        return tuple(int(v) for v in seen[look_down(camera, (x, y, 0.0))])
+    left, right, nothing = (255, 0, 0), (0, 255, 0), bytes_of(BACKGROUND)
+    assert [at(x, -2.0) for x in (-1.1, -0.9, -0.1, 0.1, 0.9, 1.1)] == [nothing, left, left, right, right, nothing]
+    assert [at(4.0, y) for y in (0.9, 1.1, 1.9, 2.1, 2.9, 3.1)] == [nothing, right, right, left, left, nothing]
+    assert [at(x, y) for x, y in ((-0.9, 2.9), (-1.1, 3.1), (0.9, 1.1), (1.1, 0.9))] == [left, nothing, right, nothing]  # the corner
+    assert renderer.visual_names == ("street",) and not renderer.take_problems()
+
+
+@pytest.mark.parametrize("way", [
+    ((0, 0, 0), (3, 0, 0), (0, 0.001, 0)), ((0, 0, 0), (1e-9, 0, 0), (5, 5, 1)), ((0, 0, 0), (0, 1, 0), (0, 0, 0))])
+def test_a_road_that_turns_on_the_spot_stays_finite(way):
+    mesh = ribbon(np.array(way, float), 2.0)
+    assert np.isfinite(mesh.vertices).all() and np.isfinite(mesh.uv).all()
+    assert np.abs(mesh.vertices - np.repeat(np.array(way, float), 2, axis=0)).max() < 9.0  # the mitre is as in Gazebo, 8.2 times at most
 
 
 def test_missing_texture_is_one_line_and_drawn_plain(renderer):

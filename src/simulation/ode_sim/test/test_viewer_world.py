@@ -147,6 +147,23 @@ def test_contacts_are_drawn_and_taken_away(page):
     assert not {name for name in set(page.server.scene._handle_from_node_name) - before if "contacts/" in name}
 
 
+def test_roads_are_drawn_and_hidden_with_the_rest():
+    street = d.Visual("street", Pose(), d.Ribbon(((0.0, 0.0, 0.0), (5.0, 0.0, 0.0)), 2.0), d.Material(diffuse=(1.0, 0.0, 0.0, 1.0)))
+    page = Page(LocalSimulation(World(d.World(scene=d.Scene(roads=(street,)))), paused=True), port=0)
+    try:
+        nodes = page.server.scene._handle_from_node_name
+        wait(page, lambda: "/road0_0" in nodes)
+        page.drawing.hide(True)
+        assert not nodes["/road0_0"].visible
+        page.drawing.hide(False)
+        assert nodes["/road0_0"].visible
+        page.drawing.wireframe = True
+        page.drawing.redraw(page.world)
+        assert nodes["/road0_0"].wireframe
+    finally:
+        page.close()
+
+
 def test_colour_and_friction_are_changed_and_saved(page):
     client, world = Client(), panel(page, "WorldPanel")
     page.selection.select("box", "link")

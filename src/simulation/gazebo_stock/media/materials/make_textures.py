@@ -10,6 +10,7 @@ from PIL import Image
 
 HERE = Path(__file__).resolve().parent / "textures"
 SIZE = 128
+WHITE, YELLOW = (0.85, 0.85, 0.83), (0.80, 0.62, 0.12)
 
 
 def noise(rng, cells_x, cells_y):
@@ -79,9 +80,40 @@ def road(rng):
     return tinted((0.28, 0.28, 0.29), 0.15 * noise(rng, 64, 64) + 0.05 * noise(rng, 8, 8))
 
 
+def lanes(rng, count):
+    """A road seen from above that goes up, once across: white at its edges, two lines between the directions, dashes between lanes."""
+    image = np.kron(road(rng), np.ones((2, 2, 1)))
+    size = len(image)
+    across = (np.arange(size) + 0.5) / size
+    thick = 0.018 if count < 4 else 0.011
+
+    def line(place, colour, most=1.0):
+        image[: int(most * size), np.abs(across - place) < thick / 2] = colour
+
+    for edge in (0.035, 0.965):
+        line(edge, WHITE)
+    for number in range(1, count):
+        place = 0.035 + 0.93 * number / count
+        if 2 * number == count:
+            line(place - thick, YELLOW)
+            line(place + thick, YELLOW)
+        else:
+            line(place, WHITE, 0.5)
+    return image
+
+
+def runway(rng):
+    image = lanes(rng, 1)
+    size = len(image)
+    image[: size // 2, size // 2 - 4:size // 2 + 4] = WHITE
+    return image
+
+
 TEXTURES = {"wood": wood, "wood_floor": lambda rng: boards(rng, (0.55, 0.36, 0.20), 6, 2),
             "wood_pallet": lambda rng: boards(rng, (0.70, 0.55, 0.36), 4, 6), "bricks": bricks,
-            "ceiling_tiled": ceiling_tiled, "painted_wall": painted_wall, "grass": grass, "road": road}
+            "ceiling_tiled": ceiling_tiled, "painted_wall": painted_wall, "grass": grass, "road": lambda rng: lanes(rng, 2),
+            "road_1": lambda rng: lanes(rng, 1), "road_4": lambda rng: lanes(rng, 4), "road_6": lambda rng: lanes(rng, 6),
+            "runway": runway}
 
 if __name__ == "__main__":
     for number, (name, paint) in enumerate(TEXTURES.items()):

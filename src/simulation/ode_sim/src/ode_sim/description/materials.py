@@ -66,9 +66,9 @@ _LOOKS: Dict[str, _Look] = {
     "PioneerBody": _Look((0.68, 0.05, 0.05)),
     "CloudySky": _Look((0.55, 0.70, 0.90)),
     "GreyGradientSky": _Look((0.60, 0.62, 0.65)),
-    **{name: _Look((0.28, 0.28, 0.29), texture="road.png") for name in (
-        "Road", "Residential", "Tertiary", "Primary", "Secondary", "Motorway", "Trunk", "Lane_1", "Lanes_2",
-        "Lanes_4", "Lanes_6", "Runway")},
+    **{name: _Look((0.28, 0.28, 0.29), texture=f"{picture}.png") for picture, names in {
+        "road": ("Road", "Residential", "Tertiary", "Secondary", "Lanes_2"), "road_1": ("Lane_1",),
+        "road_4": ("Primary", "Lanes_4"), "road_6": ("Motorway", "Trunk", "Lanes_6"), "runway": ("Runway",)}.items() for name in names},
     **{name: _Look((0.60, 0.60, 0.58)) for name in ("Pedestrian", "Footway")},
 }
 _LOOKS["Gray"], _LOOKS["DarkGray"] = _LOOKS["Grey"], _LOOKS["DarkGrey"]

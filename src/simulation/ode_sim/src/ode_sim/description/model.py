@@ -99,7 +99,15 @@ class Polyline:
     height: float = 1.0
 
 
-Geometry = Union[Box, Sphere, Cylinder, Capsule, Plane, Mesh, Heightmap, Polyline, None]
+@dataclass(frozen=True)
+class Ribbon:
+    """A strip of that width (m) along ``points``, seen from above. Roads are drawn as ribbons; nothing collides with one."""
+
+    points: Tuple[Vec3, ...] = ()
+    width: float = 1.0
+
+
+Geometry = Union[Box, Sphere, Cylinder, Capsule, Plane, Mesh, Heightmap, Polyline, Ribbon, None]
 
 # ---------------------------------------------------------------------------------------------- looks
 
@@ -388,6 +396,7 @@ class Scene:
     shadows: bool = True
     grid: bool = True
     sky: bool = False
+    roads: Tuple[Visual, ...] = ()  # ribbons, in the world frame
 
     @property
     def behind_all(self) -> Tuple[float, float, float]:

@@ -12,8 +12,8 @@ from typing import Any, Dict, Iterator, List, Mapping, Optional, Set
 
 from ode_sim import math3
 from ode_sim.description.model import (
-    FARTHEST, DescriptionError, Light, LinkState, Model, ModelState, Physics, Pose, Scene, Vec3, World, WorldState,
-    quoted)
+    FARTHEST, DescriptionError, Light, LinkState, Model, ModelState, Physics, Pose, Scene, Vec3, Visual, World,
+    WorldState, quoted)
 from ode_sim.description.population import population
 from ode_sim.description.scaling import largest_size, scaled_model
 from ode_sim.description.sdf_actor import SdfActors
@@ -34,12 +34,13 @@ class _Contents:
     def __init__(self, reader: SdfReader, frames: Mapping[str, Pose]):
         self.models: List[Model] = []
         self.lights: List[Light] = []
+        self.roads: List[Visual] = []
         self._reader = reader
         self._frames = frames
         self._taken: Set[str] = set()  # names of models
 
     def add(self, child: ET.Element) -> None:
-        """An element of ``<world>``; what is neither model nor light is left out, with a word if it should be seen."""
+        """An element of ``<world>``; of what is neither model, light nor road some is left out, with a word if it should be seen."""
         reader = self._reader
         if child.tag in ("model", "actor"):
             self._add_model(child)
@@ -57,7 +58,7 @@ class _Contents:
             for copy in population(reader, child, template):
                 self._add_model(copy)
         elif child.tag == "road":
-            reader.warn(child, "roads are not simulated; left out")
+            self._add_road(child)
         elif child.tag == "joint":
             reader.warn(child, "joints between models of a world file are not simulated; left out")
 
@@ -83,6 +84,13 @@ class _Contents:
             self._reader.warn(error.source, f"{error.message}; light '{quoted(source.get('name'))}' is left out", "error")
 
 
+    def _add_road(self, source: ET.Element) -> None:
+        try:
+            self.roads.append(self._reader.road(source))
+        except DescriptionError as error:
+            self._reader.warn(error.source, f"{error.message}; road '{quoted(source.get('name'))}' is left out", "error")
+
+
 class SdfReader(SdfActors):
     """Reads one file or text, worlds included; collects :attr:`problems` on the way."""
 
@@ -102,7 +110,7 @@ class SdfReader(SdfActors):
             name=element.get("name") or "default",
             gravity=self._gravity(element, default.gravity),
             magnetic_field=self.vector(element, "magnetic_field", default.magnetic_field, most=_STRONGEST_FIELD),
-            physics=self._physics(element), scene=self._scene(element.find("scene")), models=tuple(models),
+            physics=self._physics(element), scene=replace(self._scene(element.find("scene")), roads=tuple(contents.roads)), models=tuple(models),
             lights=tuple(contents.lights), plugins=tuple(plugins), state=state,
             spherical_coordinates=(self.number(coordinates, "latitude_deg", 0.0),
                                    self.number(coordinates, "longitude_deg", 0.0),

@@ -9,12 +9,14 @@ from typing import Optional
 from ode_sim import math3
 from ode_sim.description import materials
 from ode_sim.description.model import (
-    FARTHEST, Box, Capsule, Cylinder, Geometry, Heightmap, Light, Material, Mesh, Plane, Polyline, Sphere,
-    quoted)
+    FARTHEST, Box, Capsule, Cylinder, Geometry, Heightmap, Light, Material, Mesh, Plane, Polyline, Pose,
+    Ribbon, Sphere, Visual, quoted)
 from ode_sim.description.sdf_values import LONGEST, Numbers, SdfValues
 from ode_sim.description.xmlsource import fault, source_of, text_of
 
 _MOST_CORNERS = 1000  # of a polyline; to cut one into triangles takes a time that grows with the square of their number
+_MOST_POINTS = 100_000  # of a road
+_ABOVE_GROUND = 0.005  # m, so that a road on the ground is seen; files have both at 0
 _FAR_LIGHT = 1e16  # of numbers that graphics take, in single precision
 
 
@@ -102,6 +104,23 @@ class SdfShapes(SdfValues):
         if known is None and not given:
             return Material(name) if name else None
         return replace(known or Material(name), **given)
+
+    def road(self, element: ET.Element) -> Visual:
+        """:raises DescriptionError: it leads nowhere, or is no road."""
+        points = element.findall("point")
+        if len(points) > _MOST_POINTS:
+            raise fault(element, f"a road of {len(points)} points; it may have {_MOST_POINTS}")
+        places = [self.numbers(point, (0.0, 0.0, 0.0), most=FARTHEST) for point in points]
+        way = tuple(place for place, before in zip(places, [None, *places]) if before is None or place[:2] != before[:2])
+        if len(way) < 2:
+            raise fault(element, "a road needs two points that are not the same")
+        width, = self._sizes(element, (self.number(element, "width", 1.0),))
+        material = self.material(element.find("material")) if element.find("material") is not None else self._road_look()
+        return Visual(element.get("name") or "road", Pose((0.0, 0.0, _ABOVE_GROUND)), Ribbon(way, width), material,
+                      cast_shadows=False, source=source_of(element))
+
+    def _road_look(self) -> Optional[Material]:
+        return materials.gazebo_material("Gazebo/Road", self.finder)
 
     def light(self, element: ET.Element) -> Light:
         default = Light(name="")

@@ -46,6 +46,8 @@ def world_text(world: d.World) -> str:
             _leaf(place, tag, value)
     for light in world.lights:
         _light(top, light)
+    for road in world.scene.roads:
+        _road(top, road)
     for model in world.models:
         _model(top, model)
     _plugins(top, world.plugins)
@@ -202,6 +204,16 @@ def _visual(parent: ET.Element, visual: d.Visual) -> None:
     _leaf(element, "transparency", visual.transparency, 0.0)
     _leaf(element, "cast_shadows", visual.cast_shadows, True)
     _leaf(element, "laser_retro", visual.laser_retro, 0.0)
+
+
+def _road(parent: ET.Element, road: d.Visual) -> None:
+    element = ET.SubElement(parent, "road", name=road.name)
+    assert isinstance(road.geometry, d.Ribbon)
+    _leaf(element, "width", road.geometry.width)
+    for point in road.geometry.points:
+        _leaf(element, "point", point)
+    if road.material is not None:
+        _material(element, road.material)
 
 
 def _geometry(parent: ET.Element, shape: d.Geometry) -> None:

@@ -112,6 +112,8 @@ class Assets:
             return self._made(shape, lambda: geometry.capsule(shape.radius, shape.length)), pose, one
         if isinstance(shape, d.Polyline):
             return self._made(shape, lambda: geometry.extrusion(np.array(shape.points), shape.height)), pose, one
+        if isinstance(shape, d.Ribbon):
+            return self._made(shape, lambda: geometry.ribbon(np.array(shape.points), shape.width)), pose, one
         if isinstance(shape, d.Heightmap):
             if not shape.path:
                 return [], pose, one  # the reader has said so already

@@ -9,6 +9,7 @@ import numpy as np
 from ode_sim.heightmap import thinned
 
 _SEGMENTS = 32  # round shapes; Gazebo draws cylinders and spheres with 32
+_SHARPEST = 0.12  # cosine of half of the sharpest turn of a road that is mitred, as in Gazebo
 _MOST_DRAWN = 513  # rows of a height map; more than half a million triangles only slows the picture
 
 
@@ -106,6 +107,23 @@ def capsule(radius: float, length: float) -> TriMesh:
     offset = np.concatenate([np.full(len(lower), -length / 2), np.full(len(lower), length / 2)])
     cos, sin = np.cos(latitude), np.sin(latitude)
     return _revolve(radius * cos, radius * sin + offset, cos, sin)
+
+
+def ribbon(points: np.ndarray, width: float) -> TriMesh:
+    """A strip along the way over ``points`` (N,3), no two of which that follow each other lie above one another. Bends are mitred, so
+    that it is ``width`` wide all along. Its picture goes across once, from left to right, and repeats every ``width`` along the way."""
+    points = np.asarray(points, float)
+    ways = _unit(np.diff(points[:, :2], axis=0))
+    before, after = np.concatenate([ways[:1], ways]), np.concatenate([ways, ways[-1:]])
+    along = _unit(before + after)
+    narrowing = np.sum(along * after, axis=1)  # cosine of half the turn
+    hairpin = narrowing < _SHARPEST
+    along[hairpin], narrowing[hairpin] = before[hairpin], 1.0
+    left = np.column_stack([-along[:, 1], along[:, 0], np.zeros(len(points))]) * (width / 2 / narrowing)[:, None]
+    length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))]) / (width or 1.0)
+    uv = np.stack([np.column_stack([np.zeros(len(points)), length]), np.column_stack([np.ones(len(points)), length])], 1)
+    sides = np.stack([points + left, points - left], 1)
+    return _grid(sides, np.broadcast_to([0.0, 0.0, 1.0], sides.shape), uv)
 
 
 def extrusion(points: np.ndarray, height: float) -> TriMesh:

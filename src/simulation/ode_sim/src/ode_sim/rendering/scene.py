@@ -14,7 +14,7 @@ WORLD_FRAME = -1
 
 @dataclass(frozen=True)
 class SceneVisual:
-    """``link``: row of the link-pose array. ``name``: ``model::link::visual``."""
+    """``link``: row of the link-pose array, or :data:`WORLD_FRAME`. ``name``: ``model::link::visual``, of a road its own."""
 
     link: int
     name: str
@@ -45,6 +45,10 @@ def _of_link(row: int, scoped: str, visuals: Iterable[Visual],
             [SceneLight(row, light) for light in lights])
 
 
+def roads_of(scene: Scene) -> List[SceneVisual]:
+    return [SceneVisual(WORLD_FRAME, road.name, road) for road in scene.roads]
+
+
 def describe(world) -> SceneDescription:
     """The scene of a running :class:`ode_sim.World`; rows are those of ``world.link_poses``."""
     links, visuals, lights = {}, [], []
@@ -56,7 +60,7 @@ def describe(world) -> SceneDescription:
             lights += shining
     names = tuple(links.get(row, "") for row in range(max(links, default=-1) + 1))
     lights = [SceneLight(WORLD_FRAME, light) for light in world.lights.values()] + lights
-    return SceneDescription(names, tuple(visuals), tuple(lights), world.scene)
+    return SceneDescription(names, (*visuals, *roads_of(world.scene)), tuple(lights), world.scene)
 
 
 def arrange(models: Iterable[Model], lights: Iterable[Light] = (),
@@ -77,5 +81,5 @@ def arrange(models: Iterable[Model], lights: Iterable[Light] = (),
             pose: Pose = compose(model.pose, link.pose)
             poses.append(pose.p + pose.q)
     shining = [SceneLight(WORLD_FRAME, light) for light in lights] + shining
-    return (SceneDescription(tuple(names), tuple(visuals), tuple(shining), scene),
+    return (SceneDescription(tuple(names), (*visuals, *roads_of(scene)), tuple(shining), scene),
             np.array(poses, float).reshape(-1, 7))

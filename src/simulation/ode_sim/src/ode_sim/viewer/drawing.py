@@ -92,6 +92,8 @@ class Drawing:
         self._textures: Dict[str, Optional[object]] = {}
         self._models: Dict[str, ModelDrawing] = {}
         self._lights: List[object] = []
+        self._roads: List[Any] = []  # meshes of
+        self._laid: Tuple[d.Visual, ...] = ()
         self._lit: Tuple = ()
         self._serial = 0
         self._shown: Optional[np.ndarray] = None
@@ -125,6 +127,7 @@ class Drawing:
                 else:
                     self._models[name] = self._draw(record)
             self._light(world)
+            self._lay(world.scene.roads)
         self.grid.visible = world.scene.grid
         self._scene.world_axes.visible = False
         self._rows = {}
@@ -140,12 +143,14 @@ class Drawing:
         for drawn in self._models.values():
             for node in drawn.links.values():
                 node.visible = not on
+        for mesh in self._roads:
+            mesh.visible = not on
 
     def redraw(self, world: WorldRecord) -> None:
         """All anew, after a change of how things are drawn."""
         for name in list(self._models):
             self._remove(name)
-        self._lit = ()
+        self._lit, self._laid = (), ()
         self.update(world)
 
     def model_root(self, name: str) -> Optional[ModelDrawing]:
@@ -154,6 +159,17 @@ class Drawing:
     def _remove(self, name: str) -> None:
         for handle in reversed(self._models.pop(name).handles):
             take_away(handle)
+
+    def _lay(self, roads: Tuple[d.Visual, ...]) -> None:
+        if roads == self._laid:
+            return
+        self._laid = roads
+        for mesh in self._roads:
+            take_away(mesh)
+        self._roads = [self._mesh(f"/road{number}_{at}", part, road, road.name)
+                       for number, road in enumerate(roads) for at, part in enumerate(self._assets.parts(road, road.name))]
+        for mesh in self._roads:
+            mesh.visible = not self._hidden
 
     def _draw(self, record: ModelRecord) -> ModelDrawing:
         self._serial += 1

@@ -17,7 +17,7 @@ from typing import Any, List, Tuple
 import numpy as np
 
 from ode_sim.rendering.camera import Camera, look_at
-from ode_sim.rendering.scene import WORLD_FRAME, SceneDescription, SceneLight, SceneVisual
+from ode_sim.rendering.scene import WORLD_FRAME, SceneDescription, SceneLight, SceneVisual, roads_of
 from ode_sim.viewer.simulation import Frame, Refused, WorldRecord
 
 RATE = 25  # pictures a second of wall time
@@ -100,7 +100,7 @@ def scene_of(world: WorldRecord) -> SceneDescription:
                 visuals += [SceneVisual(row, f"{links[row]}::{visual.name}", visual) for visual in link.visuals]
                 lights += [SceneLight(row, light) for light in link.lights]
     names = tuple(links.get(row, "") for row in range(max(links, default=-1) + 1))
-    return SceneDescription(names, tuple(visuals), tuple(lights), world.scene)
+    return SceneDescription(names, (*visuals, *roads_of(world.scene)), tuple(lights), world.scene)
 
 
 def write(movie: Movie, file: str) -> None:
