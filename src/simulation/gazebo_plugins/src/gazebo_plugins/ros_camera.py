@@ -35,7 +35,7 @@ def camera_of(sensor, sdf, element) -> Camera:
     try:
         camera = read_camera(element, sensor.description.pose, sensor.link.scoped_name,
                              f"{sensor.scoped_name}::{element.get('name', '')}",
-                             image_format=given if given in ENCODINGS else "B8G8R8")
+                             image_format=given if given in ENCODINGS else "B8G8R8", wide=sensor.description.type == "wideanglecamera")
     except CameraError as error:
         raise PluginError(f"sensor '{sensor.name}': {error}") from None
     if given not in ENCODINGS:

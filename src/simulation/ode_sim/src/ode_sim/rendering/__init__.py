@@ -5,13 +5,14 @@ beside it.
 """
 from importlib import import_module
 
-from ode_sim.rendering.camera import ENCODINGS, Camera, CameraError, Distortion, look_at, read_camera, read_distortion
+from ode_sim.rendering.camera import (
+    ENCODINGS, Camera, CameraError, Distortion, WideLens, look_at, read_camera, read_distortion)
 from ode_sim.rendering.context import RenderingUnavailable, create_context
 from ode_sim.rendering.process import OUTPUTS, Frame, RenderProcess
 from ode_sim.rendering.scene import SceneDescription, arrange, describe
 
 __all__ = ["Camera", "CameraError", "Distortion", "ENCODINGS", "Frame", "NOTHING", "OUTPUTS", "RenderProcess",
-           "Renderer", "RenderingUnavailable", "SceneDescription", "arrange", "create_context", "describe", "look_at",
+           "Renderer", "RenderingUnavailable", "SceneDescription", "WideLens", "arrange", "create_context", "describe", "look_at",
            "read_camera", "read_distortion", "render", "segment_names"]
 
 # Drawing in this process needs OpenCV, half a second to load; a simulator draws in another and comes up without it.

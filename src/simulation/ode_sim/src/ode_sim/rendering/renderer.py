@@ -18,6 +18,7 @@ from ode_sim.rendering.geometry import bounding_sphere
 from ode_sim.rendering.lens import Lens
 from ode_sim.rendering.scene import WORLD_FRAME, SceneDescription
 from ode_sim.rendering.shadow import ShadowMap
+from ode_sim.rendering.wide_lens import WideView
 
 NOTHING = -1  # of a segmentation image: no visual there
 MAX_LIGHTS = 16
@@ -135,6 +136,7 @@ class Renderer:
         self._programs: Dict[tuple, Any] = {}
         self._targets: "OrderedDict[tuple, _Target]" = OrderedDict()
         self._lenses: Dict[tuple, Lens] = {}
+        self._views: Dict[tuple, WideView] = {}  # of wide-angle lenses
         self._shadow: Optional[ShadowMap] = None
         self.set_scene(SceneDescription())
 
@@ -304,9 +306,13 @@ class Renderer:
         link_poses = np.asarray(link_poses, float).reshape(-1, 7)
         if len(link_poses) < len(self._scene.links):
             raise ValueError(f"{len(link_poses)} link poses for a scene of {len(self._scene.links)} links")
+        matrices = pose_matrices(link_poses)
         with self._ctx, np.errstate(all="ignore"):  # what flew off the map is not seen
+            if camera.lens is not None:
+                view = self._view(camera)
+                return view.joined([self._draw(side, None, matrices, outputs) for side in view.cameras(camera)])
             lens = self._lens(camera)
-            pictures = self._draw(camera, lens, pose_matrices(link_poses), outputs)
+            pictures = self._draw(camera, lens, matrices, outputs)
         return {name: lens.distort(picture, name) for name, picture in pictures.items()} if lens else pictures
 
     def _lens(self, camera: Camera) -> Optional[Lens]:
@@ -316,6 +322,12 @@ class Renderer:
         if key not in self._lenses:
             self._lenses[key] = Lens(camera)
         return self._lenses[key]
+
+    def _view(self, camera: Camera) -> WideView:
+        key = (camera.width, camera.height, camera.lens)
+        if key not in self._views:
+            self._views[key] = WideView(camera)
+        return self._views[key]
 
     def _draw(self, camera: Camera, lens: Optional[Lens], matrices: np.ndarray, outputs) -> Dict[str, np.ndarray]:
         width, height = (lens.width, lens.height) if lens else (camera.width, camera.height)
