@@ -86,7 +86,7 @@ ROOTS = {"ode_sim": "SimulationError", "hardware_interface": "ControlError", "no
          "arbotix_python": "ArbotiXException", "srdfdom": "ParseError", "qt_dotgraph": "LayoutError", "turtlesim": "WorldError",
          "moveit_setup_assistant": "AssistantError", "laser_filters": "FilterError", "topic_tools": "ExpressionError",
          "robot_localization": "FrameMissing", "turtle_actionlib": "PolygonError", "xacro": "PackageNotFoundError",
-         "web_video_server": "VideoError"}
+         "web_video_server": "VideoError", "image_pixels": "ImageError"}
 
 
 @pytest.mark.parametrize("package", sorted(PACKAGES))

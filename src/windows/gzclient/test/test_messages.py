@@ -27,6 +27,7 @@ def image(encoding, data, width, height, step):
 
 @pytest.mark.parametrize("encoding, data, first", [
     ("rgb8", [1, 2, 3, 4, 5, 6], (1, 2, 3)), ("bgr8", [1, 2, 3, 4, 5, 6], (3, 2, 1)),
+    ("8UC3", [1, 2, 3, 4, 5, 6], (3, 2, 1)),
     ("mono8", [9, 8], (9, 9, 9)), ("rgba8", [1, 2, 3, 255, 4, 5, 6, 255], (1, 2, 3))])
 def test_pictures(encoding, data, first):
     assert tuple(picture_of(image(encoding, bytes(data), 2, 1, len(data)))[0, 0]) == first
@@ -48,8 +49,8 @@ def test_depth_without_a_value_is_black():
 
 
 @pytest.mark.parametrize("message, said", [
-    (image("rgb8", b"123", 2, 1, 6), "cut off"), (image("rgb8", b"123456", 2, 1, 3), "cut off"),
-    (image("yuv422", b"1234", 2, 1, 4), "yuv422"), (image("rgb8", b"", 0, 0, 0), "0x0"),
+    (image("rgb8", b"123", 2, 1, 6), "3 bytes of data"), (image("rgb8", b"123456", 2, 1, 3), "step is 3"),
+    (image("yuv9", b"1234", 2, 1, 4), "yuv9"), (image("rgb8", b"", 0, 0, 0), "0x0"),
     (image("rgb8", b"", 100_000, 100_000, 300_000), "pixels"), (CompressedImage(format="jpeg", data=b"no"), "jpeg")])
 def test_broken_pictures_are_refused(message, said):
     with pytest.raises(ValueError, match=said):

@@ -4,7 +4,7 @@ from __future__ import annotations
 from typing import Any
 
 import cv2
-import cv_bridge
+import image_pixels
 import numpy as np
 
 from web_video_server.request import Request, VideoError
@@ -34,26 +34,13 @@ def encoded(message: Any, request: Request) -> bytes:
 def _colours(message: Any) -> np.ndarray:
     """(H, W, 3) BGR or (H, W) grey, uint8."""
     try:
-        if hasattr(message, "format"):
-            pixels = cv_bridge.CvBridge().compressed_imgmsg_to_cv2(message, "bgr8")
-        elif _is_depth(message.encoding):
-            return _brightness(cv_bridge.CvBridge().imgmsg_to_cv2(message, "passthrough"))
-        else:
-            pixels = cv_bridge.CvBridge().imgmsg_to_cv2(message, "bgr8")
-    except (cv_bridge.CvBridgeError, cv2.error, TypeError, ValueError) as error:
-        raise NoPicture(f"a picture of {_format(message)!r} cannot be shown: "
-                        f"{' '.join(str(error).split())[:200]}") from None
-    if pixels is None or not pixels.size:
-        raise NoPicture("an empty picture cannot be shown")
-    return pixels
-
-
-def _format(message: Any) -> str:
-    return message.format if hasattr(message, "format") else message.encoding
-
-
-def _is_depth(encoding: str) -> bool:
-    return "F" in encoding or encoding in ("16UC1", "16SC1", "32SC1")
+        picture = image_pixels.picture_of(message, unnamed="bgr")
+    except image_pixels.ImageError as error:
+        name = message.format if hasattr(message, "format") else message.encoding
+        raise NoPicture(f"a picture of {name[:60]!r} cannot be shown: {error}") from None
+    if picture.unit:
+        return _brightness(picture.pixels)
+    return np.ascontiguousarray(picture.pixels[..., ::-1]) if picture.pixels.ndim == 3 else picture.pixels
 
 
 def _brightness(numbers: np.ndarray) -> np.ndarray:

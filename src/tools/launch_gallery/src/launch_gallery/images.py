@@ -2,25 +2,19 @@
 from __future__ import annotations
 
 import cv2
-import cv_bridge
+import image_pixels
 import numpy as np
 from sensor_msgs.msg import Image
 
 
 def save(message: Image, path: str) -> None:
-    """Colours as they are; depth, 16 bit and other numbers in gray from their least (black) to their largest (white).
+    """Colours as they are; depth in gray from its least (black) to its largest (white).
 
     :raises ValueError: an encoding that cannot be shown.
     """
-    try:
-        pixels = cv_bridge.CvBridge().imgmsg_to_cv2(message, "passthrough")
-        if pixels.dtype == np.uint8 and message.encoding != "mono8":
-            pixels = cv_bridge.CvBridge().imgmsg_to_cv2(message, "bgr8")
-    except cv_bridge.CvBridgeError as error:
-        raise ValueError(f"encoding {message.encoding}: {error}") from error
-    if pixels.dtype != np.uint8:
-        pixels = _gray(pixels)
-    if not cv2.imwrite(path, pixels):
+    picture = image_pixels.picture_of(message, unnamed="bgr")
+    pixels = _gray(picture.pixels) if picture.unit else picture.pixels
+    if not cv2.imwrite(path, pixels[..., ::-1] if pixels.ndim == 3 else pixels):
         raise ValueError(f"cannot write {path}")
 
 

@@ -1,11 +1,11 @@
 """Pixels of messages to pictures for the screen: uint8, (h, w) grey or (h, w, 3) RGB. No ROS and no Qt in here."""
 from __future__ import annotations
 
-import struct
 from dataclasses import dataclass
-from typing import Optional
+from typing import Callable, Optional
 
 import cv2
+import image_pixels
 import numpy as np
 from qt_gui.errors import WindowError
 
@@ -29,29 +29,6 @@ class DepthView:
     scheme: str = "Gray"
 
 
-# OpenCV names a Bayer pattern by its second row and column, ROS by its first.
-_BAYER = {"rggb": cv2.COLOR_BayerBG2RGB, "bggr": cv2.COLOR_BayerRG2RGB, "gbrg": cv2.COLOR_BayerGR2RGB,
-          "grbg": cv2.COLOR_BayerGB2RGB}
-#: encoding -> (type of an element, channels)
-_LAYOUT = {
-    "rgb8": ("u1", 3), "bgr8": ("u1", 3), "rgba8": ("u1", 4), "bgra8": ("u1", 4), "mono8": ("u1", 1), "mono16": ("u2", 1),
-    "rgb16": ("u2", 3), "bgr16": ("u2", 3), "rgba16": ("u2", 4), "bgra16": ("u2", 4),
-    "yuv422": ("u1", 2), "yuv422_yuy2": ("u1", 2), "uyvy": ("u1", 2), "yuyv": ("u1", 2),
-    **{f"bayer_{pattern}{bits}": (f"u{bits // 8}", 1) for pattern in _BAYER for bits in (8, 16)}}
-_TYPES = {"8U": "u1", "8S": "i1", "16U": "u2", "16S": "i2", "32S": "i4", "32F": "f4", "64F": "f8"}
-_CHANGES = {"bgr": cv2.COLOR_BGR2RGB, "rgba": cv2.COLOR_RGBA2RGB, "bgra": cv2.COLOR_BGRA2RGB}
-_MOST_PIXELS = 1 << 28
-
-
-def _layout(encoding: str):
-    if encoding in _LAYOUT:
-        return _LAYOUT[encoding]
-    kind, mark, channels = encoding.partition("C")  # OpenCV's own names: 32FC1; 8UC is 8UC1
-    if kind in _TYPES and mark and (channels == "" or channels in "1234" and len(channels) == 1):
-        return _TYPES[kind], int(channels or 1)
-    raise PictureError(f"encoding '{encoding[:40]}' cannot be shown")
-
-
 def from_raw(encoding: str, height: int, width: int, step: int, data, big_endian: bool = False,
              depth: DepthView = DepthView()) -> np.ndarray:
     """A picture from the fields of a sensor_msgs/Image.
@@ -59,45 +36,24 @@ def from_raw(encoding: str, height: int, width: int, step: int, data, big_endian
     :param step: bytes per row. :param data: bytes. :returns: uint8, (h, w) or (h, w, 3) RGB; perhaps a view of ``data``.
     :raises PictureError: an encoding that is not known, or data that does not fit height, width and step.
     """
-    kind, channels = _layout(encoding)
-    dtype = np.dtype(kind).newbyteorder(">" if big_endian else "<")
-    row = width * channels * dtype.itemsize
-    if height < 1 or width < 1 or height * width > _MOST_PIXELS:
-        raise PictureError(f"an image of {width}x{height} pixels cannot be shown")
-    if step < row or step % dtype.itemsize:
-        raise PictureError(f"step is {step}, but {width} pixels of {encoding} are {row} bytes")
-    # The last row need not be padded.
-    if len(data) < step * (height - 1) + row:
-        raise PictureError(f"{len(data)} bytes of data, but step {step} and height {height} make {step * height}")
-    pixels = np.ndarray((height, width, channels), dtype, data, strides=(step, channels * dtype.itemsize, dtype.itemsize))
-    if channels == 1:
-        pixels = pixels[..., 0]
-    return _to_screen(pixels, encoding, depth)
+    return _shown(lambda: image_pixels.raw(encoding, height, width, step, data, big_endian), depth)
 
 
-def _to_screen(pixels: np.ndarray, encoding: str, depth: DepthView) -> np.ndarray:
-    if encoding in ("16UC1", "16UC", "16SC1", "32FC1", "32FC", "64FC1", "32SC1"):
-        # REP 118: whole numbers are millimetres, floats metres.
-        return show_depth(pixels, 1e-3 if pixels.dtype.kind in "ui" else 1.0, depth)
-    if pixels.dtype.itemsize == 2 and pixels.dtype.kind == "u":
-        pixels = (pixels >> 8).astype(np.uint8)
-    elif pixels.dtype != np.uint8:
-        raise PictureError(f"encoding '{encoding[:40]}' cannot be shown")
-    if encoding.startswith("bayer_"):
-        if min(pixels.shape) < 2:
-            raise PictureError(f"a {encoding} image needs two rows and columns")
-        return cv2.cvtColor(np.ascontiguousarray(pixels), _BAYER[encoding[6:10]])
-    if encoding in ("yuv422", "uyvy", "yuv422_yuy2", "yuyv"):
-        if pixels.shape[1] % 2:
-            raise PictureError(f"a {encoding} image has an even number of columns, not {pixels.shape[1]}")
-        change = cv2.COLOR_YUV2RGB_UYVY if encoding in ("yuv422", "uyvy") else cv2.COLOR_YUV2RGB_YUY2
-        return cv2.cvtColor(np.ascontiguousarray(pixels), change)
-    order = encoding.rstrip("0123456789")
-    if order in _CHANGES:
-        return cv2.cvtColor(np.ascontiguousarray(pixels), _CHANGES[order])
-    if pixels.ndim == 3 and pixels.shape[2] == 2:
-        raise PictureError(f"encoding '{encoding[:40]}' cannot be shown")
-    return pixels if pixels.ndim == 2 else pixels[..., :3]  # 8UC3 is taken for RGB
+def from_compressed(layout: str, data, depth: DepthView = DepthView()) -> np.ndarray:
+    """A picture from the fields of a sensor_msgs/CompressedImage, compressedDepth included.
+
+    :param layout: field ``format``, as ``rgb8; jpeg compressed bgr8`` or ``16UC1; compressedDepth png``.
+    :raises PictureError: data that cannot be decoded.
+    """
+    return _shown(lambda: image_pixels.compressed(layout, data), depth)
+
+
+def _shown(read: Callable[[], image_pixels.Picture], depth: DepthView) -> np.ndarray:
+    try:
+        picture = read()
+    except image_pixels.ImageError as error:
+        raise PictureError(str(error)) from None
+    return show_depth(picture.pixels, picture.unit, depth) if picture.unit else picture.pixels
 
 
 def show_depth(values: np.ndarray, unit: float, view: DepthView) -> np.ndarray:
@@ -120,82 +76,6 @@ def show_depth(values: np.ndarray, unit: float, view: DepthView) -> np.ndarray:
     picture = cv2.cvtColor(cv2.applyColorMap(grey, scheme), cv2.COLOR_BGR2RGB)
     picture[invalid] = 0
     return picture
-
-
-def from_compressed(layout: str, data, depth: DepthView = DepthView()) -> np.ndarray:
-    """A picture from the fields of a sensor_msgs/CompressedImage, compressedDepth included.
-
-    :param layout: field ``format``, as ``rgb8; jpeg compressed bgr8`` or ``16UC1; compressedDepth png``.
-    :raises PictureError: data that cannot be decoded.
-    """
-    encoding, _, way = (part.strip() for part in layout.partition(";"))
-    if "compressedDepth" in layout:
-        return _from_compressed_depth(encoding, way, data, depth)
-    pixels = _decode(data, layout)
-    if pixels.ndim == 2:
-        if pixels.dtype == np.uint16:  # a depth image sent by `compressed`, or mono16
-            return _to_screen(pixels, "mono16" if encoding == "mono16" else "16UC1", depth)
-        return _to_screen(pixels, encoding, depth) if encoding.startswith("bayer_") and encoding in _LAYOUT else pixels
-    return _to_screen(pixels, {3: "bgr", 4: "bgra"}[pixels.shape[2]] + str(8 * pixels.dtype.itemsize), depth)
-
-
-def _from_compressed_depth(encoding: str, way: str, data, depth: DepthView) -> np.ndarray:
-    if len(data) < 12:
-        raise PictureError(f"compressedDepth of {len(data)} bytes lacks its 12 bytes of head")
-    _, a, b = struct.unpack("<iff", bytes(data[:12]))
-    pixels = decode_rvl(bytes(data[12:])) if "rvl" in way.lower() else _decode(data[12:], "compressedDepth")
-    if pixels.ndim != 2:
-        raise PictureError("compressedDepth with colours in it")
-    if not encoding.startswith("32FC1"):
-        return show_depth(pixels, 1e-3, depth)
-    inverse = pixels.astype(np.float32)
-    inverse[inverse == 0] = np.nan  # no depth
-    with np.errstate(divide="ignore"):
-        return show_depth(np.float32(a) / (inverse - np.float32(b)), 1.0, depth)
-
-
-def decode_rvl(data: bytes) -> np.ndarray:
-    """(h, w) uint16 from columns, rows (uint32 each) and runs of zeros and differences.
-
-    A. D. Wilson's "Fast Lossless Depth Image Compression" (SIGCHI 2017) packs them as numbers of groups of three bits,
-    the lowest first, in the nibbles of words of 32 bits.
-
-    :raises PictureError: data that is cut short or no such image.
-    """
-    columns, rows = struct.unpack("<II", data[:8]) if len(data) >= 8 else (0, 0)
-    count = columns * rows
-    if not 0 < count <= _MOST_PIXELS:
-        raise PictureError(f"a depth image of {columns}x{rows} pixels compressed with RVL cannot be shown")
-    words = np.frombuffer(data, "<u4", (len(data) - 8) // 4, 8)
-    nibbles = ((words[:, None] >> np.arange(28, -4, -4, np.uint32)) & 15).ravel()
-    ends = np.flatnonzero(nibbles < 8)  # the fourth bit says that the number goes on
-    starts = np.concatenate(([0], ends[:-1] + 1))
-    numbers = np.zeros(0, np.int64)
-    if len(ends):
-        place = np.arange(ends[-1] + 1) - np.repeat(starts, ends - starts + 1)
-        numbers = np.add.reduceat((nibbles[:ends[-1] + 1] & 7).astype(np.int64) << np.minimum(3 * place, 60), starts)
-    pixels, runs, differences, at, done = np.zeros(count, np.uint16), [], [], 0, 0
-    while done < count:
-        zeros, others = (int(number) for number in numbers[at:at + 2]) if at + 2 <= len(numbers) else (count, count)
-        if done + zeros + others > count or at + 2 + others > len(numbers) or zeros + others == 0:
-            raise PictureError(f"{len(data)} bytes of RVL are no depth image of {columns}x{rows} pixels, or cut short")
-        runs.append(np.arange(done + zeros, done + zeros + others))
-        differences.append(numbers[at + 2:at + 2 + others])
-        at, done = at + 2 + others, done + zeros + others
-    differences = np.concatenate(differences)
-    values = np.cumsum((differences >> 1) ^ -(differences & 1))  # each from the pixel before it that is not 0
-    pixels[np.concatenate(runs)] = values.astype(np.uint16)
-    return pixels.reshape(rows, columns)
-
-
-def _decode(data, layout: str) -> np.ndarray:
-    try:
-        pixels = cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_UNCHANGED) if len(data) else None
-    except cv2.error:  # sizes that it refuses
-        pixels = None
-    if pixels is None:
-        raise PictureError(f"{len(data)} bytes of '{layout[:60]}' cannot be decoded")
-    return pixels
 
 
 class TheoraDecoder:

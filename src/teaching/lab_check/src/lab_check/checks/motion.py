@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any, Dict, List, Optional, Tuple
 
+import image_pixels
 import numpy as np
 import rospy
 
@@ -385,15 +386,13 @@ class ImageCheck(_Listening):
 
 def to_rgb(message) -> Optional[np.ndarray]:
     """(rows, columns, 3) uint8, None for an encoding without colours or a message that contradicts itself."""
-    channels = {"rgb8": [0, 1, 2], "bgr8": [2, 1, 0], "rgba8": [0, 1, 2], "bgra8": [2, 1, 0], "mono8": [0, 0, 0]}.get(message.encoding)
-    if channels is None:
-        return None
-    depth = {"rgba8": 4, "bgra8": 4, "mono8": 1}.get(message.encoding, 3)
     try:
-        rows = np.frombuffer(message.data, np.uint8).reshape(message.height, message.step)[:, : message.width * depth]
-        return rows.reshape(message.height, message.width, depth)[:, :, channels]
-    except ValueError:
+        picture = image_pixels.picture_of(message)
+    except image_pixels.ImageError:
         return None
+    if picture.unit:
+        return None
+    return picture.pixels if picture.pixels.ndim == 3 else np.repeat(picture.pixels[..., None], 3, axis=2)
 
 
 class NoCollisionCheck(Check):
