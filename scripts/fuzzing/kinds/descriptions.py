@@ -115,11 +115,10 @@ def _body(text: bytes) -> bytes:
 def _draw(world) -> None:
     """What a camera would be told to draw: meshes and textures are read, nothing is rendered."""
     from ode_sim.rendering.assets import Assets
+    from ode_sim.rendering.scene import describe
     assets = Assets()
-    for model in world.models.values():
-        for link in model.links.values():
-            for visual in link.description.visuals:
-                for part in assets.parts(visual, f"{link.scoped_name}::{visual.name}"):
-                    if part.look.texture:
-                        assets.texture(part.look.texture, visual.name)
+    for seen in describe(world).visuals:
+        for part in assets.parts(seen.visual, seen.name):
+            if part.look.texture:
+                assets.texture(part.look.texture, seen.name)
     worlds.check_messages(world, assets.problems, "problems of drawing")
