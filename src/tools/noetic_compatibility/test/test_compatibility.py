@@ -300,9 +300,11 @@ def test_boost_makes_the_pointers_of_pcl(package, tmp_path):
           pcl::ExtractIndices<Point> extract;
           extract.setInputCloud(kept.pcls);
           extract.setIndices(boost::make_shared<pcl::PointIndices>(indices));
+          extract.setIndices(boost::make_shared<const pcl::PointIndices>(indices));
           auto result = boost::make_shared<Cloud>();
           extract.filter(*result);
-          Cloud::ConstPtr constant = result;
+          Cloud::ConstPtr constant = boost::make_shared<const Cloud>(*result);
+          constant = result;
           kept.pcls = boost::make_shared<Cloud>(*result);
           pcl::search::KdTree<Point>::Ptr tree(boost::make_shared<pcl::search::KdTree<Point>>());
           tree->setInputCloud(result);

@@ -99,6 +99,49 @@ template <>
 struct sp_if_not_array<pcl::TextureMesh> : noetic_compatibility::Made<pcl::TextureMesh>
 {
 };
+// And of boost::make_shared<const T>.
+template <typename PointT>
+struct sp_if_not_array<const pcl::PointCloud<PointT>> : noetic_compatibility::Made<const pcl::PointCloud<PointT>>
+{
+};
+template <typename PointT>
+struct sp_if_not_array<const pcl::KdTree<PointT>> : noetic_compatibility::Made<const pcl::KdTree<PointT>>
+{
+};
+template <typename PointT, typename Dist>
+struct sp_if_not_array<const pcl::KdTreeFLANN<PointT, Dist>> : noetic_compatibility::Made<const pcl::KdTreeFLANN<PointT, Dist>>
+{
+};
+template <typename PointT, class Tree>
+struct sp_if_not_array<const pcl::search::KdTree<PointT, Tree>>
+  : noetic_compatibility::Made<const pcl::search::KdTree<PointT, Tree>>
+{
+};
+template <typename PointT>
+struct sp_if_not_array<const pcl::search::OrganizedNeighbor<PointT>>
+  : noetic_compatibility::Made<const pcl::search::OrganizedNeighbor<PointT>>
+{
+};
+template <>
+struct sp_if_not_array<const pcl::ModelCoefficients> : noetic_compatibility::Made<const pcl::ModelCoefficients>
+{
+};
+template <>
+struct sp_if_not_array<const pcl::PCLPointCloud2> : noetic_compatibility::Made<const pcl::PCLPointCloud2>
+{
+};
+template <>
+struct sp_if_not_array<const pcl::PointIndices> : noetic_compatibility::Made<const pcl::PointIndices>
+{
+};
+template <>
+struct sp_if_not_array<const pcl::PolygonMesh> : noetic_compatibility::Made<const pcl::PolygonMesh>
+{
+};
+template <>
+struct sp_if_not_array<const pcl::TextureMesh> : noetic_compatibility::Made<const pcl::TextureMesh>
+{
+};
 }  // namespace detail
 }  // namespace boost
 #endif
