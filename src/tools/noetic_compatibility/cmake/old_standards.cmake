@@ -21,16 +21,23 @@ function(noetic_needed_standard result)
   endforeach()
 endfunction()
 
-# At the end of this directory, when all has been said about its targets and those below.
+# At the end of this directory, when all has been said about its targets and those below. Of several who ask, the highest counts.
 function(noetic_raise_standard standard)
   if(CMAKE_VERSION VERSION_LESS 3.19)
     return()
   endif()
   get_property(asked DIRECTORY PROPERTY NOETIC_RAISES_STANDARD)
-  if(NOT asked)
-    set_property(DIRECTORY PROPERTY NOETIC_RAISES_STANDARD TRUE)
-    cmake_language(EVAL CODE "cmake_language(DEFER CALL noetic_raise_standard_below [[${CMAKE_CURRENT_SOURCE_DIR}]] ${standard})")
+  if(NOT asked OR asked LESS standard)
+    set_property(DIRECTORY PROPERTY NOETIC_RAISES_STANDARD ${standard})
   endif()
+  if(NOT asked)
+    cmake_language(EVAL CODE "cmake_language(DEFER CALL noetic_raise_standard_here [[${CMAKE_CURRENT_SOURCE_DIR}]])")
+  endif()
+endfunction()
+
+function(noetic_raise_standard_here folder)
+  get_property(standard DIRECTORY "${folder}" PROPERTY NOETIC_RAISES_STANDARD)
+  noetic_raise_standard_below("${folder}" ${standard})
 endfunction()
 
 # What add_definitions() was told: directory property DEFINITIONS, which newer policies hide.

@@ -221,6 +221,20 @@ def test_an_older_standard_is_raised(tmp_path, minimum, before, after):
         assert ended.returncode == 0, ended.stdout + ended.stderr
 
 
+@pytest.mark.parametrize("asked", [(14, 17), (17, 14)])
+def test_of_several_who_ask_for_a_standard_the_highest_counts(tmp_path, asked):
+    """find_package(catkin) alone asks for PCL's, find_package(gazebo) for more, in whatever order."""
+    (tmp_path / "p.cpp").write_text("static_assert(__cplusplus == 201703L);\n")
+    (tmp_path / "CMakeLists.txt").write_text(
+        f"cmake_minimum_required(VERSION 3.5)\nproject(p CXX)\ninclude({HERE}/cmake/old_standards.cmake)\n"
+        f"add_compile_options(-std=c++11)\nnoetic_raise_standard({asked[0]})\nnoetic_raise_standard({asked[1]})\n"
+        "add_library(p OBJECT p.cpp)\n")
+    build = tmp_path / "build"
+    for command in (["cmake", "-S", tmp_path, "-B", build, "-Wno-dev"], ["cmake", "--build", build, "--verbose"]):
+        ended = subprocess.run(command, capture_output=True, text=True, timeout=100)
+        assert ended.returncode == 0, ended.stdout + ended.stderr
+
+
 def test_a_standard_is_raised_no_further_than_needed(tmp_path):
     """One that suffices, or says more, is what it was."""
     (tmp_path / "p.cpp").write_text("static_assert(__cplusplus == WANTED);\n")
