@@ -50,6 +50,24 @@ def test_sources_for_ros_2_end_the_configuration_in_one_sentence(tmp_path):
     assert code != 0 and "plugins is written for ROS 2" in text, text
 
 
+def test_plain_projects_install_plugins_models_and_worlds_where_they_are_found(tmp_path):
+    """As the ArduPilot plugin does: each path is one folder, and models lie beside worlds."""
+    prefix = os.path.realpath(os.environ["CMAKE_PREFIX_PATH"].split(":")[0])
+    for folder in ("models", "worlds"):
+        (tmp_path / folder).mkdir()
+    code, text = configure(tmp_path, source="int made;\n", after="add_library(p SHARED {file})\n"
+                           "install(TARGETS p DESTINATION ${{GAZEBO_PLUGIN_PATH}})\n"
+                           "install(DIRECTORY models worlds DESTINATION ${{GAZEBO_MODEL_PATH}}/..)\n")
+    assert code == 0, text
+    subprocess.run(["cmake", "--build", tmp_path / "build"], check=True, capture_output=True)
+    subprocess.run(["cmake", "--install", tmp_path / "build"], check=True, capture_output=True,
+                   env={**os.environ, "DESTDIR": str(tmp_path / "to")})
+    found = {os.path.relpath(os.path.join(folder, name), tmp_path / "to") for folder, folders, files in os.walk(tmp_path / "to")
+             for name in (*folders, *files)}
+    inside = prefix.lstrip("/")
+    assert {f"{inside}/lib/libp.so", f"{inside}/share/gazebo-11/models", f"{inside}/share/gazebo-11/worlds"} <= found, sorted(found)
+
+
 def test_protos_are_found_by_packages_that_look_for_a_folder_of_the_version(tmp_path):
     """As underwater vehicles and multicopters do it, to let their own messages import Gazebo's."""
     (tmp_path / "own.proto").write_text('syntax = "proto2";\nimport "vector3d.proto";\n'

@@ -17,7 +17,7 @@ def touch(path):
 @pytest.fixture
 def home(tmp_path, monkeypatch):
     monkeypatch.setenv("HOME", str(tmp_path / "home"))
-    for name in ("GAZEBO_MODEL_PATH", "GAZEBO_RESOURCE_PATH", "ROS_PACKAGE_PATH", "ODE_SIM_STOCK_PATH"):
+    for name in ("GAZEBO_MODEL_PATH", "GAZEBO_RESOURCE_PATH", "ROS_PACKAGE_PATH", "ODE_SIM_STOCK_PATH", "CMAKE_PREFIX_PATH"):
         monkeypatch.delenv(name, raising=False)
     monkeypatch.chdir(tmp_path)
     return tmp_path
@@ -32,6 +32,16 @@ def test_model_paths_in_gazebos_order(home, monkeypatch):
     for folder in ("stock/models", "home/model_editor_models", "exported", "second", "first", "home/.gazebo/models"):
         expected = touch(home / folder / "m/mesh.dae")
         assert finder.find("model://m/mesh.dae") == expected  # each new one hides the ones before
+
+
+def test_what_was_installed_for_gazebo_into_a_prefix_is_found(home, monkeypatch):
+    monkeypatch.setenv("CMAKE_PREFIX_PATH", f"{home}/empty:{home}/prefix")
+    model = touch(home / "prefix/share/gazebo-11/models/m/mesh.dae")
+    world = touch(home / "prefix/share/gazebo-11/worlds/a.world")
+    finder = ResourceFinder(stock="")
+    assert finder.find("model://m/mesh.dae") == model and finder.find_world("worlds/a.world") == world
+    assert finder.resource_paths == [f"{home}/prefix/share/gazebo-11"]
+    assert ResourceFinder(stock="", environment=False).find("model://m/mesh.dae") is None
 
 
 def test_a_model_uri_with_three_slashes(home):

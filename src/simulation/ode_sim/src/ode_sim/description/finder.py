@@ -31,6 +31,12 @@ def find_ros_package(name: str) -> Optional[str]:
     return None
 
 
+def _installed() -> List[str]:
+    """Where projects without ROS put their models and worlds, beside GAZEBO_MODEL_PATH of find_package(gazebo)."""
+    folders = [os.path.join(prefix, "share/gazebo-11") for prefix in _entries("CMAKE_PREFIX_PATH")]
+    return [folder for folder in folders if os.path.isdir(folder)]
+
+
 def _leads_up(name: str) -> bool:
     return os.path.normpath(name.lstrip("/")).split("/")[0] == ".."
 
@@ -48,7 +54,8 @@ class ResourceFinder:
     :param package_path: ``f(package name) -> directory or None``; by default a search below ROS_PACKAGE_PATH.
     :param stock: directory with the simulator's own ``models``, ``worlds`` and ``media``, searched last so that a
         course's own model of the same name wins; by default $ODE_SIM_STOCK_PATH, else the package ``gazebo_stock``.
-    :param environment: read GAZEBO_MODEL_PATH, GAZEBO_RESOURCE_PATH, ~/.gazebo/models and what the window's editors saved.
+    :param environment: read GAZEBO_MODEL_PATH, GAZEBO_RESOURCE_PATH, ~/.gazebo/models, what was installed for Gazebo 11 into a
+        prefix, and what the window's editors saved.
     """
 
     def __init__(self, model_paths: Optional[Iterable[str]] = None, resource_paths: Optional[Iterable[str]] = None,
@@ -62,7 +69,10 @@ class ResourceFinder:
         resources = _entries("GAZEBO_RESOURCE_PATH") if environment else []
         models += [str(path) for path in model_paths or ()]
         resources += [str(path) for path in resource_paths or ()]
-        models += [os.path.expanduser(path) for path in _EDITORS] if environment else []
+        if environment:
+            installed = _installed()
+            models += [os.path.join(folder, "models") for folder in installed] + [os.path.expanduser(path) for path in _EDITORS]
+            resources += installed
         if self.stock:
             models.append(os.path.join(self.stock, "models"))
             resources.append(self.stock)
