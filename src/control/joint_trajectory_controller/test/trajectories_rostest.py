@@ -323,7 +323,7 @@ class VelocityController(Behaviour, TrajectoryCase):
 
     def reload_with(self, feed_forward):
         for joint in self.joints:
-            rospy.set_param(f"/velocity/velocity_ff/{joint}", feed_forward)
+            rospy.set_param(f"/{self.controller}/velocity_ff/{joint}", feed_forward)
         type(self).tearDownClass()
         type(self).setUpClass()
         self.setUp()

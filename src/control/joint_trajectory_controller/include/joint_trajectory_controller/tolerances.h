@@ -1,2 +1,181 @@
-#error \
-    "joint_trajectory_controller is written in Python here: a controller in C++ cannot be derived from it; trajectory_interface is there, and a controller in Python can (joint_trajectory_controller.controller)"
+// How far a joint may be from its trajectory: parameters, overridden by what an action goal asks for.
+#pragma once
+
+#include <cassert>
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include <control_msgs/FollowJointTrajectoryAction.h>
+#include <ros/console.h>
+#include <ros/node_handle.h>
+
+namespace joint_trajectory_controller
+{
+
+/// Largest allowed errors of one joint: rad or m, and per s and s^2. 0 is no limit.
+template <class Scalar>
+struct StateTolerances
+{
+  StateTolerances(Scalar position_tolerance = Scalar(0), Scalar velocity_tolerance = Scalar(0),
+                  Scalar acceleration_tolerance = Scalar(0))
+    : position(position_tolerance)
+    , velocity(velocity_tolerance)
+    , acceleration(acceleration_tolerance)
+  {
+  }
+
+  Scalar position;
+  Scalar velocity;
+  Scalar acceleration;
+};
+
+/// Of all joints of a controller, on their way and at their goal.
+template <class Scalar>
+struct SegmentTolerances
+{
+  SegmentTolerances(const typename std::vector<StateTolerances<Scalar>>::size_type& size = 0)
+    : state_tolerance(size)
+    , goal_state_tolerance(size)
+  {
+  }
+
+  std::vector<StateTolerances<Scalar>> state_tolerance;
+  std::vector<StateTolerances<Scalar>> goal_state_tolerance;
+  Scalar goal_time_tolerance = Scalar(0);  // s that joints may take after the end of their trajectory
+};
+
+/// The same of one joint.
+template <class Scalar>
+struct SegmentTolerancesPerJoint
+{
+  StateTolerances<Scalar> state_tolerance;
+  StateTolerances<Scalar> goal_state_tolerance;
+  Scalar goal_time_tolerance = Scalar(0);
+};
+
+namespace internal
+{
+
+/// An error that is not a number is over any limit.
+template <class Scalar>
+inline bool exceeds(Scalar error, Scalar tolerance)
+{
+  return tolerance > Scalar(0) && !(std::abs(error) <= tolerance);
+}
+
+/// The first error that is over its limit, in words; nothing if none is.
+template <class State>
+inline std::string violation(const State& error, std::size_t joint, const StateTolerances<typename State::Scalar>& limits)
+{
+  typedef typename State::Scalar Scalar;
+  const auto words = [](const char* what, Scalar value, Scalar limit) {
+    char text[120];
+    std::snprintf(text, sizeof text, "%s error %.6g is over the tolerance %g", what, double(value), double(limit));
+    return std::string(text);
+  };
+  if (exceeds(error.position[joint], limits.position))
+    return words("position", error.position[joint], limits.position);
+  if (exceeds(error.velocity[joint], limits.velocity))
+    return words("velocity", error.velocity[joint], limits.velocity);
+  if (exceeds(error.acceleration[joint], limits.acceleration))
+    return words("acceleration", error.acceleration[joint], limits.acceleration);
+  return std::string();
+}
+
+template <class State>
+inline bool within(const State& error, std::size_t joint, const StateTolerances<typename State::Scalar>& limits)
+{
+  return !exceeds(error.position[joint], limits.position) && !exceeds(error.velocity[joint], limits.velocity) &&
+         !exceeds(error.acceleration[joint], limits.acceleration);
+}
+
+}  // namespace internal
+
+/// Whether the errors of all joints are within their limits. \param show_errors say in the log which is not
+template <class State>
+inline bool checkStateTolerance(const State& state_error,
+                                const std::vector<StateTolerances<typename State::Scalar>>& state_tolerance,
+                                bool show_errors = false)
+{
+  assert(state_tolerance.size() == state_error.position.size());
+  assert(state_tolerance.size() == state_error.velocity.size());
+  assert(state_tolerance.size() == state_error.acceleration.size());
+  for (std::size_t i = 0; i < state_tolerance.size(); ++i)
+  {
+    if (internal::within(state_error, i, state_tolerance[i]))
+      continue;
+    if (show_errors)
+      ROS_ERROR_STREAM_NAMED("tolerances", "Path state tolerances failed on joint "
+                                               << i << ": " << internal::violation(state_error, i, state_tolerance[i]));
+    return false;
+  }
+  return true;
+}
+
+/// The same for a state of one joint.
+template <class State>
+inline bool checkStateTolerancePerJoint(const State& state_error,
+                                        const StateTolerances<typename State::Scalar>& state_tolerance,
+                                        bool show_errors = false)
+{
+  if (internal::within(state_error, 0, state_tolerance))
+    return true;
+  if (show_errors)
+    ROS_ERROR_STREAM_NAMED("tolerances",
+                           "Path state tolerances failed: " << internal::violation(state_error, 0, state_tolerance));
+  return false;
+}
+
+/// A positive value of the message takes a tolerance's place, a negative one switches it off, 0 leaves it.
+template <class Scalar>
+inline void updateStateTolerances(const control_msgs::JointTolerance& tol_msg, StateTolerances<Scalar>& tols)
+{
+  const auto update = [](double asked, Scalar& tolerance) {
+    if (asked != 0.0)
+      tolerance = asked > 0.0 ? Scalar(asked) : Scalar(0);
+  };
+  update(tol_msg.position, tols.position);
+  update(tol_msg.velocity, tols.velocity);
+  update(tol_msg.acceleration, tols.acceleration);
+}
+
+/// What a goal asks for, joint by joint. \param joint_names in the order of tols
+template <class Scalar>
+inline void updateSegmentTolerances(const control_msgs::FollowJointTrajectoryGoal& goal,
+                                    const std::vector<std::string>& joint_names, SegmentTolerances<Scalar>& tols)
+{
+  assert(joint_names.size() == tols.state_tolerance.size());
+  assert(joint_names.size() == tols.goal_state_tolerance.size());
+  for (std::size_t i = 0; i < joint_names.size(); ++i)
+  {
+    for (const control_msgs::JointTolerance& asked : goal.path_tolerance)
+      if (asked.name == joint_names[i])
+        updateStateTolerances(asked, tols.state_tolerance[i]);
+    for (const control_msgs::JointTolerance& asked : goal.goal_tolerance)
+      if (asked.name == joint_names[i])
+        updateStateTolerances(asked, tols.goal_state_tolerance[i]);
+  }
+  const double seconds = goal.goal_time_tolerance.toSec();
+  if (seconds != 0.0)
+    tols.goal_time_tolerance = seconds > 0.0 ? Scalar(seconds) : Scalar(0);
+}
+
+/// From the parameters goal_time, stopped_velocity_tolerance, JOINT/trajectory and JOINT/goal of a namespace.
+template <class Scalar>
+inline SegmentTolerances<Scalar> getSegmentTolerances(const ros::NodeHandle& nh, const std::vector<std::string>& joint_names)
+{
+  SegmentTolerances<Scalar> tolerances(joint_names.size());
+  const double stopped = nh.param("stopped_velocity_tolerance", 0.01);
+  for (std::size_t i = 0; i < joint_names.size(); ++i)
+  {
+    tolerances.state_tolerance[i].position = Scalar(nh.param(joint_names[i] + "/trajectory", 0.0));
+    tolerances.goal_state_tolerance[i].position = Scalar(nh.param(joint_names[i] + "/goal", 0.0));
+    tolerances.goal_state_tolerance[i].velocity = Scalar(stopped);
+  }
+  tolerances.goal_time_tolerance = Scalar(nh.param("goal_time", 0.0));
+  return tolerances;
+}
+
+}  // namespace joint_trajectory_controller
