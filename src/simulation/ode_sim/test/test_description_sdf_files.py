@@ -23,6 +23,30 @@ def test_include_changes_what_it_says(models, finder):
     assert not problems
 
 
+def test_plugins_of_an_included_model_name_its_parts_as_they_are_called_there(models, finder):
+    """As of the ArduPilot plugin, two models deep; topics and frames are what ROS hears, and stay."""
+    models("rotor", """<sdf version="1.6"><model name="iris"><link name="base"/><link name="blade"/><joint name="spin" type="revolute">
+        <parent>base</parent><child>blade</child><axis><xyz>0 0 1</xyz></axis></joint><plugin name="base" filename="libown.so">
+        <control joint="spin"><jointName> spin </jointName></control><topicName>base</topicName><frameName>base</frameName>
+        <other>bases</other></plugin></model></sdf>""")
+    models("craft", """<sdf version="1.6"><model name="craft"><include><uri>model://rotor</uri></include>
+        <plugin name="fly" filename="libfly.so"><linkName>iris::blade</linkName></plugin></model></sdf>""")
+    w, problems = world("<model name='out'><include><uri>model://craft</uri></include></model>"
+                        "<include><uri>model://craft</uri></include>", finder)
+    out, craft = w.models
+    assert names(out.joints) == ["craft::iris::spin"] and names(out.plugins) == names(craft.plugins) == ["base", "fly"] and not problems
+    for model_, scope in ((out, "craft::iris::"), (craft, "iris::")):
+        own, fly = (plugin.element for plugin in model_.plugins)
+        assert own.find("control").get("joint") == own.findtext("control/jointName") == scope + "spin"
+        assert own.get("name") == own.findtext("topicName") == own.findtext("frameName") == "base" and own.findtext("other") == "bases"
+        assert fly.findtext("linkName") == scope + "blade"
+
+
+def test_an_update_rate_below_0_is_as_fast_as_possible(finder):
+    w, problems = world("<physics type='ode'><real_time_update_rate>-1</real_time_update_rate></physics>", finder)
+    assert w.physics.real_time_update_rate == 0.0 and not problems
+
+
 def test_include_of_a_light(models, finder):
     models("lamp", '<sdf version="1.6"><light name="lamp" type="point"/></sdf>')
     w, _ = world("<include><uri>model://lamp</uri><pose>0 0 3 0 0 0</pose></include>", finder)

@@ -167,8 +167,9 @@ class SdfReader(SdfActors):
         values.update((name, self.number(ode, f"solver/{name}", getattr(default, name))) for name in ("iters", "precon_iters"))
         written = Physics(
             **values,
-            real_time_update_rate=self.number(block, "real_time_update_rate",
-                                              self.number(block, "update_rate", default.real_time_update_rate)),
+            # below 0, as ArduPilot's worlds have it: as fast as possible
+            real_time_update_rate=max(self.number(block, "real_time_update_rate",
+                                                  self.number(block, "update_rate", default.real_time_update_rate)), 0.0),
             real_time_factor=self.number(block, "real_time_factor", default.real_time_factor),
             solver=text_of(ode.find("solver/type")) or default.solver if ode is not None else default.solver,
             sor=self.number(ode, "solver/sor", default.sor),

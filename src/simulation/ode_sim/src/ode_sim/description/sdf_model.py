@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import math
 import os
+import re
 import xml.etree.ElementTree as ET
 from dataclasses import dataclass, field, replace
 from typing import Dict, Iterator, List, Optional, Set, Tuple
@@ -15,7 +16,7 @@ from ode_sim.description.sdf_document import first_entity, parse_sdf
 from ode_sim.description.sdf_frames import model_frames, relative_to
 from ode_sim.description.sdf_shapes import SdfShapes
 from ode_sim.description.sdf_values import LONGEST
-from ode_sim.description.xmlsource import fault, is_true, joint_end, read_bytes, source_of, text_of
+from ode_sim.description.xmlsource import clone, fault, is_true, joint_end, read_bytes, source_of, text_of
 
 _JOINT_AXES = {"revolute": 1, "prismatic": 1, "fixed": 0, "ball": 0, "universal": 2, "revolute2": 2, "screw": 1,
                 "gearbox": 2, "piston": 1}
@@ -24,6 +25,7 @@ _OLD_JOINT_TYPES = {"hinge": "revolute", "slider": "prismatic", "hinge2": "revol
 _HEAVIEST = 1e30
 _STIFFEST = 1e30  # springs, dampers, friction: so large that nothing moves, and its product is still a number
 _MOST_CONTACTS = 10_000_000
+_HEARD = re.compile("topic|namespace|frame", re.IGNORECASE)  # elements of plugins that name what ROS hears
 _DEEPEST = 20  # models that include one another
 
 
@@ -39,6 +41,28 @@ class _Parts:
     plugins: List[Plugin] = field(default_factory=list)
     frames: Dict[str, Pose] = field(default_factory=dict)  # X_M of links, joints, frames, for relative_to
     still: Set[str] = field(default_factory=set)  # links of nested models that are static
+
+
+def _told_anew(sub: _Parts) -> _Parts:
+    """With plugins that name links, joints and frames of an included model as they are called where it is included.
+
+    As Gazebo's parser does: a model of a rotor craft tells its plugins of ``rotor_0_joint``, which is ``iris::rotor_0_joint`` there.
+    What ROS hears stays as it is written: topics, namespaces, frames.
+    """
+    names = {part.name for parts in (sub.links, sub.joints) for part in parts} - {"world"}
+
+    def renamed(plugin: Plugin) -> Plugin:
+        element = clone(plugin.element)
+        for each in element.iter():
+            if (each.text or "").strip() in names and not _HEARD.search(each.tag):
+                each.text = f"{sub.name}::{(each.text or '').strip()}"
+            for key, value in each.items():
+                if value in names and each is not element:
+                    each.set(key, f"{sub.name}::{value}")
+        return replace(plugin, element=element)
+
+    sub.plugins = [renamed(plugin) for plugin in sub.plugins]
+    return sub
 
 
 class SdfModels(SdfShapes):
@@ -92,7 +116,7 @@ class SdfModels(SdfShapes):
         for include in element.findall("include"):
             included = self.include(include, getattr(element, "include_chain", ()))
             if included is not None and included.tag == "model":
-                nested.append(self._parts(included))
+                nested.append(_told_anew(self._parts(included)))
             elif included is not None:
                 self.warn(include, "only a model can be included into a model; left out")
         parts.frames = model_frames(self, element, [(sub.name, sub.element, sub.frames) for sub in nested])
