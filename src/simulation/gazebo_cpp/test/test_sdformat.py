@@ -1,4 +1,5 @@
 """sdformat and ignition-math of the folder stand_in give the numbers that Debian 12's gave, and Debian 12's still give them."""
+import os
 import pathlib
 import subprocess
 
@@ -45,3 +46,31 @@ def test_packages_of_others_find_both(tmp_path):
     for command in (["cmake", "-S", ".", "-B", "build"], ["cmake", "--build", "build"], ["build/by_variables"], ["build/by_targets"]):
         done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=600, check=False)
         assert done.returncode == 0, " ".join(command) + "\n" + done.stdout[-2000:] + done.stderr[-2000:]
+
+
+CHOICE = """cmake_minimum_required(VERSION 3.10)
+project(choice CXX)
+find_package(PkgConfig REQUIRED)
+include({cmake}/sdformat.cmake)
+message(STATUS "own: [${{own_libraries}}] debian: [${{DEBIAN_SDFORMAT_INCLUDE_DIRS}}]")
+"""
+PC = "Name: {name}\nDescription: of this workspace\nVersion: 99\nCflags: -I/of/this/workspace\n"
+
+
+@pytest.mark.parametrize("debian_has_them", [False, True])
+def test_files_of_this_workspace_for_pkg_config_are_not_taken_for_debians(tmp_path, debian_has_them):
+    """As when it is built a second time on Debian 13."""
+    project = tmp_path / "project"
+    system, workspace = tmp_path / "system", tmp_path / "workspace/lib/pkgconfig"
+    for folder in (project, system, workspace):
+        folder.mkdir(parents=True)
+    for name in ("sdformat12", "ignition-math6"):
+        (workspace / f"{name}.pc").write_text(PC.format(name=name))
+        if debian_has_them:
+            (system / f"{name}.pc").write_text(PC.format(name=name).replace("/of/this/workspace", "/of/debian"))
+    (project / "CMakeLists.txt").write_text(CHOICE.format(cmake=pathlib.Path(__file__).resolve().parents[1] / "cmake"))
+    environment = dict(os.environ, PKG_CONFIG_LIBDIR=str(system), PKG_CONFIG_PATH=str(workspace),
+                       CMAKE_PREFIX_PATH=str(tmp_path / "workspace"))
+    done = subprocess.run(["cmake", "-S", project, "-B", tmp_path / "build"], env=environment, capture_output=True, text=True, check=False)
+    expected = "own: [] debian: [/of/debian]" if debian_has_them else "own: [sdformat12;ignition-math6] debian: []"
+    assert expected in done.stdout, done.stdout + done.stderr
