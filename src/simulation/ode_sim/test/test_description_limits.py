@@ -130,6 +130,8 @@ def test_max_contacts_of_a_world(value, used):
                                   "ode/constraints/contact_surface_layer"])
 def test_absurd_physics_is_brought_within_bounds_and_said(path, value):
     from ode_sim.physics import check_physics
+    if (path, value) == ("real_time_update_rate", "-1"):
+        pytest.skip("as fast as possible: test_an_update_rate_below_0_is_as_fast_as_possible")
     tags = path.split("/")
     w, problems = world("<physics type='ode'>" + "".join(f"<{tag}>" for tag in tags) + value
                         + "".join(f"</{tag}>" for tag in reversed(tags)) + "</physics>")
