@@ -1,7 +1,11 @@
 #include "topics.hpp"
 
 #include <algorithm>
+#include <fstream>
+#include <sstream>
 #include <thread>
+
+#include <gazebo/common/common.hh>
 
 #include "mirror.hpp"
 
@@ -139,9 +143,20 @@ void Topics::publishStats(World& world, const common::Time& now)
   stats_->Publish(message);
 }
 
+std::string model_file(const std::string& file)
+{
+  if (file.find("://") != std::string::npos)
+    return "<sdf version='1.6'><include><uri>" + file + "</uri></include></sdf>";
+  std::ifstream in(common::SystemPaths::Instance()->FindFile(file));
+  if (!in)
+    refused("no file " + file + " of a model that is to be inserted");
+  std::ostringstream text;
+  text << in.rdbuf();
+  return in ? text.str() : "";
+}
+
 void Topics::onFactory(ConstFactoryPtr& message)
 {
-  const WorldPtr world = Mirror::Get().GetWorld();
   std::vector<double> pose;
   if (message->has_pose())
   {
@@ -149,12 +164,11 @@ void Topics::onFactory(ConstFactoryPtr& message)
     const auto& q = message->pose().orientation();
     pose = { p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w() };
   }
-  if (message->has_sdf() && Mirror::Get().host.insert)
-    Mirror::Get().host.insert(message->sdf(), pose);
-  else if (message->has_sdf_filename())
-    world->InsertModelFile(message->sdf_filename());
-  else
-    refused("~/factory: only models as sdf or sdf_filename can be inserted");
+  if (!message->has_sdf() && !message->has_sdf_filename())
+    return refused("~/factory: only models as sdf or sdf_filename can be inserted");
+  const std::string text = message->has_sdf() ? message->sdf() : model_file(message->sdf_filename());
+  if (Mirror::Get().host.insert && !text.empty())
+    Mirror::Get().host.insert(text, pose);
 }
 
 void Topics::onControl(ConstWorldControlPtr& message)

@@ -46,5 +46,8 @@ private:
   common::Time last_poses_, last_stats_;
 };
 
+/// A model's file as text, by its path or by a URI as model://table; empty, and told, where there is none.
+std::string model_file(const std::string& file);
+
 }  // namespace physics
 }  // namespace gazebo

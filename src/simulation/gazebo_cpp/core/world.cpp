@@ -2,14 +2,13 @@
 #include <gazebo/common/common.hh>
 #include <gazebo/physics/physics.hh>
 
-#include <fstream>
 #include <iostream>
-#include <sstream>
 
 #include <limits.hpp>
 
 #include "mirror.hpp"
 #include "sdf_text.hpp"
+#include "topics.hpp"
 
 namespace gazebo
 {
@@ -170,14 +169,9 @@ void World::InsertModelSDF(const sdf::SDF& sdf) { InsertModelString(sdf.ToString
 
 void World::InsertModelFile(const std::string& file)
 {
-  if (file.find("://") != std::string::npos)
-    return InsertModelString("<sdf version='1.6'><include><uri>" + file + "</uri></include></sdf>");
-  std::ifstream in(common::SystemPaths::Instance()->FindFile(file));
-  if (!in)
-    return refused("World::InsertModelFile(): no file " + file);
-  std::ostringstream text;
-  text << in.rdbuf();
-  InsertModelString(text.str());
+  const std::string text = model_file(file);
+  if (!text.empty())
+    InsertModelString(text);
 }
 
 void World::LoadPlugin(const std::string& filename, const std::string& name, sdf::ElementPtr sdf)

@@ -183,6 +183,15 @@ class CompiledTest(Case):
         self.orders.publish("below")
         self.wait(lambda: "ground_plane" in self.told)
 
+    def test_a_message_places_a_model_of_a_file(self):
+        self.orders.publish("place model://construction_cone")
+        self.wait(lambda: "Construction Cone" in self.sim.world().model_names)
+        at = self.sim.model("Construction Cone").pose.position
+        self.assertEqual((round(at.x, 6), round(at.y, 6)), (3.0, -2.0))
+        self.orders.publish("place /nowhere/model.sdf")
+        self.logged("no file /nowhere/model.sdf")
+        self.done(self.sim.delete("Construction Cone"))
+
     def logged(self, *words):
         self.wait(lambda: any(all(word in line for word in words) for line in self.log))
 

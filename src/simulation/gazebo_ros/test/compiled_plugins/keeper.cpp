@@ -15,6 +15,7 @@ public:
     node_.reset(new gazebo::transport::Node);
     node_->Init();
     go_ = node_->Advertise<gazebo::msgs::Int>("~/go");
+    factory_ = node_->Advertise<gazebo::msgs::Factory>("~/factory");
     contacts_ = node_->Subscribe("~/physics/contacts", &Keeper::OnContacts, this);
     end_ = gazebo::event::Events::ConnectWorldUpdateEnd([this] { OnEnd(); });
     reset_ = gazebo::event::Events::ConnectWorldReset([this] { Tell("reset"); });
@@ -37,6 +38,13 @@ private:
       world_->InsertModelString(
           "<sdf version='1.6'><model name='inserted'><pose>9 0 0.5 0 0 0</pose><link name='l'>"
           "<collision name='c'><geometry><box><size>1 1 1</size></box></geometry></collision></link></model></sdf>");
+    else if (order->data.substr(0, 6) == "place ")
+    {
+      gazebo::msgs::Factory message;
+      message.set_sdf_filename(order->data.substr(6));
+      gazebo::msgs::Set(message.mutable_pose(), ignition::math::Pose3d(3, -2, 0, 0, 0, 1.5));
+      factory_->Publish(message);
+    }
     else if (order->data == "remove")
       world_->RemoveModel("inserted");
     else if (order->data.substr(0, 3) == "go ")
@@ -92,7 +100,7 @@ private:
   ros::Publisher told_;
   ros::Subscriber orders_;
   gazebo::transport::NodePtr node_;
-  gazebo::transport::PublisherPtr go_;
+  gazebo::transport::PublisherPtr go_, factory_;
   gazebo::transport::SubscriberPtr contacts_;
   gazebo::event::ConnectionPtr end_, reset_;
   bool fail_ = false;
