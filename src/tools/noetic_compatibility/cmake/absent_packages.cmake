@@ -34,6 +34,9 @@ _noetic_absent("${_noetic_built} (AprilRobotics/apriltag_ros)." apriltag_ros)
 _noetic_absent("${_noetic_built} (pal-robotics/aruco_ros, branch noetic-devel)." aruco aruco_msgs aruco_ros)
 _noetic_absent("${_noetic_built} (machinekoder/ar_track_alvar, branch noetic-devel)." ar_track_alvar ar_track_alvar_msgs)
 _noetic_absent("${_noetic_built} (ros-drivers/usb_cam, branch develop)." usb_cam)
+_noetic_absent("${_noetic_built} (ros-drivers/audio_common, of which its folder sound_play is enough)." sound_play)
+_noetic_absent("Noetic does not have it any more; build it from source in your workspace (ros-drivers/joystick_drivers, the commit before \
+c471ff3, with Debian's libusb-dev)." ps3joy)
 _noetic_absent("${_noetic_built} (ros-drivers/rosserial, branch noetic-devel)."
   rosserial rosserial_arduino rosserial_client rosserial_msgs rosserial_python rosserial_server)
 _noetic_absent("${_noetic_built} (wjwwood/serial)." serial)
