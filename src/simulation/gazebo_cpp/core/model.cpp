@@ -2,6 +2,7 @@
 #include <gazebo/physics/physics.hh>
 
 #include <algorithm>
+#include <boost/algorithm/string/predicate.hpp>
 
 #include "mirror.hpp"
 #include "sdf_text.hpp"
@@ -183,8 +184,11 @@ std::vector<std::string> Model::SensorScopedName(const std::string& name) const
   std::vector<std::string> names;
   for (const LinkPtr& link : links_)
     for (unsigned int i = 0; i < link->GetSensorCount(); ++i)
-      if (link->GetSensorName(i) == name)
-        names.push_back(link->GetScopedName(true) + "::" + name);
+    {
+      const std::string full = link->GetScopedName(true) + "::" + link->GetSensorName(i);
+      if (link->GetSensorName(i) == name || boost::algorithm::ends_with(full, "::" + name))  // by as much of it as is told
+        names.push_back(full);
+    }
   return names;
 }
 
