@@ -1,12 +1,11 @@
 # sdformat and ignition-math: Debian's where it has them (12), those of the folder stand_in where it does not (13).
 option(NOETIC_LABS_OWN_SDFORMAT "sdformat and ignition-math of the folder stand_in, also where Debian has them" OFF)
 # What stands in has files for pkg-config, too (gazebo_dev), in this workspace and where it is installed. Those are not Debian's.
-set(pkg_config_path "$ENV{PKG_CONFIG_PATH}")
-set(ENV{PKG_CONFIG_PATH})
+set(PKG_CONFIG_EXECUTABLE ${CMAKE_COMMAND} -E env --unset=PKG_CONFIG_PATH ${PKG_CONFIG_EXECUTABLE})
 set(PKG_CONFIG_USE_CMAKE_PREFIX_PATH OFF)
 pkg_check_modules(DEBIAN_SDFORMAT sdformat12)
 pkg_check_modules(DEBIAN_IGNITION_MATH ignition-math6)
-set(ENV{PKG_CONFIG_PATH} "${pkg_config_path}")
+unset(PKG_CONFIG_EXECUTABLE)  # as it is in the cache again
 unset(PKG_CONFIG_USE_CMAKE_PREFIX_PATH)
 set(debian_sdformat)
 set(own_libraries)
