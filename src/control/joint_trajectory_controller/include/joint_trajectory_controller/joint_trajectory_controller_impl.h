@@ -20,6 +20,23 @@ inline double rateParameter(const ros::NodeHandle& nh, const char* name, double 
   return 0.0;
 }
 
+/// What the topic state and an action's feedback tell alike. \param message its vectors have their lengths already
+template <class Message, class State>
+inline void fill(Message& message, const ros::Time& stamp, const State& desired, const State& actual, const State& error)
+{
+  message.header.stamp = stamp;
+  message.desired.positions = desired.position;
+  message.desired.velocities = desired.velocity;
+  message.desired.accelerations = desired.acceleration;
+  message.desired.time_from_start = ros::Duration(desired.time_from_start);
+  message.actual.positions = actual.position;
+  message.actual.velocities = actual.velocity;
+  message.actual.time_from_start = ros::Duration(actual.time_from_start);
+  message.error.positions = error.position;
+  message.error.velocities = error.velocity;
+  message.error.time_from_start = ros::Duration(error.time_from_start);
+}
+
 }  // namespace internal
 
 #define JOINT_TRAJECTORY_CONTROLLER(...)                \
@@ -331,18 +348,7 @@ JOINT_TRAJECTORY_CONTROLLER(void)::publishState(const ros::Time& time)
     return;
   // on a grid, and not to catch up what was missed
   last_state_publish_time_ = std::max(last_state_publish_time_ + state_publisher_period_, time - state_publisher_period_);
-  control_msgs::JointTrajectoryControllerState& state = state_publisher_->msg_;
-  state.header.stamp = time_data_.readFromRT()->time;
-  state.desired.positions = desired_state_.position;
-  state.desired.velocities = desired_state_.velocity;
-  state.desired.accelerations = desired_state_.acceleration;
-  state.desired.time_from_start = ros::Duration(desired_state_.time_from_start);
-  state.actual.positions = current_state_.position;
-  state.actual.velocities = current_state_.velocity;
-  state.actual.time_from_start = ros::Duration(current_state_.time_from_start);
-  state.error.positions = state_error_.position;
-  state.error.velocities = state_error_.velocity;
-  state.error.time_from_start = ros::Duration(state_error_.time_from_start);
+  internal::fill(state_publisher_->msg_, time_data_.readFromRT()->time, desired_state_, current_state_, state_error_);
   state_publisher_->unlockAndPublish();
 }
 
@@ -350,18 +356,8 @@ JOINT_TRAJECTORY_CONTROLLER(void)::setActionFeedback()
 {
   if (!rt_active_goal_)
     return;
-  control_msgs::FollowJointTrajectoryFeedback& feedback = *rt_active_goal_->preallocated_feedback_;
-  feedback.header.stamp = time_data_.readFromRT()->time;
-  feedback.desired.positions = desired_state_.position;
-  feedback.desired.velocities = desired_state_.velocity;
-  feedback.desired.accelerations = desired_state_.acceleration;
-  feedback.desired.time_from_start = ros::Duration(desired_state_.time_from_start);
-  feedback.actual.positions = current_state_.position;
-  feedback.actual.velocities = current_state_.velocity;
-  feedback.actual.time_from_start = ros::Duration(current_state_.time_from_start);
-  feedback.error.positions = state_error_.position;
-  feedback.error.velocities = state_error_.velocity;
-  feedback.error.time_from_start = ros::Duration(state_error_.time_from_start);
+  internal::fill(*rt_active_goal_->preallocated_feedback_, time_data_.readFromRT()->time, desired_state_, current_state_,
+                 state_error_);
   rt_active_goal_->setFeedback(rt_active_goal_->preallocated_feedback_);
 }
 
