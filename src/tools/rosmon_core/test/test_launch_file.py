@@ -49,8 +49,9 @@ def test_output_attribute(write):
 
 
 def test_spawn_delays_increment(write):
-    body = NODE.format("a", "") + NODE.format("b", "") + NODE.format("c", 'rosmon-spawn-delay="1"')
-    assert [n.spawn_delay for n in load(write(body, spawn_increment=0.5)).nodes] == [0.0, 0.5, 2.0]
+    """LaunchConfig::applyAutoIncrementSpawnDelayToAll: nodes with a delay of their own keep it and are not counted."""
+    body = NODE.format("a", "") + NODE.format("b", 'rosmon-spawn-delay="1"') + NODE.format("c", "") + NODE.format("d", "")
+    assert [n.spawn_delay for n in load(write(body, spawn_increment=6.0)).nodes] == [0.0, 1.0, 6.0, 12.0]
 
 
 def test_tests_and_machines_are_skipped(write):

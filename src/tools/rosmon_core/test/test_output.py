@@ -2,8 +2,9 @@
 import pytest
 from hypothesis import given, strategies as st
 
-from rosmon_core import colors
+from rosmon_core import colors, terminal
 from rosmon_core.plain import format_line
+from rosmon_core.process import console_format
 from rosmon_core.severity import of_line, only_colours, without_escapes
 
 
@@ -46,3 +47,45 @@ def test_colour_mode(environment, mode):
 @pytest.mark.parametrize("mode", ["truecolor", "256colors"])
 def test_labels_differ(mode):
     assert len({colors.label_escape(i, 12, mode) for i in range(12)}) == 12
+
+
+#: Red, green, blue of the eight colours and their bright kin as terminals draw them: VGA (the Linux console), xterm, GNOME's Tango.
+PALETTES = {
+    "vga": "000000 aa0000 00aa00 aa5500 0000aa aa00aa 00aaaa aaaaaa 555555 ff5555 55ff55 ffff55 5555ff ff55ff 55ffff ffffff",
+    "xterm": "000000 cd0000 00cd00 cdcd00 0000ee cd00cd 00cdcd e5e5e5 7f7f7f ff0000 00ff00 ffff00 5c5cff ff00ff 00ffff ffffff",
+    "tango": "2e3436 cc0000 4e9a06 c4a000 3465a4 75507b 06989a d3d7cf 555753 ef2929 8ae234 fce94f 729fcf ad7fa8 34e2e2 eeeeec"}
+NAMES = dict(black=0, red=1, green=2, yellow=3, blue=4, magenta=5, cyan=6, gray=7, white=15)  # as prompt_toolkit has them
+
+
+def contrast(palette, text, background):
+    """WCAG 2.1: 1 to 21; 3 is asked of parts of a user interface, 4.5 of text."""
+    def luminance(index):
+        channels = [int(PALETTES[palette].split()[index][i:i + 2], 16) / 255 for i in (0, 2, 4)]
+        return sum(w * (c / 12.92 if c <= 0.03928 else ((c + 0.055) / 1.055) ** 2.4) for w, c in zip((0.2126, 0.7152, 0.0722), channels))
+    light, dark = sorted((luminance(text), luminance(background)), reverse=True)
+    return (light + 0.05) / (dark + 0.05)
+
+
+@pytest.mark.parametrize("palette", ["vga", "xterm"])
+def test_labels_can_be_read_on_16_colours(palette):
+    escapes = {colors.label_escape(i, 20, "ansi") for i in range(20)}
+    assert len(escapes) >= 6
+    for escape in escapes:
+        codes = [int(code) for code in escape[2:-1].split(";")]
+        text = [code - 90 + 8 if code >= 90 else code - 30 for code in codes if 30 <= code < 40 or code >= 90][-1]
+        assert contrast(palette, text, next(code - 40 for code in codes if 40 <= code < 50)) >= 4.5, escape
+
+
+@pytest.mark.parametrize("palette", PALETTES)
+def test_boxes_and_labels_can_be_told_from_their_ground_on_16_colours(palette):
+    for name in ("bar", "bar.key", "running", "crashed", "waiting", "muted"):
+        style = terminal._STYLE.get_attrs_for_style_str(f"class:{name}")
+        assert contrast(palette, *(NAMES[colour.replace("ansi", "")] for colour in (style.color, style.bgcolor))) >= 3, name
+    assert not terminal._STYLE.get_attrs_for_style_str("class:dim").color, "grey on black is lost on many consoles"
+
+
+@pytest.mark.parametrize("first, function", [("#!/usr/bin/env python3", False), ("#!/usr/bin/python2 -u", False), ("#!/bin/sh", True),
+                                             ("\x7fELF", True)])
+def test_names_of_python_functions_are_not_printed(tmp_path, first, function):
+    (tmp_path / "node").write_text(first + "\n")
+    assert ("${function}" in console_format(str(tmp_path / "node"))) == function

@@ -1,6 +1,12 @@
-"""The command line of rosmon: options anywhere, then PACKAGE FILE or PATH, then arguments name:=value."""
+"""The command line of rosmon: options anywhere, then PACKAGE FILE or PATH, then arguments name:=value.
+
+Words are taken apart as upstream's ``getopt_long`` does: an option may be shortened as long as it is clear which is meant, its value
+follows after ``=`` or as the next word, and ``--`` ends the options.
+"""
 from __future__ import annotations
 
+import getopt
+import math
 import os
 import re
 from dataclasses import dataclass, field
@@ -23,7 +29,7 @@ options:
   --disable-ui              print plain lines, take no keys (also chosen when there is no terminal)
   --flush-log               write each line to the log at once
   --flush-stdout            write each line to standard output at once
-  --help                    this text
+  -h, --help                this text
   --log=FILE                log to FILE (default /tmp/rosmon_<date>_<time>.log); 'syslog': to the system log
   --name=NAME               node name of rosmon itself (default: rosmon_<unique>)
   --no-start                start no node by itself
@@ -34,7 +40,9 @@ options:
   --disable-diagnostics     do not publish /diagnostics
   --diagnostics-prefix=TEXT replaces the node name in /diagnostics
   --auto-increment-spawn-delay=SECONDS
-                            start each node so much later than the one before it
+                            start each node that has no rosmon-spawn-delay so much later than the one before it
+
+An option may be shortened as long as it is clear, and a value may follow after a blank.
 
 environment:
   ROSMON_COLOR_MODE         truecolor, 256colors or ansi (default: what the terminal says)
@@ -43,9 +51,12 @@ environment:
 """
 
 _UNITS = {"": 1, "B": 1, "kB": 10 ** 3, "MB": 10 ** 6, "GB": 10 ** 9, "TB": 10 ** 12,
+          "KB": 10 ** 3, "mB": 10 ** 6, "gB": 10 ** 9, "tB": 10 ** 12,
           "KiB": 2 ** 10, "MiB": 2 ** 20, "GiB": 2 ** 30, "TiB": 2 ** 40}
 _FLAGS = ("benchmark", "list-args", "disable-ui", "flush-log", "flush-stdout", "help", "no-start",
           "disable-diagnostics")
+_WITH_VALUE = ("log", "name", "diagnostics-prefix", "stop-timeout", "cpu-limit", "memory-limit", "output-attr",
+               "auto-increment-spawn-delay")
 
 
 @dataclass
@@ -77,7 +88,7 @@ def parse_memory(text: str) -> int:
     match = re.fullmatch(r"\s*([0-9]*\.?[0-9]+)\s*([A-Za-z]*)\s*", text)
     if not match or match.group(2) not in _UNITS:
         raise RosmonError(f"'{text}' is no amount of memory: write for example 15MB or 200MiB "
-                          f"({', '.join(_UNITS)[2:]})")
+                          "(B, kB, MB, GB, TB, KiB, MiB, GiB, TiB)")
     return int(float(match.group(1)) * _UNITS[match.group(2)])
 
 
@@ -87,7 +98,7 @@ def parse_number(text: str, what: str) -> float:
         value = float(text)
     except ValueError:
         value = -1.0
-    if value < 0.0:
+    if math.isnan(value) or value < 0.0:
         raise RosmonError(f"{what} is '{text}': write a number that is zero or more")
     return value
 
@@ -118,18 +129,20 @@ def find_launch_file(package: str, name: str) -> str:
 
 def parse(words: List[str]) -> Options:
     """Options from the words behind ``mon launch``. :raises RosmonError: a word cannot be understood."""
-    options, positional = Options(), []
-    for word in words:
-        if word.startswith("--"):
-            _option(options, *word[2:].partition("=")[::2], given="=" in word)
-        elif ":=" in word:
-            options.arguments.append(word)
-        elif options.arguments:
+    options = Options()
+    try:
+        given, rest = getopt.gnu_getopt(words, "h", [*_FLAGS, *(name + "=" for name in _WITH_VALUE)])
+    except getopt.GetoptError as error:
+        raise RosmonError(f"{error.msg}; see 'mon launch --help'") from None
+    for name, value in given:
+        _option(options, "help" if name == "-h" else name[2:], value)
+        if options.help:
+            return options
+    split = next((i for i, word in enumerate(rest) if ":=" in word and i > 0), len(rest))
+    positional, options.arguments = rest[:split], rest[split:]
+    for word in options.arguments:
+        if ":=" not in word:
             raise RosmonError(f"'{word}' stands behind an argument: write arguments as name:=value, after the file")
-        else:
-            positional.append(word)
-    if options.help:
-        return options
     if len(positional) == 2:
         options.file = find_launch_file(*positional)
     elif len(positional) == 1:
@@ -141,21 +154,17 @@ def parse(words: List[str]) -> Options:
     return options
 
 
-def _option(options: Options, name: str, value: str, given: bool) -> None:
-    if name in _FLAGS and not given:
+def _option(options: Options, name: str, value: str) -> None:
+    if name in _FLAGS:
         setattr(options, name.replace("-", "_"), True)
-    elif name in ("log", "name", "diagnostics-prefix") and value:
-        setattr(options, name.replace("-", "_"), value)
-    elif name == "stop-timeout":
-        options.stop_timeout = parse_number(value, "--stop-timeout")
-    elif name == "cpu-limit":
-        options.cpu_limit = parse_number(value, "--cpu-limit")
+    elif name in ("log", "name", "diagnostics-prefix"):
+        setattr(options, name.replace("-", "_"), value or None)
     elif name == "memory-limit":
         options.memory_limit = parse_memory(value)
-    elif name == "auto-increment-spawn-delay":
-        options.spawn_increment = parse_number(value, "--auto-increment-spawn-delay")
-    elif name == "output-attr" and value in ("obey", "ignore"):
+    elif name == "output-attr":
+        if value not in ("obey", "ignore"):
+            raise RosmonError(f"--output-attr is '{value}': write obey or ignore")
         options.obey_output = value == "obey"
     else:
-        raise RosmonError(f"option --{name}{'=' if given else ''}{value} is not known or lacks its value; see "
-                          "'mon launch --help'")
+        attribute = {"auto-increment-spawn-delay": "spawn_increment"}.get(name, name.replace("-", "_"))
+        setattr(options, attribute, parse_number(value, "--" + name))

@@ -159,8 +159,8 @@ def load(options: Options) -> LaunchFile:
     except _LOAD_ERRORS as error:
         raise RosmonError(f"Could not load launch file {options.file}: {_one_line(error)}") from None
     options.disable_ui = options.disable_ui or disable_ui
-    for index, spec in enumerate(loader.specs):
-        spec.spawn_delay += index * options.spawn_increment
+    for index, spec in enumerate(spec for spec in loader.specs if spec.spawn_delay == 0.0):
+        spec.spawn_delay = index * options.spawn_increment
     return LaunchFile(loader.specs, {key: param.value for key, param in config.params.items()}, config.clear_params,
                       [_one_line(p) for p in config.config_errors], loader.attributes)
 

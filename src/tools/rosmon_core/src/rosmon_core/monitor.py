@@ -61,7 +61,7 @@ class Monitor:
 
     def start_all(self) -> None:
         for node in self.nodes:
-            node.start(node.spec.spawn_delay)
+            node.start()
         self._tell()
 
     def stop_all(self) -> None:

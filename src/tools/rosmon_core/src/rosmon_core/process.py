@@ -21,6 +21,8 @@ from roslaunch.node_args import NodeParamsException, create_local_process_args
 from rosmon_core.launch_file import NodeSpec
 
 CONSOLE_FORMAT = "[${function}]: ${message}"
+#: The function is the class and method in C++, and a bare name (``_call``, ``<module>``) in Python.
+CONSOLE_FORMAT_OF_SCRIPTS = "${message}"
 _RESPAWN_DELAY = 1.0     # s, at least: a node that dies at once must not be started a thousand times a second
 _LONGEST_LINE = 1 << 16
 
@@ -67,6 +69,7 @@ class NodeProcess:
         self._readers: Dict[int, _Stream] = {}
         self._timer: Optional[asyncio.TimerHandle] = None
         self._wanted = False
+        self._first = True
         self._restarting = False
         self._left_behind: List[int] = []
         self.executable = ""
@@ -83,15 +86,19 @@ class NodeProcess:
     def running(self) -> bool:
         return self._process is not None
 
-    def start(self, delay: float = 0.0) -> None:
-        """Start the node, after ``delay`` seconds; nothing if it runs already."""
+    def start(self) -> None:
+        """Start the node, the first time after its spawn delay; nothing if it runs already."""
+        self._start_after(self.spec.spawn_delay if self._first else 0.0)
+        self._first = False
+
+    def _start_after(self, delay: float) -> None:
         self._cancel_timer()
         self._wanted = True
         if self.running:
             return
         if delay > 0.0:
             self.state = State.WAITING
-            self._timer = self._loop.call_later(delay, self.start)
+            self._timer = self._loop.call_later(delay, self._start_after, 0.0)
             return
         try:
             self._spawn()
@@ -159,7 +166,7 @@ class NodeProcess:
         if difference:
             self._event(self, difference, "warn")
         environment = setup_env(node, None, self._master_uri)
-        environment.setdefault("ROSCONSOLE_FORMAT", CONSOLE_FORMAT)
+        environment.setdefault("ROSCONSOLE_FORMAT", console_format(self.executable))
         directory = {"node": os.path.dirname(self.executable), "ROS_HOME": rospkg.get_ros_home()}.get(node.cwd or "")
         terminals = [os.openpty(), os.openpty()]
         try:
@@ -239,7 +246,7 @@ class NodeProcess:
             self.restart_count += 1
             delay = max(_RESPAWN_DELAY, self.spec.node.respawn_delay)
             self._event(self, f"is started again in {delay:g} s (respawn)", "info")
-            self.start(delay)
+            self._start_after(delay)
         else:
             self._wanted = False
 
@@ -247,6 +254,16 @@ class NodeProcess:
         if self._timer:
             self._timer.cancel()
             self._timer = None
+
+
+def console_format(executable: str) -> str:
+    """The ROSCONSOLE_FORMAT of a program where the user has chosen none."""
+    try:
+        with open(executable, "rb") as file:
+            first = file.read(128).split(b"\n")[0]
+    except OSError:
+        return CONSOLE_FORMAT
+    return CONSOLE_FORMAT_OF_SCRIPTS if first.startswith(b"#!") and b"python" in first else CONSOLE_FORMAT
 
 
 def _describe(code: int) -> Tuple[str, str]:

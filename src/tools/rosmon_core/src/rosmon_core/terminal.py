@@ -30,7 +30,7 @@ _STYLE = Style.from_dict({
     "bar": "bg:ansiwhite fg:ansiblack", "bar.key": "bg:ansicyan fg:ansiblack",
     "idle": "", "running": "bg:ansigreen fg:ansiblack", "crashed": "bg:ansired fg:ansiwhite",
     "waiting": "bg:ansiyellow fg:ansiblack", "key": "reverse", "muted": "bg:ansiblue fg:ansiwhite",
-    "chosen": "bold underline", "dim": "fg:ansibrightblack"})
+    "chosen": "bold underline", "dim": ""})
 _STATE_STYLE = {State.IDLE: "class:idle", State.RUNNING: "class:running", State.CRASHED: "class:crashed",
                 State.WAITING: "class:waiting"}
 _GLOBAL_KEYS = (("A-Z", "Node actions"), ("F6", "Start all"), ("F7", "Stop all"), ("F8", "WARN+ only"),
