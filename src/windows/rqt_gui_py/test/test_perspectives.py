@@ -224,3 +224,48 @@ def test_frozen_and_locked_windows(workspace, tmp_path):
         assert running(gui) and gui.window.menuWidget() is None
         for name in ("close_button", "float_button", "minimize_button", "dockable_button", "help_button", "title_label"):
             assert find(gui, name).isHidden(), name
+
+
+#: The ids that stand in perspectives saved on Noetic: package and name in the plugin.xml of each of its plugins, and pluginlib's name
+#: of those that are compiled there.
+NOETIC = ("rqt_action/ActionPlugin rqt_bag/Bag rqt_console/Console rqt_controller_manager/ControllerManager rqt_dep/RosPackGraph "
+          "rqt_graph/RosGraph rqt_image_view/ImageView rqt_joint_trajectory_controller/JointTrajectoryController rqt_launch/Launch "
+          "rqt_logger_level/LoggerLevel rqt_msg/Messages MultiplotPlugin rqt_multiplot/MultiplotPlugin rqt_nav_view/NavigationView "
+          "rqt_plot/Plot rqt_pose_view/PoseView rqt_publisher/Publisher rqt_py_console/PyConsole rqt_reconfigure/Param "
+          "rqt_robot_monitor/RobotMonitor rqt_robot_steering/RobotSteering rosmon rqt_rosmon/rosmon rqt_runtime_monitor/RuntimeMonitor "
+          "rqt_rviz/RViz rqt_service_caller/ServiceCaller rqt_shell/Shell rqt_srv/Services rqt_tf_tree/RosTfTree rqt_top/TOP "
+          "rqt_topic/TopicPlugin rqt_web/Web").split()
+
+
+def test_every_plugin_of_noetic_is_found_by_the_name_that_its_perspectives_have(workspace):
+    with open_gui(providers=workspace.providers()) as gui:
+        assert [name for name in NOETIC if gui.plugins.get_plugin_descriptor(name) is None] == []
+
+
+@pytest.mark.parametrize("package, name, saved", [("rqt_topic", "TopicPlugin", "rqt_topic/Topic"), ("rqt_multiplot", "MultiplotPlugin",
+                                                   "MultiplotPlugin"), ("rqt_rosmon", "rosmon", "rosmon")])
+def test_a_perspective_with_another_name_of_a_plugin_opens_it_with_its_settings(workspace, tmp_path, package, name, saved):
+    folder = workspace.make(package, cls=name, kind="plugin_of_this_test.Plugin")
+    (folder / "src" / "plugin_of_this_test.py").write_text(EDIT)
+    tidy = saved.replace("/", "__")
+    text = json.dumps(UPSTREAM).replace("rqt_edit/Plugin", saved).replace("rqt_edit__Plugin", tidy)
+    path = tmp_path / "p.perspective"
+    path.write_text(text)
+    with open_gui(["--perspective-file", str(path)], providers=workspace.providers()) as gui:
+        assert running(gui) == {f"{saved}#1": "from a file", f"{saved}#2": ""}
+        gui.plugins._reload(f"{saved}#1")
+        assert running(gui)[f"{saved}#1"] == "from a file"
+    assert errors == []
+
+
+@pytest.mark.parametrize("saved, told", [
+    ("rqt_moveit/Moveit", "no package of this workspace has it. It is not supplied here .* (ros-visualization/rqt_moveit); rqt --list"),
+    ("rqt_of_mine/Plugin", "no package of this workspace has it. Is it built in your workspace, and that sourced"),
+    ("rqt_edit/Other", "the package rqt_edit has no such plugin, but rqt_edit/Plugin; ")])
+def test_one_line_says_why_a_plugin_of_a_perspective_is_not_here(workspace, tmp_path, saved, told):
+    workspace.make("rqt_edit", EDIT)
+    path = tmp_path / "p.perspective"
+    path.write_text(json.dumps(UPSTREAM).replace("rqt_edit/Plugin", saved).replace("[1, 2]", "[1]"))
+    with open_gui(["--perspective-file", str(path)], providers=workspace.providers()):
+        assert len(errors) == 1 and "\n" not in errors[0]
+        assert all(part in errors[0] for part in told.split(" .* ")), errors

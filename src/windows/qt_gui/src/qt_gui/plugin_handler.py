@@ -50,7 +50,7 @@ class PluginHandler(QObject):
         :raises Exception: whatever the plugin raises; its widgets are gone then.
         """
         try:
-            self._plugin = provider.load(self._instance_id.plugin_id, PluginContext(self))
+            self._plugin = provider.load(self._descriptor.plugin_id(), PluginContext(self))
         except BaseException:
             self._remove_everything()
             raise

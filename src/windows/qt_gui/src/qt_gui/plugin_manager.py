@@ -8,6 +8,10 @@ from qt_gui.plugin_instance_id import PluginInstanceId
 from qt_gui.reload_importer import ReloadImporter
 from qt_gui.reporting import describe
 
+#: Names under which perspectives have plugins that are called otherwise here: pluginlib's names of compiled ones have no package, and two
+#: of this platform's had names of their own once.
+OTHER_NAMES = {"MultiplotPlugin": "rqt_multiplot/MultiplotPlugin", "rosmon": "rqt_rosmon/rosmon", "rqt_rosmon/ROSMon": "rqt_rosmon/rosmon",
+               "rqt_topic/Topic": "rqt_topic/TopicPlugin"}
 CONTAINER = "__DockWidgetContainer"  # the id under which containers are stored among the plugins
 
 
@@ -79,7 +83,7 @@ class PluginManager(QObject):
 
     def get_plugin_descriptor(self, plugin_id):
         self.discover()
-        return self._descriptors.get(plugin_id)
+        return self._descriptors.get(plugin_id) or self._descriptors.get(OTHER_NAMES.get(plugin_id))
 
     def running(self):
         """The handlers of all running plugins, in order of loading."""
@@ -106,7 +110,7 @@ class PluginManager(QObject):
         """The handler of a new running instance, or None after a report."""
         descriptor = self.get_plugin_descriptor(instance_id.plugin_id)
         if descriptor is None:
-            qWarning(f"could not load plugin '{instance_id.plugin_id}': no package of this workspace has it; rqt --list-plugins "
+            qWarning(f"could not load plugin '{instance_id.plugin_id}': {self._why_absent(instance_id.plugin_id)}; rqt --list-plugins "
                      "shows those that there are")
             return None
         kind = ContainerHandler if instance_id.plugin_id == CONTAINER else PluginHandler
@@ -134,8 +138,17 @@ class PluginManager(QObject):
         handler.deleteLater()
         return None
 
+    def _why_absent(self, plugin_id):
+        """What is known of a plugin that nobody has: its package is not here, or has others."""
+        from node_signals.absent import explanation  # where everything is there it would take its time for nothing
+        package = plugin_id.split("/")[0]
+        others = sorted(i for i in self._descriptors if i.split("/")[0] == package)
+        if others:
+            return f"the package {package} has no such plugin, but {', '.join(others)}"
+        return f"no package of this workspace has it. {explanation(package).rstrip('.')}"
+
     def _help(self, instance_id):
-        self.plugin_help_signal.emit(self._descriptors[PluginInstanceId(instance_id=instance_id).plugin_id])
+        self.plugin_help_signal.emit(self.get_plugin_descriptor(PluginInstanceId(instance_id=instance_id).plugin_id))
 
     # ending
 
@@ -167,7 +180,7 @@ class PluginManager(QObject):
         self.plugins_about_to_change_signal.emit()
         self._save(handler)
         self._end(handler)
-        self._importer.forget(self._descriptors[handler.instance_id().plugin_id])
+        self._importer.forget(self.get_plugin_descriptor(handler.instance_id().plugin_id))
         handler = self._start(handler.instance_id(), handler.argv())
         if handler is not None:
             self._restore(handler)
