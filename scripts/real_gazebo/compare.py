@@ -1,0 +1,75 @@
+"""Rows of a scene: real Gazebo's value, ours by both solvers, the law, and whether each is within its tolerance."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Dict, Iterator, Optional, Tuple
+
+from real_gazebo.records import Record, path_of
+from real_gazebo.scene import Row, Scene
+
+
+@dataclass(frozen=True)
+class Result:
+    row: Row
+    real: float
+    ours: Dict[str, float]  # by solver; NaN: it could not be measured
+
+    def within(self, solver: str) -> bool:
+        near, wanted = self.row.gazebo if solver == "gazebo" else self.row.default, self.wanted(solver)
+        return close(self.ours[solver], wanted, near)
+
+    def wanted(self, solver: str) -> float:
+        """What that solver is held against: real Gazebo, or the law for the default one where there is a law."""
+        return self.real if solver == "gazebo" or self.row.law is None else self.row.law
+
+    def cause(self, solver: str) -> str:
+        return self.row.gazebo_cause if solver == "gazebo" else self.row.default_cause
+
+
+def close(value: float, wanted: float, near: Tuple[float, float]) -> bool:
+    if math.isinf(value) or math.isinf(wanted):
+        return value == wanted
+    return abs(value - wanted) <= near[0] * abs(wanted) + near[1]
+
+
+def measured(row: Row, record: Optional[Record]) -> float:
+    if record is None:
+        return math.nan
+    try:
+        return float(row.measure(record))
+    except (KeyError, IndexError, ValueError, StopIteration):  # what it names is not there
+        return math.nan
+
+
+def run_ours(scene: Scene, solver: str) -> Record:
+    if scene.server:
+        from real_gazebo.server import run
+    else:
+        from real_gazebo.ours import run
+    return run(scene, solver)
+
+
+def compare(scene: Scene) -> Iterator[Result]:
+    real = Record.read(path_of(scene.name))
+    runs = {solver: run_ours(scene, solver) for solver in ("gazebo", "default")}
+    for row in scene.rows:
+        yield Result(row, measured(row, real), {solver: measured(row, record) for solver, record in runs.items()})
+
+
+def number(value: Optional[float]) -> str:
+    if value is None:
+        return ""
+    if math.isinf(value):
+        return "never" if value > 0 else "-inf"
+    return "none" if math.isnan(value) else f"{value + 0.0:.5g}"
+
+
+def told(scene: Scene, result: Result) -> str:
+    verdict = " ".join(
+        f"{solver} {number(result.ours[solver])} {'ok' if result.within(solver) else 'OFF' + (' (told)' if result.cause(solver) else '')}"
+        for solver in result.ours
+    )
+    law = "" if result.row.law is None else f" law {number(result.row.law)}"
+    return f"{scene.name}: {result.row.quantity}: real {number(result.real)}{law} {verdict}"

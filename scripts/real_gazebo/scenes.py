@@ -1,0 +1,27 @@
+"""All scenes, family by family."""
+
+from real_gazebo import (
+    scenes_contacts,
+    scenes_fields,
+    scenes_joints,
+    scenes_linkages,
+    scenes_piles,
+    scenes_robots,
+    scenes_sensors,
+    scenes_surfaces,
+    scenes_worlds,
+)
+from real_gazebo.scene import SCENES
+
+FAMILIES = (
+    scenes_joints,
+    scenes_linkages,
+    scenes_contacts,
+    scenes_surfaces,
+    scenes_piles,
+    scenes_robots,
+    scenes_worlds,
+    scenes_fields,
+    scenes_sensors,
+)
+__all__ = ["FAMILIES", "SCENES"]

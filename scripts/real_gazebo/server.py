@@ -1,0 +1,74 @@
+"""Runs a scene on this simulator's server, with the recorder compiled against gazebo_cpp's headers: the sensors of Gazebo's core."""
+
+from __future__ import annotations
+
+import functools
+import os
+import shutil
+import signal
+import subprocess
+import tempfile
+
+from real_gazebo.chroot import HERE, ChrootError, free_port, write_scene
+from real_gazebo.records import Record
+from real_gazebo.scene import Scene
+
+_CMAKE = """cmake_minimum_required(VERSION 3.13)
+project(recorder)
+set(CMAKE_CXX_STANDARD 17)
+find_package(gazebo REQUIRED)
+include_directories(${GAZEBO_INCLUDE_DIRS})
+link_directories(${GAZEBO_LIBRARY_DIRS})
+add_library(recorder SHARED %s/recorder.cc)
+target_link_libraries(recorder ${GAZEBO_LIBRARIES})
+"""
+
+
+@functools.lru_cache(maxsize=None)
+def recorder() -> str:
+    """Folder of librecorder.so, built once for this process; it goes when the process ends."""
+    folder = tempfile.TemporaryDirectory(prefix="recorder")
+    recorder.kept = folder  # type: ignore[attr-defined]
+    with open(os.path.join(folder.name, "CMakeLists.txt"), "w", encoding="utf-8") as file:
+        file.write(_CMAKE % HERE)
+    for command in (["cmake", "-B", "build", "-DCMAKE_BUILD_TYPE=Release"], ["cmake", "--build", "build"]):
+        done = subprocess.run(command, cwd=folder.name, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        if done.returncode:
+            raise ChrootError(f"the recorder does not build against gazebo_cpp: {done.stdout.strip().splitlines()[-1]}")
+    return os.path.join(folder.name, "build")
+
+
+def run(scene: Scene, solver: str, limit: float = 120.0) -> Record:
+    """:raises ChrootError: the server did not come to the scene's end."""
+    folder = tempfile.mkdtemp(prefix="scene")
+    try:
+        write_scene(scene, folder, folder, scene.plugin())
+        out = os.path.join(folder, "out.csv")
+        ros, gazebo = free_port(), free_port()
+        environment = dict(
+            os.environ,
+            ROS_MASTER_URI=f"http://localhost:{ros}",
+            ROS_HOME=folder,
+            GAZEBO_MASTER_URI=f"http://localhost:{gazebo}",
+            GAZEBO_PLUGIN_PATH=recorder(),
+            GAZEBO_MODEL_PATH=folder,
+            TRUTH_OUT=out,
+            ODE_SIM_SOLVER="gazebo" if solver == "gazebo" else "",
+        )
+        command = ["rosrun", "gazebo_ros", "gazebo", "-u", os.path.join(folder, "scene.world")]
+        server = subprocess.Popen(
+            command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace", start_new_session=True
+        )
+        try:
+            said = server.communicate(timeout=limit)[0]
+        except subprocess.TimeoutExpired:
+            os.killpg(server.pid, signal.SIGKILL)
+            said = server.communicate()[0]
+        if os.path.exists(out):
+            with open(out, encoding="utf-8") as file:
+                lines = file.read().splitlines()
+            if lines and lines[-1].startswith("end,"):
+                return Record(lines)
+        raise ChrootError(f"{scene.name}: the server did not finish it; its last words: {' | '.join(said.strip().splitlines()[-4:])}")
+    finally:
+        shutil.rmtree(folder, ignore_errors=True)
