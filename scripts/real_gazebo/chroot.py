@@ -15,6 +15,7 @@ from real_gazebo.scene import Scene
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 MIRROR = "http://deb.debian.org/debian"
+SOURCES = ("build_recorder.sh", "recorder.cc", "deeds.hh", "sensor_rows.hh", "timing.hh")
 PACKAGES = ("gazebo", "libgazebo-dev", "g++", "pkg-config")
 _KEYRING = "/usr/share/keyrings/debian-archive-keyring.gpg"
 _ATTEMPTS = 3  # a server whose port was taken or that did not come up is started again
@@ -58,11 +59,11 @@ def build_recorder(folder: str) -> None:
     """Compile `recorder.cc` within the chroot, if it is newer than what was compiled."""
     place = os.path.join(folder, "truth")
     os.makedirs(place, exist_ok=True)
-    source, library = os.path.join(HERE, "recorder.cc"), os.path.join(place, "librecorder.so")
-    if os.path.exists(library) and os.path.getmtime(library) > os.path.getmtime(source):
+    sources, library = [os.path.join(HERE, name) for name in SOURCES], os.path.join(place, "librecorder.so")
+    if os.path.exists(library) and os.path.getmtime(library) > max(map(os.path.getmtime, sources)):
         return
-    for name in ("recorder.cc", "build_recorder.sh"):
-        shutil.copy(os.path.join(HERE, name), place)
+    for source in sources:
+        shutil.copy(source, place)
     _run(["chroot", folder, "sh", "/truth/build_recorder.sh", "/truth", "/truth"])
 
 

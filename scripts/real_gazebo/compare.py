@@ -6,12 +6,14 @@ import math
 from dataclasses import dataclass
 from typing import Dict, Iterator, Optional, Tuple
 
+from real_gazebo.causes import cause_of
 from real_gazebo.records import Record, path_of
 from real_gazebo.scene import Row, Scene
 
 
 @dataclass(frozen=True)
 class Result:
+    scene: Scene
     row: Row
     real: float
     ours: Dict[str, float]  # by solver; NaN: it could not be measured
@@ -25,7 +27,7 @@ class Result:
         return self.real if solver == "gazebo" or self.row.law is None else self.row.law
 
     def cause(self, solver: str) -> str:
-        return self.row.gazebo_cause if solver == "gazebo" else self.row.default_cause
+        return cause_of(solver, self.scene.name, self.row.quantity)
 
 
 def close(value: float, wanted: float, near: Tuple[float, float]) -> bool:
@@ -55,7 +57,7 @@ def compare(scene: Scene) -> Iterator[Result]:
     real = Record.read(path_of(scene.name))
     runs = {solver: run_ours(scene, solver) for solver in ("gazebo", "default")}
     for row in scene.rows:
-        yield Result(row, measured(row, real), {solver: measured(row, record) for solver, record in runs.items()})
+        yield Result(scene, row, measured(row, real), {solver: measured(row, record) for solver, record in runs.items()})
 
 
 def number(value: Optional[float]) -> str:

@@ -76,6 +76,8 @@ class Run:
             self.world.find_link(deed.on).add_torque(tuple(v))
         else:
             joint = self.world.find_joint(deed.on)
+            if joint is None:
+                return
             if deed.kind == "effort":
                 joint.add_force(v[0], int(v[1]) if len(v) > 1 else 0)
             elif deed.kind == "pd":

@@ -18,8 +18,6 @@ class Row:
     :param law: its value on paper, if there is one.
     :param gazebo: what `solver: gazebo` may be away from real Gazebo: part of the value, and absolutely.
     :param default: the same of the default solver, from the law where there is one, else from real Gazebo.
-    :param gazebo_cause: why `solver: gazebo` is not within `gazebo` today; empty where it is.
-    :param default_cause: the same of the default solver.
     """
 
     quantity: str
@@ -27,8 +25,6 @@ class Row:
     law: Optional[float] = None
     gazebo: Tuple[float, float] = (1e-4, 1e-5)
     default: Tuple[float, float] = (1e-3, 1e-4)
-    gazebo_cause: str = ""
-    default_cause: str = ""
 
 
 @dataclass(frozen=True)

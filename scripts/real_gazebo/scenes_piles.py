@@ -14,13 +14,13 @@ def pile(name, what, law, bodies, rows, seconds=5.0, deeds=(), every=0.04, **set
     return add(Scene(name, "piles", what, law, world(ground(), *bodies, **settings), tuple(rows), seconds, every, tuple(deeds)))
 
 
-def stands(body, height, time=4.9, near=(0, 0.01), default=(0, 1e-3), **causes):
+def stands(body, height, time=4.9, near=(0, 0.01), default=(0, 1e-3)):
     return Row(
-        f"height of {body} at {time:g} s, m", lambda r: r.at(f"model:{body}", "z", time), law=height, gazebo=near, default=default, **causes
+        f"height of {body} at {time:g} s, m", lambda r: r.at(f"model:{body}", "z", time), law=height, gazebo=near, default=default
     )
 
 
-def wanders(body, time=4.9, near=(0, 0.03), **causes):
+def wanders(body, time=4.9, near=(0, 0.03)):
     return Row(
         f"{body} aside at {time:g} s, m",
         lambda r: math.hypot(
@@ -30,18 +30,16 @@ def wanders(body, time=4.9, near=(0, 0.03), **causes):
         law=0.0,
         gazebo=near,
         default=(0, 1e-3),
-        **causes,
     )
 
 
-def falls(body, below, law=math.inf, **causes):
+def falls(body, below, law=math.inf):
     return Row(
         f"{body} falls below {below:g} m after, s",
         lambda r: r.falls_at(f"model:{body}", below),
         law=law,
         gazebo=SEEN,
         default=SEEN,
-        **causes,
     )
 
 

@@ -89,25 +89,23 @@ def drive(name, what, law, robot, rows, deeds, seconds=4.2, files=None, others=(
     return add(Scene(name, "robots", what, law, world(ground(), robot, *others), tuple(rows), seconds, every, tuple(deeds), files or {}))
 
 
-def turned(body="r", law=None, time=4.0, start=1.0, near=TURN, default=(0.01, 1e-3), **causes):
+def turned(body="r", law=None, time=4.0, start=1.0, near=TURN, default=(0.01, 1e-3)):
     return Row(
         f"turned from {start:g} to {time:g} s, rad",
         lambda r: r.yaw_at(f"model:{body}", time) - r.yaw_at(f"model:{body}", start),
         law=law,
         gazebo=near,
         default=default,
-        **causes,
     )
 
 
-def moved(column="x", law=None, time=4.0, start=1.0, near=WAY, default=(0.01, 1e-3), body="r", **causes):
+def moved(column="x", law=None, time=4.0, start=1.0, near=WAY, default=(0.01, 1e-3), body="r"):
     return Row(
         f"{column} moved from {start:g} to {time:g} s, m",
         lambda r: r.at(f"model:{body}", column, time) - r.at(f"model:{body}", column, start),
         law=law,
         gazebo=near,
         default=default,
-        **causes,
     )
 
 

@@ -42,7 +42,6 @@ def bounce(
     law=None,
     words="a ball springs back to e^2 of its height, where max_vel lets it",
     default=(2e-2, 2e-3),
-    **causes,
 ):
     return drop(
         name,
@@ -51,7 +50,7 @@ def bounce(
         body,
         plate,
         (
-            Row("first peak after a fall of 1 m, m", peak(), law=law, gazebo=(1e-3, 2e-4), default=default, **causes),
+            Row("first peak after a fall of 1 m, m", peak(), law=law, gazebo=(1e-3, 2e-4), default=default),
             Row("height at the end, m", lambda r: r.at("model:b", "z", 2.45) - 1.15, gazebo=(5e-3, 5e-4), default=(9, 9)),
         ),
     )
@@ -114,7 +113,7 @@ for value, side in ((0.01, "plate"), (1000, "ball"), (1000, "both"), (1.0, "ball
 
 
 def sunk(
-    name, what, law, body, plate, value=None, height=0.0, times=(0.01, 0.1, 0.5, 2.4), default=(5e-2, 2e-4), gazebo=(2e-3, 2e-5), **causes
+    name, what, law, body, plate, value=None, height=0.0, times=(0.01, 0.1, 0.5, 2.4), default=(5e-2, 2e-4), gazebo=(2e-3, 2e-5)
 ):
     return drop(
         name,
@@ -129,7 +128,6 @@ def sunk(
                 law=value if t > 1 else None,
                 gazebo=gazebo,
                 default=default if t > 1 else (9, 9),
-                **causes,
             )
             for t in times
         ),

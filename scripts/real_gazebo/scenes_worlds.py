@@ -10,21 +10,20 @@ def scene(name, what, law, text, rows, seconds=1.2, deeds=(), files=None, every=
     return add(Scene(name, "worlds", what, law, text, tuple(rows), seconds, every, tuple(deeds), files or {}, **settings))
 
 
-def value(kind, name, number, what, law=None, last=False, near=EQUAL, default=None, **causes):
+def value(kind, name, number, what, law=None, last=False, near=EQUAL, default=None):
     return Row(
         f"{what} of {kind} {name}",
         lambda r: float(r.value(kind, name, number, last)),
         law=law,
         gazebo=near,
         default=default or near,
-        **causes,
     )
 
 
-def placed(name, last=False, **causes):
+def placed(name, last=False):
     """World pose of a link after loading, one row: distance of its numbers from real Gazebo's is what counts."""
     return tuple(
-        value("link", name, 10 + i, what, last=last, near=(1e-5, 2e-6), **causes)
+        value("link", name, 10 + i, what, last=last, near=(1e-5, 2e-6))
         for i, what in enumerate(("x", "y", "z", "qx", "qy", "qz", "qw"))
     )
 
