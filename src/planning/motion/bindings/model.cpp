@@ -62,7 +62,6 @@ LimitOverride limitOverride(const py::handle& values, const std::string& joint)
     if (!std::isfinite(*into))
       throw InvalidInput("joint_limits: " + std::string(key) + " of joint '" + joint + "' is not finite");
   };
-  flag("has_position_limits", out.has_position);
   flag("has_velocity_limits", out.has_velocity);
   flag("has_acceleration_limits", out.has_acceleration);
   flag("has_jerk_limits", out.has_jerk);

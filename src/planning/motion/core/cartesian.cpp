@@ -11,6 +11,7 @@ namespace motion
 namespace
 {
 constexpr int MIN_STEPS_FOR_JUMPS = 10;  // fewer say nothing of the mean
+constexpr double TURN_PER_METRE = 3.5;  // rad of a step for each metre of its longest way, as upstream: 2 degrees for 1 cm
 constexpr std::size_t MOST_STEPS = 200000;
 constexpr int ATTEMPTS = 6;
 constexpr double BESIDE = 0.02, NEAR = 0.5;  // rad or m
@@ -62,9 +63,11 @@ private:
   {
     const Transform from = frame_.at(state_);
     const double length = (goal.translation() - from.translation()).norm();
-    const double wanted = std::floor(length / request_.max_step) + 1;
+    const double turn = Quaternion(from.linear()).angularDistance(Quaternion(goal.linear()));
+    const double wanted =
+        std::floor(std::max(length, request_.position_only ? 0.0 : turn / TURN_PER_METRE) / request_.max_step) + 1;
     if (!(wanted < MOST_STEPS))
-      throw InvalidInput("a Cartesian path of " + std::to_string(length) + " m in steps of " +
+      throw InvalidInput("a Cartesian path of " + std::to_string(length) + " m and " + std::to_string(turn) + " rad in steps of " +
                          std::to_string(request_.max_step) + " m: that is too many steps");
     const bool jumps = request_.jump_threshold > 0 || request_.prismatic_jump > 0 || request_.revolute_jump > 0;
     const int steps = std::max(static_cast<int>(wanted), jumps ? MIN_STEPS_FOR_JUMPS : 1);
@@ -108,7 +111,12 @@ private:
     options.max_restarts = request_.timeout > 0 ? -1 : 0;
     options.random_seed = path_.points.size();
     std::string why;
+    bool turned = false;
     options.valid = [&](const double* values) {
+      why = turnedOver(values);
+      turned = !why.empty();
+      if (turned)
+        return false;
       candidate_.setGroup(group_, values);
       if (!constraints_.empty())
         why = constraints_.problem(candidate_);
@@ -118,7 +126,15 @@ private:
     };
     const IkTarget target{frame_.link, pose * frame_.pose.inverse(), true, !request_.position_only};
     IkResult found = solver_.solve(state_, {target}, options);
-    if (found.solutions.empty() && why.empty())
+    if (found.solutions.empty() && turned)  // arms with joints to spare may have another way
+    {
+      options.consistency.assign(group_.size(), 0.99 * M_PI);
+      const std::string limit = why;
+      found = solver_.solve(state_, {target}, options);
+      if (why.empty())
+        why = limit;
+    }
+    else if (found.solutions.empty() && why.empty())
       found = fromBeside(target, options);
     if (found.solutions.empty())
     {
@@ -127,6 +143,21 @@ private:
     }
     state_.setGroup(group_, found.solutions[0].data());
     return true;
+  }
+
+  // Beyond a limit the same pose may be had by turning a joint all the way back, which is no step along a line.
+  std::string turnedOver(const double* values) const
+  {
+    const double* from = values;
+    for (const int j : group_.active_joints)
+    {
+      const JointModel& joint = state_.model()->joints[j];
+      const double apart = std::abs(*from - state_.joint(joint)[0]);
+      if (joint.type == JointType::Revolute && !joint.continuous && apart > M_PI)
+        return "the line leads joint '" + joint.name + "' beyond its limit";
+      from += joint.variable_count;
+    }
+    return "";
   }
 
   // A stretched arm has no slope to follow inwards. From values beside the last ones there is one; what it leads to still has

@@ -333,37 +333,59 @@ void ModelBuilder::applyProperties()
   }
 }
 
+// Limits are given by variable: that of a joint with one variable is called as the joint.
+std::pair<JointModel*, int> ModelBuilder::variableNamed(const std::string& name)
+{
+  for (JointModel& joint : model_.joints)
+    for (int k = 0; k < joint.variable_count; ++k)
+      if (joint.variables[k] == name)
+        return {&joint, k};
+  return {nullptr, 0};
+}
+
+void ModelBuilder::warnOfLimits(const std::string& name)
+{
+  const auto found = model_.joint_index_.find(name);
+  if (found == model_.joint_index_.end())
+  {
+    warn("joint_limits: joint '" + name + "' is not in the robot");
+    return;
+  }
+  std::string variables;
+  for (const std::string& variable : model_.joints[found->second].variables)
+    variables += (variables.empty() ? "" : ", ") + variable.substr(name.size() + 1);
+  warn("joint_limits: those of joint '" + name + "' are left out: " +
+       (variables.empty() ? "it is fixed" : "it has several variables, whose limits go below " + name + ": " + variables));
+}
+
 void ModelBuilder::applyLimits()
 {
   for (const auto& [name, limit] : options_.limits)
   {
-    const auto found = model_.joint_index_.find(name);
-    if (found == model_.joint_index_.end())
+    const auto [joint, k] = variableNamed(name);
+    if (!joint)
     {
-      warn("joint_limits: joint '" + name + "' is not in the robot");
+      warnOfLimits(name);
       continue;
     }
-    JointModel& joint = model_.joints[found->second];
-    for (VariableBounds& b : joint.bounds)
+    VariableBounds& b = joint->bounds[k];
+    const bool angle = joint->continuous || (joint->type == JointType::Planar && k == 2) ||
+                       (joint->type == JointType::Floating && k > 2);
+    if ((limit.min_position || limit.max_position) && angle)
+      warn("joint_limits: position limits of joint '" + name + "' are left out: it turns without end");
+    else if (limit.min_position || limit.max_position)
     {
-      if (limit.min_position || limit.max_position)
-      {
-        if (joint.continuous || !joint.singleVariable())
-          warn("joint_limits: position limits of joint '" + name + "' are left out: it turns without end");
-        else
-        {
-          b.has_position = true;
-          b.min_position = limit.min_position.value_or(b.min_position);
-          b.max_position = limit.max_position.value_or(b.max_position);
-        }
-      }
-      b.has_velocity = limit.has_velocity.value_or(b.has_velocity);
-      b.max_velocity = limit.max_velocity.value_or(b.max_velocity);
-      b.has_acceleration = limit.has_acceleration.value_or(b.has_acceleration);
-      b.max_acceleration = limit.max_acceleration.value_or(b.max_acceleration);
-      b.has_jerk = limit.has_jerk.value_or(b.has_jerk);
-      b.max_jerk = limit.max_jerk.value_or(b.max_jerk);
+      b.has_position = true;
+      b.min_position = limit.min_position.value_or(b.min_position);
+      b.max_position = limit.max_position.value_or(b.max_position);
     }
+    // A limit counts without its flag, which can only take it back.
+    b.has_velocity = limit.has_velocity.value_or(b.has_velocity || limit.max_velocity);
+    b.max_velocity = limit.max_velocity.value_or(b.max_velocity);
+    b.has_acceleration = limit.has_acceleration.value_or(b.has_acceleration || limit.max_acceleration);
+    b.max_acceleration = limit.max_acceleration.value_or(b.max_acceleration);
+    b.has_jerk = limit.has_jerk.value_or(b.has_jerk || limit.max_jerk);
+    b.max_jerk = limit.max_jerk.value_or(b.max_jerk);
   }
   for (const JointModel& joint : model_.joints)
     for (const VariableBounds& b : joint.bounds)

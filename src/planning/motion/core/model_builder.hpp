@@ -33,6 +33,8 @@ private:
   ShapePtr shape(const urdf::Geometry& geometry, const std::string& link);
   void resolveMimics();
   void applyProperties();
+  std::pair<JointModel*, int> variableNamed(const std::string& name);
+  void warnOfLimits(const std::string& name);
   void applyLimits();
   void finishVariables();
   void findDescendants();

@@ -185,6 +185,18 @@ bool PlanningScene::removeObject(const std::string& id)
   return true;
 }
 
+void PlanningScene::forget(const std::string& id)
+{
+  if (findObject(id) || model_->findLink(id) || state_.attached().count(id))
+    return;
+  colors.erase(id);
+  if (!acm_->knows(id))
+    return;
+  AllowedCollisionMatrix without = *acm_;
+  without.remove(id);
+  setAcm(without);
+}
+
 void PlanningScene::clearObjects()
 {
   World& world = worldToWrite();

@@ -160,12 +160,13 @@ bool JointModel::satisfiesBounds(const double* values, double margin) const
   }
   for (int k = 0; k < variable_count; ++k)
   {
-    const bool angle_without_end = continuous || (type == JointType::Planar && k == 2);
     if (!std::isfinite(values[k]))
       return false;
-    if (angle_without_end)
+    if (continuous)
+      continue;  // any turn will do
+    if (type == JointType::Planar && k == 2)
     {
-      // Continuous joints are kept within one turn.
+      // As upstream has it, the heading is kept within one turn.
       if (std::abs(values[k]) > M_PI + 1e-9 + margin)
         return false;
     }

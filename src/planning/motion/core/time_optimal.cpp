@@ -282,7 +282,7 @@ TimedPath timeOptimal(const Rows& given, const TimingLimits& limits, double path
     starts.push_back(starts.back() + speed.intervals[k].length / mean);
   }
   const double duration = starts.back();
-  const double count = std::ceil(duration / resample_dt);
+  const double count = std::max(1.0, std::ceil(duration / resample_dt - 1e-6));  // no two points at one time
   if (count > 1e6)
     throw InvalidInput("time-optimal timing: the motion would last " + std::to_string(duration) +
                        " s, more than a million points; raise the limits, the scaling or the resampling time");

@@ -8,6 +8,8 @@ namespace motion
 namespace
 {
 constexpr double TOLERANCE = 0.01;     // of an acceleration, rad/s^2 or m/s^2, as upstream
+constexpr double SAME = 1e-8;           // rad or m: way points that are nearer to each other are one
+constexpr double SHORTEST = 1e-6;       // s, of a segment: times of messages are whole nanoseconds
 constexpr double MOST_STRETCH = 0.01;  // s, of a segment at one touch, as upstream
 
 TimedPath atRest(const Rows& points)
@@ -27,7 +29,25 @@ std::vector<double> shortestSegments(const Rows& points, const TimingLimits& lim
   for (std::size_t i = 0; i < segments.size(); ++i)
     for (std::size_t j = 0; j < points[i].size(); ++j)
       segments[i] = std::max(segments[i], std::abs(points[i + 1][j] - points[i][j]) / limits.velocity[j]);
+  for (double& dt : segments)
+    dt = std::max(dt, SHORTEST);
   return segments;
+}
+
+// Without those where nothing has moved: no two points come at one time, which controllers refuse.
+Rows moving(const Rows& given)
+{
+  Rows points;
+  auto same = [&points](const std::vector<double>& row) {
+    for (std::size_t j = 0; j < row.size(); ++j)
+      if (!(std::abs(row[j] - points.back()[j]) < SAME))
+        return false;
+    return true;
+  };
+  for (const auto& row : given)
+    if (points.empty() || !same(row))
+      points.push_back(row);
+  return points;
 }
 
 // Mean velocities before and after a way point; at the ends the motion is mirrored, so that it starts and ends at rest.
@@ -80,8 +100,9 @@ void fillTimes(TimedPath& out, const std::vector<double>& segments)
 }
 }  // namespace
 
-TimedPath iterativeParabolic(const Rows& points, const TimingLimits& limits)
+TimedPath iterativeParabolic(const Rows& given, const TimingLimits& limits)
 {
+  const Rows points = moving(given);
   TimedPath out = atRest(points);
   if (points.size() < 2)
     return out;
@@ -147,16 +168,11 @@ Cubic cubic(double q0, double q1, double v0, double v1, double dt)
 
 TimedPath iterativeSpline(const Rows& given, const TimingLimits& limits)
 {
-  Rows points;
-  for (const auto& row : given)
-    if (points.empty() || row != points.back())
-      points.push_back(row);
+  const Rows points = moving(given);
   TimedPath out = atRest(points);
   if (points.size() < 2)
     return out;
   std::vector<double> segments = shortestSegments(points, limits);
-  for (double& dt : segments)
-    dt = std::max(dt, 1e-6);
   for (int sweep = 0; sweep < 2000; ++sweep)
   {
     std::vector<double> factor(segments.size(), 1.0);

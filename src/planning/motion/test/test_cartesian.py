@@ -77,6 +77,78 @@ def test_jumps_end_it(scene):
     assert motion.cartesian_path(scene, "arm", [goal], jump_threshold=1.0).fraction < 1.0  # no step above the mean
 
 
+@pytest.mark.parametrize("angle", [0.5, 2.0])
+def test_a_turn_in_place_is_made_in_steps(scene, angle):
+    """2 degrees for each centimetre of max_step, as upstream: 3.5 rad/m."""
+    start = scene.state.pose("tool")
+    goal = start * motion.Pose.from_rpy((0, 0, 0), (0, 0, angle))
+    result = motion.cartesian_path(scene, "arm", [goal], max_step=0.01, avoid_collisions=False)
+    assert result, result.message
+    assert len(result.trajectory) == int(angle / 0.035) + 2
+    between = [a.interpolate(b, share) for a, b in zip(*[[result.trajectory.state(i) for i in range(k, len(result.trajectory) - 1 + k)]
+                                                         for k in (0, 1)]) for share in (0.25, 0.5, 0.75)]
+    assert max(np.linalg.norm(state.pose("tool").position - start.position) for state in between) < 1e-3
+    alone = motion.cartesian_path(scene, "arm", [goal], max_step=0.01, avoid_collisions=False, position_only=True)
+    assert len(alone.trajectory) == 2  # arms whose orientation is free have no turn to make
+
+
+def test_a_turn_in_place_meets_what_is_in_its_way():
+    """A stick on the hand sweeps over a post that neither its start nor its end touches."""
+    model = motion.load_model(*robots.arm("ur5"))
+    scene = motion.PlanningScene(model)
+    state = scene.state
+    state.set_group("arm", HOME)
+    state.attach(motion.AttachedBody("stick", "tool", [motion.Box(0.4, 0.02, 0.02)], pose=((0.25, 0, 0.05), (0, 0, 0, 1)),
+                                     touch_links=["link_6", "link_5", "tool"]))
+    scene.set_state(state)
+    tool = state.pose("tool")
+    aside = tool * motion.Pose.from_rpy((0, 0, 0), (0, 0, 0.8)) * motion.Pose((0.4, 0, 0.05), (0, 0, 0, 1))
+    scene.add_object("post", [motion.Sphere(0.03)], pose=aside)
+    goal = tool * motion.Pose.from_rpy((0, 0, 0), (0, 0, 1.6))
+    result = motion.cartesian_path(scene, "arm", [goal])
+    assert 0.2 < result.fraction < 0.6 and "collide" in result.message
+    assert motion.cartesian_path(scene, "arm", [goal], avoid_collisions=False)
+
+
+def wrist_before_its_limit(scene, joint="wrist_3_joint", value=6.1):
+    state = scene.state
+    state.set(joint, value)
+    scene.set_state(state)
+    return state
+
+
+def test_a_line_ends_at_a_joints_limit_and_no_joint_spins_back(scene):
+    state = wrist_before_its_limit(scene)  # 0.18 rad before 2 pi
+    axis_turn = motion.Pose.from_rpy((0, 0, 0), (0, 0, 0.6))
+    for way in (axis_turn, axis_turn.inverse()):
+        goal = state.pose("tool") * way
+        result = motion.cartesian_path(scene, "arm", [goal], avoid_collisions=False)
+        steps = np.abs(np.diff(result.trajectory.positions, axis=0)).max()
+        assert steps < 0.1
+        wrist = result.trajectory.positions[-1][5]
+        assert (0.2 < result.fraction < 0.4 and "'wrist_3_joint'" in result.message and wrist > 6.2) or \
+            (result.fraction == 1.0 and wrist == pytest.approx(5.5, abs=1e-3))
+    lin = [motion.pilz_plan(scene, moved(scene, (0, 0, 0), "LIN", goals=[motion.pose_goal("tool", state.pose("tool") * way)]))
+           for way in (axis_turn, axis_turn.inverse())]
+    assert sorted(result.status for result in lin) == ["no_ik_solution", "solved"]
+    good, = (result for result in lin if result)
+    assert np.abs(np.diff(good.trajectory.positions, axis=0)).max() < 0.5
+
+
+def test_a_joint_without_a_limit_goes_on_past_half_a_turn():
+    model = motion.load_model(*robots.arm("fetch"))
+    scene = motion.PlanningScene(model)
+    state = scene.state
+    state.set_group("arm", [0.2, 0.5, 0.3, -1.2, 0.1, 1.0, 3.0])
+    scene.set_state(state)
+    goal = state.pose("tool") * motion.Pose.from_rpy((0, 0, 0), (0.6, 0, 0))
+    line = motion.time_parameterize(model, motion.cartesian_path(scene, "arm", [goal], avoid_collisions=False).trajectory)
+    asked = motion.MotionRequest("arm", goals=[motion.pose_goal("tool", goal)], planner="LIN", velocity_scaling=0.1, acceleration_scaling=0.1)
+    for trajectory in (line, motion.pilz_plan(scene, asked).trajectory):
+        assert trajectory.positions[-1][6] > 3.3  # a redundant arm does some of it with other joints
+        assert np.abs(np.diff(trajectory.positions, axis=0)).max() < 0.2
+
+
 def test_constraints_are_kept(scene):
     start = scene.state.pose("tool")
     keep = motion.Constraints(joint=[motion.JointConstraint("elbow_joint", 1.4, 0.05, 0.05)])
@@ -176,7 +248,8 @@ def test_cartesian_speed_adapter(scene):
 def moved(scene, offset, planner, **more):
     start = scene.state.pose("tool")
     goal = motion.pose_goal("tool", (start.position + offset, start.quaternion))
-    return motion.MotionRequest("arm", goals=[goal], planner=planner, velocity_scaling=0.2, acceleration_scaling=0.2, **more)
+    fields = {"goals": [goal], "velocity_scaling": 0.2, "acceleration_scaling": 0.2, **more}
+    return motion.MotionRequest("arm", planner=planner, **fields)
 
 
 def test_ptp_moves_all_joints_together(scene):
@@ -216,9 +289,90 @@ def test_circ_keeps_its_distance_from_the_centre(scene, kind):
         assert points[:, 2].max() > start[2] + 0.09
 
 
+def auxiliary(kind, position, **fields):
+    return motion.AuxiliaryPoint(kind, tuple(position), **fields)
+
+
+def test_circs_auxiliary_point_is_no_constraint(scene):
+    """A small region about the point that it is given by is not where the path has to stay; other constraints of it hold."""
+    start = scene.state.pose("tool").position
+    extra = motion.Constraints(position=[motion.PositionConstraint("tool", [(motion.Sphere(0.01), (start + (0, 0.1, 0.1), (0, 0, 0, 1)))])],
+                               name="interim")
+    asked = moved(scene, (0, 0.2, 0), "CIRC", path_constraints=extra)
+    result = motion.Pipeline([]).generate(scene, asked, planner=motion.pilz_plan)
+    assert result, result.message
+    extra.joint = [motion.JointConstraint("elbow_joint", 1.4, 0.001, 0.001)]
+    kept = motion.Pipeline([]).generate(scene, moved(scene, (0, 0.2, 0), "CIRC", path_constraints=extra), planner=motion.pilz_plan)
+    assert kept.status == "invalid_plan" and "'elbow_joint'" in kept.message
+
+
+def test_circ_to_joint_values_moves_the_link_of_the_auxiliary_point(scene):
+    state = scene.state
+    state.set_group("arm", np.array(HOME) + (0.4, 0.1, 0, 0, 0, 0))
+    links = {link: (scene.state.pose(link).position, state.pose(link).position) for link in ("tool", "link_6")}
+    for link, (first, last) in links.items():
+        point = (first + last) / 2 + (0, 0, 0.1)
+        asked = motion.MotionRequest("arm", goals=[motion.joint_goal(scene.model, "arm", state.get_group("arm"))], planner="CIRC",
+                                     velocity_scaling=0.1, acceleration_scaling=0.1, auxiliary=auxiliary("interim", point, link=link))
+        result = motion.pilz_plan(scene, asked)
+        assert result, result.message
+        path = places(result.trajectory, link)
+        normal = np.cross(point - first, last - first)
+        assert np.abs((path - first) @ normal / np.linalg.norm(normal)).max() < 1e-4  # in the circle's plane
+        assert path[:, 2].max() > max(first[2], last[2])
+        assert np.abs(result.trajectory.positions[-1] - state.get_group("arm")).max() < 1e-3
+    asked.auxiliary = auxiliary("interim", point, link="claw")
+    assert motion.pilz_plan(scene, asked).code == -18  # INVALID_LINK_NAME
+
+
+def test_the_point_that_is_moved_may_be_beside_its_link(scene):
+    """A position constraint's target_point_offset: that point goes straight, whatever the link does about it."""
+    start = scene.state.pose("tool")
+    offset = np.array((0.0, 0.05, 0.2))
+    turn = motion.Pose.from_rpy((0, 0, 0), (0, 0.5, 0.3))
+    there = start * turn
+    point = start * offset + np.array((0.0, 0.1, -0.05))
+    goal = motion.Constraints(position=[motion.PositionConstraint("tool", [(motion.Sphere(1e-4), (point, (0, 0, 0, 1)))], offset=offset)],
+                              orientation=[motion.OrientationConstraint("tool", there.quaternion, (1e-3,) * 3)])
+    result = motion.pilz_plan(scene, moved(scene, (0, 0, 0), "LIN", goals=[goal], velocity_scaling=0.05, acceleration_scaling=0.05))
+    assert result, result.message
+    path = np.array([result.trajectory.state(i).pose("tool") * offset for i in range(len(result.trajectory))])
+    assert off_line(path, start * offset, point) < 1e-4
+    np.testing.assert_allclose(path[-1], point, atol=1e-4)
+
+
+def test_lin_and_circ_keep_the_joints_accelerations():
+    """As upstream: refused where a joint would have to speed up faster than it can; smaller scalings help."""
+    limits = {name: {"max_acceleration": 0.5} for name, *_ in robots.UR5}
+    scene = motion.PlanningScene(motion.load_model(*robots.arm("ur5"), joint_limits=limits))
+    state = scene.state
+    state.set_group("arm", HOME)
+    scene.set_state(state)
+    start, statuses = state.pose("tool").position, []
+    for planner, extra in (("LIN", None), ("CIRC", auxiliary("interim", start + (0, 0.1, 0.05)))):
+        for scale in (1.0, 0.3, 0.02):
+            asked = moved(scene, (0, 0.2, 0), planner, velocity_scaling=scale, acceleration_scaling=scale, auxiliary=extra)
+            result = motion.pilz_plan(scene, asked)
+            statuses.append(result.status)
+            if result:
+                assert np.abs(result.trajectory.accelerations).max() <= 0.5 * 1.001
+            else:
+                assert result.code == -1 and "acceleration" in result.message and "0.5" in result.message
+    assert statuses == ["failed", "failed", "solved"] * 2
+
+
+def test_last_intervals_are_not_so_short_that_rounding_speeds_a_joint_up():
+    from motion.pilz import _Trapeze
+    for length in np.linspace(0.05, 0.5, 400):
+        times = _Trapeze(length, 0.2, 0.45, 1.0).times()
+        assert times[0] == 0 and (np.diff(times) >= 0.02 - 1e-9).all() and np.diff(times).max() < 0.12 + 1e-9
+
+
 @pytest.mark.parametrize("planner, offset, change, status", [
-    ("LIN", (2, 0, 0), {}, "no_ik_solution"), ("CIRC", (0, 0.2, 0), {}, "no_goal"), ("SPIN", (0, 0, 0), {}, "unknown_planner"),
-    ("LIN", (0.1, 0, 0), {"velocity_scaling": 0.0}, "failed"), ("LIN", (0.1, 0, 0), {"goals": []}, "no_goal")])
+    ("LIN", (2, 0, 0), {}, "no_ik_solution"), ("CIRC", (0, 0.2, 0), {}, "invalid_plan"), ("SPIN", (0, 0, 0), {}, "unknown_planner"),
+    ("CIRC", (0, 0.2, 0), {"auxiliary": auxiliary("center", (9, 9, 9))}, "invalid_plan"),
+    ("CIRC", (0, 0.2, 0), {"auxiliary": auxiliary("interim", (0, 0, 0), frame="nowhere")}, "unknown_frame"),
+    ("LIN", (0.1, 0, 0), {"velocity_scaling": 0.0}, "invalid_plan"), ("LIN", (0.1, 0, 0), {"goals": []}, "no_goal")])
 def test_industrial_motions_that_cannot_be(scene, planner, offset, change, status):
     wanted = moved(scene, offset, planner)
     for key, value in change.items():
@@ -243,8 +397,56 @@ def test_sequence_stops_between_motions_or_blends_them(scene):
     np.testing.assert_allclose(places(trajectory)[-1], start.position + (0, 0.15, -0.15), atol=1e-4)
     assert (np.diff(trajectory.times) > 0).all()
     too_wide = motion.pilz_sequence(scene, [(requests[0], 0.5), (requests[1], 0.0)])
-    assert not too_wide and "blend radius" in too_wide.message
-    assert not motion.pilz_sequence(scene, [(requests[0], 0.1)])
+    assert not too_wide and "blend radius" in too_wide.message and too_wide.trajectories == []
+    assert motion.pilz_sequence(scene, [(requests[0], 0.1)]).code == -2  # INVALID_MOTION_PLAN
+
+
+def sequence_requests(scene, *offsets):
+    start = scene.state.pose("tool")
+    return [motion.MotionRequest("arm", goals=[motion.pose_goal("tool", (start.position + offset, start.quaternion))], planner="LIN",
+                                 velocity_scaling=0.1, acceleration_scaling=0.1) for offset in offsets]
+
+
+def test_what_upstream_refuses_in_a_sequence(scene):
+    first, second, third = sequence_requests(scene, (0, 0.1, 0), (0, 0.1, -0.1), (0, 0, -0.1))
+    overlap = motion.pilz_sequence(scene, [(first, 0.06), (second, 0.06), (third, 0.0)])
+    assert overlap.code == -2 and "overlap" in overlap.message
+    assert motion.pilz_sequence(scene, [(first, 0.04), (second, 0.04), (third, 0.0)])
+    assert motion.pilz_sequence(scene, [(first, -0.01), (second, 0.0)]).code == -2
+    second.start = scene.state
+    started = motion.pilz_sequence(scene, [(first, 0.0), (second, 0.0)])
+    assert started.code == -17 and "motion 2" in started.message and not started.trajectories  # INVALID_ROBOT_STATE
+
+
+def test_motions_of_a_sequence_go_through_the_pipeline(scene):
+    """What a pipeline checks of one motion is checked of each: upstream plans every item with the whole of it."""
+    requests = sequence_requests(scene, (0, 0.15, 0), (0, 0.15, -0.15))
+    middle = scene.state.pose("link_6").position + (0, 0.15, -0.07)
+    scene.add_object("post", [motion.Sphere(0.02)], pose=(middle, (0, 0, 0, 1)))
+    pipeline = motion.Pipeline([])
+
+    def plan(scene, request, cancel):
+        return pipeline.generate(scene, request, cancel, motion.pilz_plan)
+
+    refused = motion.pilz_sequence(scene, [(requests[0], 0.0), (requests[1], 0.0)], plan=plan)
+    assert refused.code == -2 and "motion 2" in refused.message and "'post'" in refused.message and refused.contacts
+
+
+def test_a_blend_is_looked_at_for_collisions(scene):
+    """It cuts the corner: what stands inside is touched by neither motion."""
+    requests = sequence_requests(scene, (0, 0.2, 0), (0, 0.2, -0.2))
+    corner = scene.state.pose("tool").position + (0, 0.2, 0)
+    free = motion.pilz_sequence(scene, [(requests[0], 0.15), (requests[1], 0.0)])
+    path = places(free.trajectories[0])
+    inside = path[np.argmin(np.linalg.norm(path - corner, axis=1))]
+    state = scene.state
+    state.attach(motion.AttachedBody("pin", "tool", [motion.Sphere(0.005)]))
+    scene.set_state(state)
+    away = inside + 0.004 * (inside - corner) / np.linalg.norm(inside - corner)
+    scene.add_object("grain", [motion.Sphere(0.003)], pose=(away, (0, 0, 0, 1)))
+    assert motion.pilz_sequence(scene, [(requests[0], 0.0), (requests[1], 0.0)])
+    touched = motion.pilz_sequence(scene, [(requests[0], 0.15), (requests[1], 0.0)])
+    assert touched.code == -2 and "'grain'" in touched.message
 
 
 def test_a_stretched_arm_can_be_drawn_in():

@@ -167,6 +167,42 @@ def test_joint_limits_yaml_wins_over_the_urdf():
     assert any("'ghost'" in line for line in model.warnings) and any("'turn'" in line for line in model.warnings)
 
 
+def test_a_limit_counts_without_its_flag_and_the_flag_takes_it_back():
+    """As upstream's loader has it: a max_... sets has_..., then a has_... that is given wins."""
+    limits = {"lift": {"max_velocity": 0.1, "max_acceleration": 0.3, "max_jerk": 9}, "b_left": {"has_acceleration_limits": False,
+              "max_acceleration": 2}, "turn": {"has_velocity_limits": False}}
+    model = motion.load_model(GRIPPER, HAND_SRDF, joint_limits=limits)
+    lift, left, turn = (model.variable_limits(name) for name in ("lift", "b_left", "turn"))
+    assert (lift.has_velocity, lift.max_velocity, lift.has_acceleration, lift.max_acceleration) == (True, 0.1, True, 0.3)
+    assert (lift.has_jerk, lift.max_jerk, left.has_acceleration, turn.has_velocity) == (True, 9, False, False)
+    assert (left.has_velocity, left.max_velocity) == (True, 0.2)  # the URDF's stay
+
+
+def test_the_variables_of_a_planar_joint_have_limits_of_their_own():
+    limits = {"drive": {"x": {"max_velocity": 0.2, "min_position": -1, "max_position": 2}, "theta": {"max_acceleration": 3, "max_position": 1}},
+              "drive/y": {"max_velocity": 0.4}}
+    model = motion.load_model(GRIPPER, HAND_SRDF, joint_limits=limits)
+    x, y, theta = model.joint("drive").limits
+    assert (x.has_velocity, x.max_velocity, x.has_position, x.min_position, x.max_position) == (True, 0.2, True, -1, 2)
+    assert (y.max_velocity, y.has_position, theta.has_velocity, theta.max_acceleration) == (0.4, False, False, 3)
+    assert not theta.has_position and any("'drive/theta'" in line and "without end" in line for line in model.warnings)
+    state = model.state()
+    state.set("drive/x", 2.5)
+    assert state.violations() == [("drive/x", 2.5, -1.0, 2.0)]
+    whole = motion.load_model(GRIPPER, HAND_SRDF, joint_limits={"drive": {"max_velocity": 0.2}})
+    assert not whole.joint("drive").limits[0].has_velocity
+    assert any("'drive'" in line and "x, y, theta" in line for line in whole.warnings)
+
+
+def test_the_variables_of_a_floating_joint_have_limits_of_their_own():
+    srdf = HAND_SRDF.replace('type="planar"', 'type="floating"')
+    model = motion.load_model(GRIPPER, srdf, joint_limits={"drive": {"trans_z": {"min_position": 0.5, "max_position": 3, "max_velocity": 1},
+                                                                     "rot_w": {"max_position": 0.5}}})
+    height = model.variable_limits("drive/trans_z")
+    assert (height.has_position, height.min_position, height.max_velocity) == (True, 0.5, 1)
+    assert model.variable_limits("drive/rot_w").max_position == 1.0 and any("'drive/rot_w'" in line for line in model.warnings)
+
+
 def test_soft_limits_narrow_the_range():
     urdf = GRIPPER.replace('upper="0.5" velocity="0.2" effort="1"/>', 'upper="0.5" velocity="0.2" effort="1"/>'
                            '<safety_controller soft_lower_limit="0.2" soft_upper_limit="9" k_position="1" k_velocity="1"/>')
@@ -177,10 +213,10 @@ def test_soft_limits_narrow_the_range():
 def test_bounds_and_violations(hand):
     state = hand.state()
     assert state.in_bounds() and state.violations() == []
-    state.set({"lift": 0.52, "turn": 4.0})
+    state.set({"lift": 0.52, "turn": 4.0, "drive/theta": 4.0})
     assert not state.in_bounds("arm") and state.in_bounds("fingers")
-    assert state.violations("arm", margin=0.03)[0][0] == "turn"
-    assert [v[:2] for v in state.violations()] == [("lift", 0.52), ("turn", 4.0)]
+    assert state.violations("arm", margin=0.03) == [] and state.in_bounds("arm", 0.03)  # continuous: any turn will do, as upstream
+    assert [v[:2] for v in state.violations()] == [("drive/theta", 4.0), ("lift", 0.52)]
     state.enforce_bounds()
     assert state.get("lift") == 0.5 and state.get("turn") == pytest.approx(4 - 2 * np.pi)
 

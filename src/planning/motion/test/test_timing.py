@@ -203,3 +203,32 @@ def test_the_adapter_limits_jerks_and_times_what_is_untimed():
         trajectory = pipeline.generate(scene, request).trajectory
         jerks = np.diff(trajectory.accelerations, axis=0) / np.diff(trajectory.times)[:, None]
         assert 20.0 < np.abs(jerks).max() <= 100.1
+
+
+@pytest.mark.parametrize("method", motion.timing_methods())
+def test_no_two_points_come_at_one_time(model, method):
+    """Controllers refuse times that do not rise. Way points that say nothing new (a line that begins where the tool is) go."""
+    way = path(model, 12).positions
+    doubled = np.repeat(way, 2, axis=0)
+    doubled[5] += 1e-12
+    timed = motion.time_parameterize(model, motion.Trajectory(model, "arm", model.state(), doubled), method)
+    nanoseconds = [round(t * 1e9) for t in timed.times]
+    assert all(b > a for a, b in zip(nanoseconds, nanoseconds[1:]))
+    np.testing.assert_allclose(timed.positions[[0, -1]], way[[0, -1]], atol=1e-9)
+    assert timed.duration == pytest.approx(
+        motion.time_parameterize(model, motion.Trajectory(model, "arm", model.state(), way), method).duration, rel=0.02)
+    still = motion.time_parameterize(model, motion.Trajectory(model, "arm", model.state(), way[[0, 0, 0]]), method)
+    assert len(still) == 1 and still.duration == 0
+
+
+def test_a_start_put_before_a_motion_that_goes_nowhere_has_a_time_of_its_own():
+    """FixStartStateBounds: the goal is the limit that the start is beyond by a little."""
+    model = motion.load_model(*robots.arm("ur5"))
+    scene, state = motion.PlanningScene(model), model.state()
+    values = np.array([0.3, -1.2, 1.4, -0.9, 1.1, 2 * np.pi])
+    state.set_group("arm", values + (0, 0, 0, 0, 0, 0.03))
+    goal = motion.joint_goal(model, "arm", values)
+    result = motion.Pipeline().generate(scene, motion.MotionRequest("arm", goals=[goal], start=state, seed=1))
+    assert result, result.message
+    assert (np.diff(result.trajectory.times) > 1e-6).all()
+    assert result.trajectory.positions[0][5] == pytest.approx(2 * np.pi + 0.03)

@@ -57,6 +57,8 @@ public:
   void moveObject(const std::string& id, const Transform& pose);
   void moveShapes(const std::string& id, const std::vector<Transform>& poses);
   bool removeObject(const std::string& id);
+  // What was said of an object that is no more: its colour, and what it may touch. Links and attached bodies keep theirs.
+  void forget(const std::string& id);
   void clearObjects();  // all but the octomap
   std::vector<std::string> objectNames() const;
   const WorldObject& object(const std::string& id) const;

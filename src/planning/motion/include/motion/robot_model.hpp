@@ -35,10 +35,10 @@ struct VariableBounds
   double max_velocity = 0, max_acceleration = 0, max_jerk = 0;
 };
 
-// One joint of joint_limits.yaml; what is not set there keeps the URDF's value.
+// One variable of joint_limits.yaml; what is not set there keeps the URDF's value.
 struct LimitOverride
 {
-  std::optional<bool> has_position, has_velocity, has_acceleration, has_jerk;
+  std::optional<bool> has_velocity, has_acceleration, has_jerk;
   std::optional<double> min_position, max_position, max_velocity, max_acceleration, max_jerk;
 };
 

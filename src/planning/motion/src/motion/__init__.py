@@ -11,7 +11,7 @@ from motion.kinematics import IkResult, ik
 from motion.model import load_model
 from motion.pilz import CartesianLimits, SequenceResult, pilz_plan, pilz_sequence
 from motion.pipeline import Pipeline
-from motion.planning import CODES, MotionRequest, PlanResult, joint_goal, named_goal, plan, planner_problem, pose_goal
+from motion.planning import CODES, AuxiliaryPoint, MotionRequest, PlanResult, joint_goal, named_goal, plan, planner_problem, pose_goal
 from motion.pose import Pose
 from motion.timing import limit_cartesian_speed, limit_jerk, time_parameterize, timing_methods
 from motion.trajectory import Trajectory

@@ -1,7 +1,7 @@
 """From URDF and SRDF text to a RobotModel."""
 from __future__ import annotations
 
-from typing import Any, Mapping, Optional
+from typing import Any, Dict, Mapping, Optional
 
 from motion import _core
 from motion.files import FindPackage, find_package as below_ros_package_path, resolve
@@ -14,6 +14,8 @@ def load_model(urdf: str, srdf: Optional[str] = None, *, joint_limits: Optional[
     :param urdf: XML text of the URDF.
     :param srdf: XML text of the SRDF; without it the robot has no groups.
     :param joint_limits: the mapping of joint_limits.yaml, whole or what is below its key ``joint_limits``; wins over the URDF.
+        The variables of a planar or floating joint have their limits below its name: ``{"base": {"x": {"max_velocity": 0.5}}}``,
+        or under ``"base/x"``.
     :param find_package: ``f(package name) -> directory or None``; by default a search below ROS_PACKAGE_PATH.
     :param meshes: load collision meshes.
     :raises ModelError: the texts cannot be made into a robot. What is only left out is in ``warnings``.
@@ -22,6 +24,18 @@ def load_model(urdf: str, srdf: Optional[str] = None, *, joint_limits: Optional[
     limits = dict(joint_limits or {})
     if isinstance(limits.get("joint_limits"), Mapping):
         limits = dict(limits["joint_limits"])
-    limits = {name: dict(values) for name, values in limits.items() if isinstance(values, Mapping)}
     package = find_package or below_ros_package_path
-    return _core._load_model(urdf, srdf or "", limits, lambda uri: resolve(uri, package), meshes)
+    return _core._load_model(urdf, srdf or "", by_variable(limits), lambda uri: resolve(uri, package), meshes)
+
+
+def by_variable(limits: Mapping[str, Any], above: str = "") -> Dict[str, Dict[str, Any]]:
+    """The tables of joint_limits.yaml by variable name: ``{"base": {"x": {...}}}`` is ``{"base/x": {...}}``."""
+    found: Dict[str, Dict[str, Any]] = {}
+    for name, values in limits.items():
+        if not isinstance(values, Mapping):
+            continue
+        own = {key: value for key, value in values.items() if not isinstance(value, Mapping)}
+        if own or not values:
+            found[f"{above}{name}"] = own
+        found.update(by_variable(values, f"{above}{name}/"))
+    return found

@@ -2,18 +2,21 @@
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Callable, List, Optional, Sequence, Tuple
 
 import numpy as np
 
 from motion import _core
+from motion.cartesian import explain, path_valid
 from motion.kinematics import ik
-from motion.planning import MotionRequest, PlanResult
+from motion.planning import AuxiliaryPoint, MotionRequest, PlanResult
 from motion.pose import Pose
 from motion.trajectory import Trajectory
 
+Planner = Callable[[_core.PlanningScene, MotionRequest, Optional[_core.CancelToken]], PlanResult]
 _SAMPLING = 0.1  # s, as upstream
+_RADII = 1e-2    # m by which the distances of start and goal from a circle's centre may differ, as upstream
 _UNSET = 1.0     # rad/s, rad/s^2 where the robot says nothing
 
 
@@ -38,7 +41,7 @@ class _Trapeze:
 
     def __init__(self, length: float, speed: float, up: float, down: float):
         if not (speed > 0 and up > 0 and down > 0):
-            raise _Refused("failed", "the velocity and acceleration limits and scalings must be above 0")
+            raise _Refused("failed", "the velocity and acceleration limits must be above 0")
         top = min(speed, float(np.sqrt(2 * length * up * down / (up + down))))
         self.length, self.top, self.up, self.down = length, top, up, down
         self.t_up, self.t_down = top / up, top / down
@@ -57,40 +60,68 @@ class _Trapeze:
         return 0.5 * self.top * self.t_up + self.top * (t - self.t_up), self.top, 0.0
 
     def times(self) -> np.ndarray:
-        """0, every sampling time, and the end."""
+        """0, every sampling time, and the end; the last interval is never so short that rounding would count in it."""
         steps = np.arange(0.0, self.duration, _SAMPLING)
-        return (
-            np.append(steps, self.duration)
-            if self.duration > 0 and self.duration - steps[-1] > 1e-9
-            else np.append(steps[:-1], self.duration)
-        )
+        if len(steps) > 1 and self.duration - steps[-1] < 0.2 * _SAMPLING:
+            steps = steps[:-1]
+        return np.append(steps, self.duration)
 
 
 def _scalings(request: MotionRequest) -> Tuple[float, float]:
     scalings = request.velocity_scaling, request.acceleration_scaling
     for value in scalings:
         if not 0.0001 <= value <= 1.0:
-            raise _Refused("failed", f"velocity and acceleration scaling must be in (0, 1], not {value:g}")
+            raise _Refused("invalid_plan", f"velocity and acceleration scaling must be in [0.0001, 1], not {value:g}")
     return scalings
 
 
-def _goal(request: MotionRequest) -> _core.Constraints:
+def _goal(scene: _core.PlanningScene, request: MotionRequest) -> _core.Constraints:
     goals = [goal for goal in request.goals if not goal.empty()]
     if len(goals) != 1:
         raise _Refused("no_goal", f"{request.planner} needs exactly one goal, not {len(goals)}")
-    return goals[0]
+    goal, = goals
+    if goal.joint and (goal.position or goal.orientation):
+        raise _Refused("no_goal", f"{request.planner} needs a goal of joint values or of a pose, not of both")
+    for constraint in goal.joint:
+        _check_joint(scene.model, request.group, constraint)
+    return goal
 
 
-def _goal_pose(scene: _core.PlanningScene, start: _core.RobotState, request: MotionRequest) -> Tuple[str, Pose]:
-    """(link, its pose in the model frame) that the goal asks for."""
-    goal = _goal(request)
+def _check_joint(model: _core.RobotModel, group: str, constraint: _core.JointConstraint) -> None:
+    if constraint.joint not in model.group(group).variables:
+        raise _Refused("no_goal", f"joint '{constraint.joint}' of the goal does not belong to group '{group}'")
+    limits = model.variable_limits(constraint.joint)
+    if limits.has_position and not limits.min_position - 1e-6 <= constraint.position <= limits.max_position + 1e-6:
+        raise _Refused("no_goal", f"the goal is outside the limits of '{constraint.joint}': {constraint.position:.4g} is not within "
+                                  f"{limits.min_position:.4g} to {limits.max_position:.4g}")
+
+
+@dataclass(frozen=True)
+class _Tool:
+    """The point that is moved: where it is on its link, and where it is to go (both poses have the link's axes)."""
+
+    link: str
+    in_link: Pose
+    goal: Pose
+
+    def link_at(self, pose: Pose) -> Pose:
+        """The link's pose that puts the point at ``pose``."""
+        return pose * self.in_link.inverse()
+
+
+def _tool(scene: _core.PlanningScene, start: _core.RobotState, request: MotionRequest, link: str = "") -> _Tool:
+    """What the goal asks for; a goal of joint values moves ``link``, or the group's tip."""
+    goal = _goal(scene, request)
     group = scene.model.group(request.group)
     if goal.joint:
-        if not group.tip_link:
+        link = link or group.tip_link
+        if not link:
             raise _Refused("failed", f"group '{group.name}' is no chain: its end, which {request.planner} moves, is not known")
+        if not start.has_frame(link):
+            raise _Refused("invalid_link", f"the robot has no link '{link}', which {request.planner} is to move")
         state = start.copy()
         state.set({c.joint: c.position for c in goal.joint})
-        return group.tip_link, state.pose(group.tip_link)
+        return _Tool(link, Pose.identity(), state.pose(link))
     if len(goal.position) != 1 or len(goal.orientation) != 1 or goal.position[0].link != goal.orientation[0].link:
         raise _Refused("no_goal", f"{request.planner} needs a goal of joint values, or one position and one orientation of one link")
     position, orientation = goal.position[0], goal.orientation[0]
@@ -98,7 +129,8 @@ def _goal_pose(scene: _core.PlanningScene, start: _core.RobotState, request: Mot
         raise _Refused("no_goal", "the position constraint of the goal has no region")
     point = scene.frame_pose(position.frame, start) * position.region[0][1].position
     turn = scene.frame_pose(orientation.frame, start) * Pose(np.zeros(3), np.asarray(orientation.quaternion))
-    return position.link, Pose(point - turn.rotation @ np.asarray(position.offset), turn.quaternion)
+    in_link = Pose(np.asarray(position.offset, float), np.array((0.0, 0.0, 0.0, 1.0)))
+    return _Tool(position.link, in_link, Pose(point, turn.quaternion))
 
 
 def _slerp(a: Pose, b: Pose) -> Tuple[float, Callable[[float], np.ndarray]]:
@@ -117,10 +149,23 @@ def _slerp(a: Pose, b: Pose) -> Tuple[float, Callable[[float], np.ndarray]]:
     return 2 * half, at
 
 
-def _joint_limits(scene: _core.PlanningScene, group: _core.Group) -> Tuple[np.ndarray, np.ndarray]:
-    limits = [scene.model.variable_limits(name) for name in group.variables]
-    return (np.array([limit.max_velocity if limit.has_velocity else _UNSET for limit in limits]),
-            np.array([limit.max_acceleration if limit.has_acceleration else _UNSET for limit in limits]))
+def _joint_limits(scene: _core.PlanningScene, group: str, unset: float) -> Tuple[np.ndarray, np.ndarray]:
+    limits = [scene.model.variable_limits(name) for name in scene.model.group(group).variables]
+    return (np.array([limit.max_velocity if limit.has_velocity else unset for limit in limits]),
+            np.array([limit.max_acceleration if limit.has_acceleration else unset for limit in limits]))
+
+
+def _check_limits(scene: _core.PlanningScene, trajectory: Trajectory, what: str) -> None:
+    """Refuse what is too fast for the joints between or at its points; what has no limit may be as fast as it likes."""
+    velocity, acceleration = _joint_limits(scene, trajectory.group, np.inf)
+    steps = np.diff(trajectory.positions, axis=0) / np.diff(trajectory.times)[:, None]
+    for rows, limits, name in ((steps, velocity, "velocity"), (trajectory.velocities, velocity, "velocity"),
+                               (trajectory.accelerations, acceleration, "acceleration")):
+        worst = np.abs(rows).max(axis=0, initial=0.0)
+        if (worst > limits * 1.001).any():
+            joint = int(np.argmax(worst / limits))
+            raise _Refused("failed", f"{what} would move joint '{trajectory.variables[joint]}' with {worst[joint]:.3g}, above its "
+                                     f"{name} limit {limits[joint]:.3g}; a smaller {name} scaling helps")
 
 
 def _trajectory(scene, group: str, start: _core.RobotState, times: Sequence[float], positions: Sequence[np.ndarray]) -> Trajectory:
@@ -128,7 +173,7 @@ def _trajectory(scene, group: str, start: _core.RobotState, times: Sequence[floa
     times, positions = np.asarray(times, float), np.asarray(positions, float)
     velocities, accelerations = np.zeros_like(positions), np.zeros_like(positions)
     if len(times) > 2:
-        velocities[1:-1] = (positions[2:] - positions[:-2]) / (times[2:] - times[:-2])[:, None]
+        velocities[1:-1] = np.gradient(positions, times, axis=0)[1:-1]
     if len(times) > 1:
         accelerations[1:] = np.diff(velocities, axis=0) / np.diff(times)[:, None]
     return Trajectory(scene.model, group, start, positions, times, velocities, accelerations)
@@ -137,22 +182,19 @@ def _trajectory(scene, group: str, start: _core.RobotState, times: Sequence[floa
 # ---------------------------------------------------------------- the three motions
 
 def _ptp(scene: _core.PlanningScene, start: _core.RobotState, request: MotionRequest, limits: CartesianLimits) -> Trajectory:
-    group = scene.model.group(request.group)
-    goal = _goal(request)
+    goal = _goal(scene, request)
     first = start.get_group(request.group)
     if goal.joint:
         state = start.copy()
         state.set({c.joint: c.position for c in goal.joint})
-        if not state.in_bounds(request.group, 1e-6):
-            raise _Refused("invalid_goal", "the goal is outside the limits of '%s'" % state.violations(request.group, 1e-6)[0][0])
         last = state.get_group(request.group)
     else:
-        link, pose = _goal_pose(scene, start, request)
+        tool = _tool(scene, start, request)
         found = ik(
             scene,
             request.group,
-            pose,
-            link=link,
+            tool.link_at(tool.goal),
+            link=tool.link,
             seed=start,
             timeout=1.0,
             max_restarts=500,
@@ -163,7 +205,7 @@ def _ptp(scene: _core.PlanningScene, start: _core.RobotState, request: MotionReq
         if not found:
             raise _Refused("no_ik_solution", found.message)
         last = found.solutions[0]
-    velocity, acceleration = _joint_limits(scene, group)
+    velocity, acceleration = _joint_limits(scene, request.group, _UNSET)
     v_scale, a_scale = _scalings(request)
     # As upstream the strictest limits hold for all joints, and all arrive together.
     way = float(np.abs(last - first).max(initial=0.0))
@@ -178,9 +220,9 @@ def _ptp(scene: _core.PlanningScene, start: _core.RobotState, request: MotionReq
     )
 
 
-def _along(scene: _core.PlanningScene, start: _core.RobotState, request: MotionRequest, link: str, length: float, angle: float,
+def _along(scene: _core.PlanningScene, start: _core.RobotState, request: MotionRequest, tool: _Tool, length: float, angle: float,
            pose_at: Callable[[float], Pose], limits: CartesianLimits) -> Trajectory:
-    """A link along poses of a share (0 to 1) of its way."""
+    """A tool along poses of a share (0 to 1) of its way."""
     v_scale, a_scale = _scalings(request)
     # Turning counts as a way on a circle whose radius makes both limits one.
     way = max(length, angle * limits.max_trans_vel / limits.max_rot_vel)
@@ -190,35 +232,34 @@ def _along(scene: _core.PlanningScene, start: _core.RobotState, request: MotionR
     profile = _Trapeze(way, limits.max_trans_vel * v_scale, limits.max_trans_acc * a_scale, abs(limits.max_trans_dec) * a_scale)
     times = profile.times()
     positions = [values]
-    velocity, _ = _joint_limits(scene, scene.model.group(request.group))
     seed = start.copy()
-    for before, now in zip(times, times[1:]):
-        pose = pose_at(profile.at(now)[0] / way)
-        found = ik(scene, request.group, pose, link=link, seed=seed, timeout=0.1, max_restarts=0)
-        if not found:
-            raise _Refused(
-                "no_ik_solution",
-                f"the {request.planner} motion cannot be followed beyond {profile.at(now)[0] / way:.0%} of its way: {found.message}",
-            )
-        step = np.abs(found.solutions[0] - positions[-1]) / (now - before)
-        if (step > velocity * 1.001).any():
-            worst = int(np.argmax(step / velocity))
-            raise _Refused(
-                "conversion_failed",
-                f"the {request.planner} motion would move joint '{scene.model.group(request.group).variables[worst]}' at "
-                f"{step[worst]:.3g}, above its velocity limit {velocity[worst]:.3g}; a smaller velocity scaling helps",
-            )
-        positions.append(found.solutions[0])
-        seed.set_group(request.group, found.solutions[0])
-    return _trajectory(scene, request.group, start, times, positions)
+    for now in times[1:]:
+        share = profile.at(now)[0] / way
+        values = _follow(scene, request.group, tool.link, tool.link_at(pose_at(share)), seed,
+                         f"the {request.planner} motion cannot be followed beyond {share:.0%} of its way")
+        positions.append(values)
+    trajectory = _trajectory(scene, request.group, start, times, positions)
+    _check_limits(scene, trajectory, f"the {request.planner} motion")
+    return trajectory
+
+
+def _follow(scene: _core.PlanningScene, group: str, link: str, pose: Pose, seed: _core.RobotState, problem: str) -> np.ndarray:
+    """Joint values near those of ``seed``, which is put there: no joint is turned back from its limit."""
+    size = scene.model.group(group).size
+    found = ik(scene, group, pose, link=link, seed=seed, timeout=0.1, max_restarts=0, tolerance=1e-6,
+               consistency=[0.99 * np.pi] * size)
+    if not found:
+        raise _Refused("no_ik_solution", f"{problem}: {found.message}")
+    seed.set_group(group, found.solutions[0])
+    return found.solutions[0]
 
 
 def _lin(scene: _core.PlanningScene, start: _core.RobotState, request: MotionRequest, limits: CartesianLimits) -> Trajectory:
-    link, goal = _goal_pose(scene, start, request)
-    origin = start.pose(link)
-    angle, turn = _slerp(origin, goal)
-    way = goal.position - origin.position
-    return _along(scene, start, request, link, float(np.linalg.norm(way)), angle,
+    tool = _tool(scene, start, request)
+    origin = start.pose(tool.link) * tool.in_link
+    angle, turn = _slerp(origin, tool.goal)
+    way = tool.goal.position - origin.position
+    return _along(scene, start, request, tool, float(np.linalg.norm(way)), angle,
                   lambda share: Pose(origin.position + share * way, turn(share)), limits)
 
 
@@ -228,36 +269,48 @@ def _circle(start: np.ndarray, goal: np.ndarray, point: np.ndarray, kind: str) -
         a, b = point - start, goal - start
         normal = np.cross(a, b)
         if np.linalg.norm(normal) < 1e-9:
-            raise _Refused("failed", "start, interim point and goal of the circle lie on one line")
+            raise _Refused("invalid_plan", "start, interim point and goal of the circle lie on one line")
         centre = start + (np.dot(b, b) * np.cross(np.cross(a, b), a) + np.dot(a, a) * np.cross(b, np.cross(a, b))) / (
             2 * np.dot(normal, normal)
         )
     else:
         centre = point
         normal = np.cross(start - centre, goal - centre)
-        if abs(np.linalg.norm(start - centre) - np.linalg.norm(goal - centre)) > 1e-2 * max(1e-6, np.linalg.norm(start - centre)):
-            raise _Refused("failed", "start and goal of the circle are not equally far from its centre")
+        apart = abs(np.linalg.norm(start - centre) - np.linalg.norm(goal - centre))
+        if apart > _RADII:
+            raise _Refused("invalid_plan", f"start and goal of the circle are not equally far from its centre: by {apart:.4g} m")
         if np.linalg.norm(normal) < 1e-9:
-            raise _Refused("failed", "start, centre and goal of the circle lie on one line: give an interim point instead")
-    radius = float(np.linalg.norm(start - centre))
+            raise _Refused("invalid_plan", "start, centre and goal of the circle lie on one line: give an interim point instead")
+    radius, last = (float(np.linalg.norm(place - centre)) for place in (start, goal))
     x = (start - centre) / radius
     y = np.cross(normal / np.linalg.norm(normal), x)
     angle = float(np.arctan2(np.dot(goal - centre, y), np.dot(goal - centre, x))) % (2 * np.pi)
-    return radius * angle, lambda share: centre + radius * (np.cos(share * angle) * x + np.sin(share * angle) * y)
+    return radius * angle, lambda share: centre + (radius + share * (last - radius)) * (
+        np.cos(share * angle) * x + np.sin(share * angle) * y)
+
+
+def with_auxiliary_point(request: MotionRequest) -> MotionRequest:
+    """A request for CIRC with its auxiliary point taken out of the path constraints, where it is by MoveIt's convention."""
+    extra = request.path_constraints
+    if request.planner != "CIRC" or request.auxiliary is not None or extra is None or extra.name not in ("interim", "center") or \
+            len(extra.position) != 1 or len(extra.position[0].region) != 1:
+        return request
+    point, rest = extra.position[0], _core.Constraints(joint=extra.joint, orientation=extra.orientation, visibility=extra.visibility)
+    auxiliary = AuxiliaryPoint(extra.name, point.region[0][1].position, point.frame, point.link)
+    return replace(request, auxiliary=auxiliary, path_constraints=None if rest.empty() else rest)
 
 
 def _circ(scene: _core.PlanningScene, start: _core.RobotState, request: MotionRequest, limits: CartesianLimits) -> Trajectory:
-    link, goal = _goal_pose(scene, start, request)
-    extra = request.path_constraints
-    if extra is None or extra.name not in ("interim", "center") or len(extra.position) != 1 or not extra.position[0].region:
-        raise _Refused(
-            "no_goal", "CIRC needs path constraints named 'interim' or 'center' with one position constraint: its auxiliary point"
-        )
-    point = scene.frame_pose(extra.position[0].frame, start) * extra.position[0].region[0][1].position
-    origin = start.pose(link)
-    length, place = _circle(origin.position, goal.position, point, extra.name)
-    angle, turn = _slerp(origin, goal)
-    return _along(scene, start, request, link, length, angle, lambda share: Pose(place(share), turn(share)), limits)
+    auxiliary = with_auxiliary_point(request).auxiliary
+    if auxiliary is None:
+        raise _Refused("invalid_plan", "CIRC needs path constraints named 'interim' or 'center' with one position constraint that has "
+                                       "one pose: its auxiliary point")
+    tool = _tool(scene, start, request, auxiliary.link)
+    point = scene.frame_pose(auxiliary.frame, start) * np.asarray(auxiliary.position, float)
+    origin = start.pose(tool.link) * tool.in_link
+    length, place = _circle(origin.position, tool.goal.position, point, auxiliary.kind)
+    angle, turn = _slerp(origin, tool.goal)
+    return _along(scene, start, request, tool, length, angle, lambda share: Pose(place(share), turn(share)), limits)
 
 
 _MOTIONS = {"PTP": _ptp, "LIN": _lin, "CIRC": _circ}
@@ -267,8 +320,7 @@ def pilz_plan(scene: _core.PlanningScene, request: MotionRequest, cancel: Option
               limits: CartesianLimits = CartesianLimits()) -> PlanResult:
     """A timed trajectory without a search: ``request.planner`` is PTP, LIN or CIRC.
 
-    Obstacles are not avoided; a Pipeline checks the result. CIRC takes its auxiliary point from the path constraints
-    named ``interim`` or ``center``.
+    Obstacles are not avoided; a Pipeline checks the result.
     """
     begun = time.perf_counter()
     start = request.start if request.start is not None else scene.state
@@ -308,6 +360,8 @@ class SequenceResult:
     message: str = ""
     trajectories: List[Trajectory] = field(default_factory=list)
     planning_time: float = 0.0
+    warnings: List[str] = field(default_factory=list)
+    contacts: List[_core.Contact] = field(default_factory=list)
 
     @property
     def code(self) -> int:
@@ -318,7 +372,7 @@ class SequenceResult:
 
 
 def _blend(
-    scene: _core.PlanningScene, first: Trajectory, second: Trajectory, link: str, radius: float, limits: CartesianLimits
+    scene: _core.PlanningScene, first: Trajectory, second: Trajectory, link: str, radius: float
 ) -> Trajectory:
     """One trajectory that leaves the first where it enters the ball about its end, and joins the second where that leaves it."""
     places = [np.array([t.state(i).pose(link).position for i in range(len(t))]) for t in (first, second)]
@@ -341,50 +395,97 @@ def _blend(
         b = second.state_at(min(t_leave, max(0.0, t_leave - duration + t))).pose(link)
         _, turn = _slerp(a, b)
         pose = Pose((1 - alpha) * a.position + alpha * b.position, turn(alpha))
-        found = ik(scene, first.group, pose, link=link, seed=seed, timeout=0.1, max_restarts=0)
-        if not found:
-            raise _Refused("no_ik_solution", f"the blend between two motions cannot be followed: {found.message}")
-        seed.set_group(first.group, found.solutions[0])
         times.append(t_enter + t)
-        positions.append(found.solutions[0])
+        positions.append(_follow(scene, first.group, link, pose, seed, "the blend between two motions cannot be followed"))
     times += list(times[-1] + second.times[leave + 1:] - t_leave)
     positions += list(second.positions[leave + 1:])
-    return _trajectory(scene, first.group, first.start, times, positions)
+    blended = _trajectory(scene, first.group, first.start, times, positions)
+    _check_limits(scene, blended, "the blend between two motions")
+    return blended
 
 
 def pilz_sequence(scene: _core.PlanningScene, items: Sequence[Tuple[MotionRequest, float]], cancel: Optional[_core.CancelToken] = None,
-                  limits: CartesianLimits = CartesianLimits()) -> SequenceResult:
+                  limits: CartesianLimits = CartesianLimits(), plan: Optional[Planner] = None) -> SequenceResult:
     """Motions one after the other, each from where the one before ends.
 
-    :param items: (request, blend radius in m to the next one); the last radius must be 0. Motions of one group that follow
-        each other become one trajectory.
+    :param items: (request, blend radius in m to the next one); the last radius must be 0. Only the first motion of a group may
+        have a start. Motions of one group that follow each other become one trajectory.
+    :param plan: what plans each of them; default :func:`pilz_plan`. The result is looked at for collisions where motions are blended.
     """
     begun = time.perf_counter()
-    if items and items[-1][1] > 0:
-        return SequenceResult("invalid_request", "the last motion of a sequence cannot be blended: its radius must be 0")
-    state = scene.state
-    out: List[Trajectory] = []
-    pending = 0.0
-    for index, (request, radius) in enumerate(items):
-        if (
-            index
-            and request.start is not None
-            and request.start.get_group(request.group).tolist() != state.get_group(request.group).tolist()
-        ):
-            return SequenceResult("invalid_request", f"motion {index + 1} of the sequence has a start state: only the first may")
-        wanted = MotionRequest(**{**request.__dict__, "start": request.start if index == 0 and request.start is not None else state})
-        result = pilz_plan(scene, wanted, cancel, limits)
-        if not result or result.trajectory is None:
-            return SequenceResult(result.status, f"motion {index + 1} of the sequence: {result.message}", out, time.perf_counter() - begun)
-        trajectory = result.trajectory
+    plan = plan or (lambda scene, request, cancel: pilz_plan(scene, request, cancel, limits))
+    result = SequenceResult("solved")
+    try:
+        radii = _radii(scene.model, items, result.warnings)
+        _plan_all(scene, items, radii, cancel, plan, result)
+    except _Refused as refused:
+        result.status, result.message, result.trajectories = refused.status, str(refused), []
+    except _core.MotionError as error:
+        result.status, result.message, result.trajectories = "invalid_request", str(error), []
+    result.planning_time = time.perf_counter() - begun
+    return result
+
+
+def _radii(model: _core.RobotModel, items: Sequence[Tuple[MotionRequest, float]], warnings: List[str]) -> List[float]:
+    """The blend radii that count.
+
+    :raises _Refused: what cannot be, before anything is planned.
+    """
+    radii = [float(radius) for _, radius in items]
+    if not all(0.0 <= radius < np.inf for radius in radii):
+        raise _Refused("invalid_plan", f"blend radii must be 0 or more (m), not {', '.join(f'{radius:g}' for radius in radii)}")
+    if radii and radii[-1] > 0:
+        raise _Refused("invalid_plan", "the last motion of a sequence cannot be blended: its blend radius must be 0")
+    groups = [request.group for request, _ in items]
+    for index, (request, _) in enumerate(items):
+        if request.start is not None and request.group in groups[:index]:
+            raise _Refused("invalid_state", f"motion {index + 1} of the sequence has a start state: only the first of its group may")
+        if index + 1 < len(items) and radii[index] > 0 and (groups[index + 1] != groups[index] or not model.group(groups[index]).tip_link):
+            why = "they are of two groups" if groups[index + 1] != groups[index] else f"group '{groups[index]}' is no chain"
+            warnings.append(f"motions {index + 1} and {index + 2} of the sequence are not blended: {why}")
+            radii[index] = 0.0
+    return radii
+
+
+def _plan_all(scene: _core.PlanningScene, items: Sequence[Tuple[MotionRequest, float]], radii: Sequence[float],
+              cancel: Optional[_core.CancelToken], plan: Planner, result: SequenceResult) -> None:
+    state, out, before = scene.state, result.trajectories, None
+    for index, (request, _) in enumerate(items):
+        where = f"motion {index + 1} of the sequence"
+        planned = plan(scene, replace(request, start=state if request.start is None else request.start), cancel)
+        result.warnings += planned.warnings
+        if not planned or planned.trajectory is None:
+            result.contacts = planned.contacts
+            raise _Refused(planned.status, f"{where}: {planned.message}")
+        trajectory, radius = planned.trajectory, radii[index - 1] if index else 0.0
         state = trajectory.state(len(trajectory) - 1)
-        try:
-            if out and out[-1].group == trajectory.group:
-                link = scene.model.group(trajectory.group).tip_link
-                out[-1] = _blend(scene, out[-1], trajectory, link, pending, limits) if pending > 0 else out[-1].append(trajectory)
-            else:
-                out.append(trajectory)
-        except _Refused as refused:
-            return SequenceResult(refused.status, f"motion {index + 1} of the sequence: {refused}", out, time.perf_counter() - begun)
-        pending = radius
-    return SequenceResult("solved", "", out, time.perf_counter() - begun)
+        if before is None or before.group != trajectory.group:
+            out.append(trajectory)
+        elif radius > 0:
+            _check_overlap(before, trajectory, radius, radii[index], index)
+            out[-1] = _blended(scene, out[-1], trajectory, radius, where, result)
+        else:
+            out[-1] = out[-1].append(trajectory)
+        before = trajectory
+
+
+def _check_overlap(first: Trajectory, second: Trajectory, radius: float, later: float, index: int) -> None:
+    link = second.model.group(second.group).tip_link
+    corner, end = (t.state(len(t) - 1).pose(link).position for t in (first, second))
+    if later > 0 and np.linalg.norm(end - corner) <= radius + later:
+        raise _Refused("invalid_plan", f"the blend radii {radius:g} m and {later:g} m at both ends of motion {index + 1} of the sequence "
+                                       f"overlap: they are {np.linalg.norm(end - corner):.3g} m apart")
+
+
+def _blended(scene: _core.PlanningScene, first: Trajectory, second: Trajectory, radius: float, where: str,
+             result: SequenceResult) -> Trajectory:
+    try:
+        trajectory = _blend(scene, first, second, scene.model.group(first.group).tip_link, radius)
+    except _Refused as refused:
+        raise _Refused(refused.status, f"{where}: {refused}") from None
+    bad = path_valid(scene, first.start, trajectory.group, trajectory.positions)
+    if bad and bad != [0]:
+        state = trajectory.state(bad[0])
+        result.contacts = scene.check(state, group=trajectory.group, contacts=100).contacts
+        raise _Refused("invalid_plan", f"{where}: the blend with the one before it is not free: {explain(scene, state, trajectory.group)}")
+    return trajectory

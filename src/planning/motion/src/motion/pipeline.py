@@ -8,6 +8,7 @@ import numpy as np
 
 from motion import _core
 from motion.cartesian import explain, path_valid
+from motion.pilz import with_auxiliary_point
 from motion.planning import MotionRequest, PlanResult, plan
 from motion.timing import limit_cartesian_speed, limit_jerk, time_parameterize
 
@@ -28,7 +29,7 @@ def _with_start_before(result: PlanResult, start: _core.RobotState, most: float)
     times = None
     if trajectory.times is not None:
         mean = trajectory.duration / max(1, len(trajectory) - 1)
-        times = np.concatenate([[0.0], trajectory.times - trajectory.times[0] + min(most, mean)])
+        times = np.concatenate([[0.0], trajectory.times - trajectory.times[0] + (min(most, mean) if mean > 0 else most)])
 
     def with_rest(rows: Optional[np.ndarray]) -> Optional[np.ndarray]:
         return None if rows is None else np.vstack([np.zeros(rows.shape[1]), rows])
@@ -80,6 +81,7 @@ class Pipeline:
                 return _ADAPTERS[self.adapters[index]](self, inner(index + 1), scene, request, cancel)
             return call
 
+        request = with_auxiliary_point(request)  # which is no constraint
         try:
             result = inner(0)(scene, request, cancel)
         except _core.MotionError as error:

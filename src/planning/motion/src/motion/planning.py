@@ -16,8 +16,22 @@ CODES: Dict[str, int] = {
     "solved": 1, "approximate": -1, "timeout": -6, "cancelled": -7, "invalid_group": -15, "invalid_start": -26,
     "start_in_collision": -10, "start_violates_path_constraints": -11, "no_goal": -16, "invalid_goal": -27,
     "goal_in_collision": -27, "goal_violates_path_constraints": -27, "no_ik": -27, "unknown_link": -16, "unknown_frame": -21,
-    "unknown_planner": -1, "invalid_plan": -2, "invalid_request": -16, "failed": -1, "no_ik_solution": -31,
-    "conversion_failed": 99999}
+    "unknown_planner": -1, "invalid_plan": -2, "invalid_request": -16, "invalid_state": -17, "invalid_link": -18, "failed": -1, "no_ik_solution": -31}
+
+
+@dataclass(frozen=True)
+class AuxiliaryPoint:
+    """What a circle goes by.
+
+    :param kind: ``interim``, a point that it passes, or ``center``.
+    :param position: (3,) m in ``frame`` ("" = model frame).
+    :param link: moved along the circle where the goal is one of joint values.
+    """
+
+    kind: str
+    position: Sequence[float]
+    frame: str = ""
+    link: str = ""
 
 
 @dataclass
@@ -36,6 +50,7 @@ class MotionRequest:
     :param seed: an integer makes runs repeat exactly (several attempts then run one after the other).
     :param longest_valid_segment_fraction: of the joint space's extent, between checked states.
     :param threads: of several attempts; 0 = four.
+    :param auxiliary: of CIRC; without it, its path constraints named ``interim`` or ``center`` give it.
     :param cartesian_link: link whose speed `cartesian_speed` (m/s, 0 = any) limits; used by the Pipeline.
     """
 
@@ -61,6 +76,7 @@ class MotionRequest:
     max_goal_samples: int = 10
     enforce_joint_space: bool = False
     threads: int = 0
+    auxiliary: Optional[AuxiliaryPoint] = None
     cartesian_link: str = ""
     cartesian_speed: float = 0.0
 

@@ -103,7 +103,7 @@ class Trajectory:
         """This motion and then the other; its first point is left out if it is this one's last."""
         if other.group != self.group or other.model is not self.model:
             raise _core.InvalidInputError(f"a trajectory of '{other.group}' cannot follow one of '{self.group}'")
-        skip = int(bool(len(self)) and bool(len(other)) and np.abs(self.positions[-1] - other.positions[0]).max() < 1e-9)
+        skip = int(bool(len(self)) and bool(len(other)) and np.abs(self.positions[-1] - other.positions[0]).max() < 1e-6)
 
         def joined(mine: Optional[np.ndarray], theirs: Optional[np.ndarray], shift: float = 0.0) -> Optional[np.ndarray]:
             return None if mine is None or theirs is None else np.concatenate([mine, theirs[skip:] + shift])
