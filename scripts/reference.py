@@ -16,7 +16,8 @@ OUT = ROOT / "out" / "reference"
 PACKAGES = ("ode_sim", "motion", "building_editor", "gazebo_ros", "gazebo_plugins", "gazebo_ros_control", "controller_interface",
             "controller_manager", "hardware_interface", "joint_limits_interface", "transmission_interface", "control_toolbox",
             "realtime_tools", "urdf_geometry_parser", "forward_command_controller", "diff_drive_controller", "joint_trajectory_controller",
-            "moveit_commander", "lab_check", "plugin_loader", "dynamic_parameters", "image_pixels", "node_signals", "test_support")
+            "moveit_commander", "lab_check", "plugin_loader", "dynamic_parameters", "image_pixels", "lenient_xml", "node_signals",
+            "test_support")
 _HEAD = """<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8"><title>{title}</title><style>
 body {{ font: 15px/1.45 sans-serif; max-width: 60em; margin: 2em auto; padding: 0 1em; color: #222 }}

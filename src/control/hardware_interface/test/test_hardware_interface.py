@@ -142,5 +142,7 @@ def test_a_robot_is_read_once():
     root = description_root(urdf.format("base"))
     assert root.get("name") == "ü" and root.find("link").get("name") == "base"
     assert description_root(urdf.format("base")) is root and description_root(urdf.format("arm")) is not root
+    root = description_root("<robot name='r'><gazebo><plugin name='drive & steer' topic='a<b'/></gazebo><link name='base'/></robot>")
+    assert root.find("link").get("name") == "base" and root.find("gazebo/plugin").get("topic") == "a<b"
     with pytest.raises(ParseError, match="mismatched tag: line 1, column 15"):
         description_root("<robot><link></robot>")

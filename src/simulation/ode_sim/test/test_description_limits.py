@@ -169,9 +169,12 @@ def test_a_rotation_that_is_none_is_refused(q):
     "<cylinder><radius>1</radius><length>1e8</length></cylinder>", "<capsule><radius>-1</radius><length>1</length></capsule>",
     "<heightmap><uri>x.png</uri><size>1 1e300 1</size></heightmap>",
     "<polyline><height>-1</height></polyline>"])
-def test_shapes_beyond_the_limit_are_refused(shape):
-    with pytest.raises(DescriptionError, match="sizes must be positive and finite, and at most 1e[+]07 m"):
-        model(f"<link name='l'><collision name='c'><geometry>{shape}</geometry></collision></link>")
+def test_shapes_beyond_the_limit_are_left_out_one_by_one(shape):
+    m, problems = model(f"<link name='l'><collision name='c'><geometry>{shape}</geometry></collision><visual name='v'><geometry>{shape}"
+                        "</geometry></visual><collision name='d'><geometry><box/></geometry></collision></link>")
+    assert [c.name for c in m.links[0].collisions] == ["d"] and not m.links[0].visuals
+    assert text(problems).count("sizes must be positive and finite, and at most 1e+07 m; ") == 2
+    assert "collision 'c' of link 'l' is left out" in text(problems) and "visual 'v' of link 'l' is left out" in text(problems)
 
 
 def test_numbers_of_shapes_that_make_no_sense_are_replaced():

@@ -1,6 +1,7 @@
 """SDF worlds and models of all versions in use, and what happens when they are not right."""
 import pytest
 
+from ode_sim import math3
 from ode_sim.description import DescriptionError
 from ode_sim.description.model import Box, Capsule, Cylinder, Heightmap, Inertial, Mesh, Plane, Polyline, Sphere
 from sdf_texts import BOX, MODEL, finder, model, models, text, world
@@ -211,11 +212,90 @@ def test_two_axes_and_none(finder):
 @pytest.mark.parametrize("joint, message", [
     ('<joint name="j" type="revolute"><parent>a</parent><child>zz</child></joint>', "child link 'zz'"),
     ('<joint name="j" type="spiral"><parent>a</parent><child>b</child></joint>', "unknown joint type 'spiral'"),
-    ('<joint name="j" type="fixed"><parent>a</parent><child>world</child></joint>', "cannot join"),
+    ('<joint name="j" type="fixed"><parent>a</parent><child>a</child></joint>', "cannot join"),
+    ('<joint name="j" type="fixed"><parent>world</parent><child>world</child></joint>', "cannot join"),
 ])
 def test_a_joint_that_cannot_be_is_left_out(finder, joint, message):
     m, problems = model(TWO_LINKS + joint, finder)
     assert m.joints == () and message in text(problems) and problems[0].severity == "error"
+
+
+@pytest.mark.parametrize("kind", ["fixed", "revolute", "prismatic", "ball"])
+def test_a_joint_whose_child_is_the_world_is_one_of_the_link_the_other_way_round(finder, kind):
+    """Gazebo takes the anchor of such a joint in the world's frame (Joint::LoadImpl), and measures the child's motion in the parent."""
+    body = '<pose>1 2 3 0 0 0</pose>' + TWO_LINKS + hinge(
+        "<pose>1 3 3 0 0 0</pose><axis><xyz>0 0 1</xyz><limit><lower>-1</lower><upper>2</upper></limit></axis>", kind).replace(
+            "<parent>a</parent>", "<parent>b</parent>").replace("<child>b</child>", "<child>world</child>")
+    m, problems = model(body, finder)
+    j, = m.joints
+    b, = (link for link in m.links if link.name == "b")
+    assert (j.parent, j.child) == ("world", "b") and not problems
+    x_mj = math3.compose(b.pose, j.pose)
+    assert x_mj.p == pytest.approx((0.0, 1.0, 0.0))
+    if j.axes:
+        axis = math3.quat_rotate(x_mj.q, j.axes[0].xyz)
+        assert axis == pytest.approx((0.0, 0.0, -1.0)) and (j.axes[0].lower, j.axes[0].upper) == (-1.0, 2.0)
+
+
+def test_a_joint_of_a_nested_model_may_have_the_world_as_its_child(finder):
+    m, problems = model('<link name="base"/><model name="sub"><link name="l"/><joint name="j" type="fixed"><parent>l</parent>'
+                        "<child>world</child></joint></model>", finder)
+    assert [(j.name, j.parent, j.child) for j in m.joints] == [("sub::j", "world", "sub::l")] and not problems
+
+
+def test_a_joint_may_name_a_frame_of_its_link(finder):
+    m, problems = model(TWO_LINKS + '<frame name="f" attached_to="g"/><frame name="g" attached_to="b"/>'
+                        '<joint name="j" type="fixed"><parent>a</parent><child>f</child></joint>', finder)
+    assert [(j.parent, j.child) for j in m.joints] == [("a", "b")] and not problems
+
+
+def test_continuous_is_a_type_of_sdf_as_well(finder):
+    m, problems = model(TWO_LINKS + hinge("<axis><xyz>0 0 1</xyz><limit><lower>-1</lower><upper>1</upper></limit></axis>", "continuous"), finder)
+    assert (m.joints[0].type, m.joints[0].axes[0].lower, m.joints[0].axes[0].upper) == ("revolute", -1e16, 1e16) and not problems
+
+
+@pytest.mark.parametrize("body, message", [
+    ("<link name='a'><inertial auto='true'/></link>", "auto is of SDF 1.11"),
+    ("<placement_frame>a</placement_frame><link name='a'/>", "placement_frame is of SDF 1.8"),
+])
+def test_what_is_of_newer_sdf_is_told(finder, body, message):
+    m, problems = model(body, finder)
+    assert [link.name for link in m.links] == ["a"] and len(problems) == 1 and message in text(problems)
+
+
+#: (part of a link, collisions, visuals, message): a link is there in Gazebo whatever its parts are; sdformat 9 replaces vectors
+#: that are none, and reads nothing of a file with a word for a number (docs/differences.md: here that costs the number).
+VALUES = [
+    ("<collision name='c'><geometry><box><size>1 1</size></box></geometry></collision>", 1, 0, "is not 3 numbers"),
+    ("<collision name='c'><geometry><box><size>-1 1 1</size></box></geometry></collision>", 0, 0, "must be positive"),
+    ("<collision name='c'><geometry><box><size>nan 1 1</size></box></geometry></collision>", 1, 0, "is not a number"),
+    ("<collision name='c'><geometry><box/></geometry></collision>", 1, 0, ""),
+    ("<collision name='c'><geometry><cylinder><radius>1</radius></cylinder></geometry></collision>", 1, 0, ""),
+    ("<collision name='c'><geometry><cylinder><radius>r</radius></cylinder></geometry></collision>", 1, 0, "is not 1 number"),
+    ("<collision name='c'><geometry><mesh/></geometry></collision>", 1, 0, "cannot find"),
+    ("<collision name='c'><geometry><cone/></geometry></collision>", 1, 0, "not known here"),
+    ("<collision name='c'><pose>0 0 nan 0 0 0</pose><geometry><box/></geometry></collision>", 0, 0, "is not a pose"),
+    ("<collision name='c'><pose>0 0 x</pose><geometry><box/></geometry></collision>", 1, 0, "is not 3 numbers"),
+    ("<collision name='c'><geometry><box/></geometry><surface><friction><ode><mu>nan</mu></ode></friction></surface></collision>", 1, 0,
+     "is not a number"),
+    ("<visual name='v'><pose>0 0 1e9 0 0 0</pose><geometry><box/></geometry></visual>", 0, 0, "farther away"),
+    ("<visual name='v'><geometry><box/></geometry><material><ambient>a b c</ambient></material></visual>", 0, 1, "is not 3 numbers"),
+    ("<visual name='v'><geometry><box/></geometry><transparency>nan</transparency></visual>", 0, 1, "is not a number"),
+    ("<sensor name='s' type='ray'><pose>nan 0 0</pose></sensor>", 0, 0, "is not a pose"),
+    ("<light name='s' type='point'><pose>nan 0 0</pose></light>", 0, 0, "is not a pose"),
+    ("<inertial><pose>nan 0 0 0 0 0</pose><mass>2</mass></inertial>", 0, 0, "centre of mass is at the origin"),
+    ("<inertial><mass>1,5</mass></inertial>", 0, 0, ""),
+    ("<inertial><mass>heavy</mass></inertial>", 0, 0, "is not 1 number"),
+    ("<velocity_decay><linear>nan</linear></velocity_decay>", 0, 0, "is not a number"),
+]
+
+
+@pytest.mark.parametrize("part, collisions, visuals, message", VALUES, ids=[f"{i}" for i in range(len(VALUES))])
+def test_a_fault_in_a_link_costs_its_part_and_one_warning(finder, part, collisions, visuals, message):
+    m, problems = model(f"<link name='a'>\n{part}</link><link name='b'/>", finder)
+    assert [link.name for link in m.links] == ["a", "b"]
+    assert (len(m.links[0].collisions), len(m.links[0].visuals)) == (collisions, visuals)
+    assert len(problems) == bool(message) and message in text(problems) and all(p.source.line == 2 for p in problems)
 
 
 def test_a_joint_to_the_world(finder):

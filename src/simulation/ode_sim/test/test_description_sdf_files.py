@@ -113,7 +113,7 @@ def test_bad_models_of_a_world_are_left_out_one_by_one(models, finder):
         <model name="none"/><model name="light"><link name="l"><inertial><mass>0</mass></inertial></link></model>
         <model name="fat"><link name="l"><collision name="c"><geometry><sphere><radius>-1</radius></sphere></geometry>
         </collision></link></model><model name="good"><link name="l"/></model>""", finder)
-    assert names(w.models) == ["good"] and len(problems) == 5
+    assert names(w.models) == ["fat", "good"] and len(problems) == 5 and not w.models[0].links[0].collisions
     for part in ("model.sdf:1: not well-formed", "<sdf version='1.6'>model.sdf</sdf>", "has no <link>", "positive mass",
                  "sizes must be positive"):
         assert part in text(problems)

@@ -4,13 +4,15 @@ from __future__ import annotations
 from functools import lru_cache
 from xml.etree import ElementTree
 
+import lenient_xml
+
 
 @lru_cache(maxsize=4)  # of every robot its hardware and each of its controllers ask
 def description_root(urdf: str) -> ElementTree.Element:
     """The root element of a URDF text. The same text gives the same element: nobody may change it.
 
-    Blank lines before the XML declaration do no harm, as with TinyXML, which Gazebo and ros_control read with.
+    Read as by TinyXML, which Gazebo and ros_control read with: blank lines before the XML declaration do no harm, nor does a bare ``&``.
 
     :raises ElementTree.ParseError: the text is no XML
     """
-    return ElementTree.fromstring(urdf.lstrip("\ufeff \t\r\n"))
+    return lenient_xml.fromstring(urdf)

@@ -36,6 +36,7 @@ def load_world(path_or_text: str, finder: Optional[ResourceFinder] = None) -> Tu
     if world is None:
         raise fault(root, "holds no <world>")
     reader = SdfReader(finder, os.path.dirname(file))
+    reader.warn_of_text(root)
     return reader.world(world), reader.problems
 
 
@@ -49,6 +50,7 @@ class Entity:
     def __init__(self, text: str, finder: Optional[ResourceFinder] = None, file: str = ""):
         root = parse_xml(text, file)
         self._reader = SdfReader(finder, os.path.dirname(file))
+        self._reader.warn_of_text(root)
         #: ``urdf``, ``model``, ``light`` or ``actor``
         self.kind = "urdf"
         if root.tag == "robot":
@@ -99,7 +101,9 @@ def read_urdf(text: str, *, name: Optional[str] = None, finder: Optional[Resourc
               file: str = "") -> Tuple[Model, List[Problem]]:
     """A model from URDF text, by Gazebo's conversion rules."""
     reader = SdfReader(finder, os.path.dirname(file))
-    model = urdf_to_model(parse_xml(text, file), reader)
+    root = parse_xml(text, file)
+    reader.warn_of_text(root)
+    model = urdf_to_model(root, reader)
     return (replace(model, name=name) if name else model), reader.problems
 
 

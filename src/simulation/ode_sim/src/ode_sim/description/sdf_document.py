@@ -23,6 +23,7 @@ def sdf_root(root: Element) -> Element:
         wrapper = Element("sdf", {"version": "1.6"})
         wrapper.file, wrapper.line = root.file, root.line
         wrapper.append(root)
+        wrapper.oddities = root.oddities
         root = wrapper
     if root.tag not in ("sdf", "gazebo"):
         raise fault(root, "not SDF; expected <sdf version='1.6'> as the root element")

@@ -20,7 +20,7 @@ from ode_sim.description.xmlsource import clone, fault, is_true, joint_end, read
 
 _JOINT_AXES = {"revolute": 1, "prismatic": 1, "fixed": 0, "ball": 0, "universal": 2, "revolute2": 2, "screw": 1,
                 "gearbox": 2, "piston": 1}
-_OLD_JOINT_TYPES = {"hinge": "revolute", "slider": "prismatic", "hinge2": "revolute2"}
+_OLD_JOINT_TYPES = {"hinge": "revolute", "slider": "prismatic", "hinge2": "revolute2", "continuous": "revolute"}
 #: kg or kg m^2. Homework has inertias of 1e8; far beyond, the solver's products overflow and what touches it is lost too
 _HEAVIEST = 1e30
 _STIFFEST = 1e30  # springs, dampers, friction: so large that nothing moves, and its product is still a number
@@ -112,6 +112,8 @@ class SdfModels(SdfShapes):
     def _parts(self, element: ET.Element) -> _Parts:
         name = element.get("name") or "__default__"
         parts = _Parts(name, element, self.pose(element.find("pose")))
+        if element.get("placement_frame") or element.find("placement_frame") is not None:
+            self.warn(element, "placement_frame is of SDF 1.8, Gazebo 11 does not know it: the pose is that of the model's own frame")
         nested = [self._parts(child) for child in element.findall("model")]
         for include in element.findall("include"):
             included = self.include(include, getattr(element, "include_chain", ()))
@@ -199,7 +201,13 @@ class SdfModels(SdfShapes):
 
     def _unique(self, parent: ET.Element, tag: str, read) -> Iterator:
         """Children of one kind, with names made unique: Gazebo would drop the second of a name."""
-        items = [(element, read(element)) for element in parent.findall(tag)]
+        items = []
+        for element in parent.findall(tag):
+            try:
+                items.append((element, read(element)))
+            except DescriptionError as error:  # the link is there without it, as in Gazebo
+                self.warn(error.source, f"{error.message}; {tag} '{quoted(element.get('name'))}' of link '{quoted(parent.get('name'))}' is "
+                                        "left out")
         given = {item.name for _, item in items}
         seen: Dict[str, int] = {}
         for element, item in items:
@@ -216,7 +224,14 @@ class SdfModels(SdfShapes):
             return Inertial()
         values = {key: self.number(element, "inertia/" + key, default, nan=True) for key, default in (
             ("ixx", 1.0), ("ixy", 0.0), ("ixz", 0.0), ("iyy", 1.0), ("iyz", 0.0), ("izz", 1.0))}
-        return Inertial(mass=self.number(element, "mass", 1.0, nan=True), pose=in_link(element), **values)
+        try:
+            pose = in_link(element)
+        except DescriptionError as error:
+            self.warn(error.source, f"{error.message}; the centre of mass is at the origin of the link")
+            pose = math3.IDENTITY
+        if is_true(element.get("auto") or ""):
+            self.warn(element, "auto is of SDF 1.11; nothing is computed, write <mass> and <inertia>")
+        return Inertial(mass=self.number(element, "mass", 1.0, nan=True), pose=pose, **values)
 
     def _collision(self, element: ET.Element, pose: Pose) -> Collision:
         return Collision(name=element.get("name") or "", pose=pose, geometry=self.geometry(element),
@@ -270,30 +285,30 @@ class SdfModels(SdfShapes):
     def _joint(self, element: ET.Element, parts: _Parts, known: Set[str]) -> List[Joint]:
         name = element.get("name") or ""
         kind = (element.get("type") or "").strip()
+        endless = kind == "continuous"
         kind = _OLD_JOINT_TYPES.get(kind, kind)
         if kind not in _JOINT_AXES:
-            self.warn(element, f"unknown joint type '{quoted(kind)}'; use one of {', '.join(_JOINT_AXES)}; "
+            self.warn(element, f"unknown joint type '{quoted(kind)}'; use one of continuous, {', '.join(_JOINT_AXES)}; "
                                "the joint is left out", "error")
             return []
-        parent, child = joint_end(element, "parent"), joint_end(element, "child")
+        parent, child = (self._link_of(joint_end(element, tag), parts, known) for tag in ("parent", "child"))
         for role, link in (("parent", parent), ("child", child)):
             if link not in known and link != "world":
                 self.warn(element, f"{role} link '{quoted(link)}' is not in model '{quoted(parts.name)}'; the joint is left out",
                           "error")
                 return []
-        if child == "world" or parent == child:
+        if parent == child:
             self.warn(element, f"cannot join '{quoted(parent)}' to '{quoted(child)}'; the joint is left out", "error")
             return []
-        pose = element.find("pose")
-        reference = relative_to(pose) or child
-        if reference not in parts.frames:
-            self.warn(pose, f"there is no frame '{quoted(reference)}'; using that of the child link")
-            reference = child
-        x_mj = math3.compose(parts.frames[reference], self.pose(pose))
-        x_cj = math3.relative(parts.frames[child], x_mj)
+        x_mj = self._joint_pose(element.find("pose"), child, parts)
+        axes = tuple(self._axes(element, kind, parts.frames, x_mj))
+        if endless:
+            axes = tuple(replace(axis, lower=-1e16, upper=1e16) for axis in axes)
+        if child == "world":  # told the other way round: the link moves, its axes are the opposite ones in the opposite order
+            parent, child = child, parent
+            axes = tuple(replace(axis, xyz=math3.scale(axis.xyz, -1.0)) for axis in reversed(axes))
         return [Joint(
-            name=name, type=kind, parent=parent, child=child, pose=x_cj,
-            axes=tuple(self._axes(element, kind, parts.frames, x_mj)),
+            name=name, type=kind, parent=parent, child=child, pose=math3.relative(parts.frames[child], x_mj), axes=axes,
             limit_erp=self.number(element, "physics/ode/limit/erp", 0.2),
             limit_cfm=self.number(element, "physics/ode/limit/cfm", 0.0),
             provide_feedback=self.boolean(element, "physics/provide_feedback",
@@ -301,6 +316,29 @@ class SdfModels(SdfShapes):
             implicit_spring_damper=self.boolean(element, "physics/ode/implicit_spring_damper",
                                                 self.boolean(element, "physics/ode/cfm_damping", False)),
             fudge_factor=self.number(element, "physics/ode/fudge_factor", 1.0), source=source_of(element))]
+
+    def _joint_pose(self, pose: Optional[ET.Element], child: str, parts: _Parts) -> Pose:
+        """X_MJ; without a frame of its own in that of the child, and in the world's where the world is the child."""
+        reference = relative_to(pose) or child
+        if reference == "world":
+            return math3.compose(math3.relative(parts.pose, math3.IDENTITY), self.pose(pose))
+        if reference not in parts.frames:
+            self.warn(pose, f"there is no frame '{quoted(reference)}'; using that of the child link")
+            reference = child
+            if child == "world":
+                return self._joint_pose(None, child, parts)
+        return math3.compose(parts.frames[reference], self.pose(pose))
+
+    @staticmethod
+    def _link_of(name: str, parts: _Parts, known: Set[str]) -> str:
+        """The link that a joint names, or that the frame it names is attached to; ``name`` where there is none."""
+        frames = {frame.get("name"): (frame.get("attached_to") or "").strip() for frame in parts.element.findall("frame")}
+        link = name
+        for _ in range(len(frames)):
+            if link in known or link not in frames:
+                break
+            link = frames[link]
+        return link if link in known else name
 
     def _axes(self, element: ET.Element, kind: str, frames: Dict[str, Pose], x_mj: Pose) -> Iterator[Axis]:
         tags = ("axis", "axis2")[:_JOINT_AXES[kind]]
@@ -360,7 +398,9 @@ class SdfModels(SdfShapes):
             if file is None:
                 self.warn_missing(include, uri, "left out")
                 return None
-            element = first_entity(parse_sdf(read_bytes(file), file))
+            root = parse_sdf(read_bytes(file), file)
+            self.warn_of_text(root)
+            element = first_entity(root)
         except DescriptionError as error:
             self.warn(include, f"{error}; '{quoted(uri)}' is left out", "error")
             return None
@@ -368,6 +408,9 @@ class SdfModels(SdfShapes):
             self.warn(include, f"the models included here have more than {self.MOST_COPIED} elements; '{quoted(uri)}' is left "
                                "out", "error")
             return None
+        if include.find("placement_frame") is not None or is_true(include.get("merge") or ""):
+            what = "placement_frame is of SDF 1.8" if include.find("placement_frame") is not None else "merge is of SDF 1.9"
+            self.warn(include, f"{what}, Gazebo 11 does not know it: the model is placed by its own frame, as a model of its own")
         element.include_chain = chain + (uri,)
         return self._changed(element, include)
 

@@ -1,6 +1,7 @@
 """Shapes, looks and lights of SDF."""
 from __future__ import annotations
 
+import math
 import os
 import xml.etree.ElementTree as ET
 from dataclasses import replace
@@ -110,7 +111,10 @@ class SdfShapes(SdfValues):
         points = element.findall("point")
         if len(points) > _MOST_POINTS:
             raise fault(element, f"a road of {len(points)} points; it may have {_MOST_POINTS}")
-        places = [self.numbers(point, (0.0, 0.0, 0.0), most=FARTHEST) for point in points]
+        places = [self.numbers(point, (0.0, 0.0, 0.0), nan=True, most=FARTHEST) for point in points]
+        for point, place in zip(points, places):
+            if any(math.isnan(value) for value in place):
+                raise fault(point, f"'{quoted(text_of(point))}' is not a number")
         way = tuple(place for place, before in zip(places, [None, *places]) if before is None or place[:2] != before[:2])
         if len(way) < 2:
             raise fault(element, "a road needs two points that are not the same")

@@ -36,6 +36,11 @@ class SdfValues:
             self._noticed.add(problem)
             self.problems.append(problem)
 
+    def warn_of_text(self, root: ET.Element) -> None:
+        """What of the text was read otherwise than it is written."""
+        for line, what in getattr(root, "oddities", ()):
+            self.warn(Source(getattr(root, "file", ""), line), f"{what}; the text is not well-formed XML, Gazebo reads it so")
+
     def warn_missing(self, element: ET.Element, uri: str, consequence: str) -> None:
         """One warning for each name, however often it is used."""
         if uri not in self._missing:
@@ -45,9 +50,9 @@ class SdfValues:
     def numbers(self, element: Optional[ET.Element], default: Numbers, nan: bool = False,
                 most: float = math.inf) -> Numbers:
         """As many numbers as ``default`` has. As in Gazebo, numbers that stand first count, whatever follows them; those
-        that are missing are taken from the default, with a warning.
+        that are missing, or are a NaN, are taken from the default, with a warning.
 
-        :param nan: the caller deals with values that are not a number; otherwise they are refused.
+        :param nan: the caller deals with values that are not a number.
         :param most: the largest that makes sense, of either sign; beyond it the default is taken, with a warning.
         """
         text = text_of(element)
@@ -55,8 +60,8 @@ class SdfValues:
             return default
         values = leading_numbers(text, len(default))
         if not nan and any(math.isnan(value) for value in values):
-            raise fault(element, f"'{quoted(text)}' is not a number; give finite values")
-        if most < math.inf and any(abs(value) > most for value in values):
+            problem, values = "is not a number", default
+        elif most < math.inf and any(abs(value) > most for value in values):
             problem, values = f"is beyond {most:g}", default
         elif len(values) < len(default):
             problem = f"is not {len(default)} number{'s' * (len(default) > 1)}"
@@ -109,7 +114,7 @@ class SdfValues:
             return math3.IDENTITY
         by_quaternion = element.get("rotation_format") == "quat_xyzw"
         count = 7 if by_quaternion else 3 if len(text.split(None, 4)) == 3 else 6
-        values: Tuple[float, ...] = self.numbers(element, ((0.0,) * 6 + (1.0,))[:count])
+        values: Tuple[float, ...] = self.numbers(element, ((0.0,) * 6 + (1.0,))[:count], nan=True)
         if not all(math.isfinite(value) for value in values):
             raise fault(element, f"'{quoted(text)}' is not a pose; give finite values")
         if max(abs(value) for value in values[:3]) > FARTHEST:

@@ -6,18 +6,16 @@ Children are taken in the order of their joints' names, as urdfdom keeps them.
 """
 from __future__ import annotations
 
-import math
 import xml.etree.ElementTree as ET
 from dataclasses import dataclass, field, replace
-from typing import Dict, Iterator, List, Optional, Tuple, cast
+from typing import Dict, Iterator, List, Optional, Tuple
 
 from ode_sim import math3
 from ode_sim.description import urdf_extensions as extensions
-from ode_sim.description.model import FARTHEST, Mimic, Model, Pose, Vec3, quoted
-from ode_sim.description.sdf_values import Numbers
+from ode_sim.description import urdf_parts as parts
+from ode_sim.description.model import DescriptionError, Model, Pose, Vec3, quoted
 from ode_sim.description.xmlsource import Element, child, fault
 
-_JOINT_TYPES = ("revolute", "continuous", "prismatic", "fixed", "floating", "planar")
 _LUMP = extensions.LUMP
 _MOST_FIXED = 200  # fixed joints in a row; what hangs on the last is moved as often
 
@@ -34,6 +32,7 @@ class _Shape:
     """A ``<visual>`` or ``<collision>`` in the link it ended up in."""
 
     element: ET.Element
+    form: ET.Element  # <box>, <mesh> ...
     name: str  # '' until it is lumped
     pose: Pose
 
@@ -43,7 +42,8 @@ class _UrdfLink:
     name: str
     element: ET.Element
     inertial: Optional[_Mass] = None
-    raw_inertial: Optional[Tuple[Pose, ET.Element]] = None  # as written, while nothing was lumped in
+    raw_inertial: Optional[Tuple[Pose, Tuple[float, ...]]] = None  # as written, while nothing was lumped in
+    fault: Optional[DescriptionError] = None  # why it has no mass although it has an <inertial>
     visuals: List[_Shape] = field(default_factory=list)
     collisions: List[_Shape] = field(default_factory=list)
     parent_joint: Optional["_UrdfJoint"] = None
@@ -57,10 +57,14 @@ class _UrdfLink:
 class _UrdfJoint:
     name: str
     element: ET.Element
-    type: str
+    says: parts.JointParts
     parent: _UrdfLink
     child: _UrdfLink
     pose: Pose  # X_PC
+
+    @property
+    def type(self) -> str:
+        return self.says.type
 
 
 def urdf_to_model(robot: ET.Element, reader) -> Model:
@@ -81,51 +85,6 @@ def _tree_of(top: _UrdfLink, last_first: bool = False) -> Iterator[_UrdfLink]:
         todo += [joint.child for joint in (link.child_joints if last_first else reversed(link.child_joints))]
 
 
-def _attribute(element: ET.Element, key: str) -> str:
-    value = (element.get(key) or "").strip()
-    if not value:
-        raise fault(element, f"attribute '{key}' is missing")
-    return value
-
-
-def _number(element: ET.Element, key: str) -> float:
-    """The number of an attribute that must be there."""
-    if not (element.get(key) or "").strip():
-        raise fault(element, f"attribute '{key}' is missing; it is a number")
-    return _floats(element, key, (0.0,))[0]
-
-
-def _floats(element: ET.Element, key: str, default: Numbers) -> Numbers:
-    """The numbers of an attribute, as many as ``default`` has."""
-    text = (element.get(key) or "").strip()
-    if not text:
-        return default
-    count = len(default)
-    values: Tuple[float, ...]
-    try:
-        values = tuple(float(word) for word in text.split())
-    except ValueError:
-        values = ()
-    if len(values) != count or any(math.isnan(value) for value in values):
-        raise fault(element, f"{key}='{quoted(text)}' is not "
-                               + ("a number" if count == 1 else f"{count} numbers")
-                               + ("; this is xacro text, run it through 'rosrun xacro xacro FILE' first"
-                                  if "${" in text or "$(" in text else ""))
-    return cast(Numbers, values)
-
-
-def _origin(parent: ET.Element) -> Pose:
-    origin = parent.find("origin")
-    if origin is None:
-        return math3.IDENTITY
-    xyz, rpy = _floats(origin, "xyz", (0.0, 0.0, 0.0)), _floats(origin, "rpy", (0.0, 0.0, 0.0))
-    if not all(math.isfinite(value) for value in xyz + rpy):
-        raise fault(origin, "the pose must be finite")
-    if max(map(abs, xyz)) > FARTHEST:
-        raise fault(origin, f"xyz='{quoted(origin.get('xyz'))}' is farther away than {FARTHEST:g} m")
-    return math3.from_rpy(*xyz, *rpy)
-
-
 def _write_pose(parent: ET.Element, pose: Pose) -> None:
     """As a quaternion (the SDF 1.9 form), so that nothing is rounded on the way to the SDF reader."""
     child(parent, "pose", " ".join(repr(v) for v in (*pose.p, *pose.q)), {"rotation_format": "quat_xyzw"})
@@ -142,7 +101,8 @@ class _Conversion:
     # ------------------------------------------------------------------ reading
 
     def model(self) -> Model:
-        name = _attribute(self.robot, "name")
+        name = parts.name_of(self.robot)
+        parts.check_robot(self.robot)
         root = self._tree()
         self._reduce(root)
         sdf = Element("model", {"name": name})
@@ -154,8 +114,11 @@ class _Conversion:
             self._convert(sdf, root)
         self.extensions.insert_in_model(sdf)
         if self.robot.find("origin") is not None:
-            _write_pose(sdf, _origin(self.robot))
+            _write_pose(sdf, parts.origin(self.robot))
         if sdf.find("link") is None:
+            if root.fault is not None:
+                raise DescriptionError(f"{root.fault.message}, so robot '{quoted(name)}' has no link with a mass that could be simulated",
+                                       root.fault.source)
             mass = root.element.find("inertial/mass")
             raise fault(
                 root.element, f"robot '{quoted(name)}' has no link with a mass that could be simulated; give the "
@@ -168,13 +131,11 @@ class _Conversion:
         urdf = self.joints.get(joint.name)
         if urdf is None:
             return joint
-        mimic = urdf.element.find("mimic")
-        return replace(joint, urdf_type=urdf.type, mimic=None if mimic is None else Mimic(
-            _attribute(mimic, "joint"), _floats(mimic, "multiplier", (1.0,))[0], _floats(mimic, "offset", (0.0,))[0]))
+        return replace(joint, urdf_type=urdf.type, mimic=urdf.says.mimic)
 
     def _tree(self) -> _UrdfLink:
         for element in self.robot.findall("link"):
-            name = _attribute(element, "name")
+            name = parts.name_of(element)
             if name in self.links:
                 raise fault(element, f"a link named '{quoted(name)}' is there already")
             self.links[name] = self._link(name, element)
@@ -202,63 +163,66 @@ class _Conversion:
                                    f"link '{quoted(roots[0].name)}'; a robot must be a tree")
         return roots[0]
 
-    @staticmethod
-    def _part(inertial: ET.Element, tag: str, link: str) -> ET.Element:
-        part = inertial.find(tag)
-        if part is None:
-            raise fault(inertial, of=f"link '{quoted(link)}'", message=f"<{tag}> is missing")
-        return part
-
     def _link(self, name: str, element: ET.Element) -> _UrdfLink:
         link = _UrdfLink(name, element)
         inertial = element.find("inertial")
         if inertial is not None:
-            mass, tensor = (self._part(inertial, tag, name) for tag in ("mass", "inertia"))
-            kilograms = _number(mass, "value")
-            i = {key: _number(tensor, key) for key in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")}
-            if not all(math.isfinite(value) for value in (kilograms, *i.values())):
-                raise fault(inertial, of=f"link '{quoted(name)}'", message="mass and inertia must be finite")
-            if kilograms > 0.0:
-                pose = _origin(inertial)
-                rows = ((i["ixx"], i["ixy"], i["ixz"]), (i["ixy"], i["iyy"], i["iyz"]), (i["ixz"], i["iyz"], i["izz"]))
-                link.inertial = _Mass(kilograms, pose.p, math3.rotate_inertia(pose.q, rows))
-                link.raw_inertial = (pose, inertial)
-            elif kilograms < 0.0:
-                self.reader.warn(mass, f"link '{quoted(name)}' has the negative mass {kilograms:g} kg; it counts as massless")
+            self._weigh(link, inertial)
         link.visuals = self._shapes(element.findall("visual"), name)
         link.collisions = self._shapes(element.findall("collision"), name)
         return link
 
+    def _weigh(self, link: _UrdfLink, inertial: ET.Element) -> None:
+        faults: List[DescriptionError] = []
+        mass, pose, tensor = parts.inertial(inertial, faults.append)
+        self._refuse_xacro(faults)
+        if mass > 0.0:
+            ixx, ixy, ixz, iyy, iyz, izz = tensor
+            link.inertial = _Mass(mass, pose.p, math3.rotate_inertia(pose.q, ((ixx, ixy, ixz), (ixy, iyy, iyz), (ixz, iyz, izz))))
+            link.raw_inertial = (pose, tensor)
+            if faults:
+                self._warn_of(faults[0], f"link '{quoted(link.name)}'", "its mass counts without it")
+        elif mass < 0.0:
+            link.fault = fault(parts.part(inertial, "mass"), f"its mass of {mass:g} kg is negative")
+        elif faults:
+            link.fault = faults[0]
+
     def _shapes(self, elements: List[ET.Element], link: str) -> List[_Shape]:
         shapes = []
         for element in elements:
-            geometry = element.find("geometry")
-            if geometry is None or len(geometry) == 0:
-                self.reader.warn(element, f"link '{quoted(link)}' has a <{element.tag}> without a shape in its <geometry>; "
-                                          "it is left out")
+            try:
+                form, pose = parts.shape(element)
+            except DescriptionError as error:
+                self._refuse_xacro([error])
+                self._warn_of(error, f"link '{quoted(link)}'", f"the <{element.tag}> is left out")
             else:
-                shapes.append(_Shape(element, (element.get("name") or "").strip(), _origin(element)))
+                shapes.append(_Shape(element, form, (element.get("name") or "").strip(), pose))
         return shapes
 
+    @staticmethod
+    def _refuse_xacro(faults: List[DescriptionError]) -> None:
+        for error in faults:
+            if parts.is_xacro(error):
+                raise error
+
+    def _warn_of(self, error: DescriptionError, where: str, consequence: str) -> None:
+        self.reader.warn(error.source, f"{where}: {error.message}; {consequence}")
+
     def _joint(self, element: ET.Element) -> _UrdfJoint:
-        name, kind = _attribute(element, "name"), _attribute(element, "type")
+        name = parts.name_of(element)
+        says = parts.joint(element, name, self.reader.warn)
         if name in self.joints:
             raise fault(element, f"a joint named '{quoted(name)}' is there already")
-        if kind not in _JOINT_TYPES:
-            raise fault(element, f"unknown type '{quoted(kind)}'; use one of {', '.join(_JOINT_TYPES)}")
         ends = []
         for tag in ("parent", "child"):
             end = element.find(tag)
             if end is None:
                 raise fault(element, f"<{tag} link='...'/> is missing")
-            link = _attribute(end, "link")
+            link = parts.name_of(end, "link")
             if link not in self.links:
                 raise fault(element, f"{tag} link '{quoted(link)}' is not in the robot")
             ends.append(self.links[link])
-        if kind in ("revolute", "prismatic") and element.find("limit") is None:
-            raise fault(element, f"a {kind} joint needs <limit lower upper effort velocity/>"
-                                   + ("; or make it continuous" if kind == "revolute" else ""))
-        return _UrdfJoint(name, element, kind, ends[0], ends[1], _origin(element))
+        return _UrdfJoint(name, element, says, ends[0], ends[1], says.pose)
 
     # ------------------------------------------------------------------ lumping
 
@@ -280,13 +244,15 @@ class _Conversion:
 
     def _lump(self, link: _UrdfLink, parent: _UrdfLink, x_pl: Pose) -> None:
         link.lumped_into = parent
+        if link.fault is not None:
+            self._warn_of(link.fault, f"link '{quoted(link.name)}'", "it counts as massless")
         self.extensions.move(link.name, parent.name, x_pl)
         if link.inertial is not None:
             parent.inertial = _combined(parent.inertial, link.inertial, x_pl)
             parent.raw_inertial = None
         for mine, theirs in ((link.visuals, parent.visuals), (link.collisions, parent.collisions)):
             for shape in mine:
-                theirs.append(_Shape(shape.element, shape.name or link.name, math3.compose(x_pl, shape.pose)))
+                theirs.append(_Shape(shape.element, shape.form, shape.name or link.name, math3.compose(x_pl, shape.pose)))
         for joint in link.joints:  # its own, and those of what was lumped into it before
             if joint.child.lumped_into is None:
                 joint.parent, joint.pose = parent, math3.compose(x_pl, joint.pose)
@@ -315,7 +281,9 @@ class _Conversion:
     def _drop(self, link: _UrdfLink) -> None:
         others = [other.name for other in _tree_of(link)][1:]
         joint = link.parent_joint
-        self.reader.warn(link.element, f"link '{quoted(link.name)}' has no mass, so it is left out"
+        why = f" ({link.fault.message})" if link.fault is not None else ""
+        self.reader.warn(link.element if link.fault is None else link.fault.source,
+                         f"link '{quoted(link.name)}' has no mass{why}, so it is left out"
                          + (f" and with it {quoted(', '.join(others), 500)}" if others else "")
                          + (f" (joint '{quoted(joint.name)}' too)" if joint is not None else "")
                          + f"; to keep {'them' if others else 'it'}, give '{quoted(link.name)}' an <inertial> with a mass"
@@ -326,10 +294,11 @@ class _Conversion:
         _write_pose(element, x_ml)
         inertial = child(element, "inertial")
         assert link.inertial is not None  # else it was dropped
+        if link.fault is not None:  # what it weighs was lumped into it
+            self._warn_of(link.fault, f"link '{quoted(link.name)}'", "it counts as massless")
         if link.raw_inertial is not None:
-            pose, raw = link.raw_inertial
-            tensor = self._part(raw, "inertia", link.name)
-            values = {key: tensor.get(key, "0") for key in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")}
+            pose, tensor = link.raw_inertial
+            values = {key: repr(value) for key, value in zip(parts.TENSOR, tensor)}
         else:
             pose, (a, b, c) = Pose(link.inertial.com), link.inertial.inertia
             values = {"ixx": repr(a[0]), "ixy": repr(a[1]), "ixz": repr(a[2]), "iyy": repr(b[1]), "iyz": repr(b[2]),
@@ -351,21 +320,18 @@ class _Conversion:
         element = child(parent, kind, attrib={"name": name}, like=shape.element)
         _write_pose(element, shape.pose)
         geometry = child(element, "geometry")
-        given = shape.element.findall("geometry/*")[0]
+        given = shape.form
         form = child(geometry, given.tag, like=given)
         if given.tag == "box":
-            child(form, "size", " ".join(repr(v) for v in _floats(given, "size", (0.0, 0.0, 0.0))))
+            child(form, "size", " ".join(repr(v) for v in parts.floats(given, "size", (0.0, 0.0, 0.0))))
         elif given.tag in ("cylinder", "capsule"):
-            child(form, "radius", repr(_number(given, "radius")))
-            child(form, "length", repr(_number(given, "length")))
+            child(form, "radius", repr(parts.number(given, "radius")))
+            child(form, "length", repr(parts.number(given, "length")))
         elif given.tag == "sphere":
-            child(form, "radius", repr(_number(given, "radius")))
+            child(form, "radius", repr(parts.number(given, "radius")))
         elif given.tag == "mesh":
-            child(form, "uri", _attribute(given, "filename"))
-            child(form, "scale", " ".join(repr(v) for v in _scale(given)))
-        else:
-            raise fault(given, of=f"link '{quoted(link.name)}'", message="unknown shape; use box, cylinder, "
-                                   "sphere or mesh")
+            child(form, "uri", (given.get("filename") or "").strip())
+            child(form, "scale", " ".join(repr(v) for v in parts.mesh_scale(given)))
         if kind == "collision":
             self.extensions.insert_in_collision(element, link.name)
         else:
@@ -385,8 +351,6 @@ class _Conversion:
         self.extensions.insert_in_joint(element, joint.name)
 
     def _write_axis(self, axis: Element, joint: _UrdfJoint, as_revolute: bool) -> None:
-        given = joint.element.find("axis")
-        xyz = _floats(given, "xyz", (1.0, 0.0, 0.0)) if given is not None else (1.0, 0.0, 0.0)
         limit = child(axis, "limit")
         dynamics = child(axis, "dynamics")
         if as_revolute:
@@ -394,32 +358,22 @@ class _Conversion:
             child(limit, "lower", "0")
             child(limit, "upper", "0")
             return
-        child(axis, "xyz", " ".join(repr(v) for v in xyz))
-        losses = joint.element.find("dynamics")
-        if losses is not None:
-            for key in ("damping", "friction"):
-                child(dynamics, key, repr(_floats(losses, key, (0.0,))[0]))
-        limits = joint.element.find("limit")
+        child(axis, "xyz", " ".join(repr(v) for v in joint.says.axis))
+        for key, value in zip(("damping", "friction"), joint.says.losses or ()):
+            child(dynamics, key, repr(value))
+        limits = joint.says.limit
         if limits is None:
             return
         if joint.type != "continuous":
-            lower, upper = _floats(limits, "lower", (0.0,))[0], _floats(limits, "upper", (0.0,))[0]
+            lower, upper = limits.lower, limits.upper
             if lower > upper:
-                self.reader.warn(limits, f"joint '{quoted(joint.name)}': lower limit {lower:g} is above upper limit {upper:g}; "
-                                         "switching the two")
+                self.reader.warn(joint.element.find("limit"), f"joint '{quoted(joint.name)}': lower limit {lower:g} is above upper limit "
+                                                              f"{upper:g}; switching the two")
                 lower, upper = upper, lower
             child(limit, "lower", repr(lower))
             child(limit, "upper", repr(upper))
-        for key in ("effort", "velocity"):
-            if not (limits.get(key) or "").strip():
-                raise fault(limits, of=f"joint '{quoted(joint.name)}'", message=f"attribute '{key}' is missing")
-            child(limit, key, repr(_number(limits, key)))
-
-
-def _scale(mesh: ET.Element) -> Tuple[float, ...]:
-    """Three numbers; one stands for all three axes."""
-    words = (mesh.get("scale") or "1 1 1").split()
-    return _floats(mesh, "scale", (1.0, 1.0, 1.0)) if len(words) != 1 else (_number(mesh, "scale"),) * 3
+        child(limit, "effort", repr(limits.effort))
+        child(limit, "velocity", repr(limits.velocity))
 
 
 def _combined(parent: Optional[_Mass], lumped: _Mass, x_pl: Pose) -> _Mass:

@@ -7,11 +7,14 @@ from dataclasses import replace
 from typing import List, Optional, Tuple, Union
 from xml.parsers import expat
 
+import lenient_xml
+
 from ode_sim.errors import DescriptionError, Source, one_line, quoted
 
 #: What a text may hold at most. A robot of 20 000 links has 300 000 elements; what nests deeper than 100 was not written
 #: to be read, and every reader behind this one may go down the tree by recursion.
 MOST_BYTES, MOST_ELEMENTS, DEEPEST = 64_000_000, 500_000, 100
+_ROOTS = ("robot", "sdf", "gazebo", "world", "model", "light", "actor")  # of several roots the first that is one of these counts
 _BUFFER = 1 << 20  # bytes of text that reach the reader in one piece
 _NUMBER = re.compile(r"\s*([-+]?(?:\d+\.?\d*(?:[eE][-+]?\d+)?|\.\d+(?:[eE][-+]?\d+)?|inf(?:inity)?|nan))", re.IGNORECASE)
 
@@ -22,25 +25,31 @@ class Element(ET.Element):
     line: int = 0
     file: str = ""
     include_chain: tuple = ()  # of a model that was included: the URIs that led to it
+    oddities: tuple = ()  # of a root: (line, what) of all that was read otherwise than it is written
 
 
 def parse_xml(text: Union[str, bytes], file: str = "") -> Element:
     """Root element of ``text``. Prefixes of namespaces stay part of the tag names, declared or not.
 
     As Gazebo's parser does, it tolerates blank lines before the XML declaration, ``--`` inside comments and anything
-    after the root element.
+    after the root element; what is not well-formed is read as TinyXML reads it, and the root's ``oddities`` say what that was.
 
-    :raises DescriptionError: not well-formed (the line of text is quoted), too long, too deep, or with entities of its
-        own: these may hold other files, or gigabytes.
+    :raises DescriptionError: not well-formed for TinyXML either (the line of text is quoted), too long, too deep, or with entities
+        of its own: these may hold other files, or gigabytes.
     """
     if len(text) > MOST_BYTES:
         raise DescriptionError(f"{Source(file)}: is longer than {MOST_BYTES // 1_000_000} MB; nothing that large is read")
-    text = _without_comments(_decoded(text).lstrip("\ufeff"))
+    whole = _decoded(text).lstrip("\ufeff")
+    text = _without_comments(whole)
     body = text.lstrip()
     reader = _Reader(file, text.count("\n", 0, len(text) - len(body)))
     try:
-        return reader.read(body.encode("utf-8", "replace"))
+        root = reader.read(body.encode("utf-8", "replace"))
+        return root if root.tag in _ROOTS else _as_tinyxml(whole, file) or root
     except expat.ExpatError as error:
+        lenient = _as_tinyxml(whole, file)
+        if lenient is not None:
+            return lenient
         line = error.lineno + reader.skipped
         lines = text.split("\n")
         words = one_line(lines[line - 1].strip(), 80) if 0 < line <= len(lines) else ""
@@ -69,65 +78,90 @@ def _without_comments(text: str) -> str:
     return "".join(pieces) + text[at:]
 
 
-class _Reader:
-    """Builds the elements of one text. ``skipped``: lines that were cut off before it."""
+def _as_tinyxml(text: str, file: str) -> Optional[Element]:
+    """The root that counts, None where TinyXML finds none either."""
+    builder = _Builder(file)
+    try:
+        oddities = lenient_xml.feed(text, builder)
+    except lenient_xml.XmlError:
+        return None
+    root = next((root for root in builder.roots if root.tag in _ROOTS), builder.roots[0] if builder.roots else None)
+    if root is not None:
+        root.oddities = tuple(oddities)
+    return root
+
+
+class _Builder:
+    """Builds the elements of one text."""
+
+    def __init__(self, file: str):
+        self.file = file
+        self.roots: List[Element] = []
+        self._stack: List[Element] = []
+        self._count = 0
+
+    def start(self, tag: str, attrib: dict, line: int) -> None:
+        element = Element(tag, attrib)
+        element.line = line
+        element.file = self.file
+        (self._stack[-1] if self._stack else self.roots).append(element)
+        self._stack.append(element)
+        self._count += 1
+        if len(self._stack) > DEEPEST:
+            raise DescriptionError(f"<{quoted(tag)}> lies more than {DEEPEST} elements deep", Source(self.file, line))
+        if self._count > MOST_ELEMENTS:
+            raise DescriptionError(f"more than {MOST_ELEMENTS} elements; split the description up", Source(self.file, line))
+
+    def end(self, tag: str) -> None:
+        self._stack.pop()
+
+    def data(self, text: str) -> None:
+        if not self._stack:
+            return
+        parent = self._stack[-1]
+        if len(parent):
+            parent[-1].tail = (parent[-1].tail or "") + text
+        else:
+            parent.text = (parent.text or "") + text
+
+    @property
+    def closed(self) -> bool:
+        """Whether there is a root and nothing is open."""
+        return bool(self.roots) and not self._stack
+
+
+class _Reader(_Builder):
+    """By expat. ``skipped``: lines that were cut off before the text."""
 
     def __init__(self, file: str, skipped: int):
-        self.file, self.skipped = file, skipped
-        self._stack: List[Element] = []
-        self._root: Optional[Element] = None
-        self._count = 0
+        super().__init__(file)
+        self.skipped = skipped
         self._parser = parser = expat.ParserCreate("utf-8")
         parser.buffer_text = True
         parser.buffer_size = _BUFFER
-        parser.StartElementHandler = self._start
-        parser.EndElementHandler = lambda tag: self._stack.pop()
-        parser.CharacterDataHandler = self._characters
+        parser.StartElementHandler = lambda tag, attrib: self.start(tag, attrib, self._line())
+        parser.EndElementHandler = self.end
+        parser.CharacterDataHandler = self.data
         parser.EntityDeclHandler = self._entity
 
     def read(self, text: bytes) -> Element:
         try:
             self._parser.Parse(text, True)
         except expat.ExpatError:
-            if self._root is None or self._stack:
+            if not self.closed:
                 raise
             # else: something after the root element
         finally:  # else parser and reader hold each other, and the tree, until the collector comes
             self._parser.StartElementHandler = self._parser.EndElementHandler = None
             self._parser.CharacterDataHandler = self._parser.EntityDeclHandler = None
-        assert self._root is not None  # else the parser has raised
-        return self._root
+        return self.roots[0]
 
-    def _place(self) -> Source:
-        return Source(self.file, self._parser.CurrentLineNumber + self.skipped)
-
-    def _start(self, tag: str, attrib: dict) -> None:
-        element = Element(tag, attrib)
-        element.line = self._parser.CurrentLineNumber + self.skipped
-        element.file = self.file
-        if self._stack:
-            self._stack[-1].append(element)
-        elif self._root is None:
-            self._root = element
-        self._stack.append(element)
-        self._count += 1
-        if len(self._stack) > DEEPEST:
-            raise DescriptionError(f"<{quoted(tag)}> lies more than {DEEPEST} elements deep", self._place())
-        if self._count > MOST_ELEMENTS:
-            raise DescriptionError(f"more than {MOST_ELEMENTS} elements; split the description up", self._place())
-
-    def _characters(self, data: str) -> None:
-        if not self._stack:
-            return
-        parent = self._stack[-1]
-        if len(parent):
-            parent[-1].tail = (parent[-1].tail or "") + data
-        else:
-            parent.text = (parent.text or "") + data
+    def _line(self) -> int:
+        return self._parser.CurrentLineNumber + self.skipped
 
     def _entity(self, name: str, *_declaration) -> None:
         raise DescriptionError(f"declares the entity '{quoted(name)}'; entities are not read, write out what it stands for",
-                               self._place())
+                               Source(self.file, self._line()))
 
 
 def read_bytes(file: str) -> bytes:
