@@ -1,0 +1,1 @@
+"""KDL trees from URDF: :mod:`kdl_parser_py.urdf`."""

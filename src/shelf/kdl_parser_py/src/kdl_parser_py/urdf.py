@@ -1,0 +1,63 @@
+"""A PyKDL.Tree of a robot. Each function returns (whether all links are in it, the tree)."""
+from __future__ import annotations
+
+import sys
+from typing import Any, Tuple
+
+import PyKDL
+from urdf_parser_py.urdf import URDF, Joint, Pose
+
+_TURNS, _SLIDES = ("revolute", "continuous"), ("prismatic",)
+
+
+def treeFromFile(filename: str) -> Tuple[bool, PyKDL.Tree]:
+    """:raises urdf_parser_py.xml_reflection.ParseError, OSError: what cannot be read"""
+    return treeFromUrdfModel(URDF.from_xml_file(filename))
+
+
+def treeFromParam(param: str) -> Tuple[bool, PyKDL.Tree]:
+    """:raises KeyError: there is no such parameter"""
+    return treeFromUrdfModel(URDF.from_parameter_server(param))
+
+
+def treeFromString(xml: str) -> Tuple[bool, PyKDL.Tree]:
+    return treeFromUrdfModel(URDF.from_xml_string(xml))
+
+
+def treeFromUrdfModel(robot_model: URDF, quiet: bool = False) -> Tuple[bool, PyKDL.Tree]:
+    """:param quiet: not a word about an inertia of the root link, which KDL leaves out"""
+    root = robot_model.get_root()
+    if robot_model.link_map[root].inertial and not quiet:
+        print(f"The root link {root} has an inertia, which KDL leaves out: give it a massless parent link if it matters", file=sys.stderr)
+    tree = PyKDL.Tree(root)
+    waiting = list(robot_model.child_map.get(root, []))
+    for joint, child in waiting:
+        segment = PyKDL.Segment(child, _joint(robot_model.joint_map[joint]), _frame(robot_model.joint_map[joint].origin),
+                                _inertia(robot_model.link_map[child].inertial) if child in robot_model.link_map else PyKDL.RigidBodyInertia(0))
+        if child not in robot_model.link_map or not tree.addSegment(segment, robot_model.joint_map[joint].parent):
+            return False, tree
+        waiting += robot_model.child_map.get(child, [])
+    return True, tree
+
+
+def _frame(pose: Any) -> PyKDL.Frame:
+    pose = pose or Pose()
+    return PyKDL.Frame(PyKDL.Rotation.RPY(*(pose.rpy or (0, 0, 0))), PyKDL.Vector(*(pose.xyz or (0, 0, 0))))
+
+
+def _joint(joint: Joint) -> PyKDL.Joint:
+    origin, axis = _frame(joint.origin), PyKDL.Vector(*(joint.axis or (1, 0, 0)))
+    if joint.type in _TURNS:
+        return PyKDL.Joint(joint.name, origin.p, origin.M * axis, PyKDL.Joint.RotAxis)
+    if joint.type in _SLIDES:
+        return PyKDL.Joint(joint.name, origin.p, origin.M * axis, PyKDL.Joint.TransAxis)
+    return PyKDL.Joint(joint.name, PyKDL.Joint.Fixed)
+
+
+def _inertia(inertial: Any) -> PyKDL.RigidBodyInertia:
+    """URDF gives the moments about the centre of mass in the inertial frame, KDL wants them in the link's."""
+    if inertial is None:
+        return PyKDL.RigidBodyInertia(0)
+    frame, inertia = _frame(inertial.origin), inertial.inertia
+    moments = (inertia.ixx, inertia.iyy, inertia.izz, inertia.ixy, inertia.ixz, inertia.iyz) if inertia else (0,) * 6
+    return frame.M * PyKDL.RigidBodyInertia(inertial.mass, frame.M.Inverse() * frame.p, PyKDL.RotationalInertia(*moments))

@@ -1,0 +1,1 @@
+"""URDF as Python objects: :mod:`urdf_parser_py.urdf`."""
