@@ -10,6 +10,29 @@ namespace {
 // Resting contacts must persist, or friction is lost every other step: this much overlap (m) is left alone.
 constexpr double kSlack = 2e-5;
 constexpr double kDeep = 0.01;  // m: was put there, not pressed in
+// Softness takes a part of what a blow gives back: as much as it is of the mass that is hit. A contact that bounces is as hard as the
+// solvers can bear.
+constexpr double kBouncing = 0.01;  // of the softness at rest
+
+// Of two things that can move the lesser counts; what cannot has no say.
+double lesser(const Surface* a, const Surface* b, double Surface::*field) {
+  return !a ? b->*field : !b ? a->*field : std::min(a->*field, b->*field);
+}
+
+double fastest_allowed(const Surface* a, const Surface* b, double world) {
+  auto own = [&](const Surface* s) { return s && s->max_vel >= 0 ? std::min(s->max_vel, world) : world; };
+  return std::min(own(a), own(b));
+}
+
+// Share of the speed V of an impact with which it parts, so that it rises by `e` squared of what it fell. It is found where the step has
+// put it, at a depth below the surface, and steps lead the law by half of one: both belong to the energy, which is V^2/2 - g d + g dt V/2
+// below the surface when it comes, and u^2/2 - g d + g dt u/2 when it goes with u.
+double rebound(double e, const Touch& touch, double dt) {
+  const double V = -touch.leaving, g = touch.one_is_fixed ? -touch.outwards : 0, depth = touch.depth;
+  if (!(g > 0) || V < 4 * g * dt || depth > V * dt) return e;  // too slow for a flight, or put there
+  const double half = 0.5 * g * dt, came = V * V - 2 * g * depth + 2 * half * V;
+  return (std::sqrt(half * half + 2 * g * depth + e * e * came) - half) / V;
+}
 
 }  // namespace
 
@@ -22,18 +45,20 @@ Hardness contact_hardness(const Surface& a, const Surface& b, const Touch& touch
   out.soft_erp = soft > 0 ? set.dt * kp / soft : set.erp;
   out.bounce = std::min(a.restitution, b.restitution);
   out.bounce_speed = std::min(a.bounce_threshold, b.bounce_threshold);
-  double fastest = set.fastest;
-  for (double v : {a.max_vel, b.max_vel})
-    if (v >= 0) fastest = std::min(fastest, v);
-  out.fastest = fastest;
-  const double allowed = std::min(a.min_depth, b.min_depth);
+  const bool both = !touch.corrected_a && !touch.corrected_b;
+  const Surface *first = both ? &a : touch.corrected_a, *second = both ? &b : touch.corrected_b;
+  double fastest = out.fastest = fastest_allowed(first, second, set.fastest);
+  const double allowed = lesser(first, second, &Surface::min_depth);
   if (set.like_gazebo) {
     out.soft_cfm = soft > 0 ? 1 / soft : 1e-9;
     out.depth = std::max(touch.depth - allowed, 0.0);
     return out;
   }
   // A merged contact is as hard as those that it stands for.
-  out.soft_cfm = std::max(soft > 0 ? 1 / soft : 1e-9, set.softness * set.dt * touch.inverse_mass) / touch.merged;
+  const bool bounces = out.bounce > 0 && -touch.leaving > out.bounce_speed;
+  if (bounces) out.bounce = rebound(out.bounce, touch, set.dt);
+  const double softness = bounces ? kBouncing * set.softness : set.softness;
+  out.soft_cfm = std::max(soft > 0 ? 1 / soft : 1e-9, softness * set.dt * touch.inverse_mass) / touch.merged;
 
   // Depth beyond the tolerated one, cut so that it is corrected no faster than allowed, and no faster than gravity brings back
   // what is pushed out: it would fly. What was put deep into the floor comes out just that fast. What the model's own weight

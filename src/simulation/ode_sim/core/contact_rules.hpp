@@ -15,6 +15,8 @@ struct Touch {
   double leaving = 0;         // m/s, how fast they part already
   bool emerging = false;      // the other model still comes out of the static one
   double outwards = 0;        // m/s^2, gravity along the normal out of the static one: negative as on a floor
+  // Whose max_vel and min_depth count: what cannot move has no part in it. Null where the other alone counts; both null: both surfaces.
+  const Surface *corrected_a = nullptr, *corrected_b = nullptr;
 };
 
 // As dSurfaceParameters and dContactGeom::depth have them.

@@ -37,6 +37,17 @@ void see_what_emerges(const Scene& scene, const StepState& state) {
   }
 }
 
+// The surface whose max_vel and min_depth are those of the link's body; null where it has none. In Gazebo the last collision of the
+// link gives them to the whole body.
+const Surface* corrected(const Shape& shape, bool like_gazebo) {
+  const Link& l = *shape.link;
+  if (l.model->is_static) return nullptr;
+  if (like_gazebo)
+    for (auto s = l.shapes.rbegin(); s != l.shapes.rend(); ++s)
+      if (!(*s)->infinite) return &(*s)->surface;
+  return &shape.surface;
+}
+
 void set_hardness(const Settings& set, Contact& c, dContact& d) {
   const Model &a = *c.a->link->model, &b = *c.b->link->model;
   Touch touch;
@@ -48,6 +59,7 @@ void set_hardness(const Settings& set, Contact& c, dContact& d) {
   touch.outwards = a.is_static ? -dot(c.normal, set.gravity) : dot(c.normal, set.gravity);
   touch.leaving = leaving(c);
   touch.emerging = a.emerging > 0 || b.emerging > 0;
+  touch.corrected_a = corrected(*c.a, set.like_gazebo), touch.corrected_b = corrected(*c.b, set.like_gazebo);
   const Hardness hard =
       contact_hardness(c.a->surface, c.b->surface, touch,
                        {set.dt, set.erp, set.contact_softness, set.contact_max_vel, norm(set.gravity), set.like_gazebo});

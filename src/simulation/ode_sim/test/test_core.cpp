@@ -85,6 +85,36 @@ TEST(ContactHardness, OverlapIsUndoneNoFasterThanTheSlowerSurfaceAllows) {
   EXPECT_NEAR(hard.depth * hard.soft_erp / set.dt, 0.05, 1e-6);
 }
 
+TEST(ContactHardness, MaxVelAndMinDepthAreThoseOfWhatCanMove) {
+  Surface loose, tight;
+  loose.max_vel = 2, loose.min_depth = 0.005;
+  for (bool like_gazebo : {false, true}) {
+    HardnessSettings set;
+    set.like_gazebo = like_gazebo, set.fastest = 1.5;
+    Touch touch = on_floor(0.004);
+    touch.corrected_a = &loose;  // b stands still
+    EXPECT_EQ(contact_hardness(loose, tight, touch, set).fastest, 1.5);
+    EXPECT_EQ(contact_hardness(loose, tight, touch, set).depth, 0);
+    touch.corrected_a = nullptr, touch.corrected_b = &tight;
+    EXPECT_EQ(contact_hardness(loose, tight, touch, set).fastest, 0.01);
+    EXPECT_GT(contact_hardness(loose, tight, touch, set).depth, 0);
+    touch.corrected_a = &loose;  // both move
+    EXPECT_EQ(contact_hardness(loose, tight, touch, set).fastest, 0.01);
+  }
+}
+
+TEST(ContactHardness, WhatBouncesIsHardForThatStep) {
+  Surface lively;
+  lively.restitution = 0.5, lively.bounce_threshold = 0.1;
+  Touch touch = on_floor(0);
+  const double at_rest = contact_hardness(lively, lively, touch, {}).soft_cfm;
+  touch.leaving = -0.09;
+  EXPECT_EQ(contact_hardness(lively, lively, touch, {}).soft_cfm, at_rest);
+  touch.leaving = -0.11;
+  EXPECT_LT(contact_hardness(lively, lively, touch, {}).soft_cfm, 0.02 * at_rest);
+  EXPECT_EQ(contact_hardness(lively, {}, touch, {}).soft_cfm, at_rest);  // it takes both
+}
+
 TEST(ContactHardness, WhatWasPutDeepIntoTheFloorComesOutAsGravityWouldBringItBack) {
   const HardnessSettings set;
   const Hardness floor = contact_hardness({}, {}, on_floor(0.11), set);

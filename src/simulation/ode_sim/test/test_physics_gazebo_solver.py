@@ -1,13 +1,14 @@
 """`solver: gazebo`: what Gazebo Classic's solver is known for, and what must not depend on the solver."""
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 import ode_sim
-from ode_sim.description.model import Surface
+from ode_sim.description.model import Model, Pose, Surface
 from ode_sim.physics import SOLVER_VARIABLE
-from physics_models import arm, box, diff_drive, ground, pendulum
+from physics_models import arm, box, diff_drive, ground, pendulum, sphere
 
 G = 9.8
 
@@ -87,3 +88,62 @@ def test_continued_from_a_snapshot_every_bit_is_the_same():
     world.restore(saved)
     world.step(300)
     assert bytes(world.save()) == first
+
+
+# What Gazebo Classic 11.1.0 made of bodies of 1 kg boxes of 0.2 m and balls of 0.05 m and 0.2 kg over plates whose upper side is at 1.1 m,
+# at 1 ms: surface of the body, surface of the plate, height above it, and the height of the middle at these times, s.
+LOOSE, FAST, LIVELY = dict(max_vel=1000.0), dict(max_vel=1.0), dict(restitution=0.8, bounce_threshold=0.01)
+SOFT, TOLERANT = dict(kp=1e4, kd=1.0), dict(min_depth=0.005)
+RECORDED = {
+    "ball, a loose plate": (0.05, {}, LOOSE, 1.0, {0.5: 1.15, 0.6: 1.15, 2.48: 1.15}),
+    "loose ball": (0.05, LOOSE, {}, 1.0, {0.5: 1.29425, 0.6: 1.52914, 0.9: 1.64581, 2.48: 1.15}),
+    "loose ball, a loose plate": (0.05, LOOSE, LOOSE, 1.0, {0.5: 1.29425, 0.6: 1.52914, 0.9: 1.64581}),
+    "ball of 1 m/s": (0.05, FAST, {}, 1.0, {0.5: 1.18595, 0.6: 1.1904, 0.9: 1.1633}),
+    "ball of 0.1 m/s": (0.05, dict(max_vel=0.1), {}, 1.0, {0.5: 1.15, 0.6: 1.15}),
+    "lively ball and plate": (0.05, LIVELY, LIVELY, 1.0, {0.5: 1.15, 0.6: 1.15}),
+    "loose lively ball, a lively plate": (0.05, dict(LOOSE, **LIVELY), LIVELY, 1.0,
+                                          {0.5: 1.30574, 0.6: 1.56456, 0.9: 1.75301, 2.48: 1.28776}),
+    "soft box": (0.2, SOFT, {}, 0.0, {0.6: 1.19495, 2.48: 1.19495}),
+    "soft box and plate": (0.2, SOFT, SOFT, 0.0, {0.6: 1.18269, 2.48: 1.18269}),
+    "box set 5 cm in": (0.2, {}, {}, -0.05, {0.6: 1.2, 2.48: 1.2}),
+    "loose box set 5 cm in": (0.2, LOOSE, {}, -0.05, {0.6: 29.3889, 2.48: 95.0251}),
+    "box of 0.1 m/s set 5 mm in": (0.2, dict(max_vel=0.1), {}, -0.005, {0.6: 1.2, 2.48: 1.2}),
+    "tolerant box": (0.2, TOLERANT, {}, -0.002, {0.6: 1.198, 2.48: 1.198}),
+    "tolerant box and plate": (0.2, TOLERANT, TOLERANT, -0.002, {0.6: 1.198, 2.48: 1.198})}
+
+
+@pytest.mark.parametrize("what", RECORDED)
+def test_contacts_are_those_of_gazebo_to_four_digits(what):
+    size, body, plate, height, recorded = RECORDED[what]
+    world = ode_sim.World()
+    world.physics.solver = "gazebo"
+    world.spawn(box("plate", at=(0, 0, 1), size=(2, 2, 0.2), surface=Surface(**plate), static=True))
+    if size == 0.05:
+        model = world.spawn(sphere(at=(0, 0, 1.15 + height), radius=0.05, mass=0.2, surface=Surface(**body)))
+    else:
+        model = world.spawn(box(at=(0, 0, 1.2 + height), size=(0.2, 0.2, 0.2), surface=Surface(**body)))
+    heights = {}
+    for time in recorded:
+        world.step(round(time / world.dt) - world.iterations)
+        heights[time] = model.pose.p[2]
+    assert heights == pytest.approx(recorded, rel=1e-4)
+
+
+def test_of_two_that_move_the_slower_and_less_tolerant_counts_and_the_last_collision_is_the_bodys():
+    """As Gazebo's ODELink and its ODE have it: each collision of a link writes its max_vel and min_depth over the body's."""
+    def comes_up(upper, lower, last=None):
+        world, low, high = world_with(box("low", size=(0.2, 0.2, 0.1), mass=1000.0, surface=Surface(**lower)),
+                                      box("high", at=(0, 0, 0.1), surface=Surface(**upper)))
+        if last is not None:
+            world.remove("high")
+            link = box("high", at=(0, 0, 0.1), surface=Surface(**upper)).links[0]
+            off = replace(link.collisions[0], name="off", pose=Pose((0, 0, 3)), surface=Surface(**last))
+            high = world.spawn(Model("high", Pose((0, 0, 0.1)), (replace(link, collisions=(*link.collisions, off)),)))
+        assert low.pose.p[2] == pytest.approx(0.05, abs=1e-3)
+        world.step(2)
+        return high.twist().linear[2]
+
+    assert comes_up(LOOSE, LOOSE) > 5.0
+    assert comes_up(LOOSE, {}) == pytest.approx(0.01, abs=0.03) and comes_up({}, LOOSE) == pytest.approx(0.01, abs=0.03)
+    assert comes_up(LOOSE, LOOSE, last={}) == pytest.approx(0.01, abs=0.03)
+    assert comes_up({}, LOOSE, last=LOOSE) > 5.0
