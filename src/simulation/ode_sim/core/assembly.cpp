@@ -239,12 +239,4 @@ void spread_twists(Cluster& c, bool drives) {
   }
 }
 
-void wake(Model& model) {
-  for (auto& c : model.clusters) {
-    c.asleep = false;
-    c.idle_steps = 0;
-    c.idle_time = 0;
-  }
-}
-
 }  // namespace ode_sim

@@ -140,6 +140,15 @@ void plan_carried(Scene& scene) {
 }
 
 void refresh(Scene& scene) {
+  look_for_changes(scene);
+  std::vector<Model*> fresh;
+  for (auto& m : scene.models)
+    if (m->dirty) fresh.push_back(m.get());
+  reassemble(scene);
+  for (Model* m : fresh) disturb(scene, *m);  // where it is now
+}
+
+void reassemble(Scene& scene) {
   bool any = scene.replan;
   for (auto& m : scene.models) any |= m->dirty;
   if (!any) return;

@@ -64,7 +64,7 @@ int missed_contacts(dGeomID ga, dGeomID gb, dContactGeom* found) {
 
 bool still(const Link& l) {
   const Cluster& c = cluster_of(l);
-  return !c.root ? !l.moving && !l.led : c.asleep;
+  return !c.root ? !l.moving && !l.led && l.belt.speed == 0 : c.asleep;
 }
 
 bool may_touch(const Scene& scene, const Shape& a, const Shape& b) {
@@ -212,6 +212,16 @@ void add_contacts(const Settings& set, Shape& a, Shape& b, dContactGeom* found, 
 }
 
 }  // namespace
+
+bool touching(Scene& scene, const Shape& a, const Shape& b) {
+  if (a.out_of_reach || b.out_of_reach) return false;
+  dReal p[6], q[6];
+  dGeomGetAABB(a.geom, p), dGeomGetAABB(b.geom, q);
+  for (int i = 0; i < 6; i += 2)
+    if (p[i] > q[i + 1] || p[i + 1] < q[i]) return false;
+  dContactGeom found[kMostFound];
+  return a.id < b.id ? find_contacts(scene, a, b, found) > 0 : find_contacts(scene, b, a, found) > 0;
+}
 
 void collide(Scene& scene, StepState& state) {
   find_pairs(scene, state);

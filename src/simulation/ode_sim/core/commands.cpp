@@ -22,6 +22,23 @@ void put(Scene& scene, Link& l, const Pose& X_WL) {
   std::copy(std::begin(row), std::end(row), scene.link_poses->begin() + 7 * l.row);
 }
 
+bool same_place(const Pose& X, const Pose& Y) {
+  constexpr double kSame = 1e-9;  // m, rad: less is rounding
+  const Quat d = conjugate(X.q) * Y.q;
+  return norm(X.p - Y.p) < kSame && norm(Vec3{d.x, d.y, d.z}) < kSame;
+}
+
+// All links of a finished static model. What they have touched wakes, and what they touch.
+void put_all(Scene& scene, Model& model, const std::vector<Pose>& X_WL) {
+  std::vector<Pose> there;
+  for (const Pose& X : X_WL) there.push_back(normalized(X));
+  const bool moves = !std::equal(there.begin(), there.end(), model.links.begin(),
+                                 [](const Pose& X, const auto& l) { return same_place(X, l->X_WL); });
+  if (moves) disturb(scene, model);
+  for (size_t i = 0; i < there.size(); ++i) put(scene, *model.links[i], there[i]);
+  if (moves) disturb(scene, model);
+}
+
 }  // namespace
 
 // However far its parts may have flown apart, a model can be put back.
@@ -35,7 +52,7 @@ void World::set_model_pose(Model& model, const Pose& old, const Pose& wanted) {
     bolts.push_back(j->parent ? j->X_PJ : checked(X * j->X_PJ, "a joint of the model, so placed,", kOutOfReach));
   if (model.is_static && model.finished) {  // moved by somebody in every step, maybe: nothing else in the world has changed
     refresh();
-    for (size_t i = 0; i < poses.size(); ++i) put(scene_, *model.links[i], normalized(poses[i]));
+    put_all(scene_, model, poses);
     return;
   }
   for (size_t i = 0; i < poses.size(); ++i) {
@@ -111,11 +128,10 @@ void World::lead_links(Model& model, const std::vector<Pose>& X_WL, double secon
   refresh();
   for (size_t i = 0; i < X_WL.size(); ++i) {
     Link& l = *model.links[i];
-    const Pose X = normalized(X_WL[i]);
     l.led = seconds > 0;
     l.X_was = l.X_WL;
-    put(scene_, l, X);
   }
+  put_all(scene_, model, X_WL);
   model.led_seconds = std::max(seconds, 0.0);
 }
 
@@ -138,7 +154,7 @@ void World::set_link_twist(Link& link, const Vec3& v, const Vec3& w) {
   refresh();
   Cluster& c = link.model->clusters[link.cluster];
   if (!c.root) return;
-  wake(*link.model);
+  wake(scene_, *link.model);
   c.root->v = v + cross(w, c.root->X_WL.p - link.X_WL.p);
   c.root->w = w;
   take_twist(c);
@@ -148,7 +164,7 @@ void World::set_link_twist(Link& link, const Vec3& v, const Vec3& w) {
 void World::add_model_twist(Model& model, const Vec3& v, const Vec3& w, const Vec3& at) {
   const OdeScope scope;
   refresh();
-  wake(model);
+  wake(scene_, model);
   for (auto& c : model.clusters) {
     if (!c.root) continue;
     c.root->v += v + cross(w, c.root->X_WL.p - at);
@@ -167,7 +183,7 @@ void World::zero_velocities(Model& model) {
     j->rate = j->previous_rate = 0;
     for (auto& a : j->axes) a.relax();
   }
-  wake(model);
+  wake(scene_, model);
   for (auto& c : model.clusters) place_cluster(c);
   read_back(scene_);
 }
@@ -195,7 +211,7 @@ bool World::set_joint_position(Joint& j, int axis, double q) {
   a.qd = 0;
   j.target = j.previous_target = q;
   j.rate = 0;
-  wake(*j.model);
+  wake(scene_, *j.model);
   j.model->dirty = true;
   refresh();
   read_back(scene_);
@@ -251,7 +267,7 @@ int World::weld(std::shared_ptr<Link> parent, std::shared_ptr<Link> child) {
   const Pose X_PC = parent ? inverse(parent->X_WL) * child->X_WL : child->X_WL;
   scene_.welds.push_back({next_weld_++, std::move(parent), std::move(child), X_PC});
   for (auto& l : {scene_.welds.back().parent, scene_.welds.back().child})
-    if (l) wake(*l->model), l->model->dirty = true;
+    if (l) wake(scene_, *l->model), l->model->dirty = true;
   return scene_.welds.back().id;
 }
 
@@ -259,7 +275,7 @@ void World::unweld(int id) {
   for (size_t i = 0; i < scene_.welds.size(); ++i) {
     if (scene_.welds[i].id != id) continue;
     for (auto& l : {scene_.welds[i].parent, scene_.welds[i].child})
-      if (l) wake(*l->model), l->model->dirty = true;
+      if (l) wake(scene_, *l->model), l->model->dirty = true;
     scene_.welds.erase(scene_.welds.begin() + i);
     return;
   }

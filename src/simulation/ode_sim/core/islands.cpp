@@ -1,4 +1,6 @@
 // What moves together in a step, and what is at rest.
+#include <utility>
+
 #include "groups.hpp"
 #include "phases.hpp"
 
@@ -19,7 +21,7 @@ void Pass::enable(bool on) const {
 
 namespace {
 
-bool moves(const Link& l) { return dot(l.v, l.v) + dot(l.w, l.w) > 0; }
+bool moves(const Link& l) { return dot(l.v, l.v) + dot(l.w, l.w) > 0 || l.belt.speed != 0; }
 
 // Clusters that joints and contacts connect. ODE takes joints on a kinematic body for connections too, and so they are ones here:
 // it would wake what hangs there in every pass in which the body takes part, and step it twice. A contact with a kinematic
@@ -139,7 +141,7 @@ void fall_asleep(Cluster& c) {
 void find_islands(Scene& scene, StepState& state) { IslandSearch(scene, state).run(); }
 
 // Decides whether the island takes part in the step. What nothing moves from outside goes to sleep after a while of standing still.
-void rest(const Scene& scene, Island& island) {
+void rest(const Scene& scene, Island& island, std::vector<Cluster*>& woken) {
   bool all_may_sleep = !island.driven, idle = true;
   island.awake = island.driven || island.clusters.empty();
   for (Cluster* c : island.clusters) {
@@ -153,7 +155,8 @@ void rest(const Scene& scene, Island& island) {
     island.awake = false;
   }
   if (island.awake) {
-    for (Cluster* c : island.clusters) c->asleep = false;
+    for (Cluster* c : island.clusters)
+      if (std::exchange(c->asleep, false)) c->idle_steps = 0, c->idle_time = 0, woken.push_back(c);
     return;
   }
   Pass all;

@@ -25,6 +25,7 @@ struct Model;
 struct Link;
 
 struct Surface {
+  Model* model = nullptr;  // that it is part of
   double mu = 1, mu2 = 1, slip1 = 0, slip2 = 0, kp = 1e12, kd = 1, max_vel = 0.01, min_depth = 0;
   double restitution = 0, bounce_threshold = 1e5;
   Vec3 fdir1;  // in the collision frame, zero = none
@@ -141,7 +142,8 @@ struct Model {
   std::set<std::pair<int, int>> jointed;  // ids of links that a joint connects: they never collide
 
   // What follows from it for the time being, see assembly.cpp.
-  bool dirty = true;  // to be put together anew
+  bool dirty = true;     // to be put together anew
+  bool changed = false;  // in a way that what touches it feels
   bool has_drives = false;
   bool loop = false;  // a closed loop runs over carried bodies
   std::vector<Cluster> clusters;

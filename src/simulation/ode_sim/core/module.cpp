@@ -59,7 +59,12 @@ void bind_welds(WorldClass& world) {
       .def("welds", &World::welds)
       .def("attached", [](World& w, int id) { return w.find_weld(id) != nullptr; })
       .def("weld_pose", [](World& w, int id) { return out(weld_of(w, id).X_PC); })
-      .def("set_weld_pose", [](World& w, int id, T7 X) { weld_of(w, id).X_PC = in(X); });
+      .def("set_weld_pose", [](World& w, int id, T7 X) {
+        Weld& weld = weld_of(w, id);
+        weld.X_PC = in(X);
+        weld.child->model->changed = true;
+        if (weld.parent) weld.parent->model->changed = true;
+      });
 }
 
 py::array_t<ContactRecord> contacts(World& w) {

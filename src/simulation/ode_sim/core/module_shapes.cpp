@@ -4,12 +4,19 @@
 
 namespace ode_sim {
 
+// What rests on the surface is to feel the change.
+template <class Value>
+static void change(Surface& s, Value Surface::*field, Value v) {
+  s.*field = v;
+  if (s.model) s.model->changed = true;
+}
+
 // A number of a surface: cut to its bounds, NaN refused.
 template <double Surface::*field>
 static void bounded(py::class_<Surface>& c, const char* name, double least, double most) {
   c.def_property(
       name, [](Surface& s) { return s.*field; },
-      [name, least, most](Surface& s, double v) { s.*field = std::max(limited(v, most, name), least); });
+      [name, least, most](Surface& s, double v) { change(s, field, std::max(limited(v, most, name), least)); });
 }
 
 void bind_shapes(py::module_& m) {
@@ -24,11 +31,16 @@ void bind_shapes(py::module_& m) {
   bounded<&Surface::min_depth>(surface, "min_depth", 0, kFarthest);
   bounded<&Surface::restitution>(surface, "restitution", 0, 10);
   bounded<&Surface::bounce_threshold>(surface, "bounce_threshold", 0, kFastestSet);
-  surface.def_readwrite("collide_bitmask", &Surface::collide_bitmask)
-      .def_readwrite("collide_without_contact", &Surface::collide_without_contact)
+  surface
+      .def_property(
+          "collide_bitmask", [](Surface& s) { return s.collide_bitmask; },
+          [](Surface& s, unsigned v) { change(s, &Surface::collide_bitmask, v); })
+      .def_property(
+          "collide_without_contact", [](Surface& s) { return s.collide_without_contact; },
+          [](Surface& s, bool v) { change(s, &Surface::collide_without_contact, v); })
       .def_property(
           "fdir1", [](Surface& s) { return out(s.fdir1); },
-          [](Surface& s, T3 v) { s.fdir1 = limited(in(v), kFarthest, "fdir1"); });
+          [](Surface& s, T3 v) { change(s, &Surface::fdir1, limited(in(v), kFarthest, "fdir1")); });
 
   py::class_<MeshData, std::shared_ptr<MeshData>>(m, "MeshData")
       .def(py::init(
@@ -42,7 +54,9 @@ void bind_shapes(py::module_& m) {
 
   py::class_<Shape, std::shared_ptr<Shape>>(m, "Shape")
       .def_readonly("id", &Shape::id)
-      .def_readwrite("max_contacts", &Shape::max_contacts)
+      .def_property(
+          "max_contacts", [](Shape& s) { return s.max_contacts; },
+          [](Shape& s, int most) { s.max_contacts = most, s.link->model->changed = true; })
       .def_readwrite("watched", &Shape::watched)
       .def_property_readonly(
           "surface", [](Shape& s) -> Surface& { return s.surface; }, py::return_value_policy::reference_internal)

@@ -20,10 +20,10 @@ void compose(Cluster& cluster);  // poses of the members in the root frame from 
 void place_cluster(Cluster& cluster);  // its body to where its root link is, moving as the root link moves
 void spread_poses(Cluster& cluster);
 void spread_twists(Cluster& cluster, bool drives = true);
-void wake(Model& model);
 
 // carried.cpp: what hangs on links that position drives move
-void refresh(Scene& scene);  // brings all clusters up to date
+void refresh(Scene& scene);     // brings all clusters up to date, and wakes what feels the change
+void reassemble(Scene& scene);  // the same, and wakes nobody
 void plan_carried(Scene& scene);
 void hold_true_velocities(Scene& scene);
 void spread_carried(Scene& scene);
@@ -58,6 +58,14 @@ void project_joints(const Scene& scene, StepState& state, Model& model);
 
 // collisions.cpp: who touches, and where
 void collide(Scene& scene, StepState& state);
+bool touching(Scene& scene, const Shape& a, const Shape& b);  // whether they may push each other or not
+
+// waking.cpp: what sleeps
+void wake(Scene& scene, Model& model);           // and all that rests on it
+void disturb(Scene& scene, const Model& model);  // wakes all that touches it, and what rests on that
+std::vector<Cluster*> resting_on(Scene& scene, const std::vector<Cluster*>& others);
+void rouse_all(const std::vector<Cluster*>& clusters);
+void look_for_changes(Scene& scene);  // of settings and of models since this was called last: what they hold wakes
 
 // contacts.cpp: joints of contacts. friction.cpp: friction, and what contacts bore
 void make_contact_joints(Scene& scene, StepState& state);
@@ -69,7 +77,7 @@ void forget_loads(Scene& scene, const Model& model);
 
 // islands.cpp, solve.cpp, gazebo_step.cpp, own_step.cpp: what moves together, what is at rest, and the solvers
 void find_islands(Scene& scene, StepState& state);
-void rest(const Scene& scene, Island& island);
+void rest(const Scene& scene, Island& island, std::vector<Cluster*>& woken);
 void solve(Scene& scene, StepState& state);
 void solver_pass(Scene& scene, bool direct, int iterations);
 void run_like_gazebo(Scene& scene, StepState& state, const Pass& pass);

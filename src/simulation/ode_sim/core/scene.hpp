@@ -51,6 +51,7 @@ class Messages {
 
 struct Scene {
   Settings settings;
+  Settings settled;  // those that sleepers have fallen asleep under
   uint64_t iterations = 0;
   int64_t time_ns = 0;
   int64_t next_time_ns() const { return time_ns + std::llround(settings.dt * 1e9); }  // of the state that the next step makes

@@ -159,7 +159,9 @@ void solver_pass(Scene& scene, bool direct, int iterations) {
 // Steps the islands that are awake.
 void solve(Scene& scene, StepState& state) {
   find_islands(scene, state);
-  for (auto& island : state.islands) rest(scene, island);
+  std::vector<Cluster*> woken;
+  for (auto& island : state.islands) rest(scene, island, woken);
+  state.left_behind = resting_on(scene, woken);
   std::vector<std::string> said;
   const OdeScope scope(said);
   state.before.clear();

@@ -7,7 +7,7 @@ namespace ode_sim {
 
 void StepState::forget() {
   pairs.clear(), contacts.clear(), feedback.clear(), ode_contacts.clear(), weld_joints.clear();
-  nodes.clear(), islands.clear(), before.clear(), loads.clear(), weighed.clear();
+  nodes.clear(), islands.clear(), left_behind.clear(), before.clear(), loads.clear(), weighed.clear();
 }
 
 void StepState::number(Scene& scene) {
@@ -48,13 +48,13 @@ void wake_pushed(Scene& scene) {
     return dot(l->force, l->force) > 0 || dot(l->torque, l->torque) > 0 || l->belt.speed != 0;
   };
   for (auto& m : scene.models)
-    if (m->may_sleep && std::any_of(m->links.begin(), m->links.end(), pushed)) wake(*m);
+    if (m->may_sleep && std::any_of(m->links.begin(), m->links.end(), pushed)) wake(scene, *m);
 }
 
 // Position drives whose links touch something become motors, and the clusters others.
 void yield_to_contacts(Scene& scene, StepState& state) {
   if (!promote(scene, state)) return;
-  refresh(scene);
+  reassemble(scene);
   state.number_clusters(scene);
   for (auto& m : scene.models)
     if (m->has_drives) set_rates(scene, state, *m);
@@ -134,6 +134,7 @@ void step_once(Scene& scene, StepState& state) {
   publish(scene, [&](const Joint& j) { return state.of(j).projected; });
   read_loads(scene, state);
   drop_step_joints(scene, state);
+  rouse_all(state.left_behind);
   demote(scene);
 }
 

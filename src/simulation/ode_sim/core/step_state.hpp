@@ -87,7 +87,8 @@ struct StepState {
 
   std::vector<Cluster*> nodes;  // that have a body which forces move
   std::vector<Island> islands;
-  std::vector<BodyState> before;  // the bodies of the nodes before the solver
+  std::vector<Cluster*> left_behind;  // that rest on what wakes in this step: they wake after it, having no contacts in it
+  std::vector<BodyState> before;      // the bodies of the nodes before the solver
   Pass exact, touching, iterative;
   std::vector<const Island*> trees, piles;  // for solvers of our own
 

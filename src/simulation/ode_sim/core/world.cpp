@@ -49,6 +49,7 @@ void World::forget_contacts(const Model& model) {
 void World::remove_model(Model& model) {
   if (!owns(&model)) throw std::invalid_argument("this model is not in the world");
   const OdeScope scope;
+  if (model.finished) disturb(model);
   hold_true_velocities(scene_);
   for (size_t i = scene_.welds.size(); i-- > 0;) {
     const Weld& t = scene_.welds[i];
@@ -117,6 +118,7 @@ std::shared_ptr<Joint> World::add_joint(Model& model, JointType type, Link* pare
 std::shared_ptr<Shape> World::add_shape(Link& link, const Pose& X_LC, OwnedGeom geom, std::shared_ptr<Shape> shape) {
   shape->id = next_shape_++;
   shape->link = &link;
+  shape->surface.model = link.model;
   shape->X_LC = normalized(X_LC);
   shape->geom = std::move(geom);
   dGeomSetData(shape->geom, shape.get());
@@ -199,6 +201,11 @@ void World::refresh() {
   ode_sim::refresh(scene_);
 }
 
+void World::disturb(const Model& model) {
+  const OdeScope scope;
+  ode_sim::disturb(scene_, model);
+}
+
 std::string World::save() {
   const OdeScope scope;
   return ode_sim::save(scene_);
@@ -207,6 +214,8 @@ std::string World::save() {
 void World::restore(const std::string& data, const std::vector<int>& weld_ids) {
   const OdeScope scope;
   ode_sim::restore(scene_, data, weld_ids);
+  for (auto& m : scene_.models) m->changed = false;  // it was, before what is restored
+  scene_.settled = scene_.settings;
   state_.contacts.clear();
   for (int id : weld_ids) next_weld_ = std::max(next_weld_, id + 1);
 }

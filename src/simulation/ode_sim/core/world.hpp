@@ -56,7 +56,8 @@ class World {
   void follow(Joint& joint, const std::shared_ptr<Joint>& leader, double multiplier, double offset);
   void add_model_twist(Model& model, const Vec3& v, const Vec3& w, const Vec3& at);
   void zero_velocities(Model& model);
-  void refresh();  // brings clusters up to date
+  void refresh();                    // brings clusters up to date
+  void disturb(const Model& model);  // before its shapes change: what touches it wakes
 
   int weld(std::shared_ptr<Link> parent, std::shared_ptr<Link> child);
   void unweld(int id);
