@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from node_signals.display import asked_for, next_on_path
+from node_signals.display import asked_for, choose_platform, next_on_path
 
 BIN = Path(__file__).resolve().parents[1] / "bin"
 
@@ -69,3 +69,16 @@ def test_everything_else_is_passed_on_word_by_word(tmp_path, command, changed):
 def test_view_frames_of_tf_is_that_of_tf2(tmp_path, options):
     ended = run(tmp_path, "rosrun", *options, "tf", "view_frames")
     assert ended.stdout.split() == f"rosrun: {' '.join(options)} tf2_tools view_frames.py".split(), ended.stderr
+
+
+def test_in_a_wayland_session_with_an_x_server_qt_is_sent_there():
+    for given, chosen in (({"WAYLAND_DISPLAY": "wayland-0", "DISPLAY": ":0"}, "xcb"), ({"WAYLAND_DISPLAY": "wayland-0"}, None),
+                          ({"DISPLAY": ":0"}, None), ({"WAYLAND_DISPLAY": "w", "DISPLAY": ":0", "QT_QPA_PLATFORM": "wayland"}, "wayland")):
+        choose_platform(given)
+        assert given.get("QT_QPA_PLATFORM") == chosen
+
+
+@pytest.mark.parametrize("command", [["rviz"], ["rosrun", "rviz", "rviz"]])
+def test_rviz_on_wayland_alone_is_told_what_is_missing(tmp_path, command):
+    ended = run(tmp_path, *command, WAYLAND_DISPLAY="wayland-0")
+    assert ended.returncode == 1 and ended.stderr.count("\n") == 1 and "xwayland" in ended.stderr

@@ -8,9 +8,9 @@ from __future__ import annotations
 import ctypes
 import os
 import sys
-from typing import List, Optional
+from typing import List, MutableMapping, Optional
 
-from node_signals import programs
+from node_signals import programs, rviz_start
 from node_signals.interpreter import supply_python
 
 #: Programs that open a window and do not look for a display themselves, by package. rqt's and turtlesim's do.
@@ -20,16 +20,28 @@ _REMEDY = ("start it on a desktop, through ssh -X, or with scripts/offscreen COM
            "for a display that nobody sees")
 
 
-def missing_display() -> Optional[str]:
-    """One line saying what is missing and what to do, or None when a window can be shown."""
+def choose_platform(environment: MutableMapping[str, str]) -> None:
+    """Qt on X11 where a Wayland session has an X server, which RViz's OpenGL needs and rqt's plugins were written for."""
+    if environment.get("WAYLAND_DISPLAY") and environment.get("DISPLAY") and not environment.get("QT_QPA_PLATFORM"):
+        environment["QT_QPA_PLATFORM"] = "xcb"
+
+
+def missing_display(x11_only: bool = False) -> Optional[str]:
+    """
+    One line saying what is missing and what to do, or None when a window can be shown.
+
+    :param x11_only: the window draws through X11, as RViz's does; Wayland alone is not enough
+    """
     platform = os.environ.get("QT_QPA_PLATFORM", "").split(":")[0].split(";")[0]
     if platform not in ("", "xcb", "wayland", "wayland-egl"):
         return None
-    if platform != "xcb" and os.environ.get("WAYLAND_DISPLAY"):
+    wayland = platform != "xcb" and bool(os.environ.get("WAYLAND_DISPLAY"))
+    if wayland and not x11_only:
         return None
     name = os.environ.get("DISPLAY")
     if not name:
-        return f"no display to open a window on (DISPLAY is not set): {_REMEDY}"
+        return ("this Wayland session has no X server, which it draws through: install Debian's package xwayland and log in again"
+                if wayland else f"no display to open a window on (DISPLAY is not set): {_REMEDY}")
     try:
         x11 = ctypes.CDLL("libX11.so.6")
     except OSError:
@@ -81,14 +93,17 @@ def next_on_path(command: str) -> str:
 def main() -> None:
     """Become the program that was asked for, unless it could not show its window."""
     window = asked_for(sys.argv)
-    problem = missing_display() if window else None
+    problem = missing_display(x11_only=window == "rviz") if window else None
     if problem:
         sys.exit(f"{window}: {problem}")
+    choose_platform(os.environ)
     supply_python(os.environ)
     program, words = next_on_path(sys.argv[0]), in_working_order(sys.argv)
     if program == programs.DEBIANS:
         programs.run(words)
     try:
+        if os.path.basename(words[0]) == "rviz":
+            rviz_start.run([program, *words[1:]])
         os.execv(program, [program, *words[1:]])
     except OSError as error:
         sys.exit(f"{program}: {error.strerror}; scripts/setup installs it")

@@ -26,7 +26,7 @@ from roslaunch import core, launch, node_args, nodeprocess, pmon  # noqa: E402
 
 from node_signals.absent import in_one_line, of_program
 from node_signals.children import end_with_parent
-from node_signals.display import asked_for, missing_display
+from node_signals.display import asked_for, choose_platform, missing_display
 from node_signals.interpreter import supply_python
 from node_signals.terminals import with_what_is_there
 
@@ -126,10 +126,12 @@ def _naming_windows_without_display(start):
         if difference:
             print(f"roslaunch: {process.name}: {difference}", file=sys.stderr, flush=True)
         window = asked_for(["rosrun", str(process.package), os.path.basename(process.args[0])] if process.args else [""])
-        problem = missing_display() if window and window not in told else None
+        problem = missing_display(x11_only=window == "rviz") if window and window not in told else None
         if window and problem:
             told.add(window)
             print(f"roslaunch: {window} opens a window: {problem}", file=sys.stderr, flush=True)
+        elif window == "rviz":
+            process.args = [sys.executable, "-m", "node_signals.rviz_start", *process.args]
         return start(process)
     return checked
 
@@ -150,6 +152,7 @@ def _mend() -> None:
     signal.signal(signal.SIGINT, signal.SIG_DFL)  # nothing has been started yet; pmon takes over with its first process
     _find_place_for_logs()
     supply_python(os.environ)
+    choose_platform(os.environ)
     subprocess.Popen = _Popen  # type: ignore[misc]
     pmon.rl_signal = _on_signal
     launch.time = _Clock  # nothing else of time is used there
