@@ -1,12 +1,15 @@
 """Gains that are too high for the inertia and the step drive a joint, whoever computes the effort. Without ROS."""
+import math
 import sys
 from types import SimpleNamespace
 
 import ode_sim
 import pytest
 from control_toolbox import Pid
-from gazebo_ros_control.joint_sim import EffortMode, PositionPidMode, VelocityPidMode
+from gazebo_ros_control.joint_sim import EffortMode, JointSim, PositionPidMode, VelocityPidMode
+from gazebo_ros_control.wiring import Wiring
 from hardware_interface import JointHandle, JointStateHandle
+from joint_limits_interface import EffortJointSaturationHandle, JointLimits
 
 DT = 0.001
 WHEEL = """<robot name="wheel"><link name="world"/>
@@ -25,11 +28,13 @@ def joint():
 
 
 def run(joint, mode, each=lambda state: None, steps=400):
-    state = mode.state
+    sim = JointSim(joint, mode.state)
+    sim.add("its mode", mode)
+    wiring = Wiring([sim])
     for _ in range(steps):
-        state.position, state.velocity = joint.position(), joint.velocity()
-        each(state)
-        mode.write(DT)
+        wiring.read()
+        each(mode.state)
+        wiring.write(DT)
         joint.world.step(1)
 
 
@@ -37,9 +42,14 @@ def handle_of(joint):
     return JointHandle(JointStateHandle(joint.name))
 
 
+def efforts_of(joint, handle, most):
+    limits = JointLimits(max_velocity=math.inf, max_effort=most, has_velocity_limits=True, has_effort_limits=True)
+    return EffortMode(joint, handle, EffortJointSaturationHandle(handle, limits), most)
+
+
 def test_of_a_controller_on_the_effort_interface(joint):
     handle, pid = handle_of(joint), Pid(p=1.0)
-    mode = EffortMode(joint, handle, LIMITS, 10.0)
+    mode = efforts_of(joint, handle, 10.0)
 
     def control(state):
         handle.command = pid.compute_command(3.0 - state.velocity, DT)
@@ -68,13 +78,7 @@ def test_of_the_simulated_drives(joint):
 
 def test_a_command_beyond_the_limit_is_the_limit_at_first(joint):
     handle = handle_of(joint)
-    limits = SimpleNamespace(reset=lambda: None)
-
-    def cut(_dt):
-        handle.command = max(min(handle.command, 0.05), -0.05)
-
-    limits.enforce_limits = cut
-    mode = EffortMode(joint, handle, limits, 0.05)
+    mode = efforts_of(joint, handle, 0.05)
 
     def control(state):
         handle.command, handle.slope = 3.0 - state.velocity, 1.0

@@ -1,4 +1,5 @@
-"""What the core does for all joints in one call is what their modes do one by one, to the last bit. Without ROS."""
+"""What the wiring does for all joints in one call is what a robot does that limits its commands by joint_limits_interface and gives them
+to the joints of ode_sim one by one, to the last bit. Without ROS."""
 import math
 import random
 
@@ -47,6 +48,42 @@ class Robot:
                  self.joint.core.drive_target, self.joint.motor(), self.joint.effort())]
 
 
+class ByHand(Robot):
+    """The same, whose commands go one by one."""
+
+    def __init__(self, hard, soft):
+        super().__init__(hard, soft)
+        self.stopped_at = None  # rad
+
+    def stop(self, active):
+        self.stopped_at = self.state.position if active else None
+
+    def switch(self, mode):
+        if self.sim.switch(mode) and self.stopped_at is not None:
+            self.stop(True)
+
+    def write(self):
+        mode, handle, stopped = self.sim.mode, self.sim.mode.handle, self.stopped_at is not None
+        if stopped and type(mode) is PositionMode:
+            handle.command = self.stopped_at
+        wanted = handle.command
+        mode.limits.enforce_limits(DT)
+        allowed = handle.command
+        if type(mode) is PositionMode:
+            self.joint.drive_to(allowed)
+        elif type(mode) is VelocityMode:
+            self.joint.set_motor(0.0 if stopped else allowed, mode.effort_limit)
+        else:
+            cut_by_effort = mode.effort_limit <= abs(allowed) < abs(wanted) < math.inf
+            if stopped:
+                self.joint.add_force(0.0)
+            elif handle.slope != 0.0 and (wanted == allowed or cut_by_effort):
+                self.joint.add_law(wanted, handle.slope, mode.effort_limit)
+            else:
+                self.joint.add_force(allowed)
+            self.state.effort = self.joint.effort()
+
+
 def commands(chance, kind):
     """Mostly small steps, now and then a jump, a command far out of all limits, or none that is a number."""
     sizes = {PositionMode: 1.0, VelocityMode: 20.0, EffortMode: 8.0}
@@ -62,8 +99,8 @@ def commands(chance, kind):
 
 @pytest.mark.parametrize("hard", [HARD, ENDLESS, NONE], ids=["limits", "endless", "unlimited"])
 @pytest.mark.parametrize("soft", [False, True], ids=["saturation", "soft"])
-def test_the_core_does_what_the_modes_do(hard, soft):
-    by_hand, wired = Robot(hard, soft), Robot(hard, soft)
+def test_commands_get_to_the_joints(hard, soft):
+    by_hand, wired = ByHand(hard, soft), Robot(hard, soft)
     wiring = Wiring([wired.sim])
     chance = random.Random(5)
     mode, stopped = PositionMode, False
@@ -73,20 +110,17 @@ def test_the_core_does_what_the_modes_do(hard, soft):
         if what < 0.01:  # a controller of another interface takes over
             mode = chance.choice(list(MODES))
             source = commands(chance, mode)
-            by_hand.sim.switch(mode.__name__)
-            if wired.sim.switch(mode.__name__):
-                wiring.enter(wired.sim.mode)
+            by_hand.switch(mode.__name__)
+            wired.sim.switch(mode.__name__)
             wiring.engage()
         elif what < 0.02:
             stopped = not stopped
-            by_hand.sim.mode.press(stopped)
-            wired.sim.mode.press(stopped)
+            by_hand.stop(stopped)
             wiring.stop(stopped)
         elif what < 0.025:
             for robot in (by_hand, wired):
                 for each in robot.sim.modes.values():
                     each.limits.reset()
-            wiring.reset()
         by_hand.state.position, by_hand.state.velocity = by_hand.joint.position(), by_hand.joint.velocity()
         wiring.read()
         command, slope = next(source), chance.choice((0.0, 0.0, 3.0))
@@ -94,7 +128,7 @@ def test_the_core_does_what_the_modes_do(hard, soft):
             robot.sim.mode.handle.command = command
             if mode is EffortMode:
                 robot.sim.mode.handle.slope = slope
-        by_hand.sim.mode.write(DT)
+        by_hand.write()
         wiring.write(DT)
         assert wired.seen() == by_hand.seen(), (step, mode.__name__, command, stopped)
         by_hand.world.step()

@@ -148,5 +148,4 @@ PYBIND11_MODULE(_core, m) {
   bind_joints(m);
   bind_models(m);
   bind_world(m);
-  bind_wiring(m);
 }

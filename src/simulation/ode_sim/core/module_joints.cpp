@@ -76,6 +76,7 @@ void bind_joints(py::module_& m) {
   py::class_<Joint, std::shared_ptr<Joint>> joint(m, "Joint");
   bind_drive(joint);
   joint.def_readonly("id", &Joint::id)
+      .def_property_readonly("address", [](const Joint& j) { return reinterpret_cast<uintptr_t>(&j); })  // for actuation.hpp
       .def_readonly("row", &Joint::row)
       .def_readonly("axis_count", &Joint::axis_count)
       .def_property(

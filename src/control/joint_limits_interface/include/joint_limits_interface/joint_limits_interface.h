@@ -1,30 +1,21 @@
-// Handles that change a joint's command so that it keeps its limits, and collections of them.
+// Handles that change a joint's command so that it keeps its limits (limit_law.h), and collections of them.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <string>
 
 #include <hardware_interface/internal/resource_manager.h>
 #include <hardware_interface/joint_command_interface.h>
 #include <joint_limits_interface/joint_limits.h>
 #include <joint_limits_interface/joint_limits_interface_exception.h>
+#include <joint_limits_interface/limit_law.h>
 #include <ros/console.h>
 #include <ros/duration.h>
+#include <ros/time.h>
 
 namespace joint_limits_interface
 {
 namespace internal
 {
-
-template <typename T>
-inline T saturate(const T value, const T low, const T high)
-{
-  return std::min(std::max(value, low), high);
-}
-
-inline double infinite() { return std::numeric_limits<double>::infinity(); }
 
 /// \throws JointLimitsInterfaceException the limit is not there
 inline void need(bool has, const hardware_interface::JointHandle& joint, const char* kind)
@@ -34,87 +25,65 @@ inline void need(bool has, const hardware_interface::JointHandle& joint, const c
                                         " limits specification.");
 }
 
-/// What all limit handles have.
+/// What all limit handles have: a joint and its law.
 class LimitHandle
 {
 public:
   LimitHandle() = default;
-  LimitHandle(const hardware_interface::JointHandle& joint, const JointLimits& limits) : jh_(joint), limits_(limits) {}
 
   std::string getName() const { return jh_.getName(); }
 
-protected:
-  double lowest() const { return limits_.has_position_limits ? limits_.min_position : -infinite(); }
-  double highest() const { return limits_.has_position_limits ? limits_.max_position : infinite(); }
-  double fastest() const { return limits_.has_velocity_limits ? limits_.max_velocity : infinite(); }
-
-  /// Velocities that bring the joint to its soft limits, as fast as it may.
-  void soft_velocities(const SoftJointLimits& soft, double position, double& low, double& high) const
+  /// Put the joint's command within its limits; a line in the log, at most every 5 s, where it is no usable number.
+  /// \param period since the last cycle
+  void enforceLimits(const ros::Duration& period)
   {
-    const double limit = fastest();
-    low = -limit;
-    high = limit;
-    if (!limits_.has_position_limits)
-      return;
-    low = saturate(-soft.k_position * (position - soft.min_position), -limit, limit);
-    high = saturate(-soft.k_position * (position - soft.max_position), -limit, limit);
+    const double wanted = jh_.getCommand();
+    double allowed = wanted;
+    if (!law_.enforce(allowed, jh_.getPosition(), jh_.getVelocity(), period.toSec()))
+      warn(wanted, allowed);
+    jh_.setCommand(allowed);
   }
-
-  hardware_interface::JointHandle jh_;
-  JointLimits limits_;
-};
-
-/// Those of positions remember their last output; before the first cycle it is the measured position.
-class PositionLimitHandle : public LimitHandle
-{
-public:
-  PositionLimitHandle() = default;
-  using LimitHandle::LimitHandle;
 
   /// Forget the last command: the joint was moved by other means.
-  void reset() { previous_ = std::numeric_limits<double>::quiet_NaN(); }
+  void reset() { law_.reset(); }
 
 protected:
-  double previous()
-  {
-    if (std::isnan(previous_))
-      previous_ = jh_.getPosition();
-    return previous_;
-  }
+  LimitHandle(const hardware_interface::JointHandle& joint, const CommandLimiter& law) : jh_(joint), law_(law) {}
 
-  void command(double low, double high)
-  {
-    previous_ = saturate(jh_.getCommand(), std::max(low, lowest()), std::min(high, highest()));
-    jh_.setCommand(previous_);
-  }
+  hardware_interface::JointHandle jh_;
+  CommandLimiter law_;
 
 private:
-  double previous_ = std::numeric_limits<double>::quiet_NaN();
+  void warn(double wanted, double held)
+  {
+    const ros::WallTime now = ros::WallTime::now();
+    if (!warned_.isZero() && now - warned_ < ros::WallDuration(5.0))
+      return;
+    warned_ = now;
+    ROS_WARN(
+        "Joint '%s' was commanded %g, which is no usable number; holding %g. Look at the controller or the message that it "
+        "was sent.",
+        getName().c_str(), wanted, held);
+  }
+
+  ros::WallTime warned_;
 };
 
 }  // namespace internal
 
 /// Keeps positions inside the limits and their steps within the velocity limit.
-class PositionJointSaturationHandle : public internal::PositionLimitHandle
+class PositionJointSaturationHandle : public internal::LimitHandle
 {
 public:
   PositionJointSaturationHandle() = default;
   PositionJointSaturationHandle(const hardware_interface::JointHandle& jh, const JointLimits& limits)
-    : internal::PositionLimitHandle(jh, limits)
+    : internal::LimitHandle(jh, CommandLimiter(LimitRule::PositionSaturation, limits))
   {
-  }
-
-  /// \param period since the last cycle
-  void enforceLimits(const ros::Duration& period)
-  {
-    const double from = previous();
-    const double step = limits_.has_velocity_limits ? limits_.max_velocity * period.toSec() : internal::infinite();
-    command(from - step, from + step);
   }
 };
 
 /// Slows a joint down on its way to the soft limits, and keeps it inside the hard ones.
-class PositionJointSoftLimitsHandle : public internal::PositionLimitHandle
+class PositionJointSoftLimitsHandle : public internal::LimitHandle
 {
 public:
   PositionJointSoftLimitsHandle() = default;
@@ -122,22 +91,10 @@ public:
   /// \throws JointLimitsInterfaceException there are no velocity limits
   PositionJointSoftLimitsHandle(const hardware_interface::JointHandle& jh, const JointLimits& limits,
                                 const SoftJointLimits& soft_limits)
-    : internal::PositionLimitHandle(jh, limits)
-    , soft_limits_(soft_limits)
+    : internal::LimitHandle(jh, CommandLimiter(LimitRule::PositionSoft, limits, soft_limits))
   {
     internal::need(limits.has_velocity_limits, jh, "velocity");
   }
-
-  void enforceLimits(const ros::Duration& period)
-  {
-    const double from = previous();
-    double low, high;
-    soft_velocities(soft_limits_, from, low, high);
-    command(from + low * period.toSec(), from + high * period.toSec());
-  }
-
-private:
-  SoftJointLimits soft_limits_;
 };
 
 /// Keeps efforts within the limit, and lets none push further out of the position or velocity limits.
@@ -148,20 +105,10 @@ public:
 
   /// \throws JointLimitsInterfaceException there are no velocity or effort limits
   EffortJointSaturationHandle(const hardware_interface::JointHandle& jh, const JointLimits& limits)
-    : internal::LimitHandle(jh, limits)
+    : internal::LimitHandle(jh, CommandLimiter(LimitRule::EffortSaturation, limits))
   {
     internal::need(limits.has_velocity_limits, jh, "velocity");
     internal::need(limits.has_effort_limits, jh, "effort");
-  }
-
-  void enforceLimits(const ros::Duration& /*period*/)
-  {
-    double low = -limits_.max_effort, high = limits_.max_effort;
-    if (jh_.getPosition() < lowest() || jh_.getVelocity() < -limits_.max_velocity)
-      low = 0.0;
-    if (jh_.getPosition() > highest() || jh_.getVelocity() > limits_.max_velocity)
-      high = 0.0;
-    jh_.setCommand(internal::saturate(jh_.getCommand(), low, high));
   }
 };
 
@@ -174,25 +121,11 @@ public:
   /// \throws JointLimitsInterfaceException there are no velocity or effort limits
   EffortJointSoftLimitsHandle(const hardware_interface::JointHandle& jh, const JointLimits& limits,
                               const SoftJointLimits& soft_limits)
-    : internal::LimitHandle(jh, limits)
-    , soft_limits_(soft_limits)
+    : internal::LimitHandle(jh, CommandLimiter(LimitRule::EffortSoft, limits, soft_limits))
   {
     internal::need(limits.has_velocity_limits, jh, "velocity");
     internal::need(limits.has_effort_limits, jh, "effort");
   }
-
-  void enforceLimits(const ros::Duration& /*period*/)
-  {
-    double low, high;
-    soft_velocities(soft_limits_, jh_.getPosition(), low, high);
-    const double limit = limits_.max_effort, velocity = jh_.getVelocity();
-    jh_.setCommand(internal::saturate(jh_.getCommand(),
-                                      internal::saturate(-soft_limits_.k_velocity * (velocity - low), -limit, limit),
-                                      internal::saturate(-soft_limits_.k_velocity * (velocity - high), -limit, limit)));
-  }
-
-private:
-  SoftJointLimits soft_limits_;
 };
 
 /// Keeps velocities within the limit, and their steps within the acceleration limit if there is one.
@@ -203,26 +136,10 @@ public:
 
   /// \throws JointLimitsInterfaceException there are no velocity limits
   VelocityJointSaturationHandle(const hardware_interface::JointHandle& jh, const JointLimits& limits)
-    : internal::LimitHandle(jh, limits)
+    : internal::LimitHandle(jh, CommandLimiter(LimitRule::VelocitySaturation, limits))
   {
     internal::need(limits.has_velocity_limits, jh, "velocity");
   }
-
-  void enforceLimits(const ros::Duration& period)
-  {
-    double low = -limits_.max_velocity, high = limits_.max_velocity;
-    if (limits_.has_acceleration_limits)
-    {
-      const double step = limits_.max_acceleration * period.toSec();
-      low = std::max(previous_ - step, low);
-      high = std::min(previous_ + step, high);
-    }
-    previous_ = internal::saturate(jh_.getCommand(), low, high);
-    jh_.setCommand(previous_);
-  }
-
-private:
-  double previous_ = 0.0;
 };
 
 /// Slows a velocity-commanded joint down on its way to the soft position limits.
@@ -232,28 +149,9 @@ public:
   VelocityJointSoftLimitsHandle() = default;
   VelocityJointSoftLimitsHandle(const hardware_interface::JointHandle& jh, const JointLimits& limits,
                                 const SoftJointLimits& soft_limits)
-    : internal::LimitHandle(jh, limits)
-    , soft_limits_(soft_limits)
+    : internal::LimitHandle(jh, CommandLimiter(LimitRule::VelocitySoft, limits, soft_limits))
   {
   }
-
-  void enforceLimits(const ros::Duration& period)
-  {
-    double low, high;
-    soft_velocities(soft_limits_, jh_.getPosition(), low, high);
-    if (limits_.has_acceleration_limits)
-    {
-      const double step = limits_.max_acceleration * period.toSec(), velocity = jh_.getVelocity();
-      low = std::max(velocity - step, low);
-      high = std::min(velocity + step, high);
-    }
-    jh_.setCommand(internal::saturate(jh_.getCommand(), low, high));
-  }
-
-  void reset() {}
-
-private:
-  SoftJointLimits soft_limits_;
 };
 
 /// Limit handles of one kind, enforced together in the order of their joints' names.
@@ -278,26 +176,20 @@ public:
     for (auto& entry : this->resource_map_)
       entry.second.enforceLimits(period);
   }
+
+  void reset()
+  {
+    for (auto& entry : this->resource_map_)
+      entry.second.reset();
+  }
 };
 
 class PositionJointSaturationInterface : public JointLimitsInterface<PositionJointSaturationHandle>
 {
-public:
-  void reset()
-  {
-    for (auto& entry : resource_map_)
-      entry.second.reset();
-  }
 };
 
 class PositionJointSoftLimitsInterface : public JointLimitsInterface<PositionJointSoftLimitsHandle>
 {
-public:
-  void reset()
-  {
-    for (auto& entry : resource_map_)
-      entry.second.reset();
-  }
 };
 
 class EffortJointSaturationInterface : public JointLimitsInterface<EffortJointSaturationHandle>

@@ -163,7 +163,6 @@ class DefaultRobotHWSim(RobotHWSim):
         for sim in self._writers:
             for mode in sim.modes.values():
                 mode.limits.reset()
-        self._wiring.reset()
 
     def do_switch(self, start, stop) -> None:
         for controller in start:
@@ -172,8 +171,7 @@ class DefaultRobotHWSim(RobotHWSim):
                     sim = self._joints.get(name)
                     if sim is not None and claimed.hardware_interface in sim.modes:
                         sim.modes[claimed.hardware_interface].handle.slope = 0.0  # the law of whoever commanded before
-                        if sim.switch(claimed.hardware_interface):
-                            self._wiring.enter(sim.mode)
+                        sim.switch(claimed.hardware_interface)
         self._wiring.engage()
 
 

@@ -1,6 +1,6 @@
-"""One simulated joint: its handles, and what each kind of command does to the joint in the world.
+"""One simulated joint: its handles, and what begins and ends with each kind of command to the joint in the world.
 
-These run in every step of the world, so they avoid look-ups and calls.
+``core/wiring.cpp`` gives plain commands to the joint in every step; where a PID stands between, its mode does.
 """
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ class Mode:
 
     __slots__ = ("joint", "state", "handle", "limits", "e_stop")
 
-    #: Whether wiring.py may do what ``write`` does.
-    wired = False
+    #: Whether wiring.py writes the commands; else ``write`` does.
+    wired = True
     #: Whether the joint's effort is the load that its drive or motor bears, not a command.
     bears = False
     effort_limit = math.inf
@@ -43,6 +43,7 @@ class Mode:
         self.e_stop = active
 
     def write(self, dt: float) -> None:
+        """To the joint; of modes that are not wired. :param dt: s since the last time"""
         raise NotImplementedError
 
 
@@ -50,8 +51,6 @@ class EffortMode(Mode):
     """The command is the joint's force or torque; of a controller that closes a loop the law behind it is known too."""
 
     __slots__ = ("effort_limit",)
-
-    wired = True
 
     def __init__(self, joint, handle: JointHandle, limits, effort_limit: float):
         super().__init__(joint, handle, limits)
@@ -61,30 +60,13 @@ class EffortMode(Mode):
         super().enter()
         self.handle.slope = 0.0
 
-    def write(self, dt: float) -> None:
-        handle = self.handle
-        wanted = handle.command
-        self.limits.enforce_limits(dt)
-        allowed = handle.command
-        if self.e_stop:
-            self.joint.add_force(0.0)
-        elif handle.slope != 0.0 and (wanted == allowed or self.effort_limit <= abs(allowed) < abs(wanted) < math.inf):
-            self.joint.add_law(wanted, handle.slope, self.effort_limit)
-        else:  # what other limits made of the command is no law
-            self.joint.add_force(allowed)
-        self.state.effort = self.joint.effort()
-
 
 class PositionMode(Mode):
     """The joint follows its position command exactly."""
 
-    __slots__ = ("_frozen",)
+    __slots__ = ()
 
-    wired = bears = True
-
-    def __init__(self, joint, handle: JointHandle, limits):
-        super().__init__(joint, handle, limits)
-        self._frozen = 0.0
+    bears = True
 
     def enter(self) -> None:
         super().enter()
@@ -93,24 +75,6 @@ class PositionMode(Mode):
     def leave(self) -> None:
         self.joint.drive_off()
         self.state.effort = 0.0
-
-    def press(self, active: bool) -> None:
-        if active and not self.e_stop:
-            self._frozen = self.state.position
-        self.e_stop = active
-
-    def target(self, dt: float) -> float:
-        """The position to be at after this step."""
-        if self.e_stop:
-            self.handle.command = self._frozen
-        self.limits.enforce_limits(dt)
-        return self.handle.command
-
-    def write(self, dt: float) -> None:
-        if self.e_stop:  # as in target(), without the call
-            self.handle.command = self._frozen
-        self.limits.enforce_limits(dt)
-        self.joint.drive_to(self.handle.command)
 
 
 class _ByPid(Mode):
@@ -121,7 +85,7 @@ class _ByPid(Mode):
 
     __slots__ = ()
 
-    bears = False
+    wired = bears = False
     _pid: Pid
 
     def enter(self) -> None:
@@ -140,19 +104,26 @@ class _ByPid(Mode):
 class PositionPidMode(_ByPid, PositionMode):
     """A PID on the position gives the joint's effort."""
 
-    __slots__ = ("_pid", "_description", "effort_limit")
-
-    wired = False
+    __slots__ = ("_pid", "_description", "_frozen", "effort_limit")
 
     def __init__(self, joint, handle: JointHandle, limits, pid: Pid, description: JointDescription,
                  effort_limit: float):
         super().__init__(joint, handle, limits)
         self._pid = pid
         self._description = description
+        self._frozen = 0.0
         self.effort_limit = effort_limit
 
+    def press(self, active: bool) -> None:
+        if active and not self.e_stop:
+            self._frozen = self.state.position
+        super().press(active)
+
     def write(self, dt: float) -> None:
-        error = self._description.error(self.joint.position(), self.target(dt))
+        if self.e_stop:
+            self.handle.command = self._frozen
+        self.limits.enforce_limits(dt)
+        error = self._description.error(self.joint.position(), self.handle.command)
         self.push(error, self._pid.slope_of_position(dt), dt)
 
 
@@ -161,7 +132,7 @@ class VelocityMode(Mode):
 
     __slots__ = ("effort_limit",)
 
-    wired = bears = True
+    bears = True
 
     def __init__(self, joint, handle: JointHandle, limits, effort_limit: float):
         super().__init__(joint, handle, limits)
@@ -171,28 +142,20 @@ class VelocityMode(Mode):
         self.joint.set_motor(0.0, 0.0)
         self.state.effort = 0.0
 
-    def target(self, dt: float) -> float:
-        """The velocity to have."""
-        self.limits.enforce_limits(dt)
-        return 0.0 if self.e_stop else self.handle.command
-
-    def write(self, dt: float) -> None:
-        self.joint.set_motor(self.target(dt), self.effort_limit)
-
 
 class VelocityPidMode(_ByPid, VelocityMode):
     """A PID on the velocity gives the joint's effort."""
 
     __slots__ = ("_pid",)
 
-    wired = False
-
     def __init__(self, joint, handle: JointHandle, limits, effort_limit: float, pid: Pid):
         super().__init__(joint, handle, limits, effort_limit)
         self._pid = pid
 
     def write(self, dt: float) -> None:
-        self.push(self.target(dt) - self.joint.velocity(), self._pid.slope_of_velocity(dt), dt)
+        self.limits.enforce_limits(dt)
+        wanted = 0.0 if self.e_stop else self.handle.command
+        self.push(wanted - self.joint.velocity(), self._pid.slope_of_velocity(dt), dt)
 
 
 class JointSim:

@@ -1,11 +1,11 @@
-"""The joints of a robot, all of them read in one call and commanded in another: the rules of joint_sim.py in the core."""
+"""The joints of a robot, read in one call and commanded in another: ``core/wiring.hpp`` says how a command gets to its joint."""
 from __future__ import annotations
 
 from typing import Dict, Iterable, List, Tuple
 
 from hardware_interface import addresses
-from ode_sim import _core
 
+from . import _wiring
 from .joint_sim import JointSim, Mode
 
 
@@ -14,71 +14,39 @@ class Wiring:
 
     def __init__(self, sims: Iterable[JointSim]) -> None:
         self._sims = tuple(sims)
-        self._core = _core.Wiring()
+        self._core = _wiring.Wiring()
         self._modes: List[Mode] = []  # by number in the core
         self._numbers: Dict[Mode, int] = {}
-        self._by_hand: Tuple[JointSim, ...] = ()  # whose mode writes for itself
-        self._stopped = False
+        self._by_pid: Tuple[JointSim, ...] = ()  # whose mode writes for itself
         self.read = self._core.read  #: positions, velocities and what drives bear, into the states
+        self.stop = self._core.stop  #: emergency stop: begins or ends
         self._write = self._core.write
-        self._joints = [self._core.add_joint(sim.joint.core, *addresses(sim.state)[:3]) for sim in self._sims]
+        self._joints = [self._core.add_joint(sim.joint.core.address, *addresses(sim.state)[:3]) for sim in self._sims]
         for joint, sim in zip(self._joints, self._sims):
             for mode in sim.modes.values():
                 if mode.bears:
                     sim.joint.core.watch()
                 if mode.wired:
                     self._add(joint, mode)
-        self.reset()
         self.engage()
 
     def _add(self, joint: int, mode: Mode) -> None:
         command, slope = addresses(mode.handle)[:2]
-        limits = mode.limits
-        self._numbers[mode] = self._core.add_command(joint, command, slope, mode.effort_limit, limits.rule,
-                                                     limits.limits.has_position_limits, limits.numbers())
+        self._numbers[mode] = self._core.add_command(joint, command, slope, mode.limits.law, mode.effort_limit)
         self._modes.append(mode)
 
     def engage(self) -> None:
-        """Other modes may be in force; those that were not before have just entered."""
-        for wired in self._numbers.values():
-            self._core.set_working(wired, False)
-        by_hand = []
+        """Other modes may be in force."""
         for joint, sim in zip(self._joints, self._sims):
             self._core.report_load(joint, sim.mode.bears)
-            number = self._numbers.get(sim.mode)
-            if number is None or self._stopped:
-                by_hand.append(sim)
-            else:
-                self._core.set_working(number, True)
-        self._by_hand = tuple(by_hand)
-
-    def enter(self, mode: Mode) -> None:
-        """Start from where the limits of the mode were just reset to."""
-        if mode in self._numbers:
-            self._core.set_previous(self._numbers[mode], mode.limits.previous)
-
-    def reset(self) -> None:
-        """The limits of all modes were reset."""
-        for mode in self._numbers:
-            self.enter(mode)
-
-    def stop(self, active: bool) -> None:
-        """While an emergency stop lasts every mode writes for itself."""
-        if active is self._stopped:
-            return
-        self._stopped = active
-        for mode, number in self._numbers.items():
-            if active:
-                mode.limits.previous = self._core.previous(number)
-            else:
-                self.enter(mode)
-        self.engage()
+            self._core.engage(joint, self._numbers.get(sim.mode, -1))
+        self._by_pid = tuple(sim for sim in self._sims if sim.mode not in self._numbers)
 
     def write(self, dt: float) -> None:
         """Commands to the joints. :param dt: s since the last time."""
         refused = self._write(dt)
         if refused:
-            for number, wanted, held in refused:
-                self._modes[number].limits.instead(wanted, held)
-        for sim in self._by_hand:
+            for number, wanted in refused:
+                self._modes[number].limits.warn(wanted)
+        for sim in self._by_pid:
             sim.mode.write(dt)
