@@ -39,6 +39,7 @@ WANTED = [
     (r"^mbot.*real-time factor, uncapped$", ">=", 10.0), (r"mbots: cost per mbot against one", "<=", 1.05),
     (r"^RViz with MotionPlanning: seconds", "<", 4.0), (r"^goal dragged.*pictures", ">=", 30.0),
     (r"^compiled controller: what calling", "<=", 0.5), (r"^compiled model plugin that reads", "<=", 1.0),
+    (r"times as good as real Gazebo", ">=", 3.0),
     (r"^40 arm homeworks, 2 workers", "<", 480.0), (r"^class: throughput of 2 workers", ">=", 1.8), (r"^class: share of sub", ">=", 1.0),
     (r"^sandbox: seconds", "<", 0.3), (r"^class: driver's memory for a queue of 10000", "<", 500.0),
 ]
@@ -53,12 +54,12 @@ def program(name, *arguments, environment=None, timeout=300):
     return json.loads(done.stdout.strip().splitlines()[-1])
 
 
-def section_script(name, *arguments):
+def section_script(name, *arguments, timeout=900):
     """Run a script of this folder that writes its figures with --json."""
     with tempfile.TemporaryDirectory() as folder:
         file = os.path.join(folder, "figures.json")
         done = subprocess.run([sys.executable, os.path.join(HERE, name), "--json", file, *map(str, arguments)],
-                              stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, timeout=900)
+                              stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, timeout=timeout)
         if not os.path.exists(file):
             raise RuntimeError(f"{name}: {' '.join(done.stderr.split()[-30:])}")
         with open(file, encoding="utf-8") as figures:
@@ -228,8 +229,11 @@ SECTIONS = {
     "class": ("lab_check: a class of arm homeworks with seeded faults; the sandbox", class_of),
     "compiled": ("a compiled controller and a compiled model plugin: what calling them costs",
                  lambda quick: section_script("compiled.py", *(["--quick"] if quick else []))),
+    "gazebo": ("the real Gazebo Classic 11.1 beside this simulator, the same files; only by name: scripts/truth chroot comes first",
+               lambda quick: section_script("beside_gazebo.py", *(["--quick"] if quick else []), timeout=3600)),
     "can": ("cycles of rm_hw against the motor bench", lambda quick: section_script("can_loop.py", "--seconds", 5 if quick else 20)),
 }
+ONLY_BY_NAME = {"gazebo"}
 if os.path.exists(os.path.join(HERE, "mobile.py")):
     SECTIONS["mobile"] = ("mbot with its sensors, many of them, and a pile of boxes", lambda quick: section_script("mobile.py"))
 
@@ -256,7 +260,7 @@ def main():
     parser = argparse.ArgumentParser(prog="scripts/bench", formatter_class=argparse.RawDescriptionHelpFormatter,
                                      description="Print figures, each ratio measured in one run, and what was asked for.",
                                      epilog="sections:\n" + "\n".join(f"  {n:10} {t}" for n, (t, _) in SECTIONS.items()))
-    parser.add_argument("sections", nargs="*", metavar="SECTION", help="which; default all")
+    parser.add_argument("sections", nargs="*", metavar="SECTION", help="which; default all but gazebo")
     parser.add_argument("--json", metavar="FILE", help="write the figures there as well")
     parser.add_argument("--quick", action="store_true", help="shorter runs, rougher figures")
     options = parser.parse_args()
@@ -266,7 +270,7 @@ def main():
     report = {"machine": platform.platform(), "cores": os.cpu_count(), "load before": os.getloadavg()[0], "figures": {}}
     failed = False
     print(f"{report['machine']}, {report['cores']} cores, load {report['load before']:.1f}")
-    for name in options.sections or SECTIONS:
+    for name in options.sections or [name for name in SECTIONS if name not in ONLY_BY_NAME]:
         title, measure = SECTIONS[name]
         load = os.getloadavg()[0]
         print(f"\n{name}: {title} (load before {load:.1f})", flush=True)

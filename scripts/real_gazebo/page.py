@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
+import multiprocessing
 import os
 from typing import Dict, List
 
-from real_gazebo.compare import Result, compare, number
+from real_gazebo.compare import Result, compare, number, told
 from real_gazebo.records import path_of
-from real_gazebo.scene import SCENES, Scene
+from real_gazebo.scene import Scene
+from real_gazebo.scenes import SCENES
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 PAGE = os.path.join(ROOT, "docs", "parity.md")
@@ -81,20 +83,26 @@ def section(scene: Scene, results: List[Result]) -> List[str]:
     return lines + [""] + [f"* {cause}" for cause in causes] + ([""] if causes else [])
 
 
-def write() -> str:
-    """Run all scenes that have a record; gives one line of what was written."""
+def results_of(name: str) -> List[Result]:
+    return list(compare(next(scene for scene in SCENES if scene.name == name)))
+
+
+def write(tell=print) -> str:
+    """Run all scenes that have a record, on all processors; gives one line of what was written."""
     families: Dict[str, List[str]] = {}
     counts = {solver: [0, 0] for solver in ("gazebo", "default")}
     scenes = [scene for scene in SCENES if os.path.exists(path_of(scene.name))]
-    for scene in scenes:
-        results = list(compare(scene))
-        for solver, count in counts.items():
-            count[0] += len(results)
-            count[1] += sum(r.within(solver) for r in results)
-        families.setdefault(scene.family, []).extend(section(scene, results))
+    with multiprocessing.Pool() as pool:
+        for scene, results in zip(scenes, pool.imap(results_of, [scene.name for scene in scenes])):
+            for result in results:
+                tell(told(scene, result))
+            for solver, count in counts.items():
+                count[0] += len(results)
+                count[1] += sum(r.within(solver) for r in results)
+            families.setdefault(scene.family, []).extend(section(scene, results))
     summary = "\n".join(
-        f"| `{solver}` against {'real Gazebo' if solver == 'gazebo' else 'the laws'} | {all_} | {good} | {all_ - good} |"
-        for solver, (all_, good) in counts.items()
+        f"| `{solver}` against {'real Gazebo' if solver == 'gazebo' else 'the laws'} | {rows} | {good} | {rows - good} |"
+        for solver, (rows, good) in counts.items()
     )
     lines = [HEAD.format(scenes=len(scenes), summary=summary)]
     for family, text in families.items():

@@ -32,7 +32,8 @@ class Record:
         self.words: Dict[str, List[List[str]]] = {}  # is_model, is_link, is_collision, is_joint
         self.digest = ""
         rows: Dict[str, List[List[float]]] = {}
-        for line in lines:
+        self.lines = list(lines)
+        for line in self.lines:
             name, *values = line.strip().split(",")
             if name.startswith("#"):
                 self.digest = name.split()[1]
@@ -127,10 +128,11 @@ class Record:
         return float(np.interp(time, rows[:, 0], rows[:, 1 + component]))
 
     def sensor(self, name: str, component: int, time: float = math.inf) -> float:
-        """Of the last row up to then; component 0 is the time of measurement."""
+        """Between the two measurements round that time, of the last one by default; component 0 is the time of measurement."""
         rows = self.series["sensor:" + name]
-        rows = rows[rows[:, 0] <= time]
-        return float(rows[-1, 1 + component])
+        if math.isinf(time):
+            return float(rows[-1, 1 + component])
+        return float(np.interp(time, rows[:, 1], rows[:, 1 + component]))
 
     def contacts_at(self, time: float):
         """[(pair of collisions, (position 3, normal 3, depth, force 3 and torque 3 on the first))] of one moment."""

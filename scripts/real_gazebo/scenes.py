@@ -9,6 +9,7 @@ from real_gazebo import (
     scenes_robots,
     scenes_sensors,
     scenes_surfaces,
+    scenes_whole,
     scenes_worlds,
 )
 from real_gazebo.scene import SCENES
@@ -22,6 +23,7 @@ FAMILIES = (
     scenes_robots,
     scenes_worlds,
     scenes_fields,
+    scenes_whole,
     scenes_sensors,
 )
 __all__ = ["FAMILIES", "SCENES"]

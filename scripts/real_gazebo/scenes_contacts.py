@@ -458,8 +458,19 @@ contact(
     "19.6 N, in the mean; Gazebo's points flicker",
     cube("b", 0.2, 2, "0 0 0.1 0 0 0", surface(1.0)),
     (
-        Row("mean force on the cube from 0.05 to 0.4 s, N", lambda r: force_on(r, "b", 0.05, 0.4), law=19.6, gazebo=(0.05, 0), default=(1e-2, 0)),
-        Row("greatest depth, m", lambda r: max(float(v[:, 7].max()) for n, v in r.series.items() if n.startswith("contact:")), gazebo=(0.2, 5e-5), default=(9, 9)),
+        Row(
+            "mean force on the cube from 0.05 to 0.4 s, N",
+            lambda r: force_on(r, "b", 0.05, 0.4),
+            law=19.6,
+            gazebo=(0.05, 0),
+            default=(1e-2, 0),
+        ),
+        Row(
+            "greatest depth, m",
+            lambda r: max(float(v[:, 7].max()) for n, v in r.series.items() if n.startswith("contact:")),
+            gazebo=(0.2, 5e-5),
+            default=(9, 9),
+        ),
     ),
     0.5,
     contacts=True,

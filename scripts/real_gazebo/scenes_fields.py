@@ -183,7 +183,8 @@ scene(
         cube("b", 0.2, 1, "0 0 1 0 0 0").replace("<link name='l'>", "<link name='l'><enable_wind>1</enable_wind>"),
         cube("c", 0.2, 1, "0 1 1 0 0 0"),
         "<wind><linear_velocity>2 0 0</linear_velocity></wind>",
-        "<plugin name='wind' filename='libWindPlugin.so'><horizontal><magnitude><time_for_rise>0.1</time_for_rise>"
+        "<plugin name='wind' filename='libWindPlugin.so'><force_approximation_scaling_factor>1</force_approximation_scaling_factor>"
+        "<horizontal><magnitude><time_for_rise>0.1</time_for_rise>"
         "</magnitude><direction><time_for_rise>0.1</time_for_rise>"
         "</direction></horizontal><vertical><time_for_rise>0.1</time_for_rise></vertical></plugin>",
         gravity="0 0 0",

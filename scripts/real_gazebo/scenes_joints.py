@@ -35,9 +35,7 @@ def angles(name, times=(0.5, 1.0, 2.0, 4.9), near=FREE, default=CLOSE, axis=0):
 
 
 def rates(name, times, near=FREE, default=CLOSE, axis=0):
-    return tuple(
-        Row(f"rate of {name} at {t:g} s", lambda r, t=t: r.rate(name, t, axis), gazebo=near, default=default) for t in times
-    )
+    return tuple(Row(f"rate of {name} at {t:g} s", lambda r, t=t: r.rate(name, t, axis), gazebo=near, default=default) for t in times)
 
 
 def one(name, what, law, body, rows, seconds=5.0, deeds=(), **settings):
@@ -52,7 +50,6 @@ def swing(t):
     """Of the rod (J = 1/12) on the spring below, its weight left out, rad."""
     fast = math.sqrt(2000 * 12 - 36)
     return 0.5 - 0.5 * math.exp(-6 * t) * (math.cos(fast * t) + 6 / fast * math.sin(fast * t))
-
 
 
 one(
@@ -214,7 +211,7 @@ one(
         joint("j2", "revolute", "a", "b", axis("0 1 0")),
         pose="0 0 3 0 0 0",
     ),
-    angles("p::j1", default=(5e-3, 1e-2)) + angles("p::j2", default=(5e-3, 2e-2)),
+    angles("p::j1", default=(5e-3, 1e-2)) + angles("p::j2", default=(5e-3, 6e-2)),
 )
 one(
     "revolute_axis_of_child",

@@ -18,7 +18,6 @@ def poses(name, times, columns="xz", near=FREE, default=CLOSE):
     )
 
 
-
 def rod_energy(r, name, time):
     """Of the rod of 1 kg (0.02 kg m^2 about its centre, 0.5 m below its origin), J."""
     x, y, z, w = (r.at(name, c, time) for c in ("qx", "qy", "qz", "qw"))

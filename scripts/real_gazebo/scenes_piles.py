@@ -15,9 +15,7 @@ def pile(name, what, law, bodies, rows, seconds=5.0, deeds=(), every=0.04, **set
 
 
 def stands(body, height, time=4.9, near=(0, 0.01), default=(0, 1e-3)):
-    return Row(
-        f"height of {body} at {time:g} s, m", lambda r: r.at(f"model:{body}", "z", time), law=height, gazebo=near, default=default
-    )
+    return Row(f"height of {body} at {time:g} s, m", lambda r: r.at(f"model:{body}", "z", time), law=height, gazebo=near, default=default)
 
 
 def wanders(body, time=4.9, near=(0, 0.03)):
@@ -51,6 +49,13 @@ pile("stack_3", "three cubes on each other", "stands", stack(3), (stands("s2", 0
 pile("stack_5", "five cubes on each other", "stands", stack(5), (stands("s4", 0.9), wanders("s4", near=(0, 0.05))))
 pile("stack_7", "seven cubes on each other", "stands", stack(7), (falls("s6", 1.2), stands("s6", 1.3, near=(0, 0.05))))
 pile("stack_10", "ten cubes on each other", "stands", stack(10), (falls("s9", 1.7), falls("s9", 1.0), stands("s9", 1.9, near=(0, 0.1))))
+pile(
+    "stack_10_loose",
+    "ten cubes 5 mm apart, which drop on each other",
+    "stands: each falls straight down",
+    [cube(f"s{i}", 0.2, 1, f"0 0 {0.1 + 0.205 * i:.9g} 0 0 0", ROUGH) for i in range(10)],
+    (falls("s9", 1.7), falls("s9", 1.0), stands("s9", 1.9, near=(0, 0.1))),
+)
 pile(
     "stack_10_many_iterations",
     "ten cubes, 500 iterations",

@@ -251,14 +251,14 @@ ROLLERS = 12
 
 def mecanum(rollers=ROLLERS, big=0.08, small=0.018):
     parts = [link("base", inertial(10, box_moments(10, 0.5, 0.3, 0.1)), pose=f"0 0 {big} 0 0 0")]
-    for name, x, y, sign in (("fl", 0.2, 0.2, 1), ("fr", 0.2, -0.2, -1), ("rl", -0.2, 0.2, -1), ("rr", -0.2, -0.2, 1)):
+    for name, x, y, sign in (("fl", 0.2, 0.2, -1), ("fr", 0.2, -0.2, 1), ("rl", -0.2, 0.2, 1), ("rr", -0.2, -0.2, -1)):
         parts.append(
             link(name, inertial(0.5, 0.001), pose=f"{x} {y} {big} 0 0 0") + joint(f"{name}_joint", "revolute", "base", name, axis("0 1 0"))
         )
         for i in range(rollers):
             a = 2 * math.pi * (i + 0.5) / rollers
             px, pz = (big - small) * math.cos(a), (big - small) * math.sin(a)
-            # along the tangent turned by 45 degrees towards the axle: the lowest one's axis is (1, +-1, 0)
+            # along the tangent turned by 45 degrees: the axes of the four lowest ones form a diamond, as those of real wheels
             parts.append(
                 link(
                     f"{name}{i}",
@@ -304,7 +304,7 @@ drive(
     "the same, turning: left against right",
     "w = v/(lx + ly) = 0.5 rad/s",
     mecanum(),
-    (turned(law=1.5, default=(0.05, 0)),),
+    (turned(law=-1.5, default=(0.05, 0)),),
     motors(10, fl=-M, fr=M, rl=-M, rr=M),
     every=0.2,
 )
@@ -329,7 +329,7 @@ drive(
     "turns by v/R = 0.3 rad/s",
     car(PINS),
     (turned(law=0.9, default=(0.02, 0)),),
-    motors(left=0.3 * 0.85 / RADIUS, right=0.3 * 1.15 / RADIUS) + tuple(Deed("pd", f"r::king{i}", f"{PINS[i]:.9g} 200 5") for i in (0, 1)),
+    motors(left=0.3 * 0.85 / RADIUS, right=0.3 * 1.15 / RADIUS) + tuple(Deed("pd", f"r::king{i}", f"{PINS[i]:.9g} 20 0.2") for i in (0, 1)),
 )
 drive(
     "holonomic_fdir1",
@@ -442,12 +442,27 @@ grip(
     (HELD, Row("lifted at 3 s, m", lambda r: r.at("model:o", "z", 3.0) - 0.5, law=0.25, gazebo=(0.02, 2e-3), default=(1e-2, 1e-3))),
 )
 grip("grip_holds_heavy", "40 N on each side of 5 kg, mu 1", "80 N > 49 N: held", gripper(1.0, 5.0), (HELD,), 40.0)
-grip(
-    "grip_slips",
-    "10 N on each side of 0.5 kg, mu 0.1: cannot lift it",
-    "2 N < 4.9 N: stays on the table",
-    gripper(0.1, 0.5),
-    (Row("lifted at 3 s, m", lambda r: r.at("model:o", "z", 3.0) - 0.5, law=0.0, gazebo=(0.05, 5e-3), default=(0, 2e-3)),),
+SLIDES = 9.8 - 2 * 0.1 * 10 / 0.5
+add(
+    Scene(
+        "grip_slips",
+        "robots",
+        "10 N on each side of 0.5 kg, mu 0.1, nothing below it: slides out",
+        "a = g - 2 mu F/m = 5.8 m/s^2",
+        world(ground(), *gripper(0.1, 0.5)[:2]),
+        (
+            Row(
+                "acceleration from 0.03 to 0.07 s, m/s^2",
+                lambda r: -(r.at("model:o", "vz", 0.07) - r.at("model:o", "vz", 0.03)) / 0.04,
+                law=SLIDES,
+                gazebo=(0.02, 0),
+                default=(0.02, 0),
+            ),
+        ),
+        0.1,
+        0.005,
+        (Deed("effort", "g::j1", "10"), Deed("effort", "g::j2", "10"), Deed("motor", "g::lift", "0 200")),
+    )
 )
 grip(
     "grip_holds_ball",

@@ -112,9 +112,7 @@ for value, side in ((0.01, "plate"), (1000, "ball"), (1000, "both"), (1.0, "ball
     )
 
 
-def sunk(
-    name, what, law, body, plate, value=None, height=0.0, times=(0.01, 0.1, 0.5, 2.4), default=(5e-2, 2e-4), gazebo=(2e-3, 2e-5)
-):
+def sunk(name, what, law, body, plate, value=None, height=0.0, times=(0.01, 0.1, 0.5, 2.4), default=(5e-2, 2e-4), gazebo=(2e-3, 2e-5)):
     return drop(
         name,
         what,

@@ -70,8 +70,15 @@ def run(scene: Scene, solver: str, limit: float = 120.0) -> Record:
         out = os.path.join(folder, "out.csv")
         settings = {"GAZEBO_MODEL_PATH": folder, "TRUTH_OUT": out, "ODE_SIM_SOLVER": "gazebo" if solver == "gazebo" else ""}
         command = ["rosrun", "gazebo_ros", "gzserver", "-u", os.path.join(folder, "scene.world")]
-        server = subprocess.Popen(command, env={**environment, **settings}, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                                  errors="replace", start_new_session=True)
+        server = subprocess.Popen(
+            command,
+            env={**environment, **settings},
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            errors="replace",
+            start_new_session=True,
+        )
         try:
             said = server.communicate(timeout=limit)[0]
         except subprocess.TimeoutExpired:
