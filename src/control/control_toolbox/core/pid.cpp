@@ -1,6 +1,5 @@
 #include <control_toolbox/pid.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
@@ -13,12 +12,15 @@ namespace
 
 const char* const default_namespace = "pid";
 
-double clamp(double value, double low, double high) { return std::min(std::max(value, low), high); }
-
 double attribute(const TiXmlElement& element, const char* name)
 {
   const char* text = element.Attribute(name);
   return text ? std::atof(text) : 0.0;
+}
+
+PidGains numbers(const Pid::Gains& gains)
+{
+  return { gains.p_gain_, gains.i_gain_, gains.d_gain_, gains.i_max_, gains.i_min_, gains.antiwindup_ };
 }
 
 }  // namespace
@@ -104,19 +106,9 @@ void Pid::initDynamicReconfig(ros::NodeHandle& node)
   server_->setCallback([this](ParametersConfig& config, uint32_t level) { dynamicReconfigCallback(config, level); });
 }
 
-void Pid::reset()
-{
-  reset(0.0, 0.0);
-  last_error_counts_ = true;
-}
+void Pid::reset() { law_.reset(); }
 
-void Pid::reset(double d_error, double i_error)
-{
-  last_error_ = p_error_ = cmd_ = 0.0;
-  i_error_ = i_error;
-  d_error_ = d_error;
-  last_error_counts_ = false;
-}
+void Pid::reset(double d_error, double i_error) { law_.reset(d_error, i_error); }
 
 void Pid::getGains(double& p, double& i, double& d, double& i_max, double& i_min)
 {
@@ -184,56 +176,39 @@ void Pid::dynamicReconfigCallback(ParametersConfig& config, uint32_t /*level*/)
 
 double Pid::computeCommand(double error, ros::Duration dt)
 {
-  if (dt.isZero() || !std::isfinite(error))
-    return 0.0;
-  double error_dot = d_error_;
-  if (dt.toSec() > 0.0)
-  {
-    if (last_error_counts_)
-      error_dot = (error - last_error_) / dt.toSec();
-    last_error_ = error;
-    last_error_counts_ = true;
-  }
-  return computeCommand(error, error_dot, dt);
+  const Gains gains = *gains_.readFromRT();
+  return finish(gains, dt, law_.step(numbers(gains), error, dt.toSec()));
 }
 
 double Pid::computeCommand(double error, double error_dot, ros::Duration dt)
 {
   const Gains gains = *gains_.readFromRT();
-  p_error_ = error;
-  d_error_ = error_dot;
-  if (dt.isZero() || !std::isfinite(error) || !std::isfinite(error_dot))
-    return 0.0;
-  i_error_ += dt.toSec() * error;
-  if (gains.antiwindup_ && gains.i_gain_ != 0.0)
-  {
-    const double one = gains.i_min_ / gains.i_gain_, other = gains.i_max_ / gains.i_gain_;
-    i_error_ = clamp(i_error_, std::min(one, other), std::max(one, other));
-  }
-  double i_term = gains.i_gain_ * i_error_;
-  if (!gains.antiwindup_)
-    i_term = clamp(i_term, gains.i_min_, gains.i_max_);
-  cmd_ = gains.p_gain_ * p_error_ + i_term + gains.d_gain_ * d_error_;
-  if (publisher_ && publisher_->trylock())
-    publish(gains, error_dot, i_term, dt);
-  return cmd_;
+  return finish(gains, dt, law_.step(numbers(gains), error, error_dot, dt.toSec()));
 }
 
-void Pid::publish(const Gains& gains, double error_dot, double i_term, ros::Duration dt)
+double Pid::finish(const Gains& gains, ros::Duration dt, bool counted)
+{
+  if (!counted)
+    return 0.0;
+  if (publisher_ && publisher_->trylock())
+    publish(gains, dt);
+  return law_.command();
+}
+
+void Pid::publish(const Gains& gains, ros::Duration dt)
 {
   control_msgs::PidState& state = publisher_->msg_;
   state.header.stamp = ros::Time::now();
   state.timestep = dt;
-  state.error = state.p_error = p_error_;
-  state.error_dot = error_dot;
-  state.i_error = i_error_;
-  state.d_error = d_error_;
-  state.p_term = gains.p_gain_ * p_error_;
-  state.i_term = i_term;
-  state.d_term = gains.d_gain_ * d_error_;
+  state.error = state.p_error = law_.p_error();
+  state.i_error = law_.i_error();
+  state.error_dot = state.d_error = law_.d_error();
+  state.p_term = gains.p_gain_ * law_.p_error();
+  state.i_term = law_.i_term();
+  state.d_term = gains.d_gain_ * law_.d_error();
   state.i_max = gains.i_max_;
   state.i_min = gains.i_min_;
-  state.output = cmd_;
+  state.output = law_.command();
   publisher_->unlockAndPublish();
 }
 
@@ -241,23 +216,23 @@ double Pid::updatePid(double error, ros::Duration dt) { return -computeCommand(e
 
 double Pid::updatePid(double error, double error_dot, ros::Duration dt) { return -computeCommand(error, error_dot, dt); }
 
-void Pid::setCurrentCmd(double cmd) { cmd_ = cmd; }
+void Pid::setCurrentCmd(double cmd) { law_.set_command(cmd); }
 
-double Pid::getCurrentCmd() { return cmd_; }
+double Pid::getCurrentCmd() { return law_.command(); }
 
 void Pid::getCurrentPIDErrors(double* pe, double* ie, double* de)
 {
-  *pe = p_error_;
-  *ie = i_error_;
-  *de = d_error_;
+  *pe = law_.p_error();
+  *ie = law_.i_error();
+  *de = law_.d_error();
 }
 
 void Pid::printValues()
 {
   const Gains gains = getGains();
-  ROS_INFO("PID: p %g, i %g, d %g, i_max %g, i_min %g, antiwindup %d; errors p %g, i %g, d %g, last p %g; command %g",
-           gains.p_gain_, gains.i_gain_, gains.d_gain_, gains.i_max_, gains.i_min_, gains.antiwindup_, p_error_, i_error_,
-           d_error_, last_error_, cmd_);
+  ROS_INFO("PID: p %g, i %g, d %g, i_max %g, i_min %g, antiwindup %d; errors p %g, i %g, d %g; command %g", gains.p_gain_,
+           gains.i_gain_, gains.d_gain_, gains.i_max_, gains.i_min_, gains.antiwindup_, law_.p_error(), law_.i_error(),
+           law_.d_error(), law_.command());
 }
 
 }  // namespace control_toolbox

@@ -8,6 +8,7 @@
 #include <boost/thread/recursive_mutex.hpp>
 #include <control_msgs/PidState.h>
 #include <control_toolbox/ParametersConfig.h>
+#include <control_toolbox/pid_law.h>
 #include <dynamic_reconfigure/server.h>
 #include <realtime_tools/realtime_buffer.h>
 #include <realtime_tools/realtime_publisher.h>
@@ -18,10 +19,13 @@ class TiXmlElement;
 namespace control_toolbox
 {
 
-/// command = p * error + i * integral(error) + d * d(error)/dt with error = target - measured.
+/// command = p * error + i * integral(error) + d * d(error)/dt with error = target - measured; pid_law.h has the law.
 ///
 /// Without antiwindup only the integral term is clamped, while the integral itself goes on growing; with it the integral stops where
 /// its term meets the clamp. i_max and i_min bound the integral *term*; both 0 switch the integral part off.
+///
+/// computeCommand() is for the control loop: gains come through a buffer that it does not wait for, and the state is published where
+/// no other thread holds the message. Everything else belongs outside of it.
 class Pid
 {
 public:
@@ -100,13 +104,12 @@ public:
 private:
   typedef dynamic_reconfigure::Server<control_toolbox::ParametersConfig> Server;
 
-  void publish(const Gains& gains, double error_dot, double i_term, ros::Duration dt);
+  double finish(const Gains& gains, ros::Duration dt, bool counted);
+  void publish(const Gains& gains, ros::Duration dt);
 
   realtime_tools::RealtimeBuffer<Gains> gains_;
   boost::shared_ptr<realtime_tools::RealtimePublisher<control_msgs::PidState>> publisher_;
-  double last_error_ = 0.0;
-  bool last_error_counts_ = true;
-  double p_error_ = 0.0, i_error_ = 0.0, d_error_ = 0.0, cmd_ = 0.0;
+  PidLaw law_;
   boost::recursive_mutex server_mutex_;  // before the server, which uses it to its end
   boost::shared_ptr<Server> server_;
 };

@@ -55,18 +55,16 @@ class RosPid(Pid):
 
     def compute_command(self, error: float, dt: float, error_dot: Optional[float] = None) -> float:
         command = super().compute_command(error, dt, error_dot)
-        if self._publisher is not None and self._publisher.has_subscribers:
+        if self._publisher is not None and self.counted and self._publisher.has_subscribers:
             self._publish(self._publisher, dt)
         return command
 
     def _publish(self, publisher: RealtimePublisher, dt: float) -> None:
         gains = self.gains
-        p_term, d_term = gains.p * self.p_error, gains.d * self.d_error
-        i_term = gains.i * self.i_error
         message = PidState(timestep=rospy.Duration.from_sec(dt), error=self.p_error, error_dot=self.d_error,
-                           p_error=self.p_error, i_error=self.i_error, d_error=self.d_error, p_term=p_term,
-                           i_term=i_term if gains.antiwindup else min(max(i_term, gains.i_min), gains.i_max),
-                           d_term=d_term, i_max=gains.i_max, i_min=gains.i_min, output=self.command)
+                           p_error=self.p_error, i_error=self.i_error, d_error=self.d_error, p_term=gains.p * self.p_error,
+                           i_term=self.i_term, d_term=gains.d * self.d_error, i_max=gains.i_max, i_min=gains.i_min,
+                           output=self.command)
         message.header.stamp = rospy.get_rostime()
         publisher.publish(message)
 
