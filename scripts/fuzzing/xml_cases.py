@@ -13,7 +13,12 @@ _MOST_ELEMENTS = 120  # of a seed that is cut down before it is changed
 _MOST_GROWN = 4000  # elements that more are not added to
 _DEEP = re.compile(rb"@@deep:(\w+):(\d{1,4})@@")
 _RAW = {b"@@comments@@": b"<!--" * 20000, b"@@entity@@": b"&xxe;", b"@@cdata@@": b"<![CDATA[<x>]]>", b"@@null@@": b"\x00",
-        b"@@pi@@": b"<?x y?>"}
+        b"@@pi@@": b"<?x y?>",
+        # what TinyXML takes, and what it does not
+        b"@@ampersand@@": b"a=1&b=2 & c", b"@@bracket@@": b"<x y='a<b>&'/>", b"@@bare@@": b"<x y=1 z=a/>", b"@@slash@@": b"<x y=a/b/>",
+        b"@@twice@@": b"<x y='1' y='2'/>", b"@@less@@": b"1 < 2", b"@@unclosed@@": b"<x y='1>", b"@@character@@": b"&#xZZ;&#0;&#65;",
+        b"@@dashes@@": b"<!-- a -- b --->"}
+_ROOTS = (b"<x/>", b"<robot/>", b"<sdf version='1.6'/>", b"text", b"<!-- ", b"\xef\xbb\xbf", b"\n\n")  # before or behind the root
 _BOMB = (b'<!DOCTYPE x [<!ENTITY a "aaaaaaaaaa"><!ENTITY b "&a;&a;&a;&a;&a;&a;&a;&a;&a;&a;"><!ENTITY c "&b;&b;&b;&b;&b;&b;&b;&b;&b;&b;">'
          b'<!ENTITY xxe SYSTEM "file:///etc/passwd">]>')
 
@@ -23,7 +28,9 @@ class XmlMutator:
 
     def __init__(self, seeds: Sequence[bytes], snippets: bytes = b"<snippets/>"):
         self._roots = [ET.fromstring(seed) for seed in seeds]
-        self._snippets = {holder.get("tag"): list(holder) for holder in ET.fromstring(snippets)}
+        self._snippets: Dict[str, List[ET.Element]] = {}
+        for holder in ET.fromstring(snippets):
+            self._snippets.setdefault(holder.get("tag", ""), []).extend(holder)
         self._pool: Dict[str, List[ET.Element]] = {}
         for root in self._roots:
             for element in root.iter():
@@ -49,6 +56,8 @@ class XmlMutator:
             data = data.replace(marker, raw, 3)
         if b"&xxe;" in data or random.random() < 0.003:
             data = _BOMB + data
+        if random.random() < 0.02:
+            data = data + random.choice(_ROOTS) if random.random() < 0.5 else random.choice(_ROOTS) + data
         if random.random() < 0.03:
             data = values.damaged(random, data, random.randint(1, 3))
         return data

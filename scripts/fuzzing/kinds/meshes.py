@@ -52,7 +52,7 @@ class MeshKind(Kind):
         self._files: Dict[str, List[bytes]] = {
             kind: [path.read_bytes() for path in seeds.files(kind) if path.stat().st_size < _LARGEST] for kind in (".stl", ".dae", ".png")}
         self._files[".obj"], self._files[".mtl"] = [_OBJ], [_MTL]
-        self._files[".stl"].append(_ascii_stl())
+        self._files[".stl"] += [_ascii_stl(), _ascii_stl().upper(), b" ".join(_ascii_stl().split())]
         self._collada = xml_cases.XmlMutator(self._files[".dae"])
         for mode, size, form in (("L", 9, "PNG"), ("RGB", 5, "PNG"), ("I;16", 9, "PNG"), ("RGBA", 8, "PNG"), ("RGB", 16, "JPEG"),
                                  ("P", 8, "GIF"), ("L", 17, "TIFF"), ("RGB", 8, "BMP")):

@@ -22,7 +22,13 @@ _SNIPPETS = b"""<snippets xmlns:xacro="http://www.ros.org/wiki/xacro">
 <xacro:property name="v" value="${'v'.ljust(10**11)}" lazy_eval="false"/>
 <link name="${1 &lt;&lt; 10**12}"/><link name="${'a' * 10**11}"/><link name="${sum([a * b for a in range(10**5) for b in range(10**5)])}"/>
 <link name="${math.factorial(10**9)}"/><xacro:property name="y" value="${xacro.load_yaml('/no/such.yaml')}"/>
-<xacro:element xacro:name="link" name="made"/></in>
+<xacro:element xacro:name="link" name="made"/><link name="$(anon a)"/><link name="$(env NO_SUCH)"/><link name="$(eval 9**9**9)"/>
+<link name="$(optenv NO_SUCH a b)"/><link name="$(bogus x)"/><link name="$(dirname)"/>
+<link name="${list(map(lambda x: list(map(lambda y: x, range(90000))), range(90000)))}"/>
+<link name="${[list(map(list, [range(90000)] * 90000)), 1][1]}"/><link name="${str([[0] * 10 ** 6] * 10 ** 6)}"/>
+<link name="${sorted(range(9), key=lambda x: -x)}"/>
+<link name="${(lambda f: f(f, 40))(lambda f, n: n if n &lt; 2 else f(f, n - 1) + f(f, n - 2))}"/>
+<xacro:macro name="twice"><xacro:m2/><xacro:m2/></xacro:macro><xacro:macro name="m2"><xacro:m/><xacro:m/></xacro:macro><xacro:twice/></in>
 <in tag="link"><xacro:attribute name="name" value="other"/><xacro:m a="$(arg a)"/></in></snippets>"""
 _MOST_LINES = 12  # of an error with the places it went through
 

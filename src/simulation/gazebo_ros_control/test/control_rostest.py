@@ -197,7 +197,7 @@ class LimitsTest(test_support.TestCase):
             self.assertAlmostEqual(robot.joint().position(), 0.05, delta=1e-9)
 
     def test_soft_limits(self):
-        limit = LIMIT + '<safety_controller soft_lower_limit="-0.1" soft_upper_limit="0.1" k_position="10"/>'
+        limit = LIMIT + '<safety_controller soft_lower_limit="-0.1" soft_upper_limit="0.1" k_position="10" k_velocity="1"/>'
         with SimulatedRobot(one_joint(POSITION, limit=limit), parameters=FORWARD) as robot:
             robot.start("pos")
             robot.command("pos", 1.0)
@@ -210,6 +210,18 @@ class LimitsTest(test_support.TestCase):
             self.assertEqual(len(log.having("'j' has a velocity limit of 0", level="WARNING")), 1)
             robot.run(0.1)
             self.assertAlmostEqual(robot.joint().position(), 0.0, delta=1e-9)
+
+    def test_gains_of_zero_of_a_safety_controller_are_pointed_out(self):
+        for interface, gains, said in ((EFFORT, 'k_position="5" k_velocity="0"', "k_velocity 0: no force can move it"),
+                                       (EFFORT, 'k_position="0" k_velocity="5"', "k_position 0: it cannot move"),
+                                       (POSITION, 'k_velocity="5"', "k_position 0: it cannot move"),
+                                       (VELOCITY, 'k_position="5" k_velocity="0"', ""), (EFFORT, 'k_position="5" k_velocity="5"', "")):
+            limit = LIMIT + f'<safety_controller soft_lower_limit="-1" soft_upper_limit="1" {gains}/>'
+            with self.subTest(interface=interface, gains=gains), Log.recorded() as log, \
+                    SimulatedRobot(one_joint(interface, limit=limit), parameters=FORWARD):
+                told = log.having("<safety_controller>", level="WARNING")
+                self.assertEqual(len(told), bool(said), told)
+                self.assertTrue(all(said in line and "'j'" in line for line in map(str, told)), told)
 
     def test_numbers_that_are_none(self):
         for interface, controller in ((POSITION, "pos"), (VELOCITY, "vel"), (EFFORT, "eff")):

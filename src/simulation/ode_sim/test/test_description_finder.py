@@ -3,7 +3,7 @@ import time
 
 import pytest
 
-from ode_sim.description import DescriptionError
+from ode_sim.description import DescriptionError, read_model
 from ode_sim.description.finder import ResourceFinder, find_ros_package
 from ode_sim.description.materials import script_material
 
@@ -206,6 +206,47 @@ def test_material_scripts_take_linear_time(tmp_path, text):
     begin = time.process_time()
     look(tmp_path, text)
     assert time.process_time() - begin < 5.0  # by the square of the length: minutes
+
+
+TEAM = """
+material Team/Base { set $ambient "0.1 0.1 0.1"
+  technique { pass { ambient $ambient
+    diffuse 1 1 1
+    texture_unit { texture team.png } } } }
+material Team/Red : Team/Base { technique { pass { diffuse 1 0 0 0.5 } } }
+material Team/Dark : Team/Red { set $ambient "0 0 0" }
+material Team/Grass : Gazebo/Green { technique { pass { specular 1 1 1 } } }
+"""
+
+
+@pytest.mark.parametrize("folder", ["media/materials/scripts", ""])
+def test_materials_on_the_resource_path_are_known_by_their_name_alone(tmp_path, monkeypatch, folder):
+    """As Gazebo, which hands every folder of GAZEBO_RESOURCE_PATH and gazebo_media_path to OGRE (RenderEngine::AddResourcePath)."""
+    scripts = tmp_path / "field" / folder
+    scripts.mkdir(parents=True)
+    (scripts / "team.material").write_text(TEAM)
+    textures = tmp_path / "field/media/materials/textures"
+    textures.mkdir(parents=True)
+    (textures / "team.png").write_text("x")
+    monkeypatch.setenv("GAZEBO_RESOURCE_PATH", f"/nowhere:{tmp_path / 'field'}")
+    for finder in (ResourceFinder(stock="/nowhere", package_path=lambda name: None),
+                   ResourceFinder(environment=False, resource_paths=[tmp_path / "field"], stock="/nowhere",
+                                  package_path=lambda name: None)):
+        robot, problems = read_model(
+            '<robot name="r"><link name="a"><inertial><mass value="1"/>'
+            '<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'
+            '<visual><geometry><box size="1 1 1"/></geometry></visual></link>'
+            '<gazebo reference="a"><material>Team/Red</material></gazebo></robot>',
+            finder=finder)
+        red = robot.links[0].visuals[0].material
+        assert (red.diffuse, red.ambient, red.texture) == ((1, 0, 0, 0.5), (0.1, 0.1, 0.1, 1), str(textures / "team.png")) and not problems
+        box = "<visual name='{0}'><geometry><box/></geometry><material><script><name>{0}</name></script></material></visual>"
+        model, problems = read_model("<sdf version='1.6'><model name='m'><link name='l'>" + "".join(
+            map(box.format, ("Team/Dark", "Team/Grass", "Team/None"))) + "</link></model></sdf>", finder=finder)
+        dark, grass, none = (visual.material for visual in model.links[0].visuals)
+        assert (dark.ambient, dark.diffuse) == ((0, 0, 0, 1), (1, 0, 0, 0.5))
+        assert (grass.diffuse, grass.specular) == ((0, 1, 0, 1), (1, 1, 1, 1)) and none.diffuse is None
+        assert len(problems) == 1 and "there is no material 'Team/None'" in str(problems[0])
 
 
 def test_what_is_no_script_has_no_materials(tmp_path):

@@ -250,7 +250,8 @@ def test_a_joint_may_name_a_frame_of_its_link(finder):
 
 
 def test_continuous_is_a_type_of_sdf_as_well(finder):
-    m, problems = model(TWO_LINKS + hinge("<axis><xyz>0 0 1</xyz><limit><lower>-1</lower><upper>1</upper></limit></axis>", "continuous"), finder)
+    m, problems = model(TWO_LINKS + hinge("<axis><xyz>0 0 1</xyz><limit><lower>-1</lower><upper>1</upper></limit></axis>", "continuous"),
+                        finder)
     assert (m.joints[0].type, m.joints[0].axes[0].lower, m.joints[0].axes[0].upper) == ("revolute", -1e16, 1e16) and not problems
 
 

@@ -30,10 +30,12 @@ ROBOT = """<robot name="cart" version="1.0">
   </link>
   <joint name="turn" type="revolute"><origin xyz="0 0 1" rpy="0 0 0"/><parent link="base"/><child link="tool"/><axis xyz="0 0 1"/>
     <limit lower="-1" upper="1" effort="5" velocity="6"/><dynamics damping="0.5" friction="0.25"/>
-    <safety_controller soft_lower_limit="-1" soft_upper_limit="1" k_position="1" k_velocity="1"/><calibration rising="0" falling="1"/></joint>
+    <safety_controller soft_lower_limit="-1" soft_upper_limit="1" k_position="1" k_velocity="1"/>
+    <calibration rising="0" falling="1"/></joint>
   <joint name="roll" type="continuous"><parent link="tool"/><child link="ball"/><mimic joint="turn" multiplier="2" offset="0.5"/></joint>
 </robot>"""
-VALUES = ["", " ", "abc", "nan", "inf", "-inf", "0x10", "5m", "1e", "1e400", "1e-400", "1,5", "1,5 0,2 0,1", "1 2", "1 2 3", "1 2 3 4", " 1", "1 ", "+1",
+VALUES = ["", " ", "abc", "nan", "inf", "-inf", "0x10", "5m", "1e", "1e400", "1e-400", "1,5", "1,5 0,2 0,1", "1 2", "1 2 3", "1 2 3 4",
+          " 1", "1 ", "+1",
           ".5", "1.", ".", "--1", "1e3", "-2", "1_0", "\u0663", "1 2 x"]
 NAMES = {"name", "filename", "link", "type", "joint", "version"}
 #: leniencies that are meant, beside those above: one number for the scale of a mesh, white space around a word, and names
@@ -120,7 +122,8 @@ def difference(text, theirs):
     return ""
 
 
-@pytest.mark.parametrize("tag", ["robot", "link", "joint", "inertial", "mass", "inertia", "origin", "visual", "collision", "geometry", "box",
+@pytest.mark.parametrize("tag", ["robot", "link", "joint", "inertial", "mass", "inertia", "origin", "visual", "collision", "geometry",
+                                 "box",
                                  "cylinder", "sphere", "mesh", "material", "axis", "limit", "safety_controller", "calibration", "dynamics",
                                  "mimic", "parent", "child"])
 def test_a_fault_costs_what_it_costs_in_urdfdom(tag):

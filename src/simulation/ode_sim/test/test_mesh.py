@@ -88,6 +88,50 @@ def test_cube_is_welded_and_closed(tmp_path, write, name):
     assert properties.inertia == pytest.approx(np.eye(3) / 6.0)
 
 
+@pytest.mark.parametrize("change", [
+    str.upper, lambda text: text.replace("\n", "\r\n"), lambda text: " ".join(text.split()), lambda text: text.replace("0 0 0",
+        "0.0E+00 0e0 -0.0"),
+    lambda text: "\n\n  " + text, lambda text: text.replace("endsolid", "end of the"), lambda text: text.replace("\n", "\n\t")],
+    ids=["capitals", "crlf", "one line", "exponents", "blank lines", "no end", "tabs"])
+def test_ascii_stl_of_any_hand(tmp_path, change):
+    """As Gazebo and RViz read them: words in any case (leqi), numbers as scanf does."""
+    ascii_stl(tmp_path / "c.stl")
+    text = (tmp_path / "c.stl").read_text()
+    file = tmp_path / "d.STL"
+    file.write_bytes(change(text).encode())
+    assert len(mesh.load_surface(str(file)).triangles) == 12
+
+
+@pytest.mark.parametrize("header", [b"made by a test", b"solid exported", b"SOLID", b"solid facet normal vertex"])
+def test_binary_stl_with_bytes_to_spare(tmp_path, header):
+    file = tmp_path / "c.stl"
+    binary_stl(file, header)
+    file.write_bytes(file.read_bytes() + b"ten bytes!")
+    assert len(mesh.load_surface(str(file)).triangles) == 12
+
+
+@pytest.mark.parametrize("header", [b"made by a test", b"solid exported"])
+def test_an_stl_that_is_cut_off_says_so(tmp_path, header):
+    file = tmp_path / "c.stl"
+    binary_stl(file, header)
+    file.write_bytes(file.read_bytes()[:-60])
+    with pytest.raises(DescriptionError, match="cut off: it tells of 12 triangles and has 10"):
+        mesh.load_surface(str(file))
+    ascii_stl(tmp_path / "d.stl")
+    text = (tmp_path / "d.stl").read_text()
+    file.write_text(text[:text.rindex("vertex") + 9])
+    with pytest.raises(DescriptionError, match="is cut off"):
+        mesh.load_surface(str(file))
+
+
+def test_an_obj_from_a_system_where_capitals_do_not_count(tmp_path):
+    (tmp_path / "Part.MTL").write_text("NEWMTL a\nKD 1 0.5 0\nKa spectral x.rfl\nTr 0.25\nnewmtl b\nKd 0 0 1\nmap_Kd Textures\\GONE.png\n")
+    file = tmp_path / "PART.OBJ"
+    file.write_text("mtllib part.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nusemtl a\nf 1 2 3\nusemtl b\nf 1 3 4\n")
+    first, second = (part.material for part in mesh.load_visual(str(file)))
+    assert first.diffuse == (1.0, 0.5, 0.0, 0.75) and second.diffuse == (0.0, 0.0, 1.0, 1.0)
+
+
 def test_binary_stl_whose_header_says_solid(tmp_path):
     assert len(mesh.load_surface(binary_stl(tmp_path / "c.stl", b"solid exported")).triangles) == 12
 

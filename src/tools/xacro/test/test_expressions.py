@@ -1,5 +1,7 @@
 """Expressions of every kind mean what they mean in Python; what would never end is refused at once."""
+import builtins
 import math
+from types import SimpleNamespace
 
 import pytest
 
@@ -8,15 +10,15 @@ from noetic_xacro.expressions import bound_symbols, safe_eval
 
 def value(expression):
     """As xacro evaluates it."""
+    builtin = vars(builtins)
     symbols = {
-        "list": list,
-        "sum": sum,
-        "len": len,
-        "str": str,
-        "int": int,
-        "range": range,
-        "round": round,
-        "math": dict(vars(math)),
+        **{name: builtin[name] for name in (
+            "list dict map len str float int bool min max round sorted range abs all any divmod enumerate filter frozenset hash isinstance "
+            "issubclass ord repr reversed slice set sum tuple type zip complex").split()},
+        "math": SimpleNamespace(**vars(math)),
+        "prod": math.prod,
+        "lcm": math.lcm,
+        "fsum": math.fsum,
         "pi": math.pi,
         "factorial": math.factorial,
         "comb": math.comb,
@@ -64,6 +66,25 @@ def value(expression):
         ("d['a'][1]", 2),
         ("(lambda x: x ** 2)(3)", 9),
         ("1 if name == 'arm' else 9 ** 9 ** 9", 1),
+        ("list(map(lambda x: x * 2, [1, 2]))", [2, 4]),
+        ("list(filter(lambda x: x % 2, range(6)))", [1, 3, 5]),
+        ("sorted(['b', 'a'], key=lambda x: x)", ["a", "b"]),
+        ("list(map(str.upper, ['a', 'b']))", ["A", "B"]),
+        ("dict(zip('ab', range(2)))", {"a": 0, "b": 1}),
+        ("[*range(3), *'ab']", [0, 1, 2, "a", "b"]),
+        ("{x: 1 for x in 'ab'}", {"a": 1, "b": 1}),
+        ("isinstance([1], list) and type('a') == str and not isinstance(1, (str, list))", True),
+        ("max(range(5)), min(3, 2), max([1, 2], key=lambda x: -x)", (4, 2, 1)),
+        ("','.join(str(x) for x in range(3))", "0,1,2"),
+        ("list(d.items())", [("a", [1, 2])]),
+        ("sorted(d.keys()) + list(d)", ["a", "a"]),
+        ("'%s %s' % ('a', 1)", "a 1"),
+        ("(5).bit_length(), 'abc'[1:], [1, 2, 3][::-1]", (3, "bc", [3, 2, 1])),
+        ("prod([2, 3]), lcm(4, 6), sum([[1], [2]], [])", (6, 12, [1, 2])),
+        ("list(enumerate('ab'))", [(0, "a"), (1, "b")]),
+        ("dict.fromkeys(['a'], 1)", {"a": 1}),
+        ("(lambda f: f(f, 10))(lambda f, n: 1 if n < 2 else f(f, n - 1) + f(f, n - 2))", 89),
+        ("math.sqrt(4) == 2.0 and math.pi < 4", True),
     ],
 )
 def test_what_an_expression_means(expression, wanted):
@@ -98,6 +119,43 @@ def test_what_an_expression_means(expression, wanted):
         "comb(10 ** 8, 5 * 10 ** 7)",
         "perm(10 ** 8)",
         "[(x := x * x) for x in [10] for _ in range(60)]",
+        "[list(map(lambda x: list(map(lambda y: x, range(90000))), range(90000))), 1][1]",
+        "list(filter(lambda x: list(filter(lambda y: True, range(90000))), range(90000)))",
+        "sorted(range(90000), key=lambda x: sum(range(90000)))",
+        "max(map(lambda x: max(range(90000)), range(90000)))",
+        "list(map(list, [range(90000)] * 90000))",
+        "list(map(sum, [range(90000)] * 90000))",
+        "any(map(all, [[1] * 90000] * 90000)) and list(map(all, [[1] * 90000] * 90000))",
+        "list(map(type([]), [range(90000)] * 90000))",
+        "list(map(tuple, [range(90000)] * 90000))",
+        "[[0] * 10 ** 6 for i in range(10 ** 5)]",
+        "['a' * 10 ** 6 for i in range(10 ** 5)]",
+        "str([[0] * 10 ** 6] * 10 ** 6)",
+        "[[0] * 10 ** 6] * 10 ** 6",
+        "f'{[[0] * 10 ** 6] * 10 ** 6}'",
+        "'%s' % ([[0] * 10 ** 6] * 10 ** 6,)",
+        "'{}'.format([[0] * 10 ** 6] * 10 ** 6)",
+        "('{0}' * 10 ** 5).format('a' * 10 ** 5)",
+        "[[0] * 10 ** 6] * 10 ** 6 == [[0] * 10 ** 6] * 10 ** 6",
+        "1 in [[0] * 10 ** 6] * 10 ** 6",
+        "sum([[0] * 10 ** 5] * 10 ** 5, [])",
+        "{((0,) * 10 ** 6,) * 10 ** 6}",
+        "hash(((0,) * 10 ** 6,) * 10 ** 6)",
+        "{x: {y: 1 for y in range(90000)} for x in range(90000)}",
+        "[*map(lambda x: [*range(90000)], range(90000))]",
+        "list(zip(*[range(90000)] * 90000))",
+        "[x[:] for x in [[0] * 10 ** 6] * 10 ** 6]",
+        "[l.append(0) for l in [[0]] for x in l]",
+        "[l.insert(0, 0) for l in [[0] * 10 ** 6] for x in range(10 ** 5)]",
+        "(5).to_bytes(10 ** 10, 'big')",
+        "list(map('a'.ljust, [10 ** 10]))",
+        "prod([10 ** 9000] * 10 ** 5)",
+        "lcm(*range(1, 10 ** 5 + 1)) ** 1000",
+        "(lambda f: f(f, 90))(lambda f, n: 1 if n < 2 else f(f, n - 1) + f(f, n - 2))",
+        "dict(zip(range(90000), map(lambda x: list(range(90000)), range(90000))))",
+        "'a'.join(map(lambda x: 'b' * 10 ** 6, range(10 ** 5)))",
+        "sorted([[0] * 10 ** 5, [0] * 10 ** 5] * 10 ** 5)",
+        "list(map(lambda x: 'a' * 10 ** 6, range(90000)))",
     ],
 )
 def test_what_is_too_much_is_refused_at_once(expression):

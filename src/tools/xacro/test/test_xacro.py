@@ -1,5 +1,6 @@
 """The xacro commands as a student types them."""
 import os
+import re
 import signal
 import subprocess
 import time
@@ -58,7 +59,7 @@ def test_malformed_xml_names_file_and_line(write):
 
 
 def test_ctrl_c_ends_it_without_a_traceback(write):
-    path = write('<a b="${(lambda f: f(f, 90))(lambda f, n: 1 if n &lt; 2 else f(f, n - 1) + f(f, n - 2))}"/>')
+    path = write('<a b="${[x * 0.5 for x in range(90000)][0]}"/>' * 2000)
     process = subprocess.Popen([os.path.join(HERE, "xacro"), str(path)], stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
     try:
         while sum(psutil.Process(process.pid).cpu_times()[:2]) < 3.0:  # it expands, and would for hours
@@ -148,6 +149,53 @@ def test_what_calls_itself_is_a_short_message(write, body):
     result = run(write(body))
     assert result.returncode == 2 and "nests too deep; does a macro or a file include itself?" in result.stderr
     assert len(result.stderr.splitlines()) <= 21 and "Traceback" not in result.stderr
+
+
+def test_anon_is_one_name_of_its_own_in_the_whole_file(write):
+    """As roslaunch's: the name with host, process and a random number behind it."""
+    write('<link name="$(anon base)"/>', name="inner.xacro")
+    path = write('<link name="$(anon base)"/><xacro:include filename="inner.xacro"/><link name="$(anon arm)_x"/>')
+    first, second = run(path), run(path)
+    names = [re.findall('<link name="([^"]*)"', result.stdout) for result in (first, second)]
+    assert first.returncode == 0 and all(re.fullmatch(r"base_\w+_\d+_\d+", name) for name in names[0][:2]), first
+    assert names[0][0] == names[0][1] and re.fullmatch(r"arm_\w+_\d+_\d+_x", names[0][2]) and names[0] != names[1]
+
+
+def test_substitutions_of_every_kind(write, monkeypatch):
+    monkeypatch.setenv("SIDE", "left")
+    path = write('<xacro:arg name="n" default="2"/><a b="$(env SIDE) $(optenv SIDE x) $(optenv NO_SUCH a b) $(optenv NO_SUCH)|'
+                 '$(arg n) $(eval n * 3) $(eval 2 ** 10)"/>')
+    result = run(path)
+    assert '<a b="left left a b |2 6 1024"/>' in result.stdout, result
+
+
+@pytest.mark.parametrize("written, said", [
+    ("$(env NO_SUCH)", "environment variable 'NO_SUCH' is not set"), ("$(env)", "only accepts one argument"), ("$(arg x)", "argument x"),
+    ("$(anon)", "must specify a name"), ("$(anon a b)", "may only specify one name"), ("$(bogus x)", "there are find, env, optenv"),
+    ("$(find a b)", "exactly one argument"), ("$(eval 1/0)", "division by zero"), ("$(eval nope)", "'nope' is not defined"),
+    ("$(eval 9**9**9)", "9 to the power of 387420489 is too much"), ("$(eval [0]*10**10)", "is too much"), ("$(optenv)", "must specify")])
+def test_a_substitution_that_fails_is_told_once(write, written, said):
+    path = write(f'<link name="a"/>\n<link name="{written}"/>')
+    result = run(path)
+    assert result.returncode == 2 and f"{path}:3: " in result.stderr and "Traceback" not in result.stderr and "<class" not in result.stderr
+    assert result.stderr.count(said) == 1 and len(result.stderr.splitlines()) == 2
+
+
+def test_a_loop_by_map_is_refused_in_one_line(write):
+    path = write('<link name="${[list(map(lambda x: list(map(lambda y: x, range(90000))), range(90000))), 1][1]}"/>')
+    result = run(path)
+    assert result.returncode == 2 and "a loop of more than 5000000 rounds is too much for a robot description" in result.stderr
+
+
+@pytest.mark.parametrize("body", [
+    "".join(f'<xacro:property name="a{i}" value="{f"${{a{i - 1}}}" * 10 if i else "ha" * 50}"/>' for i in range(12)) + '<a b="${a11}"/>',
+    '<xacro:macro name="m0"><a/></xacro:macro>' + "".join(
+        f'<xacro:macro name="m{i}">{f"<xacro:m{i - 1}/>" * 10}</xacro:macro>' for i in range(1, 12)) + "<xacro:m11/>"],
+        ids=["properties", "macros"])
+def test_what_doubles_and_doubles_again_is_refused(write, body):
+    result = run(write(body))
+    assert result.returncode == 2 and ("too much for a robot description" in result.stderr or "expands to more than" in result.stderr)
+    assert max(map(len, result.stderr.splitlines())) < 400
 
 
 def test_a_message_quotes_a_shortened_line(write):

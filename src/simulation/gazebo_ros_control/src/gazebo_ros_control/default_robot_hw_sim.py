@@ -130,6 +130,7 @@ class DefaultRobotHWSim(RobotHWSim):
         limits = _limit_handle(interface, handle, hard, soft)
         effort_limit = hard.max_effort if hard and hard.has_effort_limits else sys.float_info.max
         _warn_of_zero_limits(description, hard, interface)
+        _warn_of_zero_gains(description, hard, soft, interface)
         if interface is EffortJointInterface:
             return EffortMode(joint, handle, limits, effort_limit)
         pid = _load_gains(nh.sub(f"gazebo_ros_control/pid_gains/{description.name}"), description.name)
@@ -202,6 +203,18 @@ def _warn_of_zero_limits(description: JointDescription, hard: Optional[JointLimi
     if hard.has_effort_limits and hard.max_effort == 0.0 and interface is not PositionJointInterface:
         rospy.logwarn("joint '%s' has an effort limit of 0: no force can move it; write <limit effort=\"...\"> in Nm "
                       "or N", description.name)
+
+
+def _warn_of_zero_gains(description: JointDescription, hard: Optional[JointLimits], soft, interface: Type[JointCommandInterface]) -> None:
+    """The gains of a ``<safety_controller>`` are how much a joint may move at all: 0 is mostly a forgotten value as well."""
+    if soft is None or hard is None:
+        return
+    if soft.k_velocity == 0.0 and interface is EffortJointInterface:
+        rospy.logwarn("joint '%s' has a <safety_controller> with k_velocity 0: no force can move it; write how many Nm per rad/s (N per "
+                      "m/s) it may brake with, or leave the <safety_controller> out", description.name)
+    elif soft.k_position == 0.0 and hard.has_position_limits:
+        rospy.logwarn("joint '%s' has a <safety_controller> with k_position 0: it cannot move; write how many rad/s per rad (m/s per m) "
+                      "it may approach its soft limits with, or leave the <safety_controller> out", description.name)
 
 
 def _load_gains(nh: NodeHandle, joint: str) -> Optional[RosPid]:

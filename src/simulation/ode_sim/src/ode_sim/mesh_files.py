@@ -3,9 +3,10 @@ from __future__ import annotations
 
 import functools
 import os
+import re
 import struct
 from dataclasses import dataclass, replace
-from typing import Any, Callable, Dict, List, Optional, Tuple
+from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple
 
 import numpy as np
 
@@ -15,6 +16,8 @@ MOST_BYTES = 256_000_000  # of a file
 MOST_TEXT = 128_000_000  # of one that is text: it takes several times its size in memory
 MOST_TRIANGLES = 5_000_000
 _LONGEST_MTL = 4_000_000  # characters; what follows is not read
+_VERTEX = re.compile(rb"\svertex\s+(\S+)\s+(\S+)\s+(\S+)", re.IGNORECASE)
+_CORNER = re.compile(rb"\svertex\s", re.IGNORECASE)
 FARTHEST = 1e9  # of a coordinate, in the file's own unit
 LARGEST = 1e30  # of a surface, scaled or not; the products of larger ones are infinite
 
@@ -103,24 +106,41 @@ def _check_vertices(vertices: np.ndarray, path: str) -> None:
 
 
 def _read_stl(path: str, data: bytes) -> List[MeshPart]:
-    count = struct.unpack_from("<I", data, 80)[0] if len(data) >= 84 else -1
-    # the length decides: many binary files start with the word 'solid' as well
-    if len(data) == 84 + 50 * count or (count > 0 and len(data) > 84 + 50 * count and not data[:5] == b"solid"):
-        check_triangles(count, path)
-        record = np.dtype([("normal", "<f4", 3), ("points", "<f4", (3, 3)), ("attribute", "<u2")])
-        points: np.ndarray = np.frombuffer(data, record, count, 84)["points"].reshape(-1, 3).astype(float)
-    elif data.lstrip()[:5].lower() == b"solid" or b"vertex" in data[:2000]:
-        points = np.array([line.split()[1:4] for line in data.decode("latin-1").splitlines()
-                           if line.split()[:1] == ["vertex"]], dtype=float)
-        if len(points) % 3:
-            raise DescriptionError(f"mesh {path}: is cut off, {len(points)} vertices are no whole triangles")
-    else:
-        raise DescriptionError(f"mesh {path}: is no STL file, or cut off ({len(data)} bytes)")
-    points = points.reshape(-1, 3)
+    points = _stl_text(path, data) if _is_stl_text(data) else _stl_records(path, data)
     check_triangles(len(points) // 3, path)
     _check_vertices(points, path)
     vertices, triangles = weld(points, np.arange(len(points)).reshape(-1, 3))
     return [MeshPart(os.path.basename(path), vertices, triangles, None, None, Material())]
+
+
+def _is_stl_text(data: bytes) -> bool:
+    """Many binary files begin with the word 'solid' as well; the length that they tell of decides, then what stands behind the word."""
+    if len(data) >= 84 and len(data) == 84 + 50 * struct.unpack_from("<I", data, 80)[0]:
+        return False
+    begin = data[:2000].lower()
+    return b"\0" not in begin and (begin.lstrip()[:5] == b"solid" or b"vertex" in begin)
+
+
+def _stl_records(path: str, data: bytes) -> np.ndarray:
+    """(3 T, 3) corners; what stands behind the last triangle is not read."""
+    if len(data) < 84:
+        raise DescriptionError(f"mesh {path}: is no STL file, or cut off ({len(data)} bytes)")
+    count, = struct.unpack_from("<I", data, 80)
+    whole = (len(data) - 84) // 50
+    if count > whole:
+        raise DescriptionError(f"mesh {path}: is no STL file, or cut off: it tells of {count} triangles and has {whole}")
+    check_triangles(count, path)
+    record = np.dtype([("normal", "<f4", 3), ("points", "<f4", (3, 3)), ("attribute", "<u2")])
+    return np.frombuffer(data, record, count, 84)["points"].reshape(-1, 3).astype(float)
+
+
+def _stl_text(path: str, data: bytes) -> np.ndarray:
+    """(3 T, 3) corners; words may be in capitals, and all on one line."""
+    found = _VERTEX.findall(data)
+    check_triangles(len(found) // 3, path)
+    if len(found) % 3 or len(found) != len(_CORNER.findall(data)):
+        raise DescriptionError(f"mesh {path}: is cut off, {len(found)} vertices are no whole triangles")
+    return np.array(found, dtype=float).reshape(-1, 3)
 
 
 def _read_obj(path: str, data: bytes, groups: bool) -> List[MeshPart]:
@@ -151,7 +171,7 @@ def _read_obj(path: str, data: bytes, groups: bool) -> List[MeshPart]:
             for i in range(1, len(polygon) - 1):
                 fan += [polygon[0], polygon[i], polygon[i + 1]]
         elif key == "mtllib" and len(words) > 1:
-            materials.update(_read_mtl(os.path.join(os.path.dirname(path), line.split(None, 1)[1].strip())))
+            materials.update(_read_mtl(_beside(path, line.split(None, 1)[1].strip())))
         elif key == "usemtl":
             material = " ".join(words[1:])
         elif key == "o" and len(words) > 1:
@@ -179,6 +199,27 @@ def _obj_corner(word: str, points: int, texture_points: int, normals: int) -> Tu
     return place(fields[0], points), place(fields[1], texture_points), place(fields[2], normals)
 
 
+def _numbers(words: Sequence[str]) -> List[float]:
+    """Of a line; none where one of them is no number: a colour is not worth the mesh."""
+    try:
+        return [float(word) for word in words]
+    except ValueError:
+        return []
+
+
+def _beside(path: str, name: str) -> str:
+    """A file that ``path`` names; capitals count only if there is one with the same, as on the systems where such files are made."""
+    wanted = os.path.join(os.path.dirname(path), name.replace("\\", "/"))
+    if not os.path.exists(wanted):
+        folder, base = os.path.split(wanted)
+        try:
+            names = sorted(os.listdir(folder or "."))
+        except OSError:
+            return wanted
+        return next((os.path.join(folder, each) for each in names if each.lower() == base.lower()), wanted)
+    return wanted
+
+
 def _read_mtl(path: str) -> Dict[str, Material]:
     if not os.path.isfile(path):
         return {}  # the shape is there all the same, drawn white
@@ -189,16 +230,18 @@ def _read_mtl(path: str) -> Dict[str, Material]:
             words = line.split()
             if not words:
                 continue
-            key = words[0]
+            key = words[0].lower()
             if key == "newmtl":
                 current = materials.setdefault(" ".join(words[1:]), {})
-            elif key in ("Ka", "Kd", "Ks", "Ke"):
-                current[key] = tuple(float(word) for word in words[1:4])
-            elif key == "d":
-                current[key] = float(words[-1])
-            elif key == "map_Kd":
-                texture = os.path.join(os.path.dirname(path), words[-1])
-                current[key] = os.path.abspath(texture) if os.path.isfile(texture) else ""
+            elif key in ("ka", "kd", "ks", "ke"):
+                colour = _numbers(words[1:4])
+                if len(colour) == 3:
+                    current[key.capitalize()] = tuple(colour)
+            elif key in ("d", "tr") and (value := _numbers(words[-1:])):
+                current["d"] = value[0] if key == "d" else 1.0 - value[0]
+            elif key == "map_kd" and len(words) > 1:
+                texture = _beside(path, words[-1])
+                current["map_Kd"] = os.path.abspath(texture) if os.path.isfile(texture) else ""
 
     def material(name: str, given: Dict[str, Any]) -> Material:
         alpha = (given.get("d", 1.0),)

@@ -9,8 +9,11 @@ import xml.dom.expatbuilder
 import xml.dom.minidom
 from typing import Any, Optional
 
-from noetic_xacro.expressions import bound_symbols, safe_eval
+from noetic_xacro.expressions import MOST_ITEMS, bound_symbols, safe_eval
 from noetic_xacro.reserved import RESERVED
+from noetic_xacro.substitution import substituted
+
+MOST_ELEMENTS = 500_000  # that macros and blocks expand to, one beside the other and one in the other
 
 PLACE = "xacro_place"  # attribute set on DOM elements: "file:line"
 xacro: Any = None  # the module ``xacro`` whose functions are replaced; it imports this one
@@ -86,9 +89,21 @@ def _prefix_words(root: xml.dom.minidom.Element, path: str) -> None:
 
 
 def _keep_place_in_clones() -> None:
-    original = xml.dom.minidom._clone_node
+    original, process = xml.dom.minidom._clone_node, xacro.process_doc
+    count = 0
+
+    def process_doc(*arguments, **named):
+        nonlocal count
+        count = 0
+        return process(*arguments, **named)
+
+    xacro.process_doc = process_doc
 
     def clone_node(node, deep, new_owner_document):
+        nonlocal count
+        count += node.nodeType == node.ELEMENT_NODE
+        if count > MOST_ELEMENTS:
+            raise xacro.XacroException(f"expands to more than {MOST_ELEMENTS} elements; do macros call others twice?")
         clone = original(node, deep, new_owner_document)
         if hasattr(node, PLACE):
             setattr(clone, PLACE, getattr(node, PLACE))
@@ -123,6 +138,33 @@ def _accept_macros_without_prefix() -> None:
     xacro.handle_macro_call = handle_macro_call
 
 
+def _bound_texts() -> None:
+    """``${b}${b}`` of a property that is ``${a}${a}`` ...: thirty lines make a thousand million characters."""
+    original = xacro.eval_text
+
+    def eval_text(text, symbols):
+        result = original(text, symbols)
+        if isinstance(result, str) and len(result) > 10 * MOST_ITEMS:
+            raise xacro.XacroException(f"a text of {len(result)} characters is too much for a robot description")
+        return result
+
+    xacro.eval_text = eval_text
+
+
+def _eval_extension(text: str) -> str:
+    """``$(...)``: what goes wrong is told once, with what was written."""
+    if text == "$(cwd)":
+        return os.path.abspath(xacro.root_dir)
+    from xacro import substitution_args
+
+    try:
+        return substituted(text, xacro.substitution_args_context, substitution_args)
+    except substitution_args.ArgException as error:
+        raise xacro.XacroException("Undefined substitution argument", exc=error) from error
+    except Exception as error:  # noqa: BLE001  $(eval) may raise anything
+        raise xacro.XacroException(f"{shortened(text, 100)}:", exc=error) from error
+
+
 def shortened(text: str, most: int = 300) -> str:
     return text if len(text) <= most else f"{text[:most - most // 3]} ... {text[-(most // 3):]}"
 
@@ -133,6 +175,8 @@ def install(module: Any) -> None:
     xacro = module
     xacro.parse = _parse
     xacro.safe_eval = safe_eval
+    xacro.eval_extension = _eval_extension
+    _bound_texts()
     bound_symbols(xacro._global_symbols)
     _keep_place_in_clones()
     _accept_macros_without_prefix()

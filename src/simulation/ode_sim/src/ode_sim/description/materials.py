@@ -1,10 +1,11 @@
 """Looks: Gazebo's own material names, and OGRE ``.material`` scripts that a model brings along."""
 from __future__ import annotations
 
+import functools
 import glob
 import os
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Dict, Iterable, List, Optional, Tuple
 
 from ode_sim.description.finder import ResourceFinder
@@ -97,25 +98,59 @@ _COMMENT_BEGIN = re.compile(r"//|/\*")
 _PIECE = re.compile(r"[{}]|[^\n{}]+")
 _LONGEST_SCRIPT = 4_000_000  # characters; what follows is not read
 _MOST_SCRIPTS = 1000  # of a folder
+_MOST_PARENTS = 20  # of a material
+#: below each resource path, as Gazebo tells OGRE of them: what lies there is known by its name alone
+_RESOURCES = ("media/materials/scripts", "", "media/materials/textures", "media/materials/programs", "media/models")
 
 
 def script_material(name: str, locations: Iterable[str]) -> Optional[Material]:
     """The material ``name`` of the OGRE scripts in ``locations`` (files, or directories to look through).
 
     The first pass counts; of a texture unit only the image is taken, from the directories of ``locations``, a
-    ``textures`` folder beside them, or the script's own directory. What cannot be read as a script has no materials.
+    ``textures`` folder beside them, or the script's own directory. What a material does not say is as its parent has it
+    (``material A : B``). What cannot be read as a script has no materials.
     """
     files, folders = _scripts(locations)
+    statements: List[List[str]] = []
+    known: Optional[Material] = None
+    wanted, found_in = name, []
+    while wanted and len(found_in) < _MOST_PARENTS:
+        found = _find(wanted, files)
+        if found is None:
+            known = gazebo_material(wanted)
+            break
+        lines, parent, file = found
+        statements += lines
+        found_in.append(os.path.dirname(file))
+        wanted = parent
+    if not found_in:
+        return None
+    return _material_of(name, statements, [*dict.fromkeys(found_in), *folders], known)
+
+
+def resource_material(name: str, finder: ResourceFinder) -> Optional[Material]:
+    """The material ``name`` of the scripts on the resource paths (GAZEBO_RESOURCE_PATH, ``gazebo_media_path`` exports)."""
+    return script_material(name, [os.path.join(path, folder) for path in finder.resource_paths for folder in _RESOURCES])
+
+
+def _find(name: str, files: Iterable[str]) -> Optional[Tuple[List[List[str]], str, str]]:
+    """Statements, parent and file of a material."""
     for file in files:
         try:
-            with open(file, encoding="utf-8", errors="replace") as stream:
-                text = stream.read(_LONGEST_SCRIPT)
+            status = os.stat(file)
+            text = _script(file, (status.st_mtime_ns, status.st_size))
         except OSError:
             continue
-        statements = _statements(text, name)
-        if statements is not None:
-            return _material_of(name, statements, [os.path.dirname(file)] + folders)
+        found = _statements(text, name) if name in text else None
+        if found is not None:
+            return (*found, file)
     return None
+
+
+@functools.lru_cache(maxsize=256)
+def _script(file: str, stamp: Tuple[int, int]) -> str:
+    with open(file, encoding="utf-8", errors="replace") as stream:
+        return stream.read(_LONGEST_SCRIPT)
 
 
 def _scripts(locations: Iterable[str]) -> Tuple[List[str], List[str]]:
@@ -149,20 +184,21 @@ def _without_comments(text: str) -> str:
     return "".join(pieces) + text[at:]
 
 
-def _statements(text: str, name: str) -> Optional[List[List[str]]]:
-    """The lines inside ``material <name> { ... }``, each split into words; None if the script has no such material."""
+def _statements(text: str, name: str) -> Optional[Tuple[List[List[str]], str]]:
+    """The lines inside ``material <name> { ... }``, each split into words, and the name of its parent; None if there is no such."""
+    parent = ""
     depth = 0
     found: Optional[List[List[str]]] = None
     header: List[str] = []  # words since the last statement outside of all braces
     for piece in _PIECE.findall(_without_comments(text)):
         if piece == "{":
             if depth == 0 and found is None and _begins(header, name):
-                found = []
+                found, parent = [], " ".join(header[1:])[len(name):].lstrip(" :")
             depth, header = depth + 1, []
         elif piece == "}":
             depth = max(0, depth - 1)
             if depth == 0 and found is not None:
-                return found
+                return found, parent
             header = []
         elif piece.strip():
             words = piece.replace('"', "").split()
@@ -170,7 +206,7 @@ def _statements(text: str, name: str) -> Optional[List[List[str]]]:
                 found.append(words)
             elif depth == 0:
                 header = words
-    return found
+    return None if found is None else (found, parent)
 
 
 def _begins(header: List[str], name: str) -> bool:
@@ -179,11 +215,16 @@ def _begins(header: List[str], name: str) -> bool:
     return header[:1] == ["material"] and rest.startswith(name) and rest[len(name):].lstrip()[:1] in ("", ":")
 
 
-def _material_of(name: str, statements: List[List[str]], folders: List[str]) -> Material:
+def _material_of(name: str, statements: List[List[str]], folders: List[str], parent: Optional[Material]) -> Material:
+    """:param statements: its own, then those of its parents. :param parent: of the last of these, one that no script has."""
+    variables: Dict[str, List[str]] = {}
+    for words in statements:
+        if words[0] == "set" and len(words) > 2:
+            variables.setdefault(words[1], words[2:])
     colours: Dict[str, Rgba] = {}
     texture = ""
     for words in statements:
-        key, values = words[0], words[1:]
+        key, values = words[0], [value for word in words[1:] for value in variables.get(word, [word])]
         if key in ("ambient", "diffuse", "specular", "emissive") and key not in colours:
             try:
                 numbers = [float(value) for value in values]
@@ -196,4 +237,6 @@ def _material_of(name: str, statements: List[List[str]], folders: List[str]) -> 
             places = [os.path.join(folder, values[0]) for folder in folders]
             found = [place for place in places if os.path.isfile(place)]
             texture = os.path.abspath(found[0]) if found else ""
+    if parent is not None:
+        return replace(parent, name=name, texture=texture or parent.texture, **colours)
     return Material(name, texture=texture, **colours)

@@ -95,7 +95,8 @@ class SdfShapes(SdfValues):
         if name and known is None:
             uris = [text_of(uri) for uri in element.findall("script/uri")]
             places = [self.finder.find(uri, self.base) for uri in uris]
-            known = materials.script_material(name, [place for place in places if place])
+            known = (materials.script_material(name, [place for place in places if place])
+                     or materials.resource_material(name, self.finder))
             if known is None and name not in self._missing:
                 self._missing.add(name)
                 self.warn(element, f"there is no material '{quoted(name)}'"
