@@ -1,5 +1,8 @@
 #include <moveit/robot_state/cartesian_interpolator.h>
 
+#include <moveit/robot_model/revolute_joint_model.h>
+
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -12,6 +15,16 @@ namespace
 // Below this number of steps a mean says nothing.
 constexpr std::size_t MIN_STEPS_FOR_JUMP_THRESH = 10;
 constexpr char LOGNAME[] = "cartesian_interpolator";
+
+// Beyond a limit the same pose may be had by turning a joint all the way back, which is no step along a line.
+bool turnsOver(const RobotState& before, const RobotState& after, const JointModelGroup& group)
+{
+  for (const JointModel* joint : group.getActiveJointModels())
+    if (joint->getType() == JointModel::REVOLUTE && !static_cast<const RevoluteJointModel*>(joint)->isContinuous() &&
+        std::abs(*after.getJointPositions(joint) - *before.getJointPositions(joint)) > M_PI)
+      return true;
+  return false;
+}
 }  // namespace
 
 double CartesianInterpolator::computeCartesianPath(RobotState* start_state, const JointModelGroup* group,
@@ -79,7 +92,18 @@ double CartesianInterpolator::computeCartesianPath(RobotState* start_state, cons
     Eigen::Isometry3d pose(start_turn.slerp(share, goal_turn));
     pose.translation() = share * goal.translation() + (1.0 - share) * start.translation();
     const Eigen::Isometry3d of_link = pose * to_link;
-    if (!start_state->setFromIK(group, of_link, link->getName(), consistency, 0.0, validCallback, options))
+    const RobotState before(*start_state);
+    bool found = start_state->setFromIK(group, of_link, link->getName(), consistency, 0.0, validCallback, options);
+    if (found && turnsOver(before, *start_state, *group))
+    {
+      *start_state = before;  // arms with joints to spare may have another way
+      const std::vector<double> half_turn(group->getVariableCount(), 0.99 * M_PI);
+      found = start_state->setFromIK(group, of_link, link->getName(), half_turn, 0.0, validCallback, options) &&
+              !turnsOver(before, *start_state, *group);
+      if (!found)
+        *start_state = before;
+    }
+    if (!found)
       break;
     traj.push_back(std::make_shared<RobotState>(*start_state));
     reached = share;
@@ -121,9 +145,9 @@ double CartesianInterpolator::checkJointSpaceJump(const JointModelGroup* group, 
   if (traj.size() <= 1)
     return share;
   if (jump_threshold.factor > 0.0)
-    share *= checkRelativeJointSpaceJump(group, traj, jump_threshold.factor);
+    share = checkRelativeJointSpaceJump(group, traj, jump_threshold.factor);
   if (jump_threshold.revolute > 0.0 || jump_threshold.prismatic > 0.0)
-    share *= checkAbsoluteJointSpaceJump(group, traj, jump_threshold.revolute, jump_threshold.prismatic);
+    share = std::min(share, checkAbsoluteJointSpaceJump(group, traj, jump_threshold.revolute, jump_threshold.prismatic));
   return share;
 }
 
@@ -139,7 +163,7 @@ double CartesianInterpolator::checkRelativeJointSpaceJump(const JointModelGroup*
   for (std::size_t i = 1; i < traj.size(); ++i)
     steps.push_back(traj[i]->distance(*traj[i - 1], group));
   const double limit =
-      jump_threshold_factor * std::accumulate(steps.begin(), steps.end(), 0.0) / static_cast<double>(traj.size());
+      jump_threshold_factor * std::accumulate(steps.begin(), steps.end(), 0.0) / static_cast<double>(steps.size());
   for (std::size_t i = 0; i < steps.size(); ++i)
     if (steps[i] > limit)
     {

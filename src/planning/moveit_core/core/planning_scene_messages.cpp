@@ -71,10 +71,11 @@ bool PlanningScene::processCollisionObjectMsg(const CollisionObject& object)
         removeAllCollisionObjects();
         return true;
       }
-      removeObjectColor(object.id);
-      removeObjectType(object.id);
       if (world_->removeObject(object.id))
+      {
+        forget(object.id);
         return true;
+      }
       ROS_WARN_NAMED(LOGNAME, "Tried to remove world object '%s', but it does not exist in this scene.", object.id.c_str());
       return false;
     default:
@@ -211,9 +212,18 @@ void PlanningScene::removeAllCollisionObjects()
     if (id == OCTOMAP_NS)
       continue;
     world_->removeObject(id);
-    removeObjectColor(id);
-    removeObjectType(id);
+    forget(id);
   }
+}
+
+// What was said of an object that is no more; links and attached bodies keep theirs.
+void PlanningScene::forget(const std::string& id)
+{
+  if (robot_model_->hasLinkModel(id) || robot_state_->hasAttachedBody(id))
+    return;
+  removeObjectColor(id);
+  removeObjectType(id);
+  acm_.removeEntry(id);
 }
 
 void PlanningScene::processOctomapMsg(const octomap_msgs::Octomap& map)
@@ -333,7 +343,7 @@ bool PlanningScene::setPlanningSceneDiffMsg(const moveit_msgs::PlanningScene& sc
     for (const auto& object : scene.robot_state.attached_collision_objects)
       good = processAttachedCollisionObjectMsg(object) && good;
   }
-  if (!scene.allowed_collision_matrix.entry_names.empty() || !scene.allowed_collision_matrix.default_entry_names.empty())
+  if (!scene.allowed_collision_matrix.entry_names.empty())
     acm_ = collision_detection::AllowedCollisionMatrix(scene.allowed_collision_matrix);
   if (!scene.link_padding.empty())
     env_->setPadding(scene.link_padding);

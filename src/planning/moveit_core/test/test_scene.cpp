@@ -77,6 +77,39 @@ TEST(Scene, objectsCollideUntilTheyAreAllowedToOrGone)
   EXPECT_FALSE(scene->isStateColliding());
 }
 
+TEST(Scene, permissionsAndColoursEndWithTheirObject)
+{
+  const PlanningScenePtr scene = readyScene();
+  const Eigen::Vector3d elbow = scene->getCurrentState().getGlobalLinkTransform("lower").translation();
+  for (const char* removed : { "post", "" })
+  {
+    ASSERT_TRUE(scene->processCollisionObjectMsg(box("post", elbow.x(), elbow.y(), elbow.z(), 0.1)));
+    EXPECT_TRUE(scene->isStateColliding());
+    scene->getAllowedCollisionMatrixNonConst().setEntry("post", std::vector<std::string>{ "lower", "upper" }, true);
+    scene->getAllowedCollisionMatrixNonConst().setEntry("lower", "upper", true);
+    scene->setObjectColor("post", std_msgs::ColorRGBA());
+    EXPECT_FALSE(scene->isStateColliding());
+
+    moveit_msgs::AttachedCollisionObject held;  // in the hand it is still there
+    held.link_name = "hand";
+    held.object.id = "post";
+    ASSERT_TRUE(scene->processAttachedCollisionObjectMsg(held));
+    EXPECT_TRUE(scene->hasObjectColor("post"));
+    held.object.operation = moveit_msgs::CollisionObject::REMOVE;
+    ASSERT_TRUE(scene->processAttachedCollisionObjectMsg(held));
+    EXPECT_FALSE(scene->isStateColliding());
+
+    moveit_msgs::CollisionObject removal;
+    removal.id = removed;
+    removal.operation = moveit_msgs::CollisionObject::REMOVE;
+    ASSERT_TRUE(scene->processCollisionObjectMsg(removal));
+    EXPECT_FALSE(scene->hasObjectColor("post"));
+    collision_detection::AllowedCollision::Type type;
+    EXPECT_FALSE(scene->getAllowedCollisionMatrix().getEntry("post", "lower", type));
+    EXPECT_TRUE(scene->getAllowedCollisionMatrix().getEntry("lower", "upper", type));
+  }
+}
+
 TEST(Scene, aFunctionMayDecideAboutContacts)
 {
   const PlanningScenePtr scene = readyScene();

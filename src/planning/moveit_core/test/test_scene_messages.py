@@ -50,6 +50,49 @@ def test_every_shape_goes_in_and_comes_out(editor, scene):
     assert scene.frame_pose("all/top").position == pytest.approx([1, 0, 0.15])
 
 
+def may_touch(scene, name, link):
+    return scene.acm.get(name, link)
+
+
+def allow_and_paint(editor, scene, *names):
+    matrix = scene.acm
+    for name in names:
+        matrix.set(name, scene.model.links[-1], True)
+        matrix.set_default(name, True)
+        scene.set_color(name, (1, 0, 0, 1))
+    scene.set_acm(matrix)
+
+
+@pytest.mark.parametrize("how", ["by its name", "with all others", "detached and then removed", "by a scene that is no diff"])
+def test_permissions_and_colours_end_with_their_object(editor, scene, how):
+    link = scene.model.links[-1]
+    for name in ("thing", "other"):
+        assert editor.collision_object(box(name))
+    allow_and_paint(editor, scene, "thing", "other", "<octomap>", link)
+    if how == "detached and then removed":
+        assert editor.attached_object(attached("thing", link))
+        assert may_touch(scene, "thing", link) and "thing" in scene.colors  # it is still there
+        assert editor.attached_object(attached("thing", "", CollisionObject.REMOVE))
+    if how == "by a scene that is no diff":
+        assert editor.planning_scene(PlanningScene(is_diff=False))
+        assert not scene.colors and not scene.acm.names
+        return
+    assert editor.collision_object(CollisionObject(id="" if how == "with all others" else "thing", operation=CollisionObject.REMOVE))
+    assert may_touch(scene, "thing", link) is None and scene.acm.get_default("thing") is None
+    stay = {"<octomap>", link} if how == "with all others" else {"<octomap>", link, "other"}
+    assert set(scene.colors) == stay and set(scene.acm.defaults) == stay
+    assert editor.collision_object(box("thing")) and may_touch(scene, "thing", link) is None
+
+
+def test_an_object_with_the_name_of_a_link_takes_nothing_of_the_links_with_it(editor, scene):
+    link, other = scene.model.links[-1], scene.model.links[0]
+    matrix = scene.acm
+    matrix.set(link, other, True)
+    scene.set_acm(matrix)
+    assert editor.collision_object(box(link)) and editor.collision_object(CollisionObject(id=link, operation=CollisionObject.REMOVE))
+    assert may_touch(scene, link, other) is True
+
+
 def test_the_pose_of_a_single_shape_becomes_that_of_its_object(editor, scene):
     message = CollisionObject(id="old", primitives=[SolidPrimitive(SolidPrimitive.SPHERE, [0.1])],
                               primitive_poses=[at(2, 3)])

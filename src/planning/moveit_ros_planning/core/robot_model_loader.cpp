@@ -2,6 +2,8 @@
 
 #include <ros/ros.h>
 
+#include <algorithm>
+
 namespace robot_model_loader
 {
 namespace
@@ -44,6 +46,55 @@ void RobotModelLoader::configure(const Options& opt)
   ROS_DEBUG_STREAM_NAMED(LOGNAME, "Loaded kinematic model in " << (ros::WallTime::now() - start).toSec() << " seconds");
 }
 
+namespace
+{
+// The table of a variable: that of `base/x` is below `base`.
+XmlRpc::XmlRpcValue* tableOf(XmlRpc::XmlRpcValue& limits, const std::string& variable)
+{
+  XmlRpc::XmlRpcValue* table = &limits;
+  for (std::size_t at = 0, next; at <= variable.size(); at = next + 1)
+  {
+    next = std::min(variable.find('/', at), variable.size());
+    const std::string part = variable.substr(at, next - at);
+    if (table->getType() != XmlRpc::XmlRpcValue::TypeStruct || !table->hasMember(part))
+      return nullptr;
+    table = &(*table)[part];
+  }
+  return table->getType() == XmlRpc::XmlRpcValue::TypeStruct ? table : nullptr;
+}
+
+bool readNumber(XmlRpc::XmlRpcValue& table, const char* key, double& value)
+{
+  if (!table.hasMember(key))
+    return false;
+  XmlRpc::XmlRpcValue& item = table[key];
+  if (item.getType() == XmlRpc::XmlRpcValue::TypeInt)
+    value = static_cast<int>(item);
+  else if (item.getType() == XmlRpc::XmlRpcValue::TypeDouble)
+    value = static_cast<double>(item);
+  else
+    return false;
+  return true;
+}
+
+// A limit counts without its flag, which can only take it back.
+void readLimit(XmlRpc::XmlRpcValue& table, const char* key, double& value, const char* flag, std::uint8_t& has)
+{
+  if (readNumber(table, key, value))
+    has = true;
+  if (table.hasMember(flag) && table[flag].getType() == XmlRpc::XmlRpcValue::TypeBoolean)
+    has = static_cast<bool>(table[flag]);
+}
+
+bool isAngle(const moveit::core::JointModel& joint, std::size_t variable)
+{
+  return (joint.getType() == moveit::core::JointModel::PLANAR && variable == 2) ||
+         (joint.getType() == moveit::core::JointModel::FLOATING && variable > 2) ||
+         (joint.getType() == moveit::core::JointModel::REVOLUTE &&
+          static_cast<const moveit::core::RevoluteJointModel&>(joint).isContinuous());
+}
+}  // namespace
+
 // <robot_description>_planning/joint_limits wins over the URDF.
 void RobotModelLoader::readLimits()
 {
@@ -55,42 +106,33 @@ void RobotModelLoader::readLimits()
   {
     std::vector<moveit_msgs::JointLimits> all = joint->getVariableBoundsMsg();
     bool changed = false;
-    for (moveit_msgs::JointLimits& limit : all)
+    for (std::size_t i = 0; i < all.size(); ++i)
     {
-      if (!limits.hasMember(limit.joint_name) || limits[limit.joint_name].getType() != XmlRpc::XmlRpcValue::TypeStruct)
+      XmlRpc::XmlRpcValue* given = tableOf(limits, all[i].joint_name);
+      if (!given)
         continue;
-      changed = true;
-      XmlRpc::XmlRpcValue& given = limits[limit.joint_name];
-      auto number = [&given](const char* key, double& value) {
-        if (!given.hasMember(key))
-          return false;
-        XmlRpc::XmlRpcValue& item = given[key];
-        if (item.getType() == XmlRpc::XmlRpcValue::TypeInt)
-          value = static_cast<int>(item);
-        else if (item.getType() == XmlRpc::XmlRpcValue::TypeDouble)
-          value = static_cast<double>(item);
-        else
-          return false;
-        return true;
-      };
-      auto flag = [&given](const char* key, std::uint8_t& value) {
-        if (given.hasMember(key) && given[key].getType() == XmlRpc::XmlRpcValue::TypeBoolean)
-          value = static_cast<bool>(given[key]);
-      };
-      const bool low = number("min_position", limit.min_position), high = number("max_position", limit.max_position);
-      if (low || high)
+      moveit_msgs::JointLimits limit = all[i];
+      const bool low = readNumber(*given, "min_position", limit.min_position);
+      const bool high = readNumber(*given, "max_position", limit.max_position);
+      if ((low || high) && isAngle(*joint, i))
+      {
+        ROS_WARN_NAMED(LOGNAME, "joint_limits: position limits of joint '%s' are left out: it turns without end",
+                       limit.joint_name.c_str());
+        limit.min_position = all[i].min_position;
+        limit.max_position = all[i].max_position;
+      }
+      else if (low || high)
         limit.has_position_limits = true;
-      flag("has_position_limits", limit.has_position_limits);
-      number("max_velocity", limit.max_velocity);
-      flag("has_velocity_limits", limit.has_velocity_limits);
-      number("max_acceleration", limit.max_acceleration);
-      flag("has_acceleration_limits", limit.has_acceleration_limits);
+      readLimit(*given, "max_velocity", limit.max_velocity, "has_velocity_limits", limit.has_velocity_limits);
+      readLimit(*given, "max_acceleration", limit.max_acceleration, "has_acceleration_limits", limit.has_acceleration_limits);
       if (limit.min_position > limit.max_position)
       {
         ROS_ERROR_NAMED(LOGNAME, "joint_limits of '%s': min_position %g is above max_position %g; the limits of the URDF stay",
                         limit.joint_name.c_str(), limit.min_position, limit.max_position);
-        changed = false;
+        continue;
       }
+      all[i] = limit;
+      changed = true;
     }
     if (changed)
       joint->setVariableBounds(all);

@@ -1,6 +1,7 @@
 // A robot from parameters, and scenes that follow topics and each other.
 #include <gtest/gtest.h>
 #include <moveit/planning_scene_monitor/planning_scene_monitor.h>
+#include <moveit/robot_state/cartesian_interpolator.h>
 #include <ros/ros.h>
 
 #include <condition_variable>
@@ -38,6 +39,55 @@ bool waitFor(const planning_scene_monitor::PlanningSceneMonitorPtr& monitor, con
   return met;
 }
 }  // namespace
+
+// As upstream: a limit sets its flag, a flag that is given wins; limits of variables go by their own names.
+TEST(Loader, limitsWithoutFlagsAndOfAPlanarJointCount)
+{
+  robot_model_loader::RobotModelLoader mobile("mobile_description", false);
+  const moveit::core::RobotModelPtr model = mobile.getModel();
+  ASSERT_TRUE(model);
+  const moveit::core::VariableBounds& x = model->getVariableBounds("base/x");
+  EXPECT_TRUE(x.velocity_bounded_ && x.position_bounded_);
+  EXPECT_EQ(x.max_velocity_, 0.2);
+  EXPECT_EQ(x.min_position_, -1.0);
+  EXPECT_EQ(x.max_position_, 2.0);
+  const moveit::core::VariableBounds& theta = model->getVariableBounds("base/theta");
+  EXPECT_TRUE(theta.acceleration_bounded_);
+  EXPECT_FALSE(theta.velocity_bounded_);
+  EXPECT_NE(theta.max_position_, 1.0);  // an angle without end has none
+  EXPECT_FALSE(model->getVariableBounds("base/y").velocity_bounded_);
+  const moveit::core::VariableBounds& first = model->getVariableBounds("joint_1");
+  EXPECT_TRUE(first.velocity_bounded_ && first.acceleration_bounded_);
+  EXPECT_EQ(first.max_velocity_, 1.5);
+  EXPECT_EQ(first.max_acceleration_, 0.5);
+  const moveit::core::VariableBounds& second = model->getVariableBounds("joint_2");
+  EXPECT_FALSE(second.velocity_bounded_ || second.acceleration_bounded_);
+}
+
+TEST(Loader, aLineEndsAtAJointsLimitAndNoJointSpinsBack)
+{
+  robot_model_loader::RobotModelLoader mobile("mobile_description");
+  const moveit::core::RobotModelPtr model = mobile.getModel();
+  ASSERT_TRUE(model);
+  moveit::core::JointModelGroup* group = model->getJointModelGroup("manipulator");
+  const moveit::core::LinkModel* hand = model->getLinkModel("hand");
+  for (const double turn : { 0.6, -0.6 })
+  {
+    moveit::core::RobotState state(model);
+    state.setToDefaultValues();
+    state.setJointGroupPositions(group, std::vector<double>{ 0.0, -0.6, 1.6, 0.0, 1.0, 6.1 });  // 0.18 rad before the limit
+    const Eigen::Isometry3d goal = state.getGlobalLinkTransform(hand) * Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitZ());
+    std::vector<moveit::core::RobotStatePtr> path;
+    const double share = moveit::core::CartesianInterpolator::computeCartesianPath(
+        &state, group, path, hand, goal, true, moveit::core::MaxEEFStep(0.01), moveit::core::JumpThreshold());
+    for (std::size_t i = 1; i < path.size(); ++i)
+      EXPECT_LT(path[i]->distance(*path[i - 1], group), 0.2);
+    if (turn > 0)
+      EXPECT_NEAR(share, 0.3, 0.06);
+    else
+      EXPECT_EQ(share, 1.0);
+  }
+}
 
 TEST(Loader, limitsAndSolversAreThoseOfTheParameters)
 {

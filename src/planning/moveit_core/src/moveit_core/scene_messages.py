@@ -80,11 +80,13 @@ class SceneEditor:
         return shapes, poses, pose, subframes
 
     def _remove(self, name: str) -> bool:
+        gone = [name] if name else list(self._scene.objects)
         if not name:
             self._scene.clear_objects()
-            return True
-        if not self._scene.remove_object(name):
+        elif not self._scene.remove_object(name):
             raise ValueError(f"it is not in the scene and cannot be removed; there are: {_list(self._scene.objects)}")
+        for each in gone:
+            self._scene.forget(each)
         return True
 
     def _move(self, message: CollisionObject) -> bool:
@@ -207,6 +209,8 @@ class SceneEditor:
         self._scene.set_state(state)
         for frame in list(self._scene.transforms):
             self._scene.remove_transform(frame)
+        for name in list(self._scene.colors):
+            self._scene.remove_color(name)
         self._scene.set_acm(motion.AllowedCollisionMatrix.from_matrix([], []))
 
     def _robot_name(self, name: str) -> bool:

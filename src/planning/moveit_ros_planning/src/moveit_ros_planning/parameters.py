@@ -19,15 +19,25 @@ def table(name: str) -> Dict[str, Any]:
 
 
 def joint_limits(name: str) -> Dict[str, Dict[str, Any]]:
-    """The usable part of joint_limits.yaml: a table for each joint, numbers and has_... flags in it."""
+    """The usable part of joint_limits.yaml: a table of numbers and has_... flags for each joint, or ``joint/variable``."""
+    return _limits(name, table(name))
+
+
+def _limits(name: str, entries: Dict[str, Any]) -> Dict[str, Dict[str, Any]]:
     usable: Dict[str, Dict[str, Any]] = {}
-    for joint, entry in table(name).items():
+    for joint, entry in entries.items():
         if not isinstance(entry, dict):
             rospy.logerr("parameter %s/%s is %s, where a table of limits is expected: the URDF's count", name, joint,
                          one_line(repr(entry), 60))
             continue
+        variables = {key: value for key, value in entry.items() if isinstance(value, dict)}
+        usable.update((f"{joint}/{key}", value) for key, value in _limits(f"{name}/{joint}", variables).items())
+        if len(variables) == len(entry) > 0:
+            continue
         usable[joint] = {}
         for key, value in entry.items():
+            if key in variables:
+                continue
             flag = key.startswith("has_")
             if isinstance(value, bool) if flag else is_number(value):
                 usable[joint][key] = value

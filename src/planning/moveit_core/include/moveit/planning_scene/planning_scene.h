@@ -236,6 +236,7 @@ private:
   void useTransforms();
   bool addObject(const moveit_msgs::CollisionObject& object);
   bool moveObject(const moveit_msgs::CollisionObject& object);
+  void forget(const std::string& id);
 
   class SceneTransforms;
   std::string name_;
