@@ -58,7 +58,7 @@ class Spawning(Case):
         ]
         for name, text, where, frame, words in bad:
             with self.subTest(text=text, words=words):
-                self.refused(self.sim.spawn(name, text, where, frame), "SpawnModel: ", *words)
+                self.refused(self.sim.spawn(name, text, where, frame), "SpawnModel", *words)
         self.assertEqual(self.sim.world().model_names, before)
         self.sim.step(10)
         self.done(self.sim.spawn("good", box(), pose(30, 0, 3)))

@@ -8,7 +8,7 @@ from gazebo_msgs.srv import ApplyBodyWrench, ApplyJointEffort, BodyRequest, Join
 from ode_sim import math3
 
 from gazebo_ros.api.geometry import frame_entity, vector_of
-from gazebo_ros.api.handlers import Refused, advertise, finite
+from gazebo_ros.api.handlers import advertise, finite, worded
 from gazebo_ros.server import Server
 
 
@@ -67,8 +67,8 @@ class ForceJobs:
     def _apply_body_wrench(self, request, response) -> str:
         link = self._server.world.find_link(request.body_name)
         if link is None:
-            raise Refused(f"body '{request.body_name}' does not exist; name a link as model::link")
-        frame = frame_entity(self._server.world, request.reference_frame, "reference_frame")
+            raise worded("body does not exist", f"[{request.body_name}] names no link; write model::link")
+        frame = frame_entity(self._server.world, request.reference_frame, "reference_frame not found")
         force = vector_of(request.wrench.force, "wrench.force")
         torque = vector_of(request.wrench.torque, "wrench.torque")
         point = vector_of(request.reference_point, "reference_point")
@@ -87,7 +87,7 @@ class ForceJobs:
     def _apply_joint_effort(self, request, response) -> str:
         joint = self._server.world.find_joint(request.joint_name)
         if joint is None:
-            raise Refused(f"joint '{request.joint_name}' not found")
+            raise worded("joint not found", f"[{request.joint_name}] names none; name it as in the model's file")
         finite("effort", request.effort)
         self._efforts.append(_Job(joint, *self._times(request), lambda: joint.add_force(request.effort)))
         return "ApplyJointEffort: effort set"

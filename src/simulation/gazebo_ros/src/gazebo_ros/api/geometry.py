@@ -7,7 +7,7 @@ from geometry_msgs.msg import Pose as PoseMsg, Quaternion, Point, Twist, Vector3
 from ode_sim import CollisionHandle, ModelHandle, math3
 from ode_sim.description.model import FARTHEST, Pose, Vec3
 
-from gazebo_ros.api.handlers import Refused, finite
+from gazebo_ros.api.handlers import Refused, finite, worded
 
 WORLD_NAMES = ("", "world", "map", "/map")  # when no entity has that name
 
@@ -53,12 +53,13 @@ def entity_twist(entity: Any) -> Tuple[Vec3, Vec3]:
     return link.linear_velocity(), link.angular_velocity()
 
 
-def frame_entity(world: Any, name: str, what: str) -> Any:
+def frame_entity(world: Any, name: str, gazebo: str) -> Any:
     """The entity that ``name`` stands for, None for the world.
 
+    :param gazebo: how Gazebo's own service says that there is none
     :raises Refused: there is none
     """
     entity = world.find_entity(name) if name else None
     if entity is None and name not in WORLD_NAMES:
-        raise Refused(f"{what} '{name}' not found: it must name a model, a link (as model::link), or 'world'")
+        raise worded(gazebo, f"'{name}' names no model, no link (as model::link), nor is it 'world'")
     return entity

@@ -10,6 +10,15 @@ from ode_sim.errors import Refused
 from gazebo_ros.server import Server, Stopped
 
 
+def worded(gazebo: str, more: str) -> Refused:
+    """A refusal in the words that Gazebo's own service has for it, which scripts compare with, and what it leaves unsaid."""
+    return Refused(f"{gazebo}{' ' if gazebo[-1] in '.?!' else '; '}{more}")
+
+
+class Answer(Refused):
+    """A refusal whose text is the whole status line."""
+
+
 def advertise(server: Server, name: str, service: Any, f: Callable[[Any, Any], Optional[str]],
               in_physics_thread: bool = True, prefix: str = "") -> rospy.Service:
     """Offer ``~name``. ``f(request, response)`` fills the response and returns the status line, if there is one.
@@ -28,7 +37,7 @@ def advertise(server: Server, name: str, service: Any, f: Callable[[Any, Any], O
             status = server.call(lambda: f(request, response)) if in_physics_thread else f(request, response)
             success = True
         except (ValueError, Stopped) as error:
-            status, success = f"{prefix}: {error}", False
+            status, success = str(error) if isinstance(error, Answer) else f"{prefix}: {error}", False
         except Exception as error:  # the answer must reach the client, and the server must go on
             status, success = f"{prefix}: internal error, {type(error).__name__}: {error}", False
             rospy.logerr("%s", status)

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 from gazebo_msgs.srv import GetJointProperties, SetJointProperties
 
-from gazebo_ros.api.handlers import Refused, advertise, finite
+from gazebo_ros.api.handlers import Refused, advertise, finite, worded
 from gazebo_ros.server import Server
 
 #: fields of ODEJointProperties that act on a joint here
@@ -21,7 +21,7 @@ class JointServices:
     def _joint(self, name: str):
         joint = self._world.find_joint(name)
         if joint is None:
-            raise Refused(f"joint [{name}] not found; name it as in the model's file (fixed joints may be merged)")
+            raise worded("joint not found", f"[{name}] names none; name it as in the model's file (fixed joints may be merged)")
         return joint
 
     def _get(self, request, response) -> str:

@@ -4,13 +4,14 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any, Dict, Iterator, Tuple
 
+import numpy as np
 from gazebo_msgs.srv import DeleteLight, GetLightProperties, SetLightProperties
 from ode_sim import math3
 from ode_sim.description.model import Light
 from std_msgs.msg import ColorRGBA
 
 from gazebo_ros.api.geometry import pose_of, vector_of
-from gazebo_ros.api.handlers import Refused, advertise, finite, listing
+from gazebo_ros.api.handlers import advertise, finite, listing, worded
 from gazebo_ros.server import Server
 
 
@@ -20,8 +21,8 @@ class LightServices:
     def __init__(self, server: Server):
         self._world = server.world
         advertise(server, "delete_light", DeleteLight, self._delete)
-        advertise(server, "get_light_properties", GetLightProperties, self._get)
-        advertise(server, "set_light_properties", SetLightProperties, self._set)
+        advertise(server, "get_light_properties", GetLightProperties, self._get, prefix="getLightProperties")
+        advertise(server, "set_light_properties", SetLightProperties, self._set, prefix="setLightProperties")
 
     def _all(self) -> Iterator[Tuple[str, Dict[str, Light], str, Any]]:
         """(scoped name, the lights it is one of, its name there, the link that carries it or None)"""
@@ -32,24 +33,23 @@ class LightServices:
                 for name in link.lights:
                     yield f"{link.scoped_name}::{name}", link.lights, name, link
 
-    def _find(self, wanted: str) -> Tuple[Dict[str, Light], str, Any]:
+    def _find(self, wanted: str, gazebo: str = "Requested light {} not found!") -> Tuple[Dict[str, Light], str, Any]:
         for scoped, lights, name, link in self._all():
             if wanted in (scoped, name):
                 return lights, name, link
-        raise Refused(f"light [{wanted}] does not exist; there are: {listing(entry[0] for entry in self._all())}")
+        raise worded(gazebo.format(wanted), f"It does not exist; there are: {listing(entry[0] for entry in self._all())}")
 
     def _delete(self, request, response) -> str:
-        lights, name, _ = self._find(request.light_name)
+        lights, name, _ = self._find(request.light_name, 'Timeout reached while removing light "{}"')
         del lights[name]
-        return "DeleteLight: successfully deleted light"
+        return f"DeleteLight: {request.light_name} successfully deleted"
 
     def _get(self, request, response) -> str:
         lights, name, _ = self._find(request.light_name)
         light = lights[name]
         response.diffuse = ColorRGBA(*light.diffuse)
-        response.attenuation_constant = light.constant
-        response.attenuation_linear = light.linear
-        response.attenuation_quadratic = light.quadratic
+        response.attenuation_constant, response.attenuation_linear, response.attenuation_quadratic = (
+            float(np.float32(factor)) for factor in (light.constant, light.linear, light.quadratic))  # as Gazebo keeps them
         return ""
 
     def _set(self, request, response) -> str:

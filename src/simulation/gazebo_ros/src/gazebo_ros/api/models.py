@@ -14,7 +14,7 @@ from ode_sim import LinkHandle, math3
 from ode_sim.description.model import Inertial, Pose
 
 from gazebo_ros.api.geometry import entity_twist, frame_entity, pose_msg, pose_of, twist_msg, vector_of
-from gazebo_ros.api.handlers import Refused, advertise, finite, listing
+from gazebo_ros.api.handlers import Refused, advertise, finite, listing, worded
 from gazebo_ros.server import Server, Stopped
 
 
@@ -62,13 +62,13 @@ class ModelServices:
     def _model(self, name: str):
         entity = self._world.models.get(name)
         if entity is None:
-            raise Refused(f"model [{name}] does not exist; there are: {listing(self._world.models)}")
+            raise worded("model does not exist", f"[{name}] is none of: {listing(self._world.models)}")
         return entity
 
-    def _link(self, name: str, what: str = "link"):
+    def _link(self, name: str, gazebo: str = "link not found, did you forget to scope the link by model name?"):
         link = self._world.find_link(name)
         if link is None:
-            raise Refused(f"{what} [{name}] not found; name it as model::link, as in the topic link_states")
+            raise worded(gazebo, f"[{name}] names none; write model::link, as in the topic link_states")
         return link
 
     # ------------------------------------------------------------------------------------------ models
@@ -88,17 +88,18 @@ class ModelServices:
 
     def _get_model_state(self, request, response) -> str:
         model = self._model(request.model_name)
-        frame = frame_entity(self._world, request.relative_entity_name, "relative_entity_name")
         self._state_calls[request.model_name] += 1
         response.header.seq = self._state_calls[request.model_name]
         response.header.stamp = rospy.Time.now()
         response.header.frame_id = request.relative_entity_name
+        frame = frame_entity(self._world, request.relative_entity_name, "reference relative_entity_name not found, did you "
+                             "forget to scope the body by model name?")
         response.pose, response.twist = _relative_state(model, frame)
         return "GetModelState: got properties"
 
     def _set_model_state(self, state) -> str:
         model = self._model(state.model_name)
-        frame = frame_entity(self._world, state.reference_frame, "reference_frame")
+        frame = frame_entity(self._world, state.reference_frame, "specified reference frame entity does not exist")
         pose = pose_of(state.pose)
         linear, angular = vector_of(state.twist.linear, "twist"), vector_of(state.twist.angular, "twist")
         if frame is not None:
@@ -112,7 +113,8 @@ class ModelServices:
     def _set_model_configuration(self, request, response) -> str:
         model = self._model(request.model_name)
         if len(request.joint_names) != len(request.joint_positions):
-            raise Refused(f"{len(request.joint_names)} joint names but {len(request.joint_positions)} positions")
+            raise worded("joint name and position list have different lengths",
+                         f"{len(request.joint_names)} joint_names, {len(request.joint_positions)} joint_positions")
         finite("joint_positions", *request.joint_positions)
         joints = {alias: joint for joint in model.joints.values() for alias in (joint.name, joint.scoped_name)}
         for name, position in zip(request.joint_names, request.joint_positions):
@@ -130,17 +132,18 @@ class ModelServices:
 
     def _get_link_state(self, request, response) -> str:
         link = self._link(request.link_name)
-        frame = frame_entity(self._world, request.reference_frame, "reference_frame")
+        frame = frame_entity(self._world, request.reference_frame,
+                             "reference reference_frame not found, did you forget to scope the link by model name?")
         state = response.link_state
         state.link_name, state.reference_frame = request.link_name, request.reference_frame
         state.pose, state.twist = _relative_state(link, frame)
         return "GetLinkState: got state"
 
     def _set_link_state(self, state) -> str:
-        link = self._link(state.link_name)
-        frame = frame_entity(self._world, state.reference_frame, "reference_frame")
+        link = self._link(state.link_name, "link does not exist")
+        frame = frame_entity(self._world, state.reference_frame, "failed")
         if frame is not None and not isinstance(frame, LinkHandle):
-            raise Refused(f"reference_frame [{state.reference_frame}] is no link; name one as model::link")
+            raise worded("failed", f"reference_frame [{state.reference_frame}] is no link; name one as model::link")
         pose = pose_of(state.pose)
         linear, angular = vector_of(state.twist.linear, "twist"), vector_of(state.twist.angular, "twist")
         if frame is not None:  # velocities as Gazebo takes them: relative, but in world axes

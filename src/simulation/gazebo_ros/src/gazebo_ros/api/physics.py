@@ -92,7 +92,7 @@ class PhysicsServices:
         self._server.call(lambda: self._apply(values))
         if self._parameters:
             self._parameters.refresh()
-        return "SetPhysicsProperties: physics engine updated"
+        return "physics engine updated"
 
     def _on_reconfigure(self, config: Dict[str, Any], level: int) -> None:
         if level == -1:  # the call at start

@@ -11,8 +11,12 @@ from ode_sim.description import DescriptionError, Entity
 from ode_sim.description.model import Model, Plugin, Pose
 
 from gazebo_ros.api.geometry import frame_entity, pose_of
-from gazebo_ros.api.handlers import Refused, advertise
+from gazebo_ros.api.handlers import Answer, Refused, advertise, worded
 from gazebo_ros.server import Server, log_problems
+
+
+_UNFIT = ("GazeboRosApiPlugin SpawnModel Failure: input model_xml not SDF or URDF, or cannot be converted to Gazebo compatible "
+          "format.")  # Gazebo's words
 
 
 class SpawnServices:
@@ -31,17 +35,30 @@ class SpawnServices:
 
     def _spawn(self, request, response, urdf_only: bool = False) -> str:
         try:
-            entity = Entity(request.model_xml, self._server.finder)
-            if urdf_only and entity.kind != "urdf":
-                raise Refused(f"the text is SDF (<{entity.kind}>), not a URDF <robot>; use spawn_sdf_model (spawn_model -sdf)")
+            entity = self._entity(request, urdf_only)
             x_fe = pose_of(request.initial_pose, "initial_pose")
             if entity.kind == "light":
                 self._spawn_light(entity, request, x_fe)
             else:
                 self._spawn_model(entity, request, x_fe)
         except DescriptionError as error:
-            raise Refused(f"model '{request.model_name}': {error}") from error
+            raise Answer(f"{_UNFIT} model '{request.model_name}': {error}") from error
         return "SpawnModel: Successfully spawned entity"
+
+    def _entity(self, request, urdf_only: bool) -> Entity:
+        """
+        :raises Refused, DescriptionError: the text is none of what the service takes
+        """
+        invalid = "Failure - entity format is invalid."
+        try:
+            entity = Entity(request.model_xml, self._server.finder)
+        except DescriptionError as error:
+            if urdf_only:
+                raise worded(invalid, f"model '{request.model_name}': {error}") from error
+            raise
+        if urdf_only and entity.kind != "urdf":
+            raise worded(invalid, f"The text is SDF (<{entity.kind}>), not a URDF <robot>; use spawn_sdf_model (spawn_model -sdf)")
+        return entity
 
     def _spawn_model(self, entity: Entity, request, x_fe: Pose) -> None:
         server = self._server
@@ -74,7 +91,8 @@ class SpawnServices:
 
     def _world_pose(self, request, x_fe: Pose, x_em: Pose) -> Pose:
         """X_WM: reference frame F, requested pose E in it, and the pose in the text on top."""
-        frame = frame_entity(self._server.world, request.reference_frame, "reference_frame")
+        frame = frame_entity(self._server.world, request.reference_frame,
+                             "reference reference_frame not found, did you forget to scope the link by model name?")
         x_we = x_fe if frame is None else math3.compose(frame.pose, x_fe)
         return math3.compose(x_we, x_em)
 
