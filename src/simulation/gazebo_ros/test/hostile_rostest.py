@@ -35,7 +35,7 @@ class Limits(unittest.TestCase):
 
     @staticmethod
     def ready(name):
-        return any(topic == f"/{name}/gazebo/ready" for topic, _ in rosgraph.Master("/t").getSystemState()[0])
+        return any(topic == f"/{name}/gazebo/parameter_updates" for topic, _ in rosgraph.Master("/t").getSystemState()[0])
 
     def test_sixty_four_open_files(self):
         with Server("files", "-u", BENCH, limits="-n 64") as server:

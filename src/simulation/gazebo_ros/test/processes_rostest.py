@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Whole server processes: same bits in two runs, options, signals, several servers at once."""
 import io
+import math
 import os
 import signal
 import socket
@@ -9,11 +10,16 @@ import sys
 import tempfile
 import xmlrpc.client
 
+import cv2
+import numpy as np
 import rosgraph
 import rospy
 import rostest
 import test_support
 from gazebo_msgs import srv
+from gazebo_ros.srv import DescribeWorld, TakePicture
+from ode_sim.description.exchange import loads
+from ode_sim.viewer.simulation import WorldRecord
 from rosgraph_msgs.msg import Clock
 
 from processes import BENCH, Server
@@ -92,6 +98,34 @@ class Options(test_support.TestCase):
         os.remove(path)
         self.assertIn(path, text)
         self.assertNotIn("Traceback", text)
+
+    def test_the_first_view_is_that_of_the_world(self):
+        """Its camera looks away from the one red box, which all other views show."""
+        world = """<sdf version="1.6"><world name="w">
+            <gui fullscreen="1"><camera name="user_camera"><pose>3 0 1 0 0 0.5</pose></camera></gui>
+            <light type="directional" name="sun"><direction>0 0.5 -1</direction></light>
+            <model name="m"><static>1</static><link name="l"><visual name="v"><geometry><box><size>1 1 1</size></box></geometry>
+            <material><ambient>1 0 0 1</ambient><diffuse>1 0 0 1</diffuse></material></visual></link></model></world></sdf>"""
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "w.world")
+            with open(path, "w", encoding="utf-8") as file:
+                file.write(world)
+            with Server("gazes", "-u", path) as server:
+                describe = server.simulator().proxy("describe_world", DescribeWorld)
+                record = loads(describe().world)
+                self.assertIsInstance(record, WorldRecord)
+                eye = record.view
+                self.assertEqual(eye.p, (3.0, 0.0, 1.0))
+                self.assertAlmostEqual(eye.q[2], math.sin(0.25), places=9)
+                take = server.simulator().proxy("take_picture", TakePicture)
+                reds = {}
+                for model, view in (("", ""), ("", "iso"), ("m", ""), ("", "left")):
+                    answer = take(model, view, 160, 100)
+                    self.assertTrue(answer.success, answer.status_message)
+                    pixels = cv2.imdecode(np.frombuffer(answer.png, np.uint8), cv2.IMREAD_COLOR).astype(int)
+                    reds[model, view] = int(np.count_nonzero(pixels[:, :, 2] > 2 * pixels[:, :, :2].max(axis=2) + 20))
+        self.assertEqual(reds.pop(("", "")), 0)
+        self.assertGreater(min(reds.values()), 1000, reds)
 
     def test_without_network_there_is_only_the_clock_at_its_frequency(self):
         rospy.set_param("/mute/gazebo/enable_ros_network", False)
@@ -177,7 +211,7 @@ class Masters(test_support.TestCase):
             def command(*words):
                 return subprocess.run(words, env=server.environment, text=True, capture_output=True, timeout=60)
 
-            wait_until(lambda: "/gazebo/ready" in known()[0])
+            wait_until(lambda: "/gazebo/parameter_updates" in known()[0])
             self.assertIn("success: True", command("rosservice", "call", "/gazebo/set_physics_properties", PHYSICS).stdout)
             before = known()
             self.assertEqual((before[3]["use_sim_time"], before[3]["gazebo"]["gravity_z"]), (True, -1.5))

@@ -5,6 +5,7 @@ import pytest
 from node_signals.rates import LatenessKept
 from ode_sim.description.model import Pose, Sensor as Description
 
+from gazebo_ros.api import metrics
 from gazebo_ros.sensors import Sensor
 
 STEP = 1_000_000
@@ -65,7 +66,7 @@ def test_measures_only_while_wanted():
         wanted[0] = i > 500
         eye.update(i * STEP)
     assert seen == [k * 100 * STEP for k in range(6, 11)]  # on the grid, whenever the wish began
-    assert eye.measurement_time.to_nsec() == seen[-1] and eye.update_count == 5
+    assert eye.measurement_time.to_nsec() == seen[-1] and eye.updates.number == 5
     assert eye.scoped_name == "arm::hand::eye"
 
 
@@ -84,3 +85,40 @@ def test_a_failing_plugin_is_cut_off_and_reported_and_the_other_goes_on():
         eye.update(i * STEP)
     assert reports == [("bad", "lens cap")]
     assert len(seen) == 3
+
+
+def rates(eye, deliver, steps=3000, every=211):
+    """The rates that are told every so many steps, in Hz of sim time; :param deliver: told of each update, by its number."""
+    told, rate, taken = [], metrics._Rate(), [0]
+
+    def measure(s):
+        deliver(s, taken[0])
+        taken[0] += 1
+    eye.connect(measure)
+    for i in range(1, steps + 1):
+        eye.update(i * STEP)
+        if i % every == 0:
+            told.append(rate.read(eye.counted, i * STEP)[0])
+    return told
+
+
+def test_the_rate_of_a_camera_is_that_of_its_pictures():
+    """Of 30 updates a second two in three are left out, since the machine does not draw them: 10 Hz, wherever a message cuts."""
+    def deliver(s, number):
+        if number % 3 == 0:
+            s.pictured(s.measurement_ns)
+            s.pictured(s.measurement_ns)  # the other eye of a pair
+    told = rates(sensor(rate=30.0), deliver)
+    assert told[0] == 0.0 and len(told) > 10
+    assert told[3:] == pytest.approx([10.0] * len(told[3:]), rel=0.02)
+
+
+def test_the_rate_of_a_sensor_is_that_of_its_measurements():
+    told = rates(sensor(rate=4.0), lambda s, number: None)  # seldom: most messages bring nothing new
+    assert told[5:] == pytest.approx([4.0] * len(told[5:]), rel=1e-6)
+
+
+def test_a_camera_that_has_stopped_has_no_rate():
+    told = rates(sensor(rate=30.0), lambda s, number: s.pictured(s.measurement_ns) if number < 30 else None)
+    assert told[3] == pytest.approx(30.0, rel=0.02)
+    assert told[-5:] == [0.0] * 5

@@ -1,6 +1,7 @@
 """The step loop with a real world and no ROS network."""
 import threading
 import xml.etree.ElementTree as ET
+from dataclasses import replace
 
 import ode_sim
 import pytest
@@ -60,6 +61,11 @@ class Breaks(ModelPlugin):
         raise ZeroDivisionError("by hand")
 
 
+class Driver(ModelPlugin):
+    def load(self, server, model, sdf):
+        server.drives(*(model.joints[name] for name in sdf.get("joints", "").split()))
+
+
 @pytest.fixture
 def errors(monkeypatch):
     lines = []
@@ -77,7 +83,8 @@ def host(tmp_path):
     (package / "package.xml").write_text("""<package format="2"><name>my_plugins</name><version>0.0.1</version>
         <description>d</description><maintainer email="a@b.c">m</maintainer><license>BSD</license>
         <depend>gazebo_ros</depend><export><gazebo_ros plugin="${prefix}/plugins.xml"/></export></package>""")
-    names = {"recorder": "Recorder", "world": "WorldRecorder", "eye": "Eye", "wrong": "Wrong", "breaks": "Breaks"}
+    names = {"recorder": "Recorder", "world": "WorldRecorder", "eye": "Eye", "wrong": "Wrong", "breaks": "Breaks",
+             "driver": "Driver"}
     (package / "plugins.xml").write_text('<library path=".">' + "".join(
         f'<class name="lib{name}.so" type="{__name__}.{cls}"/>' for name, cls in names.items()) + "</library>")
     import rospkg
@@ -228,3 +235,23 @@ def test_resets_reach_the_plugins(host):
         server.call(server.reset_time)
         assert server.world.time_ns == 0 and server.now() == rospy.Time() and server.world.iterations == 5
         assert LOG.count("reset a") == 3
+
+
+DRIVEN = "".join(f"""<link name="{child}"/><joint name="{name}" type="revolute"><parent>link</parent><child>{child}</child>
+<axis><xyz>0 1 0</xyz></axis></joint>""" for name, child in (("axle", "wheel"), ("second", "other")))
+
+
+def test_two_plugins_that_drive_the_same_joints_are_one_line(host, errors):
+    def driver(name, joints):
+        return f"<plugin name='{name}' filename='libdriver.so'><joints>{joints}</joints></plugin>"
+    plugins = driver("a", "axle second") + driver("b", "axle second") + driver("c", "")
+    with Running(make(host, model=DRIVEN + plugins, paused=True)) as server:
+        server.call(lambda: None)
+        told = [line for line in errors if "drive" in line]
+        assert len(told) == 1, errors
+        for word in ("plugin a (libdriver.so)", "plugin b (libdriver.so)", "axle, second", "model block"):
+            assert word in told[0]
+        server.call(lambda: server.remove("block"))  # and may be spawned anew, with one plugin
+        description = replace(server.description.models[0], plugins=server.description.models[0].plugins[:1])
+        server.call(lambda: server.spawn(description, server.resolve(description)))
+        assert len([line for line in errors if "drive" in line]) == 1, errors

@@ -81,6 +81,12 @@ class ControllerManager:
         nh.service("reload_controller_libraries", ReloadControllerLibraries,
                    lambda request: ReloadControllerLibrariesResponse(self.reload_libraries(request.force_kill)))
 
+    @property
+    def asked_to_start(self) -> Tuple[ControllerInfo, ...]:
+        """What a switch is to start that waits for the control loop; empty while none does. Any thread."""
+        switch = self._switch
+        return tuple(switch.start_info) if switch is not None else ()
+
     # -- in the control loop ----------------------------------------------------------------------------------------
 
     def update(self, time: float, period: float, reset: bool = False) -> None:

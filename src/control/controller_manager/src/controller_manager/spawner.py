@@ -13,7 +13,7 @@ import yaml
 from controller_manager_msgs.srv import (ListControllers, LoadController, SwitchController, SwitchControllerRequest,
                                          UnloadController)
 from controller_manager_msgs.utils import describe_controller_managers
-from node_signals import services
+from node_signals import orphans, services
 from std_msgs.msg import Bool
 
 #: s without an answer after which a waiting node says what it looks for and what there is
@@ -81,6 +81,7 @@ class Spawner:
 
     def run(self) -> int:
         """:return: exit code."""
+        orphans.end_with_launch()
         node_signals.init_node("spawner", anonymous=True)
         if self._options.shutdown_timeout is not None:
             rospy.logwarn("Controller Spawner: --shutdown-timeout has no effect")
@@ -211,6 +212,7 @@ class Unspawner:
 
     def run(self) -> int:
         """:return: exit code."""
+        orphans.end_with_launch()
         node_signals.init_node("unspawner", anonymous=True)
         if not all(wait_for_service(f"controller_manager/{name}", None)
                    for name in ("list_controllers", "switch_controller")):

@@ -182,8 +182,9 @@ def offer_transport(server) -> None:
         rospy.logwarn("Gazebo's transport: %s", _OF_ANOTHER_CORE)
         return
     problem = _core.serve(server.description.name, lambda: server._calls.put((lambda: bridge(server, False), Future())))
-    if problem:
-        rospy.logwarn("Gazebo's transport: %s", problem)
+    if problem:  # with the port that all have, a second simulator of a machine is nothing that anybody need read of
+        log = rospy.logwarn if os.environ.get("GAZEBO_MASTER_URI") else rospy.logdebug
+        log("Gazebo's transport: %s", problem)
 
 
 class Bridge:

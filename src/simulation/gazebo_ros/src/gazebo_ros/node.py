@@ -18,29 +18,32 @@ import ode_sim
 import rosgraph
 import rospkg
 import rospy
-from node_signals import master_watch, verbose
+from node_signals import master_watch, orphans, verbose
 from ode_sim.description import DescriptionError, Problem, ResourceFinder, load_world
 from ode_sim.description import model as d
 from rospy.names import load_mappings
-from std_msgs.msg import Bool
 
 from gazebo_ros import command_line, compiled
-from gazebo_ros.api.clock import ClockPublisher
+from gazebo_ros.api.clock import ClockPublisher, stand_as_subscriber
 from gazebo_ros.api.forces import ForceJobs
 from gazebo_ros.api.joint_commands import JointCommands
 from gazebo_ros.api.joints import JointServices
 from gazebo_ros.api.lights import LightServices
 from gazebo_ros.api.metrics import MetricsPublisher
 from gazebo_ros.api.models import ModelServices
+from gazebo_ros.api.on_demand import OnDemand
 from gazebo_ros.api.physics import PhysicsServices
 from gazebo_ros.api.pictures import PictureServices
+from gazebo_ros.api.ready import Ready
 from gazebo_ros.api.spawning import SpawnServices
 from gazebo_ros.api.states import StatePublishers
 from gazebo_ros.api.stepping import SteppingServices
 from gazebo_ros.api.surfaces import SurfaceServices
 from gazebo_ros.api.timeline import TimelineServices
 from gazebo_ros.api.view import ViewServices
+from gazebo_ros.delivery import Delivery
 from gazebo_ros.finding import make_finder
+from gazebo_ros.first_view import first_view
 from gazebo_ros.plugin_host import PluginHost, library_key
 from gazebo_ros.server import Server
 
@@ -62,6 +65,7 @@ def main() -> None:
 
 def _run() -> int:
     ending = _Ending()
+    orphans.end_with_launch()
     options = command_line.parse(rospy.myargv()[1:])
     _wait_for_master(ending)
     if _runs_already():
@@ -77,6 +81,8 @@ def _run() -> int:
     sim_time = bool(rospy.get_param("/use_sim_time", True))
     master_watch.on_return(lambda: _use_sim_time(sim_time))
     server = make_server(options, sim_time)
+    if sim_time:
+        stand_as_subscriber()
     compiled.offer_transport(server)
     master_watch.watch()
     ending.follow(server)
@@ -169,24 +175,29 @@ def _runs_already() -> bool:
     return True
 
 
-def _load_world(name: str, finder: ResourceFinder) -> Tuple[d.World, List[Problem]]:
-    """The description of a world; the empty one, with one line, when that cannot be had."""
+def _load_world(name: str, finder: ResourceFinder) -> Tuple[str, d.World, List[Problem]]:
+    """The name and the description of a world; of the empty one, with one line, when that cannot be had."""
     try:
-        return load_world(name, finder)
+        return (name, *load_world(name, finder))
     except DescriptionError as error:
         rospy.logerr("%s. Using %s instead.", error, _EMPTY_WORLD)
-        return load_world(_EMPTY_WORLD, finder)
+        return (_EMPTY_WORLD, *load_world(_EMPTY_WORLD, finder))
 
 
 def make_server(options, sim_time: bool = True) -> Server:
     """The world, its node and everything the node offers; plugins are started by ``Server.run``."""
     rospack = rospkg.RosPack()
     finder = make_finder(rospack)
-    description, problems = _load_world(options.world, finder)
+    name, description, problems = _load_world(options.world, finder)
     world = ode_sim.World(description, seed=options.seed or 0, finder=finder, problems=problems)
     host = PluginHost(rospack, BUILTIN)
-    server = Server(world, description, finder, host, paused=options.pause, lockstep=options.lockstep,
+    delivery = None
+    if options.lockstep:
+        delivery = Delivery({"/rosout", *map(rospy.resolve_name, ("~view", "~view_contacts"))})
+        delivery.install()
+    server = Server(world, description, finder, host, paused=options.pause, lockstep=options.lockstep, delivery=delivery,
                     iterations=options.iters, ros_time=sim_time)
+    server.first_view = first_view(name, finder)
     server.report_problems(f"world {description.name}")
     for library in options.server_plugin:
         if library_key(library) not in map(library_key, BUILTIN):
@@ -207,15 +218,18 @@ def _offer_api(server: Server) -> None:
     SpawnServices(server)
     SteppingServices(server)
     PictureServices(server)
-    ViewServices(server)
+    on_demand = OnDemand()
+    ViewServices(server, on_demand)
     TimelineServices(server)
     SurfaceServices(server)
     JointCommands(server)
     physics = PhysicsServices(server)
     rospy.loginfo("Finished loading Gazebo ROS API Plugin.")
     physics.start_reconfigure()
-    ready = rospy.Publisher("~ready", Bool, queue_size=1, latch=True)
-    server.started.connect(lambda: ready.publish(True))
+    ready = Ready()
+    on_demand.offer("~ready", ready.publisher, ready.gone)
+    server.started.connect(ready.set)
+    on_demand.start()
 
 
 class _PhysicsThread(threading.Thread):

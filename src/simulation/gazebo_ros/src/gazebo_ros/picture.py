@@ -19,7 +19,7 @@ def parser() -> argparse.ArgumentParser:
     add = made.add_argument
     add("model", nargs="?", default="", help="fills the frame; without it: all that stands on the ground")
     add("-o", "--output", metavar="FILE.png", required=True)
-    add("--view", default="iso", help="iso (default), front, back, left, right or top")
+    add("--view", default="", help="iso, front, back, left, right or top (default: where the world's <gui><camera> stands, else iso)")
     add("--size", metavar="WxH", default="1280x800", help="pixels (default 1280x800)")
     return made
 

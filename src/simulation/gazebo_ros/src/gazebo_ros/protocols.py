@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from ode_sim import World
     from ode_sim.description import ResourceFinder
     from ode_sim.description import model as d
-    from ode_sim.handles import LinkHandle, ModelHandle
+    from ode_sim.handles import JointHandle, LinkHandle, ModelHandle
 
 _Result = TypeVar("_Result")
 
@@ -47,6 +47,15 @@ class Server(Protocol):
     def after_step(self, f: Callable[[], None]) -> Connection:
         """Call ``f()`` in every step when poses, velocities and contacts are those at :meth:`now`."""
 
+    def unpause(self) -> None:
+        """Let the simulation run. Any thread."""
+
+    def step(self) -> None:
+        """One step though paused; returns when it is done. Not in the physics thread."""
+
+    def drives(self, *joints: JointHandle) -> None:
+        """The plugin moves these joints from now on. Where two say so of the same joint, one warning names both."""
+
 
 class Sensor(Protocol):
     """A sensor on a link of a simulated model."""
@@ -68,6 +77,9 @@ class Sensor(Protocol):
 
     @property
     def measurement_time(self) -> rospy.Time: ...
+
+    def pictured(self, measured_ns: int) -> None:
+        """For cameras: a picture of the update at ``measured_ns`` has been published. Any thread."""
 
     def connect(self, measure: Callable[[Any], None], wanted: Callable[[], bool] = ...) -> None:
         """Call ``measure(sensor)`` in the physics thread at every update while ``wanted()`` is true."""

@@ -14,8 +14,9 @@ An unwanted sensor costs one comparison a step, and nothing at all is measured.
 """
 from __future__ import annotations
 
+import time
 from dataclasses import dataclass
-from typing import Any, Callable, List
+from typing import Any, Callable, List, NamedTuple, Optional
 
 import rospy
 from node_signals.rates import LatenessKept
@@ -25,6 +26,14 @@ _NS = 1_000_000_000
 
 def _always() -> bool:
     return True
+
+
+class Count(NamedTuple):
+    """How many measurements there were, and when the newest was: ns of sim time and of the system's monotonic clock."""
+
+    number: int = 0
+    sim_ns: int = 0
+    wall_ns: int = 0
 
 
 @dataclass
@@ -51,7 +60,8 @@ class Sensor:
         self.model = link.model
         self.update_rate = LatenessKept(description.update_rate)
         self.measurement_ns = 0
-        self.update_count = 0
+        self.updates = Count()
+        self._pictures: Optional[Count] = None
         self.owner: Any = None  # the plugin being loaded: what it connects is its own
         self._report = report
         self._consumers: List[_Consumer] = []
@@ -68,6 +78,17 @@ class Sensor:
     @property
     def type(self) -> str:
         return self.description.type
+
+    @property
+    def counted(self) -> Count:
+        """What has come of it: measurements; of a camera, the pictures that were published."""
+        return self.updates if self._pictures is None else self._pictures
+
+    def pictured(self, measured_ns: int) -> None:
+        """A picture of the update at ``measured_ns`` has been published; those of one update count once. Any thread."""
+        before = self._pictures or Count()
+        if measured_ns != before.sim_ns or not before.number:
+            self._pictures = Count(before.number + 1, measured_ns, time.monotonic_ns())
 
     @property
     def measurement_time(self) -> rospy.Time:
@@ -96,7 +117,7 @@ class Sensor:
         if not wanting:
             return
         self.measurement_ns = now_ns
-        self.update_count += 1
+        self.updates = Count(self.updates.number + 1, now_ns, time.monotonic_ns())
         for consumer in wanting:
             try:
                 consumer.measure(self)

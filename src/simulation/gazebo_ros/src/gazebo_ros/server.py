@@ -17,6 +17,8 @@ from ode_sim.handles import ModelHandle
 from gazebo_ros import protocols
 from node_signals.rates import Spaced
 from gazebo_ros.callbacks import CallbackList, Connection
+from gazebo_ros.delivery import Delivery
+from gazebo_ros.driving import Drivers
 from gazebo_ros.plugin import ModelPlugin, PluginError, SensorPlugin, WorldPlugin
 from gazebo_ros.plugin_host import PluginHost, PluginInstance, ResolvedPlugin, plugin_sdf
 from gazebo_ros.sensors import Sensor
@@ -24,6 +26,7 @@ from gazebo_ros.throttle import Throttle
 
 _NS = 1_000_000_000
 _SLEEPERS = rospy.rostime.get_rostime_cond()  # who sleeps in sim time in this process waits on it
+_A_MOMENT = 0.001  # wall s
 _WALL_RATE = 1000.0  # wall Hz; uncapped, subscribers get at most one message per wall millisecond
 
 
@@ -73,16 +76,21 @@ class Server:
         ``ode_sim.description.ResourceFinder`` with the search paths of the environment and of ROS packages
     ``lockstep``
         physics waits for every sensor (``--lockstep``): a camera must not drop a frame
+    ``delivery``
+        in lock-step: what subscribers have not taken yet, which physics waits for, too
     ``ros_time``
         let ``rospy.Time.now()`` of this process be :meth:`now` (off when /use_sim_time is false)
     """
 
     def __init__(self, world, description: d.World, finder, host: PluginHost, *, paused: bool = False,
-                 lockstep: bool = False, iterations: int = 0, ros_time: bool = True):
+                 lockstep: bool = False, delivery: Optional[Delivery] = None, iterations: int = 0, ros_time: bool = True):
         self.world = world
         self.description = description
         self.finder = finder
         self.lockstep = lockstep
+        self._delivery = delivery
+        self._drivers = Drivers()
+        self.first_view: Optional[d.Pose] = None  # X_WE of the window's eye, where the world file says it
         self.throttle = Throttle(world.physics.real_time_update_rate)
         self.paused = paused
         self.started = CallbackList()  # called once, when all plugins are loaded, before the first step
@@ -172,13 +180,20 @@ class Server:
 
     def _turn(self) -> None:
         """One step, or one piece of waiting for it."""
-        if not self._calls.empty():
+        if not self._calls.empty():  # first: a subscriber that is waited for may be waiting for an answer
             self._run_call(*self._calls.get())
+        elif self._delivery is not None and self._delivery.pending:
+            self._delivery.wait(_A_MOMENT)
         elif self._requested_steps:
             self._step()
             self._requested_steps -= 1
             if not self._requested_steps:
+                self.stepped.call()
+        elif self._request is not None:
+            if self._delivery is None or self._delivery.taken():
                 self._finish_request()
+            else:
+                time.sleep(_A_MOMENT)
         elif self.paused:
             self._run_call(*self._calls.get())
         else:
@@ -267,7 +282,8 @@ class Server:
     def request_steps(self, count: int) -> Future:
         """Take ``count`` steps as fast as possible though paused. Physics thread.
 
-        :returns: done when the last step is; cancelled by a second request's refusal or the end of the simulator
+        :returns: done when the last step is and, in lock-step, what it published is with the subscribers; cancelled by a second
+            request's refusal or the end of the simulator
         :raises ValueError: not paused, or a request is still running
         """
         if not self.paused:
@@ -282,7 +298,6 @@ class Server:
 
     def _finish_request(self) -> None:
         request, self._request = self._request, None
-        self.stepped.call()
         if request is not None:
             request.set_result(None)
 
@@ -409,6 +424,7 @@ class Server:
         self._before.disconnect_owner(instance)
         self._after.disconnect_owner(instance)
         self.stepped.disconnect_owner(instance)
+        self._drivers.ended(instance)
 
     def _end_plugin(self, instance: PluginInstance) -> None:
         self._disconnect(instance)
@@ -451,6 +467,21 @@ class ServerView:
     def after_step(self, f: Callable[[], None]) -> Connection:
         """See :meth:`Server.after_step`."""
         return self._server._after.connect(f, self._owner)
+
+    def unpause(self) -> None:
+        """From any thread."""
+        self._server.call(self._server.unpause)
+
+    def step(self) -> None:
+        """One step though paused; returns when it is done. Not in the physics thread.
+
+        :raises ValueError: not paused, or somebody else's steps are being taken
+        """
+        self._server.call(lambda: self._server.request_steps(1)).result()
+
+    def drives(self, *joints: Any) -> None:
+        """The plugin moves these joints from now on: a second plugin that says so of one of them is a warning."""
+        self._server._drivers.drives(self._owner, joints)
 
 
 def log_problems(problems: Iterable[d.Problem], what: str) -> None:

@@ -12,8 +12,9 @@ from typing import Callable, List, Tuple
 import rosgraph
 import node_signals
 import rospy
-from gazebo_msgs.srv import DeleteModel, GetWorldProperties
+from gazebo_msgs.srv import DeleteModel, GetPhysicsProperties, GetWorldProperties
 from geometry_msgs.msg import Point, Pose, Quaternion
+from node_signals import orphans
 from node_signals.services import wait_for_service
 from std_srvs.srv import Empty
 
@@ -40,6 +41,8 @@ def parse(arguments: List[str]) -> argparse.Namespace:
     parser.add_argument("-gazebo_namespace", default="/gazebo", metavar="NS", help="of the simulator's services")
     parser.add_argument("-robot_namespace", default=rospy.get_namespace(), metavar="NS", help="given to its plugins")
     parser.add_argument("-unpause", action="store_true", help="unpause the simulation afterwards")
+    parser.add_argument("-paused_until_controllers", action="store_true", help="pause the simulation before, and let it run when the "
+                        "first controllers that move something start: joints do not fall meanwhile")
     parser.add_argument("-wait", metavar="MODEL", help="wait until this model exists")
     for name in "xyz":
         parser.add_argument(f"-{name}", type=float, default=0.0, help="m")
@@ -157,6 +160,30 @@ class Bond:
             _delete(self._options)
 
 
+class Hold:
+    """``-paused_until_controllers``: the world stands still from now on; the controller manager of the model lets it run."""
+
+    def __init__(self, options: argparse.Namespace):
+        self._options = options
+        self._parameter = f"{options.gazebo_namespace}/paused_until_controllers/{options.model}"
+        physics = _service(options.gazebo_namespace, "get_physics_properties", GetPhysicsProperties)()
+        self._was_paused = physics.pause
+        rospy.set_param(self._parameter, True)
+        _service(options.gazebo_namespace, "pause_physics", Empty)()
+
+    def spawned(self, done: bool) -> None:
+        """:param done: the model is there. Its plugin has taken the parameter by now, or will never do it."""
+        if not rospy.has_param(self._parameter):
+            rospy.loginfo("The simulation is paused until controllers of model %s start", self._options.model)
+            return
+        rospy.delete_param(self._parameter)
+        if done:
+            rospy.logwarn("model %s has no controllers to wait for (its description names no libgazebo_ros_control.so): "
+                          "-paused_until_controllers has no effect", self._options.model)
+        if not self._was_paused:
+            _unpause(self._options.gazebo_namespace)
+
+
 def spawn(options: argparse.Namespace) -> None:
     """
     :raises Failure: it did not work; the simulator's own reason has been logged
@@ -173,15 +200,24 @@ def spawn(options: argparse.Namespace) -> None:
     if bond:  # from here on its end waits for the answer, so the simulator must be there
         service = f"{options.gazebo_namespace}/spawn_{'urdf' if options.urdf else 'sdf'}_model"
         wait_for_service(service)
-    if not (bond.spawn(ask) if bond else ask()):
+    held = Hold(options) if options.paused_until_controllers else None
+    done = bond.spawn(ask) if bond else ask()
+    if held:
+        held.spawned(done)
+    if not done:
         raise Failure(f"model {options.model} was not spawned")
     if options.joints:
         names, positions = zip(*options.joints)
         if not gazebo_interface.set_model_configuration_client(options.model, options.param or "", list(names),
                                                                list(positions), options.gazebo_namespace):
             raise Failure(f"model {options.model} is spawned, but its joints were not set")
-    if options.unpause:
+    if options.unpause and not held:
         _unpause(options.gazebo_namespace)
+
+
+def _service(gazebo_namespace: str, name: str, kind: type) -> rospy.ServiceProxy:
+    wait_for_service(f"{gazebo_namespace}/{name}")
+    return rospy.ServiceProxy(f"{gazebo_namespace}/{name}", kind)
 
 
 def _unpause(gazebo_namespace: str) -> None:
@@ -209,6 +245,7 @@ def main() -> int:
     if not rosgraph.is_master_online():
         print(f"spawn_model: no ROS master at {rosgraph.get_master_uri()}; start the simulator first", file=sys.stderr)
         return 1
+    orphans.end_with_launch()
     node_signals.init_node("spawn_model", anonymous=True)
     try:
         spawn(options)

@@ -13,7 +13,7 @@ from typing import Any, List, Optional
 from urllib.parse import urlsplit
 
 import node_signals
-from node_signals import verbose
+from node_signals import orphans, verbose
 from ode_sim.viewer.website import Unavailable, Website
 
 from gzclient import command_line, desktop
@@ -29,7 +29,7 @@ def main(arguments: List[str]) -> int:
     for line in command_line.remarks(options):
         _say(line)
     try:
-        website = Website(options.port, options.listen)
+        website = Website(options.port, options.listen, token=True)
     except Unavailable as error:
         _say(str(error))
         return 1
@@ -51,6 +51,7 @@ def main(arguments: List[str]) -> int:
 
 def _serve(website: Website, options: Any, closed: Any) -> int:
     import rospy
+    orphans.end_with_launch()
     node_signals.init_node("gzclient", anonymous=True, disable_rostime=True,
                            log_level=verbose.level(options.verbose))
     from gzclient.page import make_page

@@ -1,12 +1,32 @@
 """/clock."""
 from __future__ import annotations
 
+import rosgraph
 import rospy
+from node_signals import master_watch
 from node_signals.rates import Spaced
 from realtime_tools import make_prompt
 from rosgraph_msgs.msg import Clock
+from rospy.topics import get_topic_manager
 
 from gazebo_ros.server import Server, WallLimit
+
+
+def stand_as_subscriber() -> None:
+    """Gazebo's node is among the subscribers of /clock, as every node in simulated time, and what shows the graph shows it so. This
+    one takes its time from the world itself: master and bus info tell of a connection within the process, and no message is sent."""
+    name, uri, topics = rospy.get_caller_id(), rospy.get_node_uri(), get_topic_manager()
+    master = rosgraph.Master(name)
+    own = [[0, other, direction, "INTRAPROCESS", "/clock", True] for other, direction in ((name, "o"), (uri, "i"))]
+    others = topics.get_pub_sub_info
+    topics.get_pub_sub_info = lambda: others() + own
+
+    def register() -> None:
+        master.registerSubscriber("/clock", Clock._type, uri)
+
+    register()
+    master_watch.on_return(register)
+    rospy.on_shutdown(lambda: master.unregisterSubscriber("/clock", uri))
 
 
 class ClockPublisher:

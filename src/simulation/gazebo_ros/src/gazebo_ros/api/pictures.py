@@ -27,6 +27,7 @@ class PictureServices:
     def _take(self, request, response) -> str:
         from ode_sim.rendering.portrait import VIEWS, Painter, Portrait
         width, height = request.width or _SIZE[0], request.height or _SIZE[1]
+        eye = self._server.first_view if not request.view and not request.model else None
         view = request.view or "iso"
         if view not in VIEWS:
             raise Refused(f"no view '{view}'; there are {', '.join(VIEWS)}")
@@ -36,7 +37,7 @@ class PictureServices:
         if request.model and request.model not in names:
             raise Refused(f"no model '{request.model}'; there are {listing(names)}")
         self._painter = self._painter or Painter()
-        response.png, problems = self._painter.take(Portrait(scene, poses, request.model, view, width, height))
+        response.png, problems = self._painter.take(Portrait(scene, poses, request.model, view, width, height, eye))
         for line in problems:
             rospy.logdebug("take_picture: %s", line)
         return "TakePicture: done"

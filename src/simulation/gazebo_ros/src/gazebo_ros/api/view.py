@@ -4,6 +4,7 @@ from __future__ import annotations
 import random
 import threading
 import time
+from dataclasses import replace
 from typing import Any, Callable, List, Optional, Tuple
 
 import numpy as np
@@ -16,6 +17,7 @@ from ode_sim.viewer.saving import describe_now
 from ode_sim.viewer.simulation import WorldRecord, record_world
 
 from gazebo_ros.api.handlers import advertise
+from gazebo_ros.api.on_demand import OnDemand
 from gazebo_ros.msg import WorldContacts, WorldView
 from gazebo_ros.server import Server, Stopped
 from gazebo_ros.srv import DescribeWorld, SaveWorld
@@ -60,39 +62,47 @@ class RunClock:
 
 
 class Stream:
-    """A topic that is published while somebody subscribes; else there is no thread, and nothing is done in a step.
+    """A topic that is there, and published, while somebody subscribes; else there is no thread, and nothing is done in a step.
 
+    :param on_demand: takes it on and off the graph
     :param read: the message, asked for in the physics thread
     :param watched: told there of the first subscriber, and of the last one's end
     """
 
-    def __init__(self, server: Server, name: str, kind: type, period: float, read: Callable[[], Any],
+    def __init__(self, server: Server, on_demand: OnDemand, name: str, kind: type, period: float, read: Callable[[], Any],
                  watched: Callable[[bool], None] = lambda on: None):
         self._server = server
+        self._name, self._kind = name, kind
         self._period = period
         self._read = read
         self._watched = watched
         self._thread: Optional[threading.Thread] = None
         self._lock = threading.Lock()
-        self._publisher = rospy.Publisher(name, kind, subscriber_listener=_Listener(self._begin), queue_size=1)
+        self._publisher: Optional[rospy.Publisher] = None
+        on_demand.offer(name, self._make)
+
+    def _make(self) -> rospy.Publisher:
+        with self._lock:  # the first subscriber may be there before this ends
+            self._publisher = rospy.Publisher(self._name, self._kind, subscriber_listener=_Listener(self._begin), queue_size=1)
+            return self._publisher
 
     def _begin(self) -> None:
         with self._lock:
             if self._thread is None:
-                self._thread = threading.Thread(target=self._run, name="view", daemon=True)
+                self._thread = threading.Thread(target=self._run, args=(self._publisher,), name="view", daemon=True)
                 self._thread.start()
 
-    def _run(self) -> None:
+    def _run(self, publisher: rospy.Publisher) -> None:
         due = time.monotonic()
         try:
             self._server.call(lambda: self._watched(True))
             while True:
                 with self._lock:
-                    if not self._publisher.get_num_connections():
+                    if not publisher.get_num_connections():
                         self._server.call(lambda: self._watched(False))
                         self._thread = None
                         return
-                self._publisher.publish(self._server.call(self._read))
+                publisher.publish(self._server.call(self._read))
                 due = max(due + self._period, time.monotonic())
                 time.sleep(max(0.0, due - time.monotonic()))
         except (Stopped, rospy.ROSException):
@@ -103,15 +113,15 @@ class ViewServices:
     """``~view`` (:class:`WorldView`), ``~view_contacts`` (:class:`WorldContacts`), ``~describe_world``,
     ``~save_world``."""
 
-    def __init__(self, server: Server):
-        self._server = server
+    def __init__(self, server: Server, on_demand: OnDemand):
+        self._server, self._on_demand = server, on_demand
         self._watch = SceneWatch(server.world)
         self._clock = RunClock(server)
         self._revision = random.getrandbits(30)  # another one than that of the server before this one
         contacts = ContactWatch(server.world)
         self._streams: List[Stream] = [
-            Stream(server, "~view", WorldView, _PERIOD, self._read),
-            Stream(server, "~view_contacts", WorldContacts, _CONTACTS_PERIOD, lambda: WorldContacts(
+            Stream(server, on_demand, "~view", WorldView, _PERIOD, self._read),
+            Stream(server, on_demand, "~view_contacts", WorldContacts, _CONTACTS_PERIOD, lambda: WorldContacts(
                 rospy.Time(0, server.world.time_ns), _bytes(contacts.read())), contacts.watch)]
         advertise(server, "describe_world", DescribeWorld, self._describe, in_physics_thread=False)
         advertise(server, "save_world", SaveWorld, self._save, in_physics_thread=False)
@@ -128,13 +138,14 @@ class ViewServices:
             self._revision += 1
 
     def _describe(self, request, response) -> str:
+        self._on_demand.now("~view")  # which whoever asks this is about to look at
         record = self._server.call(self._record)
         response.revision, response.world = record.revision, dumps(record)
         return "DescribeWorld: done"
 
     def _record(self) -> WorldRecord:
         self._look_for_news()
-        return record_world(self._server.world, self._revision)
+        return replace(record_world(self._server.world, self._revision), view=self._server.first_view)
 
     def _save(self, request, response) -> str:
         response.sdf = world_text(self._server.call(lambda: describe_now(self._server.world)))

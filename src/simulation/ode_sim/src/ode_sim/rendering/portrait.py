@@ -20,7 +20,7 @@ import numpy as np
 
 from ode_sim.description import model as d
 from ode_sim.errors import Refused
-from ode_sim.math3 import quat_to_matrix
+from ode_sim.math3 import Pose, quat_to_matrix
 from ode_sim.rendering.assets import Assets
 from ode_sim.rendering.camera import Camera, look_at
 from ode_sim.rendering.scene import SceneDescription
@@ -33,6 +33,7 @@ VIEWS: Dict[str, Tuple[float, float]] = {
     "iso": (math.pi / 5, 0.45), "front": (0.0, 0.08), "back": (math.pi, 0.08), "left": (math.pi / 2, 0.08),
     "right": (-math.pi / 2, 0.08), "top": (math.pi / 2, math.pi / 2 - 0.01)}
 _HFOV = 0.9
+_WINDOW_HFOV = 1.0472
 _FILLED = 0.88  # of the frame, along the side that is filled first
 _LEAST = 0.05  # m, of what is looked at
 _SHOWN = 0.5  # of a model's pixels: where less of it is to be seen, what stands before it is cut away
@@ -43,7 +44,7 @@ _KEPT = 20.0  # s for which a process without work is kept
 @dataclass(frozen=True)
 class Portrait:
     """What to draw: ``scene`` with its link ``poses`` (L,7), of it the visuals of ``model`` ('' = all but the ground),
-    from ``view``, with ``width`` x ``height`` pixels."""
+    from ``view``, with ``width`` x ``height`` pixels. ``eye``: X_WE of an eye that looks along its x axis, in place of a view."""
 
     scene: SceneDescription
     poses: np.ndarray
@@ -51,6 +52,7 @@ class Portrait:
     view: str
     width: int
     height: int
+    eye: Optional[Pose] = None
 
 
 def extent(portrait: Portrait, assets: Optional[Assets] = None) -> np.ndarray:
@@ -100,6 +102,12 @@ def camera_for(corners: np.ndarray, view: str, width: int, height: int) -> Camer
                   pose=look_at(tuple(eye), tuple(eye + towards)))
 
 
+def camera_at(eye: Pose, corners: np.ndarray, width: int, height: int) -> Camera:
+    """The camera that stands there, with the field of view of Gazebo's window; it sees as far as all ``corners`` (N,3) are."""
+    farthest = float(np.linalg.norm(corners - np.asarray(eye.p), axis=1).max())
+    return Camera("portrait", width, height, _WINDOW_HFOV, near=0.05, far=farthest + 500.0, pose=eye)
+
+
 def without_foreground(camera: Camera, corners: np.ndarray) -> Camera:
     """``camera``, blind to whatever is nearer than all ``corners`` (N,3)."""
     axis = np.array(quat_to_matrix(camera.pose.q))[:, 0]
@@ -143,7 +151,8 @@ class Studio:
         if self._renderer is None:
             self._renderer = Renderer(antialiasing="msaa", shadows="on", assets=self._assets)
             self._renderer.set_scene(portrait.scene)
-        camera = camera_for(corners, portrait.view, portrait.width, portrait.height)
+        camera = camera_for(corners, portrait.view, portrait.width, portrait.height) if portrait.eye is None else camera_at(
+            portrait.eye, corners, portrait.width, portrait.height)
         if portrait.model:
             bare = without_foreground(camera, corners)
             if self._pixels(camera, portrait) < _SHOWN * self._pixels(bare, portrait):

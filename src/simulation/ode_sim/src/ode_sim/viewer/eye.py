@@ -6,6 +6,8 @@ from typing import Any, Optional, Sequence, Tuple
 
 import numpy as np
 
+from ode_sim.math3 import Pose, quat_rotate
+
 FIELD = 0.9  # rad, from the lower to the upper edge of a page
 _AZIMUTH = -0.9  # rad, of the eye as seen from what it looks at
 _ELEVATIONS = (0.45, 0.9)  # rad: of what is as high as wide, of a room that has to be looked into
@@ -39,6 +41,18 @@ def view_of(still: np.ndarray, moving: np.ndarray) -> View:
     distance = max(float((np.abs(seen[:, 1]) / slope + seen[:, 2]).max()),
                    float((np.abs(seen[:, 0]) / (slope * _ASPECT) + seen[:, 2]).max()), 0.3)
     return middle + distance * away, middle
+
+
+def view_from(eye: Pose, still: np.ndarray, moving: np.ndarray) -> View:
+    """The view of an eye that a world file places; what is there says how far ahead the point lies about which a hand turns it.
+
+    :param eye: X_WE; it looks along its x axis. :param still, moving: as for :func:`view_of`
+    """
+    corners = np.concatenate([still, moving])
+    corners = corners[(np.abs(corners) < 1e5).all(axis=1)]
+    place, ahead = np.asarray(eye.p), np.asarray(quat_rotate(eye.q, (1.0, 0.0, 0.0)))
+    middle = (corners.min(axis=0) + corners.max(axis=0)) / 2 if len(corners) else np.zeros(3)
+    return place, place + max(float((middle - place) @ ahead), 1.0) * ahead
 
 
 def put_eye(client: Any, place: Sequence[float], target: Sequence[float]) -> None:

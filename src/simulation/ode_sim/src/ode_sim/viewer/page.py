@@ -9,7 +9,7 @@ from typing import Any, Callable, List, Optional, Sequence
 
 from ode_sim.description.model import one_line
 from ode_sim.viewer.drawing import Drawing
-from ode_sim.viewer.eye import Eyes, view_of
+from ode_sim.viewer.eye import Eyes, view_from, view_of
 from ode_sim.viewer.overlays import Overlays
 from ode_sim.viewer.panels import STANDARD
 from ode_sim.viewer.panels.base import Panel
@@ -237,7 +237,8 @@ class Page:
         if frame.revision == world.revision:
             self.drawing.move(frame)
             if time.monotonic() < self._settled:
-                self.eyes.look(view_of(*self.drawing.corners(frame)))
+                corners = self.drawing.corners(frame)
+                self.eyes.look(view_of(*corners) if world.view is None else view_from(world.view, *corners))
         self.overlays.update(world)
         self.selection.update(world)
         self._each(lambda panel: panel.on_world(world))

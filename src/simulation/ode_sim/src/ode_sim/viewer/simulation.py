@@ -43,6 +43,7 @@ class WorldRecord:
     """What is in the world; what moves in it is in :class:`Frame`.
 
     :ivar revision: changes with every change of what is here.
+    :ivar view: X_WE of the eye at first, which looks along its x axis; None where the world does not say it.
     """
 
     revision: int = 0
@@ -50,6 +51,7 @@ class WorldRecord:
     models: Tuple[ModelRecord, ...] = ()
     lights: Tuple[d.Light, ...] = ()
     scene: d.Scene = d.Scene()
+    view: Optional[Pose] = None
 
     def model(self, name: str) -> Optional[ModelRecord]:
         return next((model for model in self.models if model.name == name), None)
