@@ -1,8 +1,10 @@
 """libgazebo_ros_bumper.so: gazebo_msgs/ContactsState of a contact sensor, empty ones included."""
 from __future__ import annotations
 
-from typing import Dict, List, Tuple
+from collections import deque
+from typing import Deque, Dict, List, Tuple
 
+import numpy as np
 import rospy
 from gazebo_msgs.msg import ContactsState, ContactState
 from geometry_msgs.msg import Vector3, Wrench
@@ -11,9 +13,10 @@ from gazebo_ros.plugin import PluginError, SensorPlugin
 from ode_sim import CollisionHandle, math3
 from ode_sim.description.urdf_extensions import LUMP
 
+from gazebo_plugins.pair_order import PairOrder
 from gazebo_plugins.ros_side import Topics, subscribed
 
-_MOST_STEPS = 100  # contacts of at most so many steps between two messages
+_MOST_STEPS = 100  # a message has the contacts of the last so many steps
 
 
 def _lumped_as(collision: str, named: str) -> bool:
@@ -25,8 +28,9 @@ def _lumped_as(collision: str, named: str) -> bool:
 
 
 class Bumper(SensorPlugin):
-    """Positions and normals in the world frame, whatever frameName says; wrenches act on the first collision's link,
-    expressed in its frame."""
+    """Positions and normals in the world frame, whatever frameName says; a normal points into the first collision. Wrenches are
+    those on the first collision's link, in its axes and about its centre of mass. Which of the two is the first:
+    :mod:`gazebo_plugins.pair_order`; it need not be the sensor's own."""
 
     def load(self, server, sensor, sdf) -> None:
         self.server, self.sensor, self.world = server, sensor, server.world
@@ -36,8 +40,8 @@ class Bumper(SensorPlugin):
             server.world.watch_contacts(collision)
         self.topics = Topics(sdf, sensor.model.name, "C")
         self.frame = self.topics.frame(sdf.text_or("frameName", "world"))
-        self.states: List[ContactState] = []
-        self.steps = 0
+        self.order = PairOrder()
+        self.steps: Deque[Tuple[rospy.Time, List[ContactState]]] = deque(maxlen=_MOST_STEPS)
         self.publisher = self.topics.publisher(sdf.text_or("bumperTopicName", "bumper_states"), ContactsState)
         self.wanted = subscribed(self.publisher)
         server.after_step(self.collect)
@@ -63,45 +67,48 @@ class Bumper(SensorPlugin):
         """Contacts of this step: one state per colliding pair."""
         if not self.wanted():
             return
-        if self.steps == _MOST_STEPS:
-            self.states.clear()
-            self.steps = 0
-        self.steps += 1
+        self.order.forget()
         pairs: Dict[Tuple[int, int], list] = {}
         for contact in self.world.contacts():
-            first, second = int(contact["collision1"]), int(contact["collision2"])
-            if first in self.collisions or second in self.collisions:
-                pairs.setdefault((first, second), []).append(contact)
-        for (first, second), contacts in pairs.items():
-            self.states.append(self._state(first, second, contacts))
+            pair = int(contact["collision1"]), int(contact["collision2"])
+            if not self.collisions.isdisjoint(pair):
+                pairs.setdefault(pair, []).append(contact)
+        self.steps.append((self.server.now(), [self._state(*map(self.world.collision, pair), contacts)
+                                               for pair, contacts in pairs.items()]))
 
-    def _state(self, first: int, second: int, contacts) -> ContactState:
-        a, b = self.world.collision(first), self.world.collision(second)
-        state = ContactState(collision1_name=a.scoped_name, collision2_name=b.scoped_name)
-        q_LW = math3.quat_inverse(a.link.pose.q)
+    def _state(self, first: CollisionHandle, second: CollisionHandle, contacts) -> ContactState:
+        sign = 1.0
+        if not self.order.in_order(first, second):
+            first, second, sign = second, first, -1.0
+        state = ContactState(collision1_name=first.scoped_name, collision2_name=second.scoped_name)
+        q_LW = math3.quat_inverse(first.link.pose.q)
+        com = first.link.com()
         total = [(0.0, 0.0, 0.0), (0.0, 0.0, 0.0)]
         for contact in contacts:
-            force = math3.quat_rotate(q_LW, tuple(contact["force"]))
-            torque = math3.quat_rotate(q_LW, tuple(contact["torque"]))
+            f_W = sign * contact["force"]
+            force = math3.quat_rotate(q_LW, tuple(f_W))
+            torque = math3.quat_rotate(q_LW, tuple(np.cross(contact["position"] - com, f_W)))
             total = [math3.add(total[0], force), math3.add(total[1], torque)]
             state.wrenches.append(Wrench(Vector3(*force), Vector3(*torque)))
             state.contact_positions.append(Vector3(*contact["position"]))
-            state.contact_normals.append(Vector3(*contact["normal"]))
+            state.contact_normals.append(Vector3(*(sign * contact["normal"] + 0.0)))  # + 0.0: no -0.0
             state.depths.append(float(contact["depth"]))
         state.total_wrench = Wrench(Vector3(*total[0]), Vector3(*total[1]))
-        now = self.server.now()
-        state.info = (f"Debug:  i:(0/{len(contacts)})     my geom:{a.scoped_name}   other geom:{b.scoped_name}"
-                      f"         time:{now.to_sec():.9g}\n")
         return state
 
     def measure(self, sensor) -> None:
         message = ContactsState()
         message.header.stamp, message.header.frame_id = sensor.measurement_time, self.frame
-        message.states, self.states, self.steps = self.states, [], 0
+        told = [(time, state) for time, states in self.steps for state in states]
+        self.steps.clear()
+        for index, (time, state) in enumerate(told):
+            state.info = (f"Debug:  i:({index}/{len(told)})     my geom:{state.collision1_name}"
+                          f"   other geom:{state.collision2_name}         time:{time.secs}.{time.nsecs:09d}\n")
+            message.states.append(state)
         self.publisher.publish(message)
 
     def reset(self) -> None:
-        self.states, self.steps = [], 0  # contacts of a time that is no more
+        self.steps.clear()  # contacts of a time that is no more
 
     def shutdown(self) -> None:
         self.topics.close()

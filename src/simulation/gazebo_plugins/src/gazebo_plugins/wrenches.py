@@ -13,7 +13,8 @@ from gazebo_plugins.ros_side import Noise, Topics, find_joint, find_link, requir
 
 
 class FTSensor(ModelPlugin):
-    """What the joint's parent side feels of its child, in the child link's frame (child to parent)."""
+    """What the child bears on its parent (``child_to_parent``), in the child link's axes: force N, torque N m about the
+    joint's anchor. Of a weight that hangs on it, the force points down."""
 
     def load(self, server, model, sdf) -> None:
         self.server = server
@@ -34,8 +35,8 @@ class FTSensor(ModelPlugin):
             return
         feedback = self.joint.feedback()
         q_CW = math3.quat_inverse(self.joint.child.pose.q)
-        force = self.noise.vector(math3.quat_rotate(q_CW, feedback.child_force))
-        torque = self.noise.vector(math3.quat_rotate(q_CW, feedback.child_torque))
+        force = self.noise.vector(math3.quat_rotate(q_CW, feedback.parent_force))
+        torque = self.noise.vector(math3.quat_rotate(q_CW, feedback.parent_torque))
         self.message.header.stamp = now
         self.message.wrench = Wrench(Vector3(*force), Vector3(*torque))
         self.publisher.publish(self.message)
