@@ -106,6 +106,35 @@ class Moving(PluginWorld):
         self.assertTrue(0.2 < yaw_of(last) - yaw_of(first) <= 1.0)  # wheels scrub
         self.assertAlmostEqual(odometry.twist.covariance[0], 1e-4)
 
+    def test_diff_drive_stops_out_of_an_arc(self):
+        """Driven ahead, on the spot and on an arc, as the recorded robot of Gazebo 11.1: when the command ends, both wheels first
+        jump to where the ramp left them, which is the same speed. It turned by 0.0042 rad (wheels that ramp down from the speeds
+        they have: 0.024), and then went straight on."""
+        self.spawn("arc", sdf(self.base(left=(0, 0.19), right=(0, -0.19)).replace(
+            "</link>", f"""<collision name="s"><pose>0 0 -0.1 0 0 0</pose><geometry>{box(0.45, 0.01, 0.1)}</geometry><surface><friction>
+            <ode><mu>0</mu><mu2>0</mu2></ode></friction></surface></collision></link>""", 1), plugin(
+                "gazebo_ros_diff_drive", robotNamespace="/arc", leftJoint="left_joint", rightJoint="right_joint", wheelSeparation=0.38,
+                wheelDiameter=0.2, wheelTorque=30, wheelAcceleration=1.8, updateRate=100)), 0, 150)
+        self.addCleanup(self._delete_model, "arc")
+        self.drive("/arc", 0.3, 0.0, "/arc/odom", lambda t: abs(t.linear.x - 0.3) < 1e-3)
+        self.drive("/arc", 0.0, 0.5, "/arc/odom", lambda t: abs(t.angular.z - 0.5) < 1e-2)
+        self.drive("/arc", 0.2, 0.3, "/arc/odom", lambda t: abs(t.linear.x - 0.2) < 1e-3 and abs(t.angular.z - 0.3) < 1e-2)
+        state = lambda: self._get_model_state("arc", "")  # noqa: E731
+        Mouth("/arc/cmd_vel", Twist).say(Twist())
+        before = state()
+        while True:
+            self.step(0.001)
+            now = state()
+            if abs(now.twist.linear.x ** 2 + now.twist.linear.y ** 2 - 0.04) > 1e-3:
+                break
+            before = now
+        self.step(0.045)  # the jump itself makes these wheels slip, for some 0.03 s
+        braking = state().twist
+        self.assertGreater(math.hypot(braking.linear.x, braking.linear.y), 0.02)
+        self.assertAlmostEqual(braking.angular.z, 0.0, delta=0.03)
+        self.step(1.0)
+        self.assertAlmostEqual(math.remainder(yaw_of(state().pose) - yaw_of(before.pose), 2 * math.pi), 0.0, delta=0.009)
+
     def test_planar_move(self):
         self.spawn("planar", sdf(self.base(wheel=(0, 0)), plugin("gazebo_ros_planar_move", robotNamespace="/planar")), 0, 90)
         self.step(0.2)
@@ -149,6 +178,22 @@ class Moving(PluginWorld):
         self.assertAlmostEqual(odometry.twist.twist.angular.z, turned, delta=0.03 * turned)
         state = self.measure("/tricycle/joint_states", JointState, 0.1, 0)
         self.assertAlmostEqual(state.position[state.name.index("front_steering_joint")], steering, delta=0.01)
+
+    def test_tricycle_gathers_speed(self):
+        """Its limits are those of the wheel's rate, rad/s^2, as upstream compares them: 4 rad/s after 2 s at 2 rad/s^2."""
+        self.spawn("slowly", sdf(self.base(left=(-0.2, 0.25), right=(-0.2, -0.25)), link("fork", (0.3, 0, 0.2)),
+                    joint("front_steering_joint", "revolute", "base_link", "fork"), wheel("front", (0.3, 0, 0.1)),
+                    joint("front_wheel_joint", "revolute", "fork", "front", (0, 1, 0)), plugin(
+                        "gazebo_ros_tricycle_drive", robotNamespace="/slowly", encoderWheelLeftJoint="left_joint",
+                        encoderWheelRightJoint="right_joint", actuatedWheelDiameter=0.2, encoderWheelDiameter=0.2,
+                        encoderWheelSeparation=0.5, wheelTorque=20, wheelAcceleration=2)), 0, 160)
+        self.addCleanup(self._delete_model, "slowly")
+        Mouth("/slowly/cmd_vel", Twist).say(Vector3(0.4, 0, 0), Vector3(0, 0, 0))
+        speed = lambda: self._get_model_state("slowly", "").twist.linear.x  # noqa: E731
+        self.until_stepped(lambda: speed() > 0.02, "motion of the tricycle")
+        before = speed()
+        self.step(1.0)
+        self.assertAlmostEqual(speed() - before, 0.2, delta=0.02)
 
     def test_wheel_slip(self):
         """On a slope a rolling robot that slips sideways drifts; told not to, it keeps its line."""

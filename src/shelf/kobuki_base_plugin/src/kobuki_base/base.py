@@ -51,6 +51,7 @@ class Kobuki(ModelPlugin):
         self.gate = PeriodAdded(sdf.get("update_rate", _RATE) or _RATE)
         self._connect(sdf)
         self.reset()
+        server.drives(*self.wheels)
         server.before_step(self.drive)
         server.after_step(self.step)
 

@@ -36,8 +36,10 @@ class DiffDrive(ModelPlugin):
         self.odometry = OdometryPublisher(self.topics, sdf, "base_footprint") if sdf.get("publishTf", True) else None
         self.joint_states = self.topics.publisher("joint_states", JointState, 1000) \
             if sdf.get("publishWheelJointState", False) else None
-        self.rim_speeds = [0.0, 0.0]  # commanded last, m/s: left, right
+        self.ramped = [0.0, 0.0]  # rim speeds as the ramp left them, m/s: left, right
+        self.rim_speeds = [0.0, 0.0]  # commanded last
         self._drive()
+        server.drives(self.left, self.right)
         server.before_step(self.step)
 
     def step(self) -> None:
@@ -49,16 +51,21 @@ class DiffDrive(ModelPlugin):
             self._drive()
 
     def _ramp(self, elapsed: float) -> None:
-        """Rim speeds follow the command, limited by wheelAcceleration."""
+        """Rim speeds follow the command, limited by wheelAcceleration. As upstream has it both wheels jump to their targets once
+        either turns nearly as fast as it should, and the next ramp begins where this one ended, not at the speeds jumped to."""
         half_turn = self.command.yaw_rate * self.separation / 2
         targets = [self.command.x - half_turn, self.command.x + half_turn]
-        near = any(abs(target - speed) < _AT_TARGET for target, speed in zip(targets, self.rim_speeds))
-        if self.acceleration == 0.0 or near:
+        missing = [target - joint.velocity() * self.radius for target, joint in zip(targets, (self.left, self.right))]
+        if self.acceleration == 0.0 or any(abs(speed) < _AT_TARGET for speed in missing):
             self.rim_speeds = targets
             return
         change = self.acceleration * elapsed
-        self.rim_speeds = [speed + max(-change, min(change, target - speed))
-                           for target, speed in zip(targets, self.rim_speeds)]
+        for i, target in enumerate(targets):
+            now = self.ramped[i]
+            wanted = now + max(-change, min(change, missing[i]))
+            # never beyond the target: upstream's ramp of a wheel that is held grows without end
+            self.ramped[i] = max(min(now, target), min(max(now, target), wanted))
+        self.rim_speeds = list(self.ramped)
 
     def _drive(self) -> None:
         for joint, speed in zip((self.left, self.right), self.rim_speeds):
@@ -79,7 +86,7 @@ class DiffDrive(ModelPlugin):
 
     def reset(self) -> None:
         self.command.clear()
-        self.rim_speeds = [0.0, 0.0]
+        self.ramped, self.rim_speeds = [0.0, 0.0], [0.0, 0.0]
         if self.encoders:
             self.encoders.reset()
         self._drive()

@@ -26,6 +26,7 @@ class Elevator(ModelPlugin):
         self.topic = sdf.text_or("topic", "elevator")
         self.topics.subscriber(self.topic, String, self._receive, 10)
         self.reset()
+        server.drives(self.lift, self.door)
         server.before_step(self.step)
 
     def reset(self) -> None:

@@ -13,4 +13,5 @@ class MimicJoint(ModelPlugin):
         for tag in ("joint", "mimicJoint"):
             required(sdf, tag)
         leader, follower = find_joint(model, sdf, "joint", ""), find_joint(model, sdf, "mimicJoint", "")
+        server.drives(follower)
         follower.follow(leader, sdf.get("multiplier", 1.0), sdf.get("offset", 0.0))

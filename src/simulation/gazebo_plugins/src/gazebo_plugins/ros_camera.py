@@ -61,7 +61,7 @@ class RosCamera:
         self.sensor = sensor
         self.namespace = namespace
         self.camera = camera_of(sensor, sdf, element)
-        self.queue_size = 30 if server.lockstep else 2  # in lock-step a subscriber may be slow and still misses nothing
+        self.queue_size = 2
         calibration = read_calibration(sdf, self.camera)
         self._check_focal_length(calibration.focal_length)
         prefix = tf_prefix(robot_namespace(sdf, sensor.model.name, "B"))
@@ -120,13 +120,17 @@ class RosCamera:
             self.shoot(self.header(), outputs, arrived)
         else:  # camera_info alone needs no picture
             self.publish_info(self.header())
+            self.sensor.pictured(self.sensor.measurement_ns)
 
     def shoot(self, header: Header, outputs: Tuple[str, ...], deliver: Callable[[Header, Frame], None]) -> None:
         """Have ``outputs`` (of the render process) of now; ``deliver(header, frame)`` is called in the pictures'
         thread."""
+        measured_ns = self.sensor.measurement_ns
+
         def arrived(frame: Frame) -> None:
             if not self._closed:
                 deliver(header, frame)
+                self.sensor.pictured(measured_ns)
         taken = self._shooting.shoot(outputs, arrived)
         said = self._watch.asked(self.sensor.measurement_ns, taken, self.sensor.update_rate.rate, self._plugin_rate,
                                  self._world.dt)

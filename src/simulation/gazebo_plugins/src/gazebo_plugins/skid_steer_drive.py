@@ -26,6 +26,7 @@ class SkidSteerDrive(ModelPlugin):
         self.command = Command(self.topics, sdf.text_or("commandTopic", "cmd_vel"))
         self.odometry = OdometryPublisher(self.topics, sdf, "base_footprint", covariance, covariance)
         self._drive()
+        server.drives(*(joint for joint, _ in self.wheels))
         server.before_step(self.step)
 
     def step(self) -> None:

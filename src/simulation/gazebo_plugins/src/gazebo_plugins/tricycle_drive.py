@@ -18,7 +18,7 @@ _FASTEST, _HOLDING = 20.0, 10.0  # steering without <steeringSpeed>: rad/s, and 
 class TricycleDrive(ModelPlugin):
     """``linear.x`` is the rim speed of the driven wheel, ``angular.z`` the **steering angle** (rad, within +-pi/2)."""
 
-    rim_speed: float  #: m/s, of the driven wheel
+    rate: float  #: rad/s, of the driven wheel
 
     def load(self, server, model, sdf) -> None:
         self.server, self.model = server, model
@@ -45,6 +45,7 @@ class TricycleDrive(ModelPlugin):
         self.joint_states = self.topics.publisher("joint_states", JointState, 1000) \
             if sdf.get("publishWheelJointState", False) else None
         self.reset()
+        server.drives(self.steering, self.driven)
         server.before_step(self.step)
 
     def step(self) -> None:
@@ -57,14 +58,15 @@ class TricycleDrive(ModelPlugin):
             self._drive(self.gate.elapsed)
 
     def _drive(self, elapsed: float) -> None:
-        target = self.command.x
-        error = target - self.rim_speed
+        """The driven wheel follows the command; accelerations and the tolerance are those of its rate, in rad."""
+        target = self.command.x / self.driven_radius
+        error = target - self.rate
         if abs(error) <= self.speed_tolerance or self.acceleration == 0.0:
-            self.rim_speed = target
+            self.rate = target
         else:
-            rate = self.acceleration if abs(target) > abs(self.rim_speed) else self.deceleration
-            self.rim_speed += max(-rate * elapsed, min(rate * elapsed, error))
-        self.driven.set_motor(self.rim_speed / self.driven_radius, self.torque)
+            limit = self.acceleration if abs(target) > abs(self.rate) else self.deceleration
+            self.rate += max(-limit * elapsed, min(limit * elapsed, error))
+        self.driven.set_motor(self.rate, self.torque)
 
     def _steer(self) -> None:
         """A motor, not a position command: what the driven wheel pushes with must reach the frame."""
@@ -97,7 +99,7 @@ class TricycleDrive(ModelPlugin):
 
     def reset(self) -> None:
         self.command.clear()
-        self.rim_speed = 0.0
+        self.rate = 0.0
         if self.encoders:
             self.encoders.reset()
         self._drive(0.0)
