@@ -144,6 +144,7 @@ def test_what_an_expression_means(expression, wanted):
         "{x: {y: 1 for y in range(90000)} for x in range(90000)}",
         "[*map(lambda x: [*range(90000)], range(90000))]",
         "list(zip(*[range(90000)] * 90000))",
+        "list(map(lambda *x: 0, *[range(90000)] * 90000))",
         "[x[:] for x in [[0] * 10 ** 6] * 10 ** 6]",
         "[l.append(0) for l in [[0]] for x in l]",
         "[l.insert(0, 0) for l in [[0] * 10 ** 6] for x in range(10 ** 5)]",

@@ -235,6 +235,16 @@ def _multiple(*numbers: int) -> int:
     return total
 
 
+def _zip(*lists: Any, **named: Any) -> Iterator[Any]:
+    make = _efforts[-1].make
+    for items in zip(*lists, **named):
+        yield make(items)
+
+
+def _map(function: Callable[..., Any], *lists: Any) -> Iterator[Any]:
+    return map(function, *lists) if len(lists) < 2 else (function(*items) for items in _zip(*lists))
+
+
 def _small(function: Callable[..., Any], most: int) -> Callable[..., Any]:
     """Of whole numbers up to ``most``."""
     @functools.wraps(function)
@@ -286,7 +296,7 @@ _REPLACED: Dict[str, Any] = {
     **{function.__name__: _going_through(function, _each) for function in (any, all, math.fsum)},
     **{function.__name__: _going_through(function, _compared) for function in (sorted, min, max)},
     **{function.__name__: _going_through(function, _shown_whole) for function in (repr, hash)},
-    "range": _range, "round": _round, "sum": _sum, "prod": _product, "lcm": _multiple, "type": _type,
+    "range": _range, "round": _round, "zip": _zip, "map": _map, "sum": _sum, "prod": _product, "lcm": _multiple, "type": _type,
     "isinstance": lambda value, kinds: isinstance(value, _types(kinds)),
     "issubclass": lambda kind, kinds: issubclass(_types(kind), _types(kinds)),
     "factorial": _small(math.factorial, 3000), "comb": _small(math.comb, 3000), "perm": _small(math.perm, 3000)}

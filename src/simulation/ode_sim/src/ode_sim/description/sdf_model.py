@@ -20,6 +20,7 @@ from ode_sim.description.xmlsource import clone, fault, is_true, joint_end, read
 
 _JOINT_AXES = {"revolute": 1, "prismatic": 1, "fixed": 0, "ball": 0, "universal": 2, "revolute2": 2, "screw": 1,
                 "gearbox": 2, "piston": 1}
+_NOT_SIMULATED = ("screw", "gearbox", "piston")  # the builder says so
 _OLD_JOINT_TYPES = {"hinge": "revolute", "slider": "prismatic", "hinge2": "revolute2", "continuous": "revolute"}
 #: kg or kg m^2. Homework has inertias of 1e8; far beyond, the solver's products overflow and what touches it is lost too
 _HEAVIEST = 1e30
@@ -288,7 +289,8 @@ class SdfModels(SdfShapes):
         endless = kind == "continuous"
         kind = _OLD_JOINT_TYPES.get(kind, kind)
         if kind not in _JOINT_AXES:
-            self.warn(element, f"unknown joint type '{quoted(kind)}'; use one of continuous, {', '.join(_JOINT_AXES)}; "
+            simulated = [known for known in _JOINT_AXES if known not in _NOT_SIMULATED]
+            self.warn(element, f"unknown joint type '{quoted(kind)}'; use one of continuous, {', '.join(simulated)}; "
                                "the joint is left out", "error")
             return []
         parent, child = (self._link_of(joint_end(element, tag), parts, known) for tag in ("parent", "child"))
