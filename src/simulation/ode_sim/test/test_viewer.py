@@ -50,6 +50,24 @@ def test_guard_with_a_token():
     assert guard.refuse("/", {**host, "Cookie": cookie.replace("secret", "wrong")})[0] == 403
 
 
+def test_guard_of_a_page_on_a_machine_of_many_users():
+    """On the loopback interface alone, and with a token, as notebooks do: a user of the machine who does not know it stays outside."""
+    website = Website(port=0, token=True)
+    try:
+        assert website._door.getsockname()[0] == "127.0.0.1"
+        assert website.address == website.local_address == f"http://localhost:{website.port}/?token={website.guard.token}"
+        host = {"Host": f"localhost:{website.port}"}
+        assert len(website.guard.token) >= 20 and website.guard.refuse("/", host)[0] == 403
+        status, headers, _ = website.guard.refuse(f"/?token={website.guard.token}", host)
+        assert status == 303 and website.guard.refuse("/", {**host, "Cookie": headers["Set-Cookie"].split(";")[0]}) is None
+        assert website.guard.refuse(f"/?token={website.guard.token}", {"Host": "evil.example"})[0] == 403  # a name made to lead here
+        with socket.create_connection(("127.0.0.1", website.port)) as stranger:
+            stranger.sendall(b"GET / HTTP/1.1\r\nHost: localhost\r\n\r\n")
+            assert b" 403 " in stranger.recv(1000).partition(b"\r\n")[0] + b" "
+    finally:
+        website.close()
+
+
 def test_the_guard_stands_before_every_request():
     website = Website(port=0, title="The <lab>")
     website.open()

@@ -7,6 +7,7 @@ import shutil
 import sys
 import tempfile
 from html import escape
+from urllib.parse import urlsplit
 
 import rospy
 import rostest
@@ -128,8 +129,9 @@ class HardWorld(Session):
                 self.assertEqual(errors(page), [])
 
     def test_5_a_slow_network(self):
-        with SlowNetwork(int(self.page.address.rsplit(":", 1)[1].strip("/"))) as network, \
-                Browser(f"http://localhost:{network.port}/", frames=2) as page:
+        address = urlsplit(self.page.address)
+        with SlowNetwork(address.port) as network, \
+                Browser(f"http://localhost:{network.port}/?{address.query}", frames=2) as page:
             page.see("real-time factor", "b9")
             for _ in range(3):
                 page.click("Pause")

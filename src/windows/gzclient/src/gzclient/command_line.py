@@ -22,7 +22,7 @@ def parse(arguments: List[str]) -> argparse.Namespace:
     parser.add_argument("--port", type=int, default=DEFAULT_PORT,
                         help=f"of the page; the next free one from here ({DEFAULT_PORT})")
     parser.add_argument("--listen", action="store_true",
-                        help="let other machines open the page; the address then holds a token, treat it as a password")
+                        help="let other machines open the page; the token in its address is a password")
     parser.add_argument("--no-window", action="store_true", help="only serve the page, also where there is a desktop")
     parser.add_argument("--shadows", action="store_true", help="also where the graphics are computed by the processor")
     options, options.unknown = parser.parse_known_args(arguments)

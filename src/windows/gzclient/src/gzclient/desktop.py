@@ -1,6 +1,7 @@
 """A window of the desktop that shows the page: a browser of the system, without its bars."""
 from __future__ import annotations
 
+import html
 import os
 import shutil
 import signal
@@ -43,6 +44,15 @@ def command(address: str, profile: str) -> Optional[List[str]]:
     return None
 
 
+def _door(folder: str, address: str) -> str:
+    """Where the browser is sent: a file of this user's alone that leads to the address. Other users can read a command line, and the address holds
+    what they must not have."""
+    path = os.path.join(folder, "open.html")
+    with open(path, "w", encoding="utf-8", opener=lambda name, flags: os.open(name, flags, 0o600)) as file:
+        file.write(f'<!doctype html><meta http-equiv="refresh" content="0; url={html.escape(address)}">\n')
+    return f"file://{path}"
+
+
 class Window:
     """The browser with the page; a context manager.
 
@@ -52,7 +62,7 @@ class Window:
     def __init__(self, address: str):
         self._folder = tempfile.TemporaryDirectory(prefix="gzclient_", ignore_cleanup_errors=True)
         self.process: Optional[subprocess.Popen] = None
-        words = command(address, self._folder.name)
+        words = command(_door(self._folder.name, address), self._folder.name)
         if words is None:
             return
         process = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,

@@ -1,7 +1,8 @@
 """The web server of the page, and who may open it.
 
 By default it answers on the loopback interface only, to pages that come from itself. With ``listen`` it answers to
-every machine that shows the token, which is part of the address that is printed once.
+every machine that shows the token, which is part of the address that is printed once. A page that changes what others see asks for
+the token on the loopback interface, too (``token``): all users of the machine reach that.
 
 The port is taken at once, viser (a second of imports) is started when a browser has knocked. The page itself is given to that
 browser at once, by the :mod:`~ode_sim.viewer.porter`; what comes next waits in the system's queue for viser.
@@ -35,11 +36,13 @@ _starting = threading.Lock()
 class Guard:
     """Decides about each request before anything else sees it.
 
-    :param token: that a request must show ('' = none is needed, but the loopback interface is)
+    :param token: that a request must show ('' = none is needed)
+    :param loopback: only this machine is answered; by default where there is no token
     """
 
-    def __init__(self, token: str = ""):
+    def __init__(self, token: str = "", loopback: Optional[bool] = None):
         self.token = token
+        self._loopback = not token if loopback is None else loopback
         self._cookie = f"viewer_{secrets.token_hex(4)}"  # of its own for each server on this host
 
     def refuse(self, path: str, headers) -> Optional[tuple]:
@@ -48,7 +51,7 @@ class Guard:
         :param headers: a mapping, as of websockets
         """
         host = headers.get("Host", "")
-        if not self.token and urlsplit(f"//{host}").hostname not in _LOOPBACK:
+        if self._loopback and urlsplit(f"//{host}").hostname not in _LOOPBACK:
             return self._no("this page is for this machine only; start it with --listen for others")
         origin = headers.get("Origin")
         if origin is not None and urlsplit(origin).netloc != host:
@@ -57,7 +60,7 @@ class Guard:
             return None
         shown = parse_qs(urlsplit(path).query).get("token", [""])[0]
         if shown and hmac.compare_digest(shown.encode(), self.token.encode()):
-            cookie = f"{self._cookie}={self.token}; HttpOnly; SameSite=Strict; Path=/"
+            cookie = f"{self._cookie}={self.token}; HttpOnly; SameSite=Lax; Path=/"  # Strict: not after the file that opens it
             return http.HTTPStatus.SEE_OTHER, {"Location": "/", "Set-Cookie": cookie}, ""
         if hmac.compare_digest(self._kept(headers.get("Cookie", "")).encode(), self.token.encode()):
             return None
@@ -80,14 +83,15 @@ class Website:
 
     :ivar viser: the ViserServer; None before :meth:`open`
     :param listen: to other machines, with a token
+    :param token: also on this machine
     :param title: of the browser's window
     :raises Unavailable: viser is not installed, or no port is free
     """
 
-    def __init__(self, port: int = DEFAULT_PORT, listen: bool = False, title: str = "Gazebo"):
+    def __init__(self, port: int = DEFAULT_PORT, listen: bool = False, title: str = "Gazebo", token: bool = False):
         if importlib.util.find_spec("viser") is None:
             raise Unavailable("the page needs the Python package viser; scripts/setup installs it")
-        self.guard = Guard(secrets.token_urlsafe(16) if listen else "")
+        self.guard = Guard(secrets.token_urlsafe(16) if listen or token else "", loopback=not listen)
         self.viser: Any = None
         self._door = _take_port(port, listen)
         self.port = self._door.getsockname()[1]
@@ -100,12 +104,16 @@ class Website:
     def address(self) -> str:
         """What to type into a browser."""
         host = socket.gethostname() if self._listen else "localhost"
-        return f"http://{host}:{self.port}/" + (f"?token={self.guard.token}" if self._listen else "")
+        return f"http://{host}:{self.port}/{self._shown}"
 
     @property
     def local_address(self) -> str:
         """The same on this machine."""
-        return f"http://localhost:{self.port}/" + (f"?token={self.guard.token}" if self._listen else "")
+        return f"http://localhost:{self.port}/{self._shown}"
+
+    @property
+    def _shown(self) -> str:
+        return f"?token={self.guard.token}" if self.guard.token else ""
 
     def knocked(self, seconds: float) -> bool:
         """Whether a browser has come to the door, within that time."""
