@@ -1,13 +1,20 @@
-// The samples of all joints of a trajectory, cycle by cycle, as segment.py has them: the same sums in the same order. Whatever is not
-// ordinary (a next segment, a tolerance that is broken, the end of a goal) is left to controller.py, which tells it from then on.
+// The laws of trajectories for Python, and by them the samples of all joints, cycle by cycle, in one call. Whatever is not ordinary (a
+// next segment, a tolerance that is broken, the end of a goal) is left to controller.py, which tells it from then on.
 #include <pybind11/pybind11.h>
 
-#include <array>
 #include <cmath>
 #include <cstdint>
+#include <string>
 #include <vector>
 
+#include <joint_trajectory_controller/tracking_law.h>
+#include <trajectory_interface/spline_law.h>
+
 namespace py = pybind11;
+namespace law = joint_trajectory_controller::law;
+using Knot = trajectory_interface::Knot<double>;
+using Point = trajectory_interface::Sample<double>;
+using Spline = trajectory_interface::SplineLaw<double>;
 
 namespace
 {
@@ -17,32 +24,11 @@ struct Joint
   const double* velocity = nullptr;
   double* command = nullptr;  // where its position goes, or nobody takes it here
   bool angular = false;
-  double start = 0, end = 0, next_start = 0;  // s; of the segment and of the one after it
-  std::array<double, 6> c{};
-  double end_position = 0;
+  Spline segment;
+  double next_start = 0;                                  // s, of the segment after it
   bool watched = false;                                   // the segment belongs to the goal
   double position_tolerance = 0, velocity_tolerance = 0;  // 0 or less: none
 };
-
-struct Point
-{
-  double position, velocity, acceleration;
-};
-
-Point sample(const Joint& joint, double time)
-{
-  if (time > joint.end)
-    return { joint.end_position, 0.0, 0.0 };
-  const auto& c = joint.c;
-  const double t = time - joint.start;
-  if (t < 0.0)
-    return { c[0], 0.0, 0.0 };
-  return { c[0] + t * (c[1] + t * (c[2] + t * (c[3] + t * (c[4] + t * c[5])))),
-           c[1] + t * (2.0 * c[2] + t * (3.0 * c[3] + t * (4.0 * c[4] + t * 5.0 * c[5]))),
-           2.0 * c[2] + t * (6.0 * c[3] + t * (12.0 * c[4] + t * 20.0 * c[5])) };
-}
-
-bool broken(double error, double tolerance) { return tolerance > 0.0 && !(std::abs(error) <= tolerance); }
 
 class Sampler
 {
@@ -59,14 +45,11 @@ public:
 
   void addCommand(std::size_t index, std::uintptr_t command) { joints_.at(index).command = reinterpret_cast<double*>(command); }
 
-  void follow(std::size_t index, double start, double end, const std::array<double, 6>& coefficients, double end_position,
-              double next_start, bool watched, double position_tolerance, double velocity_tolerance)
+  void follow(std::size_t index, const Spline& segment, double next_start, bool watched, double position_tolerance,
+              double velocity_tolerance)
   {
     Joint& joint = joints_.at(index);
-    joint.start = start;
-    joint.end = end;
-    joint.c = coefficients;
-    joint.end_position = end_position;
+    joint.segment = segment;
     joint.next_start = next_start;
     joint.watched = watched;
     joint.position_tolerance = position_tolerance;
@@ -80,7 +63,7 @@ public:
       const Joint& joint = joints_[j];
       if (!(time < joint.next_start))
         return py::none();
-      points_[j] = sample(joint, time);
+      points_[j] = joint.segment.sample(time);
       if (!ordinary(joint, points_[j], time, watch && joint.watched))
         return py::none();
     }
@@ -98,13 +81,12 @@ public:
 private:
   static bool ordinary(const Joint& joint, const Point& point, double time, bool watched)
   {
-    const double error = point.position - *joint.position;
-    if (joint.angular && !(-M_PI < error && error <= M_PI))
-      return false;
+    const double error = law::position_error(*joint.position, point.position, joint.angular);
     if (!watched)
       return true;
-    if (time < joint.end)
-      return !broken(error, joint.position_tolerance) && !broken(point.velocity - *joint.velocity, joint.velocity_tolerance);
+    if (time < joint.segment.end())
+      return !law::exceeds(error, joint.position_tolerance) &&
+             !law::exceeds(point.velocity - *joint.velocity, joint.velocity_tolerance);
     return std::isfinite(joint.next_start);  // else the goal is decided upon
   }
 
@@ -128,7 +110,8 @@ private:
     for (std::size_t j = 0; j < points_.size(); ++j)
     {
       PyObject* row = PyTuple_New(2);
-      PyTuple_SET_ITEM(row, 0, PyFloat_FromDouble(points_[j].position - *joints_[j].position));
+      PyTuple_SET_ITEM(row, 0,
+                       PyFloat_FromDouble(law::position_error(*joints_[j].position, points_[j].position, joints_[j].angular)));
       PyTuple_SET_ITEM(row, 1, PyFloat_FromDouble(points_[j].velocity - *joints_[j].velocity));
       PyList_SET_ITEM(rows.ptr(), static_cast<Py_ssize_t>(j), row);
     }
@@ -139,24 +122,66 @@ private:
   std::vector<Point> points_;
   const py::tuple nothing_ = py::make_tuple(py::tuple(), py::tuple());
 };
+/// \param state position, and velocity and acceleration or None
+Knot knot(const py::tuple& state)
+{
+  Knot k;
+  k.position = state[0].cast<double>();
+  k.has_velocity = !state[1].is_none();
+  k.has_acceleration = !state[2].is_none();
+  if (k.has_velocity)
+    k.velocity = state[1].cast<double>();
+  if (k.has_acceleration)
+    k.acceleration = state[2].cast<double>();
+  return k;
+}
+
+py::tuple sample(const Spline& spline, double time)
+{
+  const Point at = spline.sample(time);
+  return py::make_tuple(at.position, at.velocity, at.acceleration);
+}
+
+py::tuple coefficients(const Spline& spline)
+{
+  const Spline::Coefficients& c = spline.coefficients();
+  return py::make_tuple(c[0], c[1], c[2], c[3], c[4], c[5]);
+}
+
+Spline stop(double start, double position, double velocity, double duration)
+{
+  const law::Ends<double> ends = law::stop(position, velocity, duration);
+  return Spline(start, ends.first, duration > 0.0 ? start + duration : start, ends.last);
+}
+
 }  // namespace
 
 PYBIND11_MODULE(_sampler, m)
 {
-  m.doc() = "The samples of all joints of a trajectory, cycle by cycle.";
+  m.doc() = "The laws of trajectories, and the samples of all joints, cycle by cycle.";
+  py::class_<Spline>(m, "Spline")
+      .def(py::init([](double start, const py::tuple& first, double end, const py::tuple& last) {
+        return Spline(start, knot(first), end, knot(last));
+      }))
+      .def(py::init<const Spline&>())
+      .def_static("stop", &stop, py::arg("start"), py::arg("position"), py::arg("velocity"), py::arg("duration"))
+      .def("sample", &sample)
+      .def("move", &Spline::move)
+      .def_property_readonly("start", &Spline::start)
+      .def_property_readonly("end", &Spline::end)
+      .def_property_readonly("end_position", &Spline::rest)
+      .def_property_readonly("coefficients", &coefficients);
+  m.def("position_error", &law::position_error);
+  m.def("violation", &law::violation);
+  m.def("overridden", &law::overridden<double>);
+  m.def("has_passed", &law::has_passed);
+  m.def("joining_time", &law::joining_time);
+  m.def("turns_to_add", &law::turns_to_add);
   py::class_<Sampler>(m, "Sampler")
       .def(py::init<>())
       .def("add_joint", &Sampler::addJoint, py::arg("position"), py::arg("velocity"), py::arg("angular"))
       .def("add_command", &Sampler::addCommand, py::arg("joint"), py::arg("command"))
-      .def("follow",
-           [](Sampler& s, std::size_t joint, double start, double end, const py::tuple& coefficients, double end_position,
-              double next_start, bool watched, double position_tolerance, double velocity_tolerance) {
-             if (coefficients.size() != 6)
-               throw py::value_error("a segment has six coefficients");
-             std::array<double, 6> c;
-             for (std::size_t i = 0; i < c.size(); ++i)
-               c[i] = coefficients[i].cast<double>();
-             s.follow(joint, start, end, c, end_position, next_start, watched, position_tolerance, velocity_tolerance);
-           })
+      .def("follow", &Sampler::follow, py::arg("joint"), py::arg("segment"), py::arg("next_start"), py::arg("watched"),
+           py::arg("position_tolerance"), py::arg("velocity_tolerance"))
       .def("quick", &Sampler::quick, py::arg("time"), py::arg("watch"), py::arg("whole"));
 }

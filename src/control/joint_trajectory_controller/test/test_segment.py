@@ -4,8 +4,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from joint_trajectory_controller.segment import (Segment, State, active_index, shortest_angular_distance, stop_segment,
-                                                 wraparound_offset)
+from joint_trajectory_controller._sampler import position_error, turns_to_add
+from joint_trajectory_controller.segment import Segment, State, active_index, stop_segment
 
 numbers = st.floats(-10.0, 10.0)
 
@@ -56,31 +56,16 @@ def test_rests_outside_its_time():
     assert segment.sample(2.1) == (3.0, 0.0, 0.0)
 
 
-def test_segment_without_duration_has_its_start_state_and_then_rests_at_its_end():
-    segment = Segment(1.0, State(2.0, 3.0, 4.0), 1.0, State(5.0))
-    assert segment.sample(1.0) == (2.0, 3.0, 4.0)
-    assert segment.sample(1.001) == (5.0, 0.0, 0.0)
-
-
 def test_segment_that_ends_before_it_starts_is_refused():
     with pytest.raises(ValueError):
         Segment(1.0, State(0.0), 0.9, State(0.0))
 
 
 @given(st.floats(-20.0, 20.0), st.floats(-20.0, 20.0))
-def test_shortest_angular_distance_ends_at_the_same_angle(start, end):
-    distance = shortest_angular_distance(start, end)
+def test_errors_of_angles_end_at_the_same_angle(start, end):
+    distance = position_error(start, end, True)
     assert -math.pi - 1e-9 < distance <= math.pi + 1e-9
     assert math.remainder(start + distance - end, 2 * math.pi) == pytest.approx(0.0, abs=1e-9)
-
-
-@pytest.mark.parametrize("previous, following, expected", [
-    (0.0, 1.0, 0.0), (0.0, 4.5 * math.pi, -4 * math.pi), (0.0, -1.75 * math.pi, 2 * math.pi),
-    (0.5 * math.pi, 4.5 * math.pi, -4 * math.pi), (9 * math.pi, 0.0, 8 * math.pi),
-    (0.0, math.pi, 0.0), (0.0, -math.pi, 0.0), (0.0, 3 * math.pi, -2 * math.pi), (0.0, -3 * math.pi, 2 * math.pi),
-    (math.pi, -math.pi, 2 * math.pi)])
-def test_wraparound_takes_the_short_way_and_at_pi_the_commanded_direction(previous, following, expected):
-    assert wraparound_offset(previous, following) == pytest.approx(expected)
 
 
 def test_active_segment_is_the_last_that_has_started():

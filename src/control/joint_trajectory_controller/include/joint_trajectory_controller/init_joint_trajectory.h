@@ -276,7 +276,7 @@ private:
   /// The first point that is not in the past. \return false: there is none, which is no fault: whoever streams commands is late at times
   bool find()
   {
-    while (first_ < msg_.points.size() && msg_.points[first_].time_from_start.toSec() <= elapsed_)
+    while (first_ < msg_.points.size() && law::has_passed(msg_.points[first_].time_from_start.toSec(), elapsed_))
       ++first_;
     if (first_ < msg_.points.size())
       return true;
@@ -295,7 +295,8 @@ private:
     const auto name = std::find(msg_.joint_names.begin(), msg_.joint_names.end(), joints_[joint]);
     const bool named = name != msg_.joint_names.end();
     const std::size_t column = std::distance(msg_.joint_names.begin(), name);
-    const double join = std::max(now_ - elapsed_, now_), from = options_.keep_from ? options_.keep_from->toSec() : now_;
+    const double join = law::joining_time(now_ - elapsed_, now_),
+                 from = options_.keep_from ? options_.keep_from->toSec() : now_;
     if (joins_)
     {
       segments = kept((*options_.current_trajectory)[joint], from, named ? join : from - 1.0);

@@ -241,8 +241,7 @@ JOINT_TRAJECTORY_CONTROLLER(void)::updateStates(const ros::Time& sample_time, co
     desired_state_.position[i] = desired_joint_state_.position[0];
     desired_state_.velocity[i] = desired_joint_state_.velocity[0];
     desired_state_.acceleration[i] = desired_joint_state_.acceleration[0];
-    state_error_.position[i] = angular_[i] ? angles::shortest_angular_distance(position, desired_joint_state_.position[0])
-                                           : desired_joint_state_.position[0] - position;
+    state_error_.position[i] = law::position_error(position, desired_joint_state_.position[0], angular_[i]);
     state_error_.velocity[i] = desired_joint_state_.velocity[0] - velocity;
     state_error_.acceleration[i] = 0.0;  // accelerations are not measured
     if (i == 0 && segment != (*traj)[i].end())

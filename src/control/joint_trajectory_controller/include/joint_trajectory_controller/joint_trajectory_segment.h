@@ -1,16 +1,16 @@
 // A piece of the trajectory of a joint that knows which goal it belongs to.
 #pragma once
 
-#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#include <angles/angles.h>
+#include <angles/angles.h>  // derived controllers use it without including it
 #include <boost/shared_ptr.hpp>
 #include <control_msgs/FollowJointTrajectoryAction.h>
 #include <joint_trajectory_controller/joint_trajectory_msg_utils.h>
 #include <joint_trajectory_controller/tolerances.h>
+#include <joint_trajectory_controller/tracking_law.h>
 #include <realtime_tools/realtime_server_goal_handle.h>
 #include <trajectory_msgs/JointTrajectoryPoint.h>
 
@@ -97,12 +97,7 @@ private:
 template <class Scalar>
 inline Scalar wraparoundJointOffset(const Scalar& prev_position, const Scalar& next_position, const bool& angle_wraparound)
 {
-  if (!angle_wraparound)
-    return Scalar(0);
-  Scalar way = Scalar(angles::shortest_angular_distance(prev_position, next_position));
-  if (std::abs(std::abs(way) - M_PI) < 1e-9)
-    way = next_position > prev_position ? std::abs(way) : -std::abs(way);
-  return Scalar(2.0 * M_PI * std::round((prev_position + way - next_position) / (2.0 * M_PI)));
+  return angle_wraparound ? Scalar(law::turns_to_add(prev_position, next_position)) : Scalar(0);
 }
 
 }  // namespace joint_trajectory_controller

@@ -3,13 +3,13 @@
 
 #include <vector>
 
+#include <joint_trajectory_controller/tracking_law.h>
 #include <joint_trajectory_controller/trajectory_builder.h>
 
 namespace joint_trajectory_controller
 {
 
-/// From a state in motion to rest, without turning back: the first half of the quintic that leads from (position, velocity) to
-/// (position, -velocity) in twice the time.
+/// From a state in motion to rest, without turning back: the stop of tracking_law.h.
 template <class SegmentImpl>
 class StopTrajectoryBuilder : public TrajectoryBuilder<SegmentImpl>
 {
@@ -33,19 +33,24 @@ public:
     const typename Segment::Time start = *this->getStartTime();
     for (std::size_t i = 0; i < from_.position.size(); ++i)
     {
-      const bool at_once = !(duration_ > 0);
-      begin_.position[0] = from_.position[i];
-      begin_.velocity[0] = at_once ? 0 : from_.velocity[i];
-      end_.position[0] = begin_.position[0] + 0.625 * begin_.velocity[0] * duration_;
-      end_.acceleration[0] = at_once ? 0 : -1.5 * begin_.velocity[0] / duration_;
+      const law::Ends<typename Segment::Scalar> ends = law::stop(from_.position[i], from_.velocity[i], duration_);
+      put(ends.first, begin_);
+      put(ends.last, end_);
       Segment& segment = (*hold_traj)[i].front();
-      segment.init(start, begin_, at_once ? start : start + duration_, end_);
+      segment.init(start, begin_, duration_ > 0 ? start + duration_ : start, end_);
       segment.setGoalHandle(this->createGoalHandlePtr());
     }
     return true;
   }
 
 private:
+  static void put(const trajectory_interface::Knot<typename Segment::Scalar>& knot, typename Segment::State& state)
+  {
+    state.position[0] = knot.position;
+    state.velocity[0] = knot.velocity;
+    state.acceleration[0] = knot.acceleration;
+  }
+
   const typename Segment::Time duration_;
   const typename Segment::State& from_;
   typename Segment::State begin_{ 1u }, end_{ 1u };  // made here, as the control loop must not allocate

@@ -2,12 +2,11 @@
 #pragma once
 
 #include <cassert>
-#include <cmath>
-#include <cstdio>
 #include <string>
 #include <vector>
 
 #include <control_msgs/FollowJointTrajectoryAction.h>
+#include <joint_trajectory_controller/tracking_law.h>
 #include <ros/console.h>
 #include <ros/node_handle.h>
 
@@ -58,37 +57,21 @@ struct SegmentTolerancesPerJoint
 namespace internal
 {
 
-/// An error that is not a number is over any limit.
-template <class Scalar>
-inline bool exceeds(Scalar error, Scalar tolerance)
-{
-  return tolerance > Scalar(0) && !(std::abs(error) <= tolerance);
-}
-
 /// The first error that is over its limit, in words; nothing if none is.
 template <class State>
 inline std::string violation(const State& error, std::size_t joint, const StateTolerances<typename State::Scalar>& limits)
 {
-  typedef typename State::Scalar Scalar;
-  const auto words = [](const char* what, Scalar value, Scalar limit) {
-    char text[120];
-    std::snprintf(text, sizeof text, "%s error %.6g is over the tolerance %g", what, double(value), double(limit));
-    return std::string(text);
-  };
-  if (exceeds(error.position[joint], limits.position))
-    return words("position", error.position[joint], limits.position);
-  if (exceeds(error.velocity[joint], limits.velocity))
-    return words("velocity", error.velocity[joint], limits.velocity);
-  if (exceeds(error.acceleration[joint], limits.acceleration))
-    return words("acceleration", error.acceleration[joint], limits.acceleration);
-  return std::string();
+  std::string text = law::violation("position", error.position[joint], limits.position);
+  if (text.empty())
+    text = law::violation("velocity", error.velocity[joint], limits.velocity);
+  return text.empty() ? law::violation("acceleration", error.acceleration[joint], limits.acceleration) : text;
 }
 
 template <class State>
 inline bool within(const State& error, std::size_t joint, const StateTolerances<typename State::Scalar>& limits)
 {
-  return !exceeds(error.position[joint], limits.position) && !exceeds(error.velocity[joint], limits.velocity) &&
-         !exceeds(error.acceleration[joint], limits.acceleration);
+  return !law::exceeds(error.position[joint], limits.position) && !law::exceeds(error.velocity[joint], limits.velocity) &&
+         !law::exceeds(error.acceleration[joint], limits.acceleration);
 }
 
 }  // namespace internal
@@ -132,13 +115,9 @@ inline bool checkStateTolerancePerJoint(const State& state_error,
 template <class Scalar>
 inline void updateStateTolerances(const control_msgs::JointTolerance& tol_msg, StateTolerances<Scalar>& tols)
 {
-  const auto update = [](double asked, Scalar& tolerance) {
-    if (asked != 0.0)
-      tolerance = asked > 0.0 ? Scalar(asked) : Scalar(0);
-  };
-  update(tol_msg.position, tols.position);
-  update(tol_msg.velocity, tols.velocity);
-  update(tol_msg.acceleration, tols.acceleration);
+  tols.position = law::overridden(tols.position, tol_msg.position);
+  tols.velocity = law::overridden(tols.velocity, tol_msg.velocity);
+  tols.acceleration = law::overridden(tols.acceleration, tol_msg.acceleration);
 }
 
 /// What a goal asks for, joint by joint. \param joint_names in the order of tols
@@ -157,9 +136,7 @@ inline void updateSegmentTolerances(const control_msgs::FollowJointTrajectoryGoa
       if (asked.name == joint_names[i])
         updateStateTolerances(asked, tols.goal_state_tolerance[i]);
   }
-  const double seconds = goal.goal_time_tolerance.toSec();
-  if (seconds != 0.0)
-    tols.goal_time_tolerance = seconds > 0.0 ? Scalar(seconds) : Scalar(0);
+  tols.goal_time_tolerance = law::overridden(tols.goal_time_tolerance, goal.goal_time_tolerance.toSec());
 }
 
 /// From the parameters goal_time, stopped_velocity_tolerance, JOINT/trajectory and JOINT/goal of a namespace.

@@ -1,17 +1,17 @@
 // One piece of a trajectory: a polynomial in time for each joint.
 #pragma once
 
-#include <array>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include <trajectory_interface/pos_vel_acc_state.h>
+#include <trajectory_interface/spline_law.h>
 
 namespace trajectory_interface
 {
 
-/// Of the highest order that both ends specify: linear, cubic or quintic. Before its start and after its end it is at rest there.
+/// Of the highest order that both ends specify: linear, cubic or quintic (spline_law.h).
 template <class ScalarType>
 class QuinticSplineSegment
 {
@@ -45,89 +45,51 @@ public:
     if (accelerations && (joints != start_state.acceleration.size() || joints != end_state.acceleration.size()))
       refuse("Endpoint accelerations size mismatch.");
 
+    const auto knot = [cubic, accelerations](const State& state, std::size_t joint) {
+      Knot<Scalar> knot;
+      knot.position = state.position[joint];
+      knot.has_velocity = cubic;
+      knot.velocity = cubic ? state.velocity[joint] : Scalar(0);
+      knot.has_acceleration = cubic && accelerations;
+      knot.acceleration = knot.has_acceleration ? state.acceleration[joint] : Scalar(0);
+      return knot;
+    };
     start_time_ = start_time;
-    duration_ = end_time - start_time;
+    end_time_ = end_time;
     time_from_start_ = start_state.time_from_start;
-    polynomials_.assign(joints, Polynomial{});
+    laws_.resize(joints);
     for (std::size_t i = 0; i < joints; ++i)
-    {
-      const Scalar p0 = start_state.position[i], p1 = end_state.position[i];
-      if (!cubic)
-        linear(p0, p1, polynomials_[i]);
-      else if (!accelerations)
-        cubic_of(p0, start_state.velocity[i], p1, end_state.velocity[i], polynomials_[i]);
-      else
-        quintic_of(p0, start_state.velocity[i], start_state.acceleration[i], p1, end_state.velocity[i],
-                   end_state.acceleration[i], polynomials_[i]);
-    }
+      laws_[i] = SplineLaw<Scalar>(start_time, knot(start_state, i), end_time, knot(end_state, i));
   }
 
   /// The state at a time. Allocates only where state is not of this segment's size.
   void sample(const Time& time, State& state) const
   {
-    state.position.resize(polynomials_.size());
-    state.velocity.resize(polynomials_.size());
-    state.acceleration.resize(polynomials_.size());
-    const Time since = time - start_time_;
-    const bool before = since<Time(0), after = since> duration_;
-    const Time t = before ? Time(0) : after ? duration_ : since;
-    for (std::size_t i = 0; i < polynomials_.size(); ++i)
+    state.position.resize(laws_.size());
+    state.velocity.resize(laws_.size());
+    state.acceleration.resize(laws_.size());
+    for (std::size_t i = 0; i < laws_.size(); ++i)
     {
-      const Polynomial& c = polynomials_[i];
-      state.position[i] = c[0] + t * (c[1] + t * (c[2] + t * (c[3] + t * (c[4] + t * c[5]))));
-      state.velocity[i] = before || after ? Scalar(0) : c[1] + t * (2 * c[2] + t * (3 * c[3] + t * (4 * c[4] + t * 5 * c[5])));
-      state.acceleration[i] = before || after ? Scalar(0) : 2 * c[2] + t * (6 * c[3] + t * (12 * c[4] + t * 20 * c[5]));
+      const Sample<Scalar> at = laws_[i].sample(time);
+      state.position[i] = at.position;
+      state.velocity[i] = at.velocity;
+      state.acceleration[i] = at.acceleration;
     }
   }
 
   Time startTime() const { return start_time_; }
-  Time endTime() const { return start_time_ + duration_; }
+  Time endTime() const { return end_time_; }
   Time timeFromStart() const { return time_from_start_; }
-  unsigned int size() const { return static_cast<unsigned int>(polynomials_.size()); }
+  unsigned int size() const { return static_cast<unsigned int>(laws_.size()); }
 
 private:
-  typedef std::array<Scalar, 6> Polynomial;  // of ascending powers of the time since the start
-
   static void refuse(const char* why)
   {
     throw std::invalid_argument(std::string("Quintic spline segment can't be constructed: ") + why);
   }
 
-  // A segment that takes no time stays where it starts.
-
-  void linear(Scalar p0, Scalar p1, Polynomial& c) const
-  {
-    c[0] = p0;
-    c[1] = duration_ == Time(0) ? Scalar(0) : (p1 - p0) / duration_;
-  }
-
-  void cubic_of(Scalar p0, Scalar v0, Scalar p1, Scalar v1, Polynomial& c) const
-  {
-    c[0] = p0;
-    c[1] = v0;
-    const Time t = duration_;
-    if (t == Time(0))
-      return;
-    c[2] = (3 * (p1 - p0) / t - 2 * v0 - v1) / t;
-    c[3] = (v0 + v1 - 2 * (p1 - p0) / t) / (t * t);
-  }
-
-  void quintic_of(Scalar p0, Scalar v0, Scalar a0, Scalar p1, Scalar v1, Scalar a1, Polynomial& c) const
-  {
-    c[0] = p0;
-    c[1] = v0;
-    c[2] = a0 / 2;
-    const Time t = duration_, tt = t * t;
-    if (t == Time(0))
-      return;
-    const Scalar way = p1 - p0;
-    c[3] = (20 * way - (12 * v0 + 8 * v1) * t - (3 * a0 - a1) * tt) / (2 * tt * t);
-    c[4] = (-30 * way + (16 * v0 + 14 * v1) * t + (3 * a0 - 2 * a1) * tt) / (2 * tt * tt);
-    c[5] = (12 * way - 6 * (v0 + v1) * t + (a1 - a0) * tt) / (2 * tt * tt * t);
-  }
-
-  std::vector<Polynomial> polynomials_;
-  Time duration_ = Time(0), start_time_ = Time(0), time_from_start_ = Time(0);
+  std::vector<SplineLaw<Scalar>> laws_;  // of each joint
+  Time start_time_ = Time(0), end_time_ = Time(0), time_from_start_ = Time(0);
 };
 
 }  // namespace trajectory_interface

@@ -11,13 +11,12 @@ from control_msgs.srv import QueryTrajectoryState, QueryTrajectoryStateResponse
 from controller_interface import NodeHandle, ParameterError, RateGate, RealtimePublisher, to_stamp
 from controller_interface.action_controller import ActionController
 from hardware_interface import JointHandle, JointStateHandle, addresses
-from joint_limits_interface import shortest_angular_distance
 from realtime_tools.action_server import RealtimeGoal
 from trajectory_msgs.msg import JointTrajectory
 from urdf_geometry_parser import robot_geometry
 
 from . import tolerances
-from ._sampler import Sampler
+from ._sampler import Sampler, position_error
 from .segment import Segment, active_index, stop_segment
 from .splice import Command, InvalidTrajectory, Late, map_joints, splice
 
@@ -33,6 +32,8 @@ class JointTrajectoryController(ActionController):
 
     # set by a variant whose output depends on the state error
     feeds_back = False
+    # whether ordinary cycles are answered in one call of C++; the long way follows the same laws, to the last bit
+    fast_way = True
 
     # -- what a variant adds -------------------------------------------------------------------------------------------
 
@@ -78,7 +79,7 @@ class JointTrajectoryController(ActionController):
 
         handles = [hw.get_handle(joint) for joint in self._joints]
         self._states = [handle.state for handle in handles]
-        self._sampler = _sampler_of(self._states, self._angular)
+        self._sampler = _sampler_of(self._states, self._angular) if self.fast_way else None
         self._quick: Callable = self._sampler.quick if self._sampler else lambda *_: None
         self._writes = False
         self._sampled: tuple = (None, None, [])  # trajectory, goal and cursors that the sampler knows of
@@ -167,9 +168,7 @@ class JointTrajectoryController(ActionController):
             if not need_errors:
                 continue
             state = self._states[joint]
-            error = point[0] - state.position
-            if self._angular[joint] and not -math.pi < error <= math.pi:
-                error = shortest_angular_distance(state.position, point[0])
+            error = position_error(state.position, point[0], self._angular[joint])
             velocity_error = point[1] - state.velocity
             errors.append((error, velocity_error))
             if goal is not None and segment.goal is goal:
@@ -198,8 +197,8 @@ class JointTrajectoryController(ActionController):
                 continue
             segment = trajectory[joint][index]
             path = segment.tolerances.path
-            self._sampler.follow(joint, segment.start, segment.end, segment.coefficients, segment.end_position,
-                                 next_start[joint], goal is not None and segment.goal is goal, path.position, path.velocity)
+            self._sampler.follow(joint, segment, next_start[joint], goal is not None and segment.goal is goal,
+                                 path.position, path.velocity)
         self._sampled = trajectory, goal, list(cursor)
 
     def _fill(self, message, time: float, uptime: float, segment: Segment, desired, errors):

@@ -7,7 +7,8 @@ from typing import Dict, List, Optional, Sequence
 from controller_interface import one_line
 from hardware_interface import ControlError
 
-from .segment import Segment, State, active_index, point_segments, wraparound_offset
+from ._sampler import has_passed, joining_time, turns_to_add
+from .segment import Segment, State, active_index, point_segments
 from .tolerances import JointTolerances
 
 # error codes of FollowJointTrajectoryResult that a message can earn
@@ -82,7 +83,7 @@ class Command:
     def first_after(self, elapsed: float) -> int:
         """Index of the first point later than ``elapsed`` seconds after the start of the message."""
         for index, time in enumerate(self.times):
-            if time > elapsed:
+            if not has_passed(time, elapsed):
                 return index
         raise Late(
             INVALID_GOAL, f"Dropping all {len(self.times)} trajectory points, as they occur before the current time. "
@@ -129,7 +130,8 @@ def splice(current: Sequence[Sequence[Segment]], command: Command, start: float,
            ) -> List[List[Segment]]:
     """The running motion continued by ``command``. Uses ``command`` up.
 
-    The old motion runs on to the joining instant; a bridge leads from its desired state there to the first way-point.
+    The old motion runs on to the joining instant; a bridge leads from its desired state there to the first way-point:
+    the splice of ``tracking_law.h``.
     Joints that the command does not name keep their motion; all of it belongs to ``goal`` from now on.
 
     :param current: segments of every joint, the running motion
@@ -140,7 +142,7 @@ def splice(current: Sequence[Sequence[Segment]], command: Command, start: float,
     :returns: segments of every joint
     """
     skip = command.first_after(next_uptime - start) - command.first
-    join = max(start, next_uptime)
+    join = joining_time(start, next_uptime)
     result = []
     for joint, segments in enumerate(current):
         active = max(active_index(segments, uptime), 0)
@@ -152,7 +154,7 @@ def splice(current: Sequence[Sequence[Segment]], command: Command, start: float,
         spliced = [segment.owned_by(goal) for segment in segments[active:last + 1]]
         now = State(*segments[last].sample(join))
         target = states[skip]
-        offset = wraparound_offset(now.position, target.position) if continuous[joint] else 0.0
+        offset = turns_to_add(now.position, target.position) if continuous[joint] else 0.0
         target = target._replace(position=target.position + offset)
         spliced.append(Segment(join, now, start + command.times[command.first + skip], target, 0.0, goal,
                                tolerances[joint]))

@@ -6,6 +6,9 @@ from typing import Dict, List, NamedTuple, Optional, Sequence
 
 from node_signals.parameters import of_kind
 
+from ._sampler import overridden as law_of_override
+from ._sampler import violation
+
 
 class StateTolerance(NamedTuple):
     """Largest allowed errors in rad or m and its derivatives; 0 or less is no limit."""
@@ -19,11 +22,8 @@ class StateTolerance(NamedTuple):
 
         The acceleration of joints is not measured: its error counts as 0, which no tolerance forbids.
         """
-        if self.position > 0.0 and not abs(position_error) <= self.position:
-            return f"position error {position_error:.6g} is over the tolerance {self.position:g}"
-        if self.velocity > 0.0 and not abs(velocity_error) <= self.velocity:
-            return f"velocity error {velocity_error:.6g} is over the tolerance {self.velocity:g}"
-        return None
+        return (violation("position", position_error, self.position)
+                or violation("velocity", velocity_error, self.velocity) or None)
 
 
 class JointTolerances(NamedTuple):
@@ -69,15 +69,11 @@ def overridden(defaults: Sequence[JointTolerances], joints: Sequence[str], goal)
                 raise ValueError(f"{kind}_tolerance of joint '{tolerance.name}' is NaN; use -1 to switch it off")
     goal_time = goal.goal_time_tolerance.to_sec()
     return [JointTolerances(_override(default.path, path.get(joint)), _override(default.goal, end.get(joint)),
-                            _pick(default.goal_time, goal_time)) for default, joint in zip(defaults, joints)]
+                            law_of_override(default.goal_time, goal_time)) for default, joint in zip(defaults, joints)]
 
 
 def _override(default: StateTolerance, message) -> StateTolerance:
     if message is None:
         return default
-    return StateTolerance(_pick(default.position, message.position), _pick(default.velocity, message.velocity),
-                          _pick(default.acceleration, message.acceleration))
-
-
-def _pick(default: float, value: float) -> float:
-    return default if value == 0.0 else max(value, 0.0)
+    return StateTolerance(law_of_override(default.position, message.position), law_of_override(default.velocity, message.velocity),
+                          law_of_override(default.acceleration, message.acceleration))
