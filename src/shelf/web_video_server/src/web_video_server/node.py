@@ -5,6 +5,7 @@ import sys
 import threading
 
 import node_signals
+import rosgraph.network
 import rospy
 from node_signals.parameters import ParameterError, get, number
 
@@ -15,7 +16,9 @@ from web_video_server.server import Server
 def main() -> int:
     node_signals.init_node("web_video_server")
     try:
-        address, port = get("~address", "0.0.0.0", str), int(number("~port", 8080, least=0))
+        # As the rest of ROS: all interfaces, but where ROS_IP or ROS_HOSTNAME says that this machine is alone.
+        everywhere = rosgraph.network.get_bind_address() or "0.0.0.0"
+        address, port = get("~address", everywhere, str), int(number("~port", 8080, least=0))
         kind = get("~default_stream_type", "mjpeg", str)
         if kind not in (*ENCODED, AS_SENT):
             rospy.logwarn("parameter %s is %s, which is not supplied here: mjpeg is used", rospy.resolve_name("~default_stream_type"), kind)
