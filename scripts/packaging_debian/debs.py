@@ -92,7 +92,7 @@ def _build(folder: Path, name: str, release: Release, architecture: str, depends
     """dpkg-deb of ``folder``, which holds the package's files already."""
     (folder / "DEBIAN").mkdir(exist_ok=True)
     about = folder / "usr/share/doc" / name
-    about.mkdir(parents=True)
+    about.mkdir(parents=True, exist_ok=True)
     (about / "copyright").write_text(copyright_text)
     size = sum(path.lstat().st_size for path in folder.rglob("*") if path.is_file()) // 1024 + 1
     fields = {"Package": name, "Version": release.version, "Architecture": architecture, "Maintainer": MAINTAINER,
@@ -119,6 +119,7 @@ def platform(tree: Path, root: Path, release: Release) -> Path:
         (folder / "DEBIAN" / name).chmod(0o755)
     shutil.copytree(tree, folder / PREFIX.lstrip("/"), symlinks=True)
     copyright_text = (root / "LICENSE").read_text() + _add_on_licences(tree)
+    _copy_licences(tree, folder / "usr/share/doc/noetic-labs/licences")
     return _build(folder, "noetic-labs", release, release.architecture,
                   [*_python_range(), *sections(root, "demo", "run"), *_library_depends(tree)],
                   "ROS 1 Noetic's other half: simulator, controllers, xacro, planning",
@@ -129,13 +130,56 @@ def platform(tree: Path, root: Path, release: Release) -> Path:
 
 def _add_on_licences(tree: Path) -> str:
     """What the PyPI add-ons say of their licences."""
-    lines = [f"\n\nIn {PREFIX}/share/noetic_environment/python, each under its own licence (see there):\n"]
+    lines = [f"\n\nIn {PREFIX}/share/noetic_environment/python, each under its own licence, with the texts in licences beside this file:\n"]
     for metadata in sorted((tree / "share/noetic_environment/python").glob("*.dist-info/METADATA")):
         head = metadata.read_text().split("\n\n")[0].splitlines()
         fields = dict(line.split(": ", 1) for line in head if ": " in line)
         licence = fields.get("License") or fields.get("License-Expression") or "see its dist-info folder"
         lines.append(f"  {fields['Name']} {fields['Version']}: {licence.splitlines()[0][:100]}\n")
     return "".join(lines)
+
+
+_LICENCE = re.compile(r"(LICEN[CS]E|COPYING|NOTICE|AUTHORS)", re.IGNORECASE)
+
+
+def _copy_licences(tree: Path, target: Path) -> None:
+    """The licence texts of the PyPI add-ons, a folder for each."""
+    for information in sorted((tree / "share/noetic_environment/python").glob("*.dist-info")):
+        for text in sorted(path for path in information.rglob("*") if path.is_file() and _LICENCE.match(path.name)):
+            place = target / information.name.partition("-")[0] / "_".join(text.relative_to(information).parts)
+            place.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(text, place)
+
+
+KEYRING = "noetic-labs.gpg"
+
+
+def known_key(key: str) -> str:
+    """The fingerprint of a secret key of this user.
+
+    :raises PackagingError: there is none, or no gpg
+    """
+    if not shutil.which("gpg"):
+        raise PackagingError("--sign needs gpg: sudo apt install gnupg")
+    try:
+        lines = _output(["gpg", "--batch", "--with-colons", "--list-secret-keys", key]).splitlines()
+    except PackagingError:
+        lines = []
+    found = [line.split(":")[9] for line in lines if line.startswith("fpr:")]
+    if not found:
+        raise PackagingError(f"gpg has no secret key '{key}'; gpg --list-secret-keys shows those that it has")
+    return found[0]
+
+
+def sign(index: Path, key: str) -> None:
+    """Signs the index of the repository, and writes the public key beside it, in the form that apt's ``signed-by`` takes.
+
+    :param key: of :func:`known_key`
+    """
+    ours = ["gpg", "--batch", "--yes", "--local-user", key]
+    _output([*ours, "--clearsign", "--output", str(index / "InRelease"), str(index / "Release")])
+    _output([*ours, "--armor", "--detach-sign", "--output", str(index / "Release.gpg"), str(index / "Release")])
+    _output(["gpg", "--batch", "--yes", "--output", str(index / KEYRING), "--export", key])
 
 
 def name_only(name: str, depends: List[str], stands_for: str, release: Release) -> Path:
@@ -153,7 +197,7 @@ def repository(made: List[Path], out: Path) -> Path:
     :return: ``out``
     """
     out.mkdir(parents=True, exist_ok=True)
-    for old in [*out.glob("*.deb"), *out.glob("Packages*"), out / "Release"]:
+    for old in [*out.glob("*.deb"), *out.glob("Packages*"), *(out / name for name in ("Release", "InRelease", "Release.gpg", KEYRING))]:
         old.unlink(missing_ok=True)
     for deb in made:
         shutil.move(str(deb), out / deb.name)
