@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Optional
+from typing import Optional, Sequence
 
 import motion
 import rospy
@@ -46,8 +46,7 @@ class Context:
         self.display.request(request)
         pipeline = self.pipelines.find(request.pipeline_id)
         result = pipeline.generate(scene, request, cancel)
-        if result.trajectory is not None and len(result.trajectory):
-            self.display.trajectory(result.trajectory)
+        self.display.trajectories([result.trajectory] if result.trajectory is not None else [])
         if not result and getattr(result, "contacts", None):
             self.display.contacts(result.contacts)
         return result
@@ -79,11 +78,14 @@ class Display:
         if self._requests is not None:
             self._requests.publish(message)
 
-    def trajectory(self, trajectory: motion.Trajectory) -> None:
-        """Publish a planned path."""
+    def trajectories(self, parts: Sequence[motion.Trajectory]) -> None:
+        """Publish a planned path, of one or more parts that follow each other; nothing if there is none."""
+        parts = [part for part in parts if len(part)]
+        if not parts:
+            return
         message = DisplayTrajectory(model_id=self._model.name)
-        message.trajectory_start = states.robot_state_message(trajectory.start)
-        message.trajectory = [states.trajectory_message(trajectory)]
+        message.trajectory_start = states.robot_state_message(parts[0].start)
+        message.trajectory = [states.trajectory_message(part) for part in parts]
         self._path.publish(message)
 
     def contacts(self, contacts) -> None:

@@ -3,11 +3,14 @@ messages."""
 from __future__ import annotations
 
 import time
-from typing import Any, Callable, Dict, List, Optional, Set
+from copy import deepcopy
+from dataclasses import replace
+from typing import Any, Callable, Dict, List, Optional, Set, Tuple
 
 import motion
 import rospy
 from moveit_msgs.msg import Constraints, MotionPlanRequest, MoveItErrorCodes
+from shape_msgs.msg import SolidPrimitive
 
 from dynamic_parameters import Parameter, Server
 from moveit_core import convert, states
@@ -114,13 +117,9 @@ class Pipeline:
             self._check_group(message.group_name)
             result = self.compiled.generate(scene, message, cancel)
         else:
-            planner: Callable = self._pilz if self.is_pilz else motion.plan
-            result = self._adapters.generate(scene, self.request(scene, message), cancel, planner)
+            result = self._generate(scene, self.request(scene, message), cancel)
         took = time.monotonic() - started
-        for warning in result.warnings:
-            if warning not in self._told:
-                self._told.add(warning)
-                rospy.logwarn("%s", warning)
+        self._warn(result.warnings)
         if result:
             rospy.loginfo("Planned a motion of %.2f s with %d way points for group '%s' in %.3f s (%s)",
                           result.trajectory.duration,
@@ -131,14 +130,40 @@ class Pipeline:
                 code_name(result.code), took)
         return result
 
+    def _warn(self, warnings: List[str]) -> None:
+        for warning in warnings:
+            if warning not in self._told:
+                self._told.add(warning)
+                rospy.logwarn("%s", warning)
+
+    def _generate(self, scene, request, cancel) -> motion.PlanResult:
+        planner: Callable = self._pilz if self.is_pilz else motion.plan
+        return self._adapters.generate(scene, request, cancel, planner)
+
     def _pilz(self, scene, request, cancel=None):
         return motion.pilz_plan(scene, request, cancel, self._limits)
 
-    def sequence(self, scene, items, cancel=None) -> "motion.SequenceResult":
-        """Plan a sequence of (MotionPlanRequest, blend radius) with the pilz planners, blended."""
-        requests = [(self.request(scene, message), float(radius)) for message, radius in items]
-        return motion.pilz_sequence(scene, requests, cancel,
-                                    self._limits if self.is_pilz else _cartesian_limits(self._description))
+    def sequence(self, scene, items, cancel=None) -> motion.SequenceResult:
+        """Plan a sequence of (MotionPlanRequest, blend radius): each goes through the whole pipeline, then they are blended.
+
+        :raises PlanningError: one of the requests cannot be understood.
+        """
+        if self.compiled is not None:
+            raise PlanningError(MoveItErrorCodes.FAILURE, f"pipeline '{self.name}' is compiled ({self.title}): sequences are planned by "
+                                "pilz_industrial_motion_planner and ompl; name one of them in pipeline_id")
+        requests = []
+        for message, radius in items:
+            request = self.request(scene, message)
+            joints = message.start_state.joint_state
+            if not (joints.name or joints.position or joints.velocity or joints.effort):  # then it starts where the one before ends
+                request = replace(request, start=None)
+            requests.append((request, float(radius)))
+        result = motion.pilz_sequence(scene, requests, cancel, plan=self._generate)
+        self._warn(result.warnings)
+        if not result:
+            log = rospy.loginfo if result.code == MoveItErrorCodes.PREEMPTED else rospy.logerr
+            log("No motion plan for the sequence: %s (%s, after %.3f s)", result.message, code_name(result.code), result.planning_time)
+        return result
 
     # --- requests ---
 
@@ -150,10 +175,12 @@ class Pipeline:
         group = message.group_name
         self._check_group(group)
         start = self._start(scene, message)
+        fields: Dict[str, Any] = {}
+        if self.is_pilz:
+            message, fields["auxiliary"] = _points(message)
         goals = self._goals(scene, message)
         path = self._path_constraints(scene, message.path_constraints)
         name, settings = (message.planner_id, {}) if self.is_pilz else self.configs.find(group, message.planner_id)
-        fields: Dict[str, Any] = {}
         if not self.is_pilz:
             fields = self._planner_fields(settings)
         return motion.MotionRequest(
@@ -231,7 +258,8 @@ class Pipeline:
         group = self.model.group(message.group_name)
         self._loosen(message.group_name, goals)
         for constraint in {entry.joint: entry for goal in goals for entry in goal.joint}.values():
-            self._warn_beyond(constraint)
+            if not self.is_pilz:  # which refuse such a goal
+                self._warn_beyond(constraint)
         for goal in goals:
             full = {constraint.joint for constraint in goal.joint} >= set(group.active_joints)
             if (goal.position or goal.orientation) and not full and not self.has_kinematics(message.group_name):
@@ -265,8 +293,7 @@ class Pipeline:
 
     def has_kinematics(self, group: str) -> bool:
         """Whether kinematics.yaml gives the group, or groups in it, a solver."""
-        known = self._description.kinematics
-        return group in known or any(name in known for name in self.model.group(group).subgroups)
+        return group in self._description.kinematics or bool(self._description.solved_parts(group))
 
     @staticmethod
     def _constraints(scene, message: Constraints, code: int) -> motion.Constraints:
@@ -281,6 +308,36 @@ class Pipeline:
             return convert.path_constraints(message, scene, rospy.logwarn)
         except (ValueError, motion.MotionError) as error:
             raise PlanningError(MoveItErrorCodes.INVALID_GOAL_CONSTRAINTS, str(error)) from error
+
+
+def _points(message: MotionPlanRequest) -> Tuple[MotionPlanRequest, Optional[motion.AuxiliaryPoint]]:
+    """The request as industrial motions read it, and the auxiliary point of a circle: of a region only its pose matters.
+
+    :raises PlanningError: CIRC without one.
+    """
+    message = deepcopy(message)
+    for goal in message.goal_constraints:
+        for position in goal.position_constraints:
+            region = position.constraint_region
+            region.primitives = [region.primitives[i] if i < len(region.primitives) else SolidPrimitive(SolidPrimitive.SPHERE, [1e-4])
+                                 for i in range(len(region.primitive_poses))]
+    if message.planner_id != "CIRC":
+        return message, None
+    given = message.path_constraints
+    if given.name not in ("interim", "center"):
+        raise PlanningError(MoveItErrorCodes.INVALID_MOTION_PLAN, "CIRC needs path constraints named 'interim' or 'center', whose "
+                            f"position constraint has its auxiliary point; these are named '{given.name[:40]}'")
+    poses = [pose for position in given.position_constraints for pose in position.constraint_region.primitive_poses]
+    if len(given.position_constraints) != 1 or len(poses) != 1:
+        raise PlanningError(MoveItErrorCodes.INVALID_MOTION_PLAN, f"the path constraints '{given.name}' of CIRC need one position "
+                            f"constraint with one of primitive_poses: there are {len(given.position_constraints)} with {len(poses)}")
+    position, at = given.position_constraints[0], poses[0].position
+    given.position_constraints = []
+    try:
+        place = convert.finite((at.x, at.y, at.z), "the auxiliary point of CIRC")
+    except ValueError as error:
+        raise PlanningError(MoveItErrorCodes.INVALID_MOTION_PLAN, str(error)) from error
+    return message, motion.AuxiliaryPoint(given.name, place, convert.strip(position.header.frame_id), position.link_name)
 
 
 def _no_kinematics(group: str, description: RobotDescription) -> str:

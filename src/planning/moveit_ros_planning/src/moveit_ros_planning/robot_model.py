@@ -48,6 +48,11 @@ class RobotDescription:
         """Parameter ``key`` below ``<name>_planning``."""
         return rospy.get_param(f"{self.name}_planning/{key}", default)
 
+    def solved_parts(self, group: str) -> List[str]:
+        """Groups with a kinematics solver whose joints are all among those of ``group``, itself left out."""
+        whole = set(self.model.group(group).active_joints)
+        return [name for name in self.kinematics if name != group and whole.issuperset(self.model.group(name).active_joints)]
+
 
 def resolve(name: str) -> str:
     """The full name of a description parameter: searched upward from the node's private namespace, as upstream does."""
@@ -84,7 +89,8 @@ def load(name: str = "robot_description", meshes: bool = True, own_namespace: Op
     except (motion.MotionError, ValueError, LookupError) as error:
         raise DescriptionError(f"the robot description in {where} cannot be used: {one_line(error, 400)}") from error
     for warning in model.warnings:
-        rospy.logwarn("%s", warning)
+        kind, _, rest = warning.partition("error: ")
+        (rospy.logwarn if kind or not rest else rospy.logerr)("%s", warning if kind or not rest else rest)
     description = RobotDescription(where, model, _kinematics(where, model, own_namespace), urdf, srdf or "")
     if compiled_solvers:
         solvers.use_compiled(description)

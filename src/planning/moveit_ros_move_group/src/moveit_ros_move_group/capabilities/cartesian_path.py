@@ -80,4 +80,4 @@ class CartesianPath(Capability):
         response.solution = states.trajectory_message(timed)
         rospy.loginfo("Computed Cartesian path with %d points (followed %f%% of requested trajectory)", len(timed),
                       found.fraction * 100.0)
-        self.context.display.trajectory(timed)
+        self.context.display.trajectories([timed])

@@ -11,6 +11,7 @@ from moveit_msgs.srv import GetPositionFK, GetPositionIK
 from moveit_core import convert, states
 from moveit_core.errors import PlanningError
 from moveit_core.scene_messages import attach_to_state
+from moveit_ros_planning.robot_model import Kinematics as Solver
 
 from ..capability import Capability, serve
 
@@ -29,11 +30,7 @@ class Kinematics(Capability):
     def _ik(self, request, response) -> None:
         wanted = request.ik_request
         group = self.context.group(wanted.group_name)
-        settings = self.context.description.kinematics.get(wanted.group_name)
-        if settings is None:
-            raise PlanningError(MoveItErrorCodes.NO_IK_SOLUTION,
-                                f"group '{wanted.group_name}' has no kinematics solver: kinematics.yaml names none for "
-                                f"it")
+        settings = self._settings(wanted.group_name, len(wanted.pose_stamped_vector))
         scene = self.context.monitor.copy()
         state = scene.state
         merge_state(scene, state, wanted.robot_state)
@@ -53,6 +50,22 @@ class Kinematics(Capability):
         state.set_group(wanted.group_name, found.solutions[0])
         response.solution = states.robot_state_message(state, attached=False)
         response.error_code.val = MoveItErrorCodes.SUCCESS
+
+    def _settings(self, name: str, poses: int) -> Solver:
+        """What kinematics.yaml says of the group; several poses may be shared out among the groups in it that have solvers.
+
+        :raises PlanningError: NO_IK_SOLUTION, nobody solves for it.
+        """
+        known = self.context.description.kinematics
+        if name in known:
+            return known[name]
+        parts = [known[part] for part in self.context.description.solved_parts(name)]
+        if poses < 2 or len(parts) < poses:
+            also = f"; {len(parts)} of the groups in it have one, for {poses} poses" if parts and poses > 1 else ""
+            raise PlanningError(MoveItErrorCodes.NO_IK_SOLUTION,
+                                f"group '{name}' has no kinematics solver: kinematics.yaml names none for it{also}")
+        return Solver(parts[0].solver, timeout=sum(part.timeout for part in parts), epsilon=min(part.epsilon for part in parts),
+                          position_only=all(part.position_only for part in parts))
 
     def _targets(self, scene, wanted, group) -> Dict[str, motion.Pose]:
         stamped, links = list(wanted.pose_stamped_vector), list(wanted.ik_link_names)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import List, Optional
 
 import motion
+import rospy
 from moveit_msgs.msg import MotionSequenceRequest, MoveGroupSequenceAction, MoveItErrorCodes
 from moveit_msgs.srv import GetMotionSequence
 
@@ -18,14 +19,18 @@ from .move_action import current_state_only, without_robot_state
 
 
 def plan_sequence(context, scene, request: MotionSequenceRequest, cancel: Optional[motion.CancelToken] = None):
-    """Plan a MotionSequenceRequest.
+    """Plan a MotionSequenceRequest that is not empty.
 
-    :raises PlanningError: empty, or there is no pipeline of industrial motions.
+    :raises PlanningError: a request cannot be understood, or there is no pipeline of industrial motions.
     """
-    if not request.items:
-        raise PlanningError(MoveItErrorCodes.SUCCESS, "the sequence is empty: nothing is planned")
-    return _pipeline(context, request.items[0].req.pipeline_id).sequence(
+    for item in request.items:
+        context.display.request(item.req)
+    found = _pipeline(context, request.items[0].req.pipeline_id).sequence(
         scene, [(item.req, item.blend_radius) for item in request.items], cancel)
+    context.display.trajectories(found.trajectories)
+    if found.contacts:
+        context.display.contacts(found.contacts)
+    return found
 
 
 def _pipeline(context, name: str) -> Pipeline:
@@ -36,6 +41,15 @@ def _pipeline(context, name: str) -> Pipeline:
         raise PlanningError(MoveItErrorCodes.FAILURE, "no pipeline plans with "
                             "pilz_industrial_motion_planner::CommandPlanner")
     return found
+
+
+def _start_where_the_robot_is(request: MotionSequenceRequest) -> None:
+    """The first motion of each group starts where the robot is when it is executed."""
+    seen = set()
+    for item in request.items:
+        if item.req.group_name not in seen:
+            seen.add(item.req.group_name)
+            current_state_only(item.req)
 
 
 def _fill(response, trajectories: List[motion.Trajectory]) -> None:
@@ -54,9 +68,13 @@ class SequenceService(Capability):
         self._service = serve("plan_sequence_path", GetMotionSequence, self._plan)
 
     def _plan(self, request, response) -> None:
+        if not request.request.items:
+            rospy.logwarn("Received an empty sequence: nothing is planned")
+            response.response.error_code.val = MoveItErrorCodes.SUCCESS
+            return
         found = plan_sequence(self.context, self.context.monitor.copy(), request.request)
         response.response.error_code.val, response.response.planning_time = found.code, found.planning_time
-        _fill(response.response, list(found.trajectories or ()))
+        _fill(response.response, found.trajectories)
 
 
 class SequenceAction(ActionCapability):
@@ -79,11 +97,12 @@ class SequenceAction(ActionCapability):
             return self.failed(result, MoveItErrorCodes.SUCCESS, "The sequence is empty.")
         self.context.monitor.wait_for_state()
         options = goal.planning_options
+        if not options.plan_only and self.context.execution is None:
+            rospy.logwarn("Only plan will be calculated, although plan_only == false.")
         if options.plan_only or self.context.execution is None:
             plan = self._plan(self.context.monitor.copy(options.planning_scene_diff), goal.request)
         else:
-            for item in goal.request.items[:1]:
-                current_state_only(item.req)
+            _start_where_the_robot_is(goal.request)
             plan = self.context.plan_execution.plan_and_execute(
                 lambda scene: self._plan(scene, goal.request), without_robot_state(options.planning_scene_diff),
                 self.stop, options.replan, options.replan_attempts, options.replan_delay,
@@ -95,4 +114,4 @@ class SequenceAction(ActionCapability):
     def _plan(self, scene, request: MotionSequenceRequest) -> Plan:
         found = plan_sequence(self.context, scene, request, self.stop.token)
         return Plan(found.code, found.message, [Segment(trajectory, f"sequence {number}") for number, trajectory in
-                                                enumerate(found.trajectories or ())], found.planning_time)
+                                                enumerate(found.trajectories)], found.planning_time)
