@@ -5,7 +5,10 @@ from __future__ import annotations
 import os
 import pathlib
 import subprocess
-import sys
+
+from typing import Dict
+
+from . import sandbox
 
 _MODE = "RAY_AUTH_MODE"
 # In a process of its own: Ray prints what it thinks of a refusal, and keeps the first mode.
@@ -39,6 +42,11 @@ def bring_token() -> None:
         os.environ.setdefault(_MODE, "token")
 
 
+def environment() -> Dict[str, str]:
+    """For a process that uses Ray."""
+    return {**sandbox.own_environment(), **{name: value for name, value in os.environ.items() if name.startswith("RAY_")}}
+
+
 def agree(address: str) -> bool:
     """Has Ray, which is not imported yet, bring a token to a cluster that asks for one, and none to another.
 
@@ -48,7 +56,8 @@ def agree(address: str) -> bool:
     if _MODE in os.environ:
         return True
     try:
-        said = subprocess.run([sys.executable, "-c", _ASK, address], capture_output=True, text=True, timeout=60.0).stdout.split()
+        said = subprocess.run([*sandbox.isolated(), "-c", _ASK, address], capture_output=True, text=True, timeout=60.0, cwd="/",
+                              env=environment()).stdout.split()
     except subprocess.TimeoutExpired:
         return True
     if said and said[-1] != "asks":

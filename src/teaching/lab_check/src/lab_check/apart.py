@@ -11,6 +11,7 @@ import tempfile
 from multiprocessing.connection import Connection, Pipe
 from typing import Any, Callable, List, Tuple, Union
 
+from . import access, sandbox
 from .engines import Engine
 from .errors import LabError
 from .outcome import Result
@@ -38,9 +39,9 @@ class Apart(Engine):
         self._what, self._show, self._workers, self._asked = what, show, 1, 0
         self._said = tempfile.TemporaryFile()
         self._wire, far = Pipe()
-        words = [sys.executable, "-m", "lab_check.apart", str(far.fileno())]
+        words = [*sandbox.isolated(), "-m", "lab_check.apart", str(far.fileno())]
         self._process = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=self._said, stderr=self._said, pass_fds=[far.fileno()],
-                                         start_new_session=True, preexec_fn=die_with_parent)
+                                         start_new_session=True, preexec_fn=die_with_parent, cwd="/", env=access.environment())
         far.close()
         try:
             self._ask((make, arguments), _WORK)

@@ -1,19 +1,18 @@
 """The simulated world in the examiner's hands: time passes when it says so, and everything is read to the last digit."""
 from __future__ import annotations
 
-import json
 import time
+import xmlrpc.client
 from dataclasses import dataclass
-from typing import Any, Callable, Dict, List, Optional, Set
+from typing import Any, Callable, Dict, List, Optional, Set, Tuple
+from xml.parsers.expat import ExpatError
 
 import rosgraph
-import rospy
-from gazebo_ros.srv import StepWorld, TakePicture
-from std_srvs.srv import SetBool, Trigger
 
 from . import connections
 from .errors import LabError
 from .lockstep import Nodes
+from .simulator import Lost, Refused, Wire, checked_state, png_of
 from .supervise import Program
 
 CONNECTED = 0.12  # s of rest after something new: connections are made by threads that look every hundredth of a second
@@ -42,6 +41,9 @@ class Sample:
                 return entry["joints"][name]
         return None
 
+    def models_with(self, joint: str) -> List[str]:
+        return [name for name, entry in self.models.items() if joint in entry.get("joints", {})]
+
     def place(self, name: str) -> Optional[List[float]]:
         """Pose of ``model`` or ``model::link``: x, y, z, qx, qy, qz, qw."""
         model, _, link = name.partition("::")
@@ -53,36 +55,40 @@ class Sample:
 
 class Bench:
     """
+    :param wire: to the simulator
     :param alive: raises :class:`Gone` when the session has ended
     :param quantum: s of simulated time between two samples
     """
 
-    def __init__(self, nodes: Nodes, quantum: float, alive: Callable[[], None]):
+    def __init__(self, nodes: Nodes, wire: Wire, quantum: float, alive: Callable[[], None]):
         self.nodes, self.alive = nodes, alive
+        self._wire = wire
         self._master = rosgraph.Master("/lab_check")
         self.on_sample: List[Callable[[Sample], None]] = []
-        self._step = rospy.ServiceProxy("/gazebo/step", StepWorld, persistent=True)
-        self._state = rospy.ServiceProxy("/gazebo/lab_check_state", Trigger, persistent=True)
-        self._contacts = rospy.ServiceProxy("/gazebo/lab_check_contacts", SetBool)
-        self._picture = rospy.ServiceProxy("/gazebo/take_picture", TakePicture)
-        self._seen = rospy.ServiceProxy("/gazebo/lab_check_seen", TakePicture)
         self.now = self._read()
         self.dt = self._dt
         self.count = max(1, round(quantum / self.dt))
         self.quantum = self.count * self.dt
         self.unsettled = 0
+        self.simulator = ""  # URI of its node
 
     def _read(self) -> Sample:
-        data = json.loads(self._ask(self._state).message)
+        data = self._state()
         self._dt = data["dt"]
         return Sample(data["time_ns"] / 1e9, data["models"], data["contacts"])
 
-    def _ask(self, service, *arguments):
+    def _state(self):
         try:
-            return service(*arguments)
-        except (rospy.ServiceException, rospy.ROSException, OSError, ValueError) as error:
+            return checked_state(self._ask("state"))
+        except Lost as error:
+            raise Gone(str(error)) from error
+
+    def _ask(self, what: str, *arguments):
+        try:
+            return self._wire.ask(what, *arguments)
+        except (Lost, Refused) as error:
             self.alive()
-            raise Gone(f"the simulator does not answer any more ({error})") from error
+            raise Gone(str(error)) from error
 
     def settle(self, rest: float = CONNECTED, patience: float = 10.0) -> None:
         """Everybody has done what there was to do; new processes included, and those who now hear of new publishers."""
@@ -98,7 +104,7 @@ class Bench:
     def _news(self) -> int:
         try:
             return connections.release(self._master)
-        except OSError as error:
+        except (OSError, xmlrpc.client.Error, ExpatError, ValueError) as error:
             self.alive()
             raise Gone(f"the ROS master does not answer any more ({error})") from error
 
@@ -117,11 +123,9 @@ class Bench:
         self.nodes.find()
         self.nodes.stop()
         try:
-            answer = self._ask(self._step, self.count)
+            self._ask("step", self.count)
         finally:
             self.nodes.go_on()
-        if not answer.success:
-            self._ask(rospy.ServiceProxy("/gazebo/pause_physics", _empty()))
         if not self.nodes.settle():
             self.unsettled += 1
         self.alive()
@@ -155,38 +159,34 @@ class Bench:
             self.nodes.settle(_UNCONNECTED)
 
     def watch_contacts(self, on: bool) -> None:
-        self._ask(self._contacts, on)
+        self._ask("contacts", on)
 
     def seen(self, topic: str) -> "Dict[str, float] | str":
         """``model::link::visual`` -> its share of the picture that the camera of this topic would take now; or a sentence."""
-        answer = self._ask(self._seen, "", topic, 0, 0)
-        return json.loads(answer.status_message) if answer.success else answer.status_message
+        try:
+            found = self._wire.ask("seen", topic)
+            return {str(name): float(share) for name, share in found.items()}
+        except Refused as error:
+            return str(error).partition(": ")[2] or str(error)
+        except (Lost, AttributeError, TypeError, ValueError) as error:
+            self.alive()
+            raise Gone(str(error)) from error
 
     def picture(self, model: str = "", width: int = 640, height: int = 400) -> bytes:
         """A PNG, b'' where the simulator cannot draw."""
         try:
-            answer = self._picture(model if model in self.now.models else "", "iso", width, height)
-        except rospy.ServiceException:
+            return png_of(self._wire.ask("picture", model if model in self.now.models else "", width, height))
+        except (Refused, Lost, Gone):
             return b""
-        return bytes(answer.png) if answer.success else b""
 
-
-def _empty():
-    from std_srvs.srv import Empty
-    return Empty
-
-
-def wait_for_simulator(alive: Callable[[], None], left: Callable[[], float], optional: Callable[[], bool]) -> bool:
-    """True when it answers, False when it does not come and need not (``optional()``)."""
-    import rosgraph
-    master = rosgraph.Master("/lab_check")
-    while left():
-        alive()
+    def changes(self) -> "List[Tuple[str, str, int, float]]":
+        """Who changed the world by the simulator's services or topics: (which, node, how often, s of simulation of the first time)."""
         try:
-            master.lookupService("/gazebo/lab_check_state")
-            return True
-        except (rosgraph.MasterException, OSError):
-            if optional():
-                return False
-        time.sleep(0.05)
-    return False
+            return [(str(what), str(who), int(count), float(first)) for what, who, count, first in self._ask("changed")]
+        except (TypeError, ValueError) as error:
+            raise Gone(f"the simulator does not answer any more: {error}") from error
+
+    def own_code(self, folder: str) -> List[str]:
+        """Files below ``folder`` whose code the simulator has loaded."""
+        found = self._ask("own_code", folder)
+        return [str(path) for path in found] if isinstance(found, list) else []

@@ -45,7 +45,7 @@ def _make(job: Job, built: Built, timeout: float, only: List[str]) -> bool:
     line = (f"cd {job.workspace} && catkin_make -j2 -DCMAKE_BUILD_TYPE=Release -DCATKIN_ENABLE_TESTING=OFF "
             f"-DPYTHON_EXECUTABLE=/usr/bin/python3 {chosen}")
     program = job.start(line, built=False)
-    guard = Guard(lambda: [program], {**job.limits, "time": timeout})
+    guard = Guard(lambda: [program], {**job.limits, "time": timeout}, job.group, job.written, not job.unsafe)
     guard.start()
     program.wait(STRETCH * timeout)
     guard.stop()

@@ -9,10 +9,9 @@ import shutil
 import signal
 import socket
 import subprocess
-import sys
 import uuid
 from dataclasses import asdict
-from typing import Optional
+from typing import List, Optional
 
 from . import group, report, sandbox, scratch
 from .job import Job, most_tasks
@@ -46,9 +45,9 @@ def keep_bytecode() -> None:
         return
     kept = pathlib.Path(importlib.util.cache_from_source(found.origin))
     if not kept.exists() and os.access(kept.parent if kept.parent.exists() else kept.parents[1], os.W_OK):
-        environment = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
+        environment = {name: value for name, value in sandbox.own_environment().items() if name != "PYTHONDONTWRITEBYTECODE"}
         for module in _KEPT:  # each by itself: one that cannot be imported here keeps no other from it
-            subprocess.run([sys.executable, "-c", f"import {module}"], env=environment, capture_output=True)
+            subprocess.run([*sandbox.isolated(), "-c", f"import {module}"], env=environment, cwd="/", capture_output=True)
 
 
 def check(spec: Spec, submission: pathlib.Path, out: pathlib.Path, unsafe: bool = False, films: bool = True, port: int = 0) -> Result:
@@ -56,6 +55,7 @@ def check(spec: Spec, submission: pathlib.Path, out: pathlib.Path, unsafe: bool 
     :param out: reports go there; what an earlier examination left there goes
     :raises sandbox.SandboxError: this machine cannot shut it in
     """
+    out = out.resolve()
     sandbox.Platform.here()  # complains before the reports of an earlier examination go
     if out.is_dir():
         for name in ("result.json", "report.html", "report.json", "junit.xml", "results.json", "build.log", "pictures", ".examiner.log"):
@@ -64,11 +64,12 @@ def check(spec: Spec, submission: pathlib.Path, out: pathlib.Path, unsafe: bool 
     out.mkdir(parents=True, exist_ok=True)
     keep_bytecode()
     limits = {name: spec.limit(name) for name in spec.data["limits"]}
-    with scratch.folder("lab_check.") as place, group.bounded(most_tasks(limits)) as processes:
+    # Its files lie in memory: the kernel's bound holds for both together, the Guard tells one from the other.
+    with scratch.folder("lab_check.") as place, group.bounded(most_tasks(limits), limits["memory"] + limits["disk"]) as bounds:
         os.chmod(place, 0o755)
-        job = Job(spec.data, str(spec.path.parent), os.path.abspath(submission), str(place), str(out.resolve()), unsafe,
+        job = Job(spec.data, str(spec.path.parent), os.path.abspath(submission), str(place), str(out), unsafe,
                   free_port(port) if unsafe else 11311, limits, asdict(sandbox.Platform.here()), f"LAB_CHECK_RUN={uuid.uuid4().hex}",
-                  films=films, group=processes)
+                  films=films, group=bounds)
         result = _examine(job, spec, submission, out)
     report.write(result, spec, out)
     return result
@@ -77,22 +78,22 @@ def check(spec: Spec, submission: pathlib.Path, out: pathlib.Path, unsafe: bool 
 def _examine(job: Job, spec: Spec, submission: pathlib.Path, out: pathlib.Path) -> Result:
     job_file = out / ".job"
     job.save(job_file)
-    words = [sys.executable, "-m", "lab_check.examiner", str(job_file)]
+    words = [*sandbox.isolated(), "-m", "lab_check.examiner", str(job_file)]
     sessions = len({task["launch"] for task in spec.data["tasks"]})
     patience = STRETCH * (spec.data["build"]["timeout"] * 2 + sessions * (job.limits["time"] + 90))
     try:
-        fault = _run(words if job.unsafe else sandbox.outer_words() + words, out, patience)
+        fault = _run(words, job.unsafe, out, patience)
         return _read(out, fault, spec, submission)
     finally:
         for name in (".job", ".job.json"):
             (out / name).unlink(missing_ok=True)
 
 
-def _run(words, out: pathlib.Path, patience: float) -> str:
+def _run(words: List[str], unsafe: bool, out: pathlib.Path, patience: float) -> str:
     """'' or why there is no result."""
     with open(out / ".examiner.log", "w", encoding="utf-8") as log:
-        process = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=log, stderr=log, start_new_session=True,
-                                   preexec_fn=die_with_parent)
+        streams = dict(stdout=log, stderr=log, start_new_session=True, preexec_fn=die_with_parent, env=sandbox.own_environment(), cwd="/")
+        process = subprocess.Popen(words, stdin=subprocess.DEVNULL, **streams) if unsafe else sandbox.shut_in(words, **streams)
         try:
             code = process.wait(patience)
         except subprocess.TimeoutExpired:

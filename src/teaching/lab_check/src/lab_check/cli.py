@@ -21,7 +21,8 @@ def load_spec(path: str):
 
 
 def allowed(unsafe: bool) -> None:
-    from .sandbox import Platform, SandboxError
+    from .group import bounded
+    from .sandbox import Platform, SandboxError, remark
     from .sandbox import check as try_it
 
     try:
@@ -30,6 +31,10 @@ def allowed(unsafe: bool) -> None:
             print("lab_check: --unsafe: the submission's code runs as you, and may do what you may", file=sys.stderr)
         else:
             try_it()
+            with bounded(1, 1e9) as place:
+                weaker = remark(place)
+            if weaker:
+                print(f"lab_check: {weaker}", file=sys.stderr)
     except SandboxError as error:
         print(f"lab_check: {error}", file=sys.stderr)
         raise SystemExit(3) from None
@@ -50,7 +55,6 @@ def sandbox_options(parser: argparse.ArgumentParser) -> None:
 def check(arguments: Optional[List[str]] = None) -> int:
     """Exit code 0 full marks, 1 less, 2 the spec is faulty, 3 no sandbox, 4 the checker itself failed."""
     from .check import check as examine
-    from .outcome import readable
 
     parser = parser_for("check", "Mark one submission; reports in --out.")
     parser.add_argument(
@@ -73,18 +77,31 @@ def check(arguments: Optional[List[str]] = None) -> int:
         print(f"{task.points:6g} of {task.of:<5g} {task.name}")
         for verdict in task.verdicts:
             if not verdict.passed:
-                print(f"                - {verdict.reason}")
+                print(f"                - {shown(verdict.reason)}")
     for note in result.notes:
-        print(f"note: {note}")
+        print(f"note: {shown(note)}")
     if result.fault:
-        print(f"lab_check: the checker itself failed: {result.fault}", file=sys.stderr)
+        print(f"lab_check: the checker itself failed: {shown(result.fault)}", file=sys.stderr)
     marks = "not examined" if result.fault else f"{result.points:g} of {result.of:g} points in {result.seconds:.1f} s"
-    print(f"{marks}; {readable(str(out / 'report.html'))}")
+    print(f"{marks}; {shown(str(out / 'report.html'))}")
     return 4 if result.fault else int(result.points < result.of)
+
+
+def shown(text: str) -> str:
+    """For a terminal: what a submission wrote moves no cursor and begins no line."""
+    from .outcome import readable
+
+    return "".join(c if c.isprintable() or c == " " else "\ufffd" for c in readable(text))
 
 
 def grade(arguments: Optional[List[str]] = None) -> int:
     from .grade import main
+
+    return main(arguments)
+
+
+def new(arguments: Optional[List[str]] = None) -> int:
+    from .new_spec import main
 
     return main(arguments)
 

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import json
 import shlex
+import struct
 import threading
 import time
+from collections import Counter
 from typing import Any, Callable, Dict, List
 
 import genpy
@@ -37,8 +39,13 @@ class Actor:
         self.answers: Dict[str, Any] = {}  # name -> dict of the response, or a refusal's text
         self.refusals: Dict[str, str] = {}
         self.by_hand: List[str] = []
+        self.called: Counter = Counter()  # last part of a name -> how often
         self._typed: Dict[str, str] = {}  # name of a run -> what started it
         self._publishers: List[rospy.Publisher] = []
+
+    def calls(self, service: str) -> int:
+        """How often the task's own commands have called a service of this name, or published to such a topic, since it was last asked."""
+        return self.called.pop(service, 0)
 
     def give(self, command: Dict[str, Any]) -> None:
         """
@@ -77,6 +84,7 @@ class Actor:
         self._bench.connect()
         if not publisher.get_num_connections():
             raise CommandError(f"nobody listens to {name}" + _near(name, "subscribe to"))
+        self.called[name.rpartition("/")[2]] += 1 if not rate else 1 << 30
         publisher.publish(message)
         if rate:
             end, due = self._bench.now.time + seconds, self._bench.now.time
@@ -94,13 +102,15 @@ class Actor:
         key = wanted.get("name", "it")
         try:
             kind = get_service_class_by_name(name)
-        except (ROSServiceException, OSError) as error:
+        except (ROSServiceException, rospy.ROSException, OSError, ValueError, TypeError, KeyError, struct.error) as error:
             raise CommandError(f"service {name} cannot be asked: {error}") from error
         if kind is None:
             raise CommandError(f"nobody offers the service {name}")
         request = kind._request_class()
         genpy.message.fill_message_args(request, [wanted.get("request", {})])
         done = threading.Event()
+
+        self.called[name.rpartition("/")[2]] += 1
 
         def ask() -> None:
             try:

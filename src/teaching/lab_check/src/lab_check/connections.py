@@ -1,10 +1,14 @@
 """Is everybody connected who wants to be? Nodes connect in wall time; simulated time waits for them."""
 from __future__ import annotations
 
+import http.client
+import os
 import socket
+import time
 import xmlrpc.client
 from collections import Counter
-from typing import Dict, Set
+from typing import Dict, List, Set
+from xml.parsers.expat import ExpatError
 
 import rosgraph
 
@@ -38,7 +42,8 @@ def complete(master: rosgraph.Master, deaf: Set[str]) -> bool:
             proxy = xmlrpc.client.ServerProxy(master.lookupNode(node), transport=_Transport())
             entries = proxy.getBusInfo("/lab_check")[2]
             have = Counter(entry[4] for entry in entries if entry[2] == "i" and (len(entry) < 6 or entry[5]))
-        except (OSError, xmlrpc.client.Error, rosgraph.MasterException, socket.timeout, IndexError, TypeError, ValueError):
+        except (OSError, xmlrpc.client.Error, ExpatError, http.client.HTTPException, rosgraph.MasterException, IndexError, TypeError,
+                ValueError, KeyError, AttributeError, RecursionError, MemoryError):
             deaf.add(node)
             continue
         if any(have[topic] < count for topic, count in topics.items()):
@@ -52,4 +57,22 @@ def release(master: rosgraph.Master) -> int:
     :returns: the number of news
     :raises OSError: the master does not answer
     """
-    return master.handle.release("/lab_check")[2]
+    return master.handle.release("/lab_check", _word())[2]
+
+
+def simulator_is(master: rosgraph.Master, name: str, uri: str, pid: int) -> None:
+    """Has the master note from now on who takes names of the simulator.
+
+    :raises OSError: the master does not answer
+    """
+    master.handle.simulatorIs("/lab_check", _word(), name, uri, pid)
+
+
+def told(master: rosgraph.Master) -> List[str]:
+    """What the master noted, a sentence each."""
+    return list(master.handle.told("/lab_check", _word())[2])
+
+
+def _word() -> str:
+    """By which the master knows the examiner; see :mod:`lab_check.held_master`."""
+    return os.environ.get("LAB_CHECK_WORD", "")

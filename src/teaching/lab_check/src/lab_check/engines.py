@@ -7,10 +7,10 @@ import os
 import pathlib
 import signal
 import subprocess
-import sys
 from dataclasses import dataclass
 from typing import Any, Callable, Dict, List, Union
 
+from . import sandbox
 from .outcome import Result
 from .supervise import descendants, die_with_parent
 
@@ -28,7 +28,7 @@ class How:
 
         :param worker: number of the worker on its machine
         """
-        words = [sys.executable, "-c", "import sys; from lab_check.cli import check; sys.exit(check())", str(spec), str(submission),
+        words = [*sandbox.isolated(), "-c", "import sys; from lab_check.cli import check; sys.exit(check())", str(spec), str(submission),
                  "--out", str(out)]
         words += ["--unsafe", "--port", str((self.port or 11400) + 20 * worker)] if self.unsafe else []
         return words + ([] if self.films else ["--no-films"])
@@ -39,7 +39,8 @@ def examine(words: List[str], out: pathlib.Path) -> subprocess.Popen:
     out.mkdir(parents=True, exist_ok=True)
     (out / "report.json").unlink(missing_ok=True)
     with open(out / "check.txt", "w", encoding="utf-8") as log:
-        return subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=log, stderr=log, start_new_session=True, preexec_fn=die_with_parent)
+        return subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=log, stderr=log, start_new_session=True, preexec_fn=die_with_parent,
+                                env=sandbox.own_environment(), cwd="/")
 
 
 def outcome(out: pathlib.Path, code: int) -> Union[Result, str]:

@@ -16,9 +16,9 @@ from .checks.base import Context
 from .explain import first_cause
 from .job import Job
 from .outcome import Result, TaskResult, Verdict, failed_task, rounded, share, task_from
-from .sandbox import own_network
+from .sandbox import Platform, isolated, make_world, own_environment, own_network, student
 from .spec import kind_of
-from .staging import StagingError, stage
+from .staging import StagingError, stage, within_bounds
 from .supervise import STRETCH
 
 # Packages that the examination itself stands on: one of that name in a submission would answer in their place.
@@ -69,7 +69,8 @@ class Examiner:
             self._own_world()
         os.makedirs(self.job.home, exist_ok=True)
         try:
-            self._stage()
+            with within_bounds():
+                self._stage()
         except StagingError as error:
             self._nothing(str(error))
         else:
@@ -109,18 +110,8 @@ class Examiner:
     def _own_world(self) -> None:
         """The loopback of this network, and a disk of bounded size that nobody else sees."""
         own_network()
-        subprocess.run(
-            [
-                "mount",
-                "-t",
-                "tmpfs",
-                "-o",
-                f"size={int(self.job.limits['disk'])},nr_inodes=200000,mode=0755",
-                "lab_check",
-                self.job.scratch,
-            ],
-            check=True,
-        )
+        self.job.user = student()
+        make_world(Platform(**self.job.platform), self.job.scratch, int(self.job.limits["disk"]), self.job.user)
 
     def _stage(self) -> None:
         source = pathlib.Path(self.job.home, "catkin_ws", "src")
@@ -137,6 +128,7 @@ class Examiner:
                     (path / "CATKIN_IGNORE").touch()
                 else:
                     staged.packages[name] = path
+        self.job.hand_over()
         self.job.packages = {name: str(path.relative_to(self.job.home)) for name, path in staged.packages.items()}
 
     def _nothing(self, reason: str) -> None:
@@ -222,10 +214,12 @@ class Examiner:
         self.job.save(job_file)
         with open(os.path.join(self.job.out, ".examiner.log"), "a", encoding="utf-8") as log:
             process = subprocess.Popen(
-                [sys.executable, "-m", "lab_check.session", job_file, str(number), answer],
+                [*isolated(), "-m", "lab_check.session", job_file, str(number), answer],
                 stdout=log,
                 stderr=log,
                 stdin=subprocess.DEVNULL,
+                env=own_environment(),
+                cwd="/",
             )
             try:
                 process.wait(STRETCH * self.job.limits["time"] + 60)
@@ -249,6 +243,7 @@ class Examiner:
 
 
 def main() -> None:
+    os.umask(0o022)  # the submission's user reads what is written here
     job = Job.load(sys.argv[1])
     examiner = Examiner(job)
     result = examiner.run()

@@ -7,13 +7,15 @@ import signal
 from itertools import takewhile
 from typing import List, Optional, Tuple
 
-_COLOURS = re.compile(r"\x1b\[[0-9;]*m|\x1b\].*?\x07")
+# All text comes from submissions: each pattern takes time in proportion to what it reads, and a line is cut first.
+_LONGEST = 2000  # characters of a line that are looked at
+_COLOURS = re.compile(r"\x1b\[[0-9;]{0,40}m|\x1b\][^\x07\x1b\n]{0,200}\x07")
 _ERROR = re.compile(
     r"\[ ?(ERROR|FATAL)\]|Traceback \(most recent call last\)|process has died|RLException|^ERROR|^CMake Error|\berror:|XacroException"
     r"|ResourceNotFound|Segmentation fault|No such file or directory|\*\*\* \[|undefined reference|^Invalid "
 )
 # What happens whenever a program is ended, and what upstream prints as an error although nothing is wrong.
-_HARMLESS = re.compile(r"No p gain specified|escalating to SIG|make.*\*\*\* \[.*(Makefile|all)|Error 2$")
+_HARMLESS = re.compile(r"No p gain specified|escalating to SIG|Error 2$")
 # What a program says that does not take its arguments. 'error' counts where a line begins: nodes print errors of their tracking, too.
 _REFUSAL = re.compile(
     r"\[ ?(ERROR|FATAL)\]|(^|[\]:] *)error\b|\b(usage|synopsis|invalid|illegal|wrong|bad|missing|unknown|unrecogni[sz]ed|expect(s|ed)?|must"
@@ -31,7 +33,7 @@ _MEANINGS: List[Tuple[re.Pattern, str]] = [
             "CMake did not find a package that CMakeLists.txt asks for. Is it named in package.xml, and does it exist?",
         ),
         (
-            r"fatal error: .*\.h(pp)?: No such file",
+            r"fatal error: [^ ]{1,200}\.h(pp)?: No such file",
             "A header was not found. Is its package in find_package(catkin ... COMPONENTS) and in "
             "include_directories(${catkin_INCLUDE_DIRS})?",
         ),
@@ -43,11 +45,11 @@ _MEANINGS: List[Tuple[re.Pattern, str]] = [
             "of your own machine.",
         ),
         (
-            r"is neither a launch file|is not a launch file name|\[.*\.launch\] is neither",
+            r"is neither a launch file|is not a launch file name|\.launch\] is neither",
             "roslaunch did not find the launch file: is it in the folder launch of that package, under exactly this name?",
         ),
         (
-            r"Invalid <param> tag|xacro.*(error|Exception)|XacroException|undefined (macro|symbols)",
+            r"Invalid <param> tag|xacro[^ ]{0,80}[: ]+.{0,80}(error|Exception)|XacroException|undefined (macro|symbols)",
             "The robot description could not be made: run xacro by hand on the file to see the line.",
         ),
         (r"RLException: unused args", "The launch file does not declare an argument that was given: <arg name=... default=.../>."),
@@ -57,12 +59,12 @@ _MEANINGS: List[Tuple[re.Pattern, str]] = [
             "A program is named that was not built or is not executable: add_executable in CMakeLists.txt, or chmod +x for a script.",
         ),
         (
-            r"Controller Spawner couldn't find|Waiting for .*controller_manager",
+            r"Controller Spawner couldn't find|Waiting for .{0,200}controller_manager",
             "The spawner looks for a controller manager in another namespace "
             "than the gazebo_ros_control plugin's: <robotNamespace> and the spawner's ns must be the same.",
         ),
         (
-            r"Could not load controller|type was not specified|no controller.* named",
+            r"Could not load controller|type was not specified|no controller.{0,80} named",
             "A controller is spawned whose parameters are not loaded, or in another namespace: look at rosparam list.",
         ),
         (
@@ -78,13 +80,23 @@ _MEANINGS: List[Tuple[re.Pattern, str]] = [
 
 
 def lines_of(text: str) -> List[str]:
-    return [line.rstrip() for line in _COLOURS.sub("", text).splitlines() if line.strip()]
+    return [line.rstrip() for line in (_COLOURS.sub("", whole[:2 * _LONGEST])[:_LONGEST] for whole in text.splitlines()) if line.strip()]
+
+
+def _is_error(line: str) -> bool:
+    return bool(_ERROR.search(line)) and not _HARMLESS.search(line) and not _makes_own(line)
+
+
+def _makes_own(line: str) -> bool:
+    """make's own last words, which follow those of whoever failed: ``make[1]: *** [Makefile:146: all] Error 2``."""
+    target = line.find("*** [", line.find("make")) if "make" in line else -1
+    return target >= 0 and ("Makefile" in line[target:] or "all" in line[target:])
 
 
 def error_lines(text: str) -> List[str]:
     """In the order in which they were printed; CMake's with the sentence that it says in the lines below."""
     lines = lines_of(text)
-    return [_whole(lines, i) for i, line in enumerate(lines) if _ERROR.search(line) and not _HARMLESS.search(line)]
+    return [_whole(lines, i) for i, line in enumerate(lines) if _is_error(line)]
 
 
 def _whole(lines: List[str], index: int) -> str:
@@ -115,7 +127,7 @@ def meaning(line: str) -> str:
 def excerpt(text: str, before: int = 2, after: int = 6, most: int = 40) -> List[str]:
     """The first cause and what stands round it, then other errors, each once; the last lines when there is no error."""
     lines = lines_of(text)
-    errors = [index for index, line in enumerate(lines) if _ERROR.search(line) and not _HARMLESS.search(line)]
+    errors = [index for index, line in enumerate(lines) if _is_error(line)]
     if not errors:
         return [line[:300] for line in lines[-8:]]
     first = errors[0]

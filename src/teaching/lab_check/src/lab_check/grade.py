@@ -13,7 +13,8 @@ from . import gradebook
 from .apart import Apart, Lost
 from .cluster import Cluster, ClusterError
 from .engines import Engine, How, NotBegun, Pool
-from .outcome import Result, readable
+from .gradebook import RESULTS
+from .outcome import Result, name_for
 from .spec import Spec
 from .store import Store, fingerprint
 
@@ -21,13 +22,16 @@ TRIES = 2  # for a submission whose worker died
 
 
 def named(paths: List[pathlib.Path]) -> Dict[str, pathlib.Path]:
-    """Submissions by the last part of their path, without what is no UTF-8; where two have the same, the folder before it goes in front."""
+    """Submissions by the last part of their path, as :func:`lab_check.outcome.name_for` has it; where two have the same, the folder
+    before it goes in front."""
     found: Dict[str, pathlib.Path] = {}
     last = [path.name for path in paths]
     for path in paths:
-        name = readable(path.name if last.count(path.name) == 1 else f"{path.parent.name}_{path.name}")
+        name = base = name_for(path.name if last.count(path.name) == 1 else f"{path.parent.name}_{path.name}")
+        number = 1
         while name in found:
-            name += "_"
+            number += 1
+            name = f"{base}_{number}"
         found[name] = path
     return found
 
@@ -62,15 +66,20 @@ def run(store: Store, engine: Engine, show: Callable[[str], None]) -> None:
             time.sleep(0.1)
 
 
+def results(out: pathlib.Path) -> pathlib.Path:
+    """Where a class's reports go, each in a folder with the submission's name; the class's own files lie elsewhere."""
+    return out / RESULTS
+
+
 def engine_for(spec: Spec, out: pathlib.Path, options: argparse.Namespace) -> Engine:
     """
     :raises ClusterError: an address was given, and no cluster is there that can examine
     """
     how = How(options.unsafe, not options.no_films, options.port)
     if options.address:
-        return Apart(Cluster, (spec, out, how, options.workers or 0, options.address), "the cluster, or its head,",
+        return Apart(Cluster, (spec, results(out), how, options.workers or 0, options.address), "the cluster, or its head,",
                      lambda line: print(f"lab_check: {line}", file=sys.stderr))
-    return Pool(lambda name: spec.path, out, how, options.workers or max(1, os.cpu_count() or 1))
+    return Pool(lambda name: spec.path, results(out), how, options.workers or max(1, os.cpu_count() or 1))
 
 
 def main(arguments: Optional[List[str]] = None) -> int:

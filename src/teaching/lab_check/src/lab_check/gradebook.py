@@ -6,6 +6,7 @@ import csv
 import html
 import os
 import pathlib
+import urllib.parse
 from collections import Counter
 from typing import Dict, List, Optional
 
@@ -15,6 +16,7 @@ from .similar import Pair, pairs
 from .spec import Spec
 from .store import Store, result_of
 
+RESULTS = "submissions"  # the folder of all reports: what a submission is called is no name of a file of the class
 _COLOURS = ((0.999, "#d6f0dc"), (0.5, "#fff4cf"), (0.0, "#fbe0e0"))
 
 
@@ -61,8 +63,9 @@ def _page(spec: Spec, rows, results, tasks: List[str], near: List[Pair]) -> str:
             lines.append(f"<tr><td>{html.escape(name)}<td colspan={len(tasks) + 1}>{html.escape(_remark(row))}")
             continue
         cells = "".join(f"<td class=n style='background:{_colour(task.points, task.of)}'>{task.points:g}" for task in result.tasks)
+        link = urllib.parse.quote(f"{RESULTS}/{name}/report.html")
         lines.append(
-            f"<tr><td><a href='{html.escape(name, quote=True)}/report.html'>{html.escape(name)}</a>"
+            f"<tr><td><a href='{link}'>{html.escape(name)}</a>"
             f"<td class=n><b>{result.points:g}</b> of {result.of:g}{cells}"
         )
     twins = "".join(f"<li>{html.escape(p.first)} and {html.escape(p.second)}: {p.share:.0%} in common" for p in near)

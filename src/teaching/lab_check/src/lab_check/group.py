@@ -1,7 +1,7 @@
-"""The kernel's own bound on the processes of a submission, where root asks for it: a control group.
+"""The kernel's own bounds on a submission, where this user can make control groups: processes and memory of all its programs together.
 
-prlimit's bound does not hold for root, as whom containers run, and the Guard looks ten times a second: by then a fork bomb has taken
-all process numbers of the machine, and whatever else runs there can start nothing.
+prlimit's bound on processes holds for one user, none holds for memory that nobody has mapped (files in memory, buffers of sockets, the
+pages of a tmpfs), and the Guard looks ten times a second: by then much is taken that others need.
 """
 from __future__ import annotations
 
@@ -10,46 +10,106 @@ import os
 import pathlib
 import time
 import uuid
-from typing import Iterator
+from typing import Dict, Iterator, List, Optional
 
-HIERARCHIES = ("/sys/fs/cgroup/pids", "/sys/fs/cgroup")  # version 1, version 2 of control groups
+# Version 1 of control groups has a hierarchy for each resource, version 2 one for all.
+HIERARCHIES = ("/sys/fs/cgroup/pids", "/sys/fs/cgroup/memory", "/sys/fs/cgroup")
 _LEAVING = 5.0  # s that killed processes may take to be gone
+_BOUNDS = {"pids.max": "processes", "memory.max": "memory", "memory.limit_in_bytes": "memory"}
+_NO_SWAP = ("memory.swap.max", "memory.swappiness")
+# What only the submission causes: pages of files that anybody may have read are the kernel's to give back.
+_COUNTED = (("anon", "shmem", "kernel_stack", "pagetables", "sock", "slab_unreclaimable", "percpu"), ("total_rss", "total_shmem"))
 
 
 @contextlib.contextmanager
-def bounded(most: int) -> Iterator[str]:
+def bounded(most: int, memory: float = 0.0) -> Iterator[str]:
     """:param most: processes and threads, of all that enter it together.
-    :return: a folder for :func:`enter`; '' where no group can be made here."""
-    place = _make(most)
+    :param memory: bytes, of all that enter it together; 0: no bound
+    :return: folders for :func:`enter`, joined by ``:``; '' where no group can be made here."""
+    places = _make({"processes": str(most), **({"memory": str(int(memory))} if memory else {})})
     try:
-        yield place
+        yield os.pathsep.join(places)
     finally:
         end = time.monotonic() + _LEAVING
-        while place and not _removed(place) and time.monotonic() < end:
-            time.sleep(0.05)
+        while places and time.monotonic() < end:
+            places = [place for place in places if not _removed(place)]
+            if places:
+                time.sleep(0.05)
 
 
 def enter(place: str) -> None:
     """This process, and all that it starts from now on."""
-    if place:
-        pathlib.Path(place, "cgroup.procs").write_text("0")
+    for folder in filter(None, place.split(os.pathsep)):
+        pathlib.Path(folder, "cgroup.procs").write_text("0")
 
 
-def _make(most: int) -> str:
+def counts_memory(place: str) -> bool:
+    return any(os.path.exists(os.path.join(folder, name)) for folder in place.split(os.pathsep) if folder
+               for name in ("memory.max", "memory.limit_in_bytes"))
+
+
+def memory(place: str) -> Optional[float]:
+    """Bytes that only the group's processes hold, in whatever way; None where no group counts them."""
+    for folder in filter(None, place.split(os.pathsep)):
+        try:
+            figures = dict(line.split() for line in pathlib.Path(folder, "memory.stat").read_text().splitlines())
+            names = _COUNTED[0] if "anon" in figures else _COUNTED[1]
+            taken = sum(float(figures.get(name, 0)) for name in names)
+            kernel = pathlib.Path(folder, "memory.kmem.usage_in_bytes")  # version 1 tells it apart from the rest
+            return taken + (float(kernel.read_text()) if kernel.exists() else 0.0)
+        except (OSError, ValueError):
+            continue
+    return None
+
+
+def ended_for_memory(place: str) -> int:
+    """How many processes of the group the kernel has ended so far because they took more memory than it may."""
+    for folder in filter(None, place.split(os.pathsep)):
+        for name in ("memory.events", "memory.oom_control"):
+            try:
+                figures = dict(line.split() for line in pathlib.Path(folder, name).read_text().splitlines())
+                return int(figures["oom_kill"])
+            except (OSError, ValueError, KeyError):
+                continue
+    return 0
+
+
+def _make(bounds: Dict[str, str]) -> List[str]:
+    """Folders that together keep the bounds, as far as this machine lets us make them."""
+    places: List[str] = []
+    kept: set = set()
     for hierarchy in HIERARCHIES:
         place = os.path.join(hierarchy, f"lab_check.{uuid.uuid4().hex}")
         try:
             os.mkdir(place)
         except OSError:  # not mounted, read-only, or this user may not
             continue
+        mine = _write(place, {name: bounds[kind] for name, kind in _BOUNDS.items() if kind in bounds and kind not in kept})
+        if mine:
+            kept |= {_BOUNDS[name] for name in mine}
+            places.append(place)
+        else:
+            _removed(place)  # nothing is counted in this hierarchy
+    return places
+
+
+def _write(place: str, values: Dict[str, str]) -> List[str]:
+    """The names of those bounds that are kept in this group."""
+    written = []
+    for name, value in values.items():
+        file = pathlib.Path(place, name)
         try:
-            if os.path.exists(os.path.join(place, "pids.max")):
-                pathlib.Path(place, "pids.max").write_text(str(most))
-                return place
+            if file.exists():
+                file.write_text(value)
+                written.append(name)
         except OSError:
-            pass
-        _removed(place)  # processes are not counted in this hierarchy
-    return ""
+            continue
+    for name in _NO_SWAP if any(name.startswith("memory") for name in written) else ():
+        with contextlib.suppress(OSError):
+            file = pathlib.Path(place, name)
+            if file.exists():
+                file.write_text("0")
+    return written
 
 
 def _removed(place: str) -> bool:

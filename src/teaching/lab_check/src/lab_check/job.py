@@ -5,11 +5,12 @@ import json
 import os
 import pathlib
 import shlex
+import uuid
 from dataclasses import asdict, dataclass, field
-from typing import Any, Dict, List
+from typing import Any, Dict, List, Optional, Sequence
 
 from . import sandbox
-from .supervise import Program
+from .supervise import Program, Streams
 
 
 @dataclass
@@ -28,7 +29,9 @@ class Job:
     mark: str
     packages: Dict[str, str] = field(default_factory=dict)  # name -> folder below home
     films: bool = True
-    group: str = ""  # the control group of all that the submission starts
+    group: str = ""  # the control group of all that the submission starts, see lab_check.group
+    user: int = 0  # of the submission's programs, inside the outer wall
+    handed_in: int = 0  # bytes that lie on the submission's disk from the beginning
 
     def save(self, path: "str | os.PathLike") -> None:
         pathlib.Path(path).write_text(json.dumps(asdict(self)), encoding="utf-8")
@@ -51,25 +54,57 @@ class Job:
     def workspace(self) -> str:
         return f"{self.inner_home}/catkin_ws"
 
-    def start(self, line: str, keys: bool = False, built: bool = True) -> Program:
+    def start(self, line: str, keys: bool = False, more: Optional[Dict[str, str]] = None, built: bool = True) -> Program:
         """A shell line in the submission's world.
 
         :param keys: on a terminal, whose keys are what is written to the program
+        :param more: of the environment
         :param built: with its workspace sourced, otherwise the platform alone
         """
         setup = f"{self.workspace}/devel/setup.bash" if built else f"{self.platform['prefixes'][0]}/setup.bash"
-        python = os.environ.get("PYTHONPATH", "")
         shell = f"source {shlex.quote(setup)} && cd {shlex.quote(self.inner_home)} && {line}"
         words = ["bash", "-c", shell]
         if keys:
             words = ["script", "-qfec", shlex.join(words), "/dev/null"]
-        environment = {**sandbox.environment(self.port, self.inner_home), "LAB_CHECK_PLATFORM_PYTHON": python,
-                       self.mark.partition("=")[0]: self.mark.partition("=")[2]}
+        return self.program(words, {**sandbox.environment(self.port, self.inner_home), **(more or {})})
+
+    def program(self, words: List[str], environment: Dict[str, str], streams: Optional[Streams] = None,
+                pass_fds: Sequence[int] = ()) -> Program:
+        """One of the submission's programs, inside the inner wall.
+
+        :param streams: its standard streams; by default what it says is kept
+        """
+        environment = {**environment, self.mark.partition("=")[0]: self.mark.partition("=")[2]}
         if self.unsafe:
-            return Program(words, self.limits, environment, self.home, self.group)
-        platform = sandbox.Platform(**self.platform)
+            return Program(words, self.limits, environment, self.home, self.group, streams=streams, pass_fds=pass_fds)
+        platform, place = sandbox.Platform(**self.platform), os.path.join(self.scratch, "programs", uuid.uuid4().hex)
+        for folder in ("tmp", "run", "shm"):
+            sandbox.own_folder(pathlib.Path(place, folder), self.user)
         most = ["prlimit", f"--nproc={most_tasks(self.limits)}", "--"]
-        return Program(sandbox.inner_words(platform, self.home, environment) + most + words, self.limits, place=self.group)
+        refused = os.open(sandbox.filter_file(self.scratch), os.O_RDONLY)
+        try:
+            walls = sandbox.inner_words(platform, self.scratch, place, environment, refused)
+            # bwrap's own environment can be read inside: it holds nothing.
+            return Program(walls + most + words, self.limits, {"PATH": "/usr/bin:/bin"}, place=self.group, user=self.user, streams=streams,
+                           pass_fds=[refused, *pass_fds])
+        finally:
+            os.close(refused)
+
+    def hand_over(self) -> None:
+        """What was staged is the submission's own from here on."""
+        if self.user:
+            for folder, folders, files in os.walk(self.home):
+                for name in (".", *folders, *files):
+                    os.chown(os.path.join(folder, name), self.user, self.user, follow_symlinks=False)
+        disk = os.statvfs(self.scratch)
+        self.handed_in = (disk.f_blocks - disk.f_bfree) * disk.f_frsize
+
+    def written(self) -> float:
+        """Bytes that the submission's programs have on its disk: memory, to the kernel, but no memory that they took."""
+        if self.unsafe:
+            return 0.0
+        disk = os.statvfs(self.scratch)
+        return max(float(disk.f_blocks - disk.f_bfree) * disk.f_frsize - self.handed_in, 0.0)
 
 
 def most_tasks(limits: Dict[str, float]) -> int:

@@ -1,6 +1,7 @@
 """What came of a submission: plain data that travels as JSON between the processes and into the reports."""
 from __future__ import annotations
 
+import hashlib
 from dataclasses import asdict, dataclass, field
 from typing import Any, Dict, List
 
@@ -65,7 +66,20 @@ def task_from(data: Dict[str, Any]) -> TaskResult:
 
 def readable(name: str) -> str:
     """A file's name as it can be shown and stored: bytes that are no UTF-8 become the sign for that."""
-    return name.encode("utf-8", "surrogateescape").decode("utf-8", "replace")
+    return "".join("\ufffd" if "\ud800" <= c <= "\udfff" else c for c in name)
+
+
+_LONGEST_NAME = 200  # bytes: a folder is called so, and others are made beside it
+
+
+def name_for(name: str) -> str:
+    """What a submission is called in tables, on the terminal and as a folder: its file's name without what moves a terminal's cursor, and
+    not longer than names of files can be."""
+    shown = "".join(c if c.isprintable() else "\ufffd" for c in readable(name))
+    if len(shown.encode()) <= _LONGEST_NAME:
+        return shown
+    digest = hashlib.sha256(name.encode("utf-8", "surrogateescape")).hexdigest()[:8]
+    return shown.encode()[:_LONGEST_NAME - 20].decode("utf-8", "ignore") + f"... {digest}"
 
 
 def rounded(points: float) -> float:

@@ -1,41 +1,65 @@
-"""What the examiner asks of the simulator, beyond Gazebo's services: everything at once, to the last digit, who touches whom, and what a
-camera sees."""
+"""The simulator of an examination: ``python3 -m lab_check.probe DESCRIPTOR OPTIONS...`` is gzserver's own, which also answers the examiner.
+
+Question and answer pass through a pair of sockets that the examiner made before it started this process: nobody else has an end of it, so
+that no node can answer in the simulator's place. See :mod:`lab_check.simulator` for the other end.
+"""
 from __future__ import annotations
 
+import base64
 import gc
 import json
+import os
 import pickle
 import subprocess
 import sys
-from typing import Any, Dict, Set, Tuple
+import threading
+from multiprocessing.connection import Connection
+from typing import Any, Dict, List, Optional, Set, Tuple
 
 import numpy as np
 import rospy
 from gazebo_ros import node
 from gazebo_ros.api.clock import ClockPublisher
 from gazebo_ros.server import Server
-from gazebo_ros.srv import TakePicture, TakePictureResponse
-from std_srvs.srv import SetBool, SetBoolResponse, Trigger, TriggerResponse
 
 _MOST_PAIRS = 200
+_MOST_NOTES = 100
+_LONGEST_QUESTION = 100_000  # bytes
+# Services of the simulator that only tell, let it come up, or are the examiner's own business; all others change what is measured.
+_TELLING = ("get_", "describe_", "save_", "take_", "spawn_", "clear_", "pause_physics", "unpause_physics", "set_logger_level",
+            "tf2_frames")
+_TOPICS = ("set_model_state", "set_link_state")
 
 
 class Probe:
-    """``~lab_check_state`` (std_srvs/Trigger: JSON), ``~lab_check_contacts`` (std_srvs/SetBool: note touches from now on),
-    ``~lab_check_seen`` (gazebo_ros/TakePicture: ``view`` is a camera's image topic; the answer's message is what :mod:`lab_check.seen`
-    says)."""
+    """Answers ``[what, arguments...]`` by ``[True, answer]``, or by ``[False, why not]``; all of it JSON."""
 
-    def __init__(self, server: Server):
-        self._server = server
+    def __init__(self, server: Server, wire: Connection, changes: Changes):
+        self._server, self._wire, self._changes = server, wire, changes
         self._connection = None
         self._pairs: Set[Tuple[str, str]] = set()
-        rospy.Service("~lab_check_state", Trigger, self._state)
-        rospy.Service("~lab_check_contacts", SetBool, self._contacts)
-        rospy.Service("~lab_check_seen", TakePicture, self._seen)
+        self._painter: Any = None
+        changes.now = lambda: server.now().to_sec()
+        self._say({"name": rospy.get_name(), "uri": rospy.get_node_uri()})
+        threading.Thread(target=self._serve, name="lab_check", daemon=True).start()
 
-    def _state(self, request) -> TriggerResponse:
-        del request
-        return TriggerResponse(True, json.dumps(self._server.call(self._read)))
+    def _say(self, answer: Any) -> None:
+        self._wire.send_bytes(json.dumps(answer).encode())
+
+    def _serve(self) -> None:
+        while True:
+            try:
+                what, *arguments = json.loads(self._wire.recv_bytes(_LONGEST_QUESTION))
+            except (EOFError, OSError):  # the examiner is gone
+                return
+            try:
+                answer = [True, getattr(self, f"_{what}")(*arguments)]
+            except Exception as error:  # whatever a plugin did to the world: the examiner has to hear of it
+                answer = [False, f"{type(error).__name__}: {error}"]
+            self._say(answer)
+
+    def _state(self) -> Dict[str, Any]:
+        return self._server.call(self._read)
 
     def _read(self) -> Dict[str, Any]:
         world = self._server.world
@@ -50,9 +74,18 @@ class Probe:
         pairs, self._pairs = sorted(self._pairs), set()
         return {"time_ns": int(world.time_ns), "dt": float(world.dt), "models": models, "contacts": pairs[:_MOST_PAIRS]}
 
-    def _contacts(self, request) -> SetBoolResponse:
-        self._server.call(lambda: self._watch(request.data))
-        return SetBoolResponse(True, "")
+    def _step(self, count: int) -> bool:
+        """Lets steps pass; False, and a simulation that rests from now on, where somebody had let it run."""
+        try:
+            self._server.call(lambda: self._server.request_steps(count)).result()
+        except ValueError:
+            self._server.call(self._server.pause)
+            return False
+        return True
+
+    def _contacts(self, on: bool) -> None:
+        """Note touches from now on, or no longer."""
+        self._server.call(lambda: self._watch(on))
 
     def _watch(self, on: bool) -> None:
         self._pairs = set()
@@ -70,22 +103,89 @@ class Probe:
             if all(touching):
                 self._pairs.add(tuple(sorted(c.link.scoped_name for c in touching)))
 
-
-    def _seen(self, request) -> TakePictureResponse:
-        camera = _camera_of(request.view)
+    def _seen(self, topic: str) -> Dict[str, float]:
+        """What the camera of an image topic sees, see :mod:`lab_check.seen`."""
+        camera = _camera_of(topic)
         if camera is None:
-            return TakePictureResponse(success=False, status_message=f"no camera of the simulation publishes {request.view}")
+            raise LookupError(f"no camera of the simulation publishes {topic}")
         scene, poses = self._server.call(self._scene)
-        done = subprocess.run([sys.executable, "-m", "lab_check.seen"], input=pickle.dumps((camera, scene, poses)), capture_output=True)
+        done = subprocess.run([sys.executable, "-P", "-s", "-m", "lab_check.seen"], input=pickle.dumps((camera, scene, poses)),
+                              capture_output=True, cwd="/")
         if done.returncode:
             last = (done.stderr.decode("utf-8", "replace").strip().splitlines() or ["no reason given"])[-1]
-            return TakePictureResponse(success=False, status_message=f"the simulator cannot draw what the camera sees ({last})")
-        return TakePictureResponse(success=True, status_message=done.stdout.decode())
+            raise RuntimeError(f"the simulator cannot draw what the camera sees ({last})")
+        return json.loads(done.stdout)
 
     def _scene(self):
         from ode_sim.rendering.scene import describe
 
         return describe(self._server.world), np.array(self._server.world.link_poses)
+
+    def _picture(self, model: str, width: int, height: int) -> str:
+        """A PNG in base64."""
+        from ode_sim.rendering.portrait import Painter, Portrait
+
+        scene, poses = self._server.call(self._scene)
+        self._painter = self._painter or Painter()
+        png, _ = self._painter.take(Portrait(scene, poses, model, "iso", width, height))
+        return base64.b64encode(png).decode()
+
+    def _changed(self) -> List[List[Any]]:
+        """[service or topic, who, how often, s of simulation of the first time], since the beginning."""
+        return self._changes.told()
+
+    def _own_code(self, folder: str) -> List[str]:
+        """Modules and libraries below ``folder`` that are loaded here."""
+        modules = {getattr(module, "__file__", None) or "" for module in list(sys.modules.values())}
+        with open("/proc/self/maps", encoding="utf-8", errors="replace") as maps:
+            libraries = {line.split(None, 5)[-1].strip() for line in maps if line.count(" ") >= 5}
+        return sorted(path for path in modules | libraries if path.startswith(f"{folder}/"))[:_MOST_NOTES]
+
+
+class Changes:
+    """Who has called services of the simulator that change what is measured, or published what does."""
+
+    def __init__(self):
+        self._found: Dict[Tuple[str, str], List[float]] = {}
+        self._lock = threading.Lock()
+        self.now = lambda: 0.0
+
+    def watch(self) -> None:
+        """Each service and subscriber that is made from here on."""
+        offer, listen, changes = rospy.Service, rospy.Subscriber, self
+
+        class Service(offer):  # type: ignore[misc,valid-type]
+            def __init__(self, name, kind, handler, *arguments, **more):
+                last = name.lstrip("~")
+                if name.startswith("~") and not last.startswith(_TELLING):
+                    handler = changes._noting(last, handler)
+                super().__init__(name, kind, handler, *arguments, **more)
+
+        class Subscriber(listen):  # type: ignore[misc,valid-type]
+            def __init__(self, name, kind, callback=None, *arguments, **more):
+                if name.lstrip("~") in _TOPICS and callback is not None:
+                    callback = changes._noting(name.lstrip("~"), callback)
+                super().__init__(name, kind, callback, *arguments, **more)
+
+        rospy.Service, rospy.Subscriber = Service, Subscriber
+
+    def _noting(self, what: str, handler):
+        def noted(message, *arguments):
+            header = getattr(message, "_connection_header", None) or {}
+            self._note(what, str(header.get("callerid", "somebody"))[:200])
+            return handler(message, *arguments)
+
+        return noted
+
+    def _note(self, what: str, who: str) -> None:
+        with self._lock:
+            if (what, who) not in self._found and len(self._found) >= _MOST_NOTES:
+                who = "others"
+            self._found.setdefault((what, who), [0, self.now()])[0] += 1
+
+    def told(self) -> List[List[Any]]:
+        with self._lock:
+            return [[what, who, count, first] for (what, who), (count, first) in sorted(self._found.items())]
 
 
 def _camera_of(topic: str):
@@ -110,14 +210,26 @@ class QuantumClock(ClockPublisher):
             super()._on_step()
 
 
-def main() -> None:
+def main(arguments: Optional[List[str]] = None) -> None:
     """gzserver's own, with a probe in it."""
-    make, node.ClockPublisher = node.make_server, QuantumClock
+    number, *options = sys.argv[1:] if arguments is None else arguments
+    os.set_inheritable(int(number), False)
+    sys.argv[:] = ["gzserver", *options]
+    wire, make, changes = Connection(int(number)), node.make_server, Changes()
+    node.ClockPublisher = QuantumClock
+    changes.watch()
 
     def make_server(options, sim_time=True):
         server = make(options, sim_time)
-        Probe(server)
+        Probe(server, wire, changes)
         return server
 
     node.make_server = make_server
     node.main()
+
+
+if __name__ == "__main__":
+    import signal
+
+    signal.signal(signal.SIGINT, signal.SIG_DFL)  # until gzserver has its own handler, Ctrl-C ends it silently
+    main()

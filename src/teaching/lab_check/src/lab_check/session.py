@@ -2,32 +2,45 @@
 
 from __future__ import annotations
 
+import http.client
 import json
 import os
 import pathlib
+import resource
 import signal
 import subprocess
 import sys
 import time
+import traceback
 import uuid
+import xmlrpc.client
 from dataclasses import asdict
 from itertools import zip_longest
-from typing import Any, Dict, List, Optional, Sequence
+from typing import Any, Callable, Dict, List, Optional, Sequence
+from xml.parsers.expat import ExpatError
 
+import genpy
 import rosgraph
 import rospy
 
-from . import checks, film
-from .bench import Bench, Gone, wait_for_simulator
+from . import checks, connections, film, sandbox
+from .bench import Bench, Gone
 from .checks.base import Context
 from .commands import Actor, CommandError
 from .explain import excerpt, first_cause
+from .interference import Interference
 from .job import Job
 from .lockstep import Nodes
-from .outcome import TaskResult, failed_task, share
+from .outcome import TaskResult, Verdict, failed_task, share
+from .simulator import Lost, Starter
 from .spec import kind_of
 from .supervise import Guard, Program
 
+# What reading from the submission's nodes, or from a master that they have led astray, can raise.
+UNREADABLE = (OSError, ValueError, TypeError, KeyError, IndexError, AttributeError, RecursionError, MemoryError, ArithmeticError,
+              xmlrpc.client.Error, ExpatError, http.client.HTTPException, rosgraph.MasterException, rospy.ROSException,
+              genpy.MessageException)
+_MOST_MEMORY = 4e9  # bytes that messages of the submission can make this process take
 _READY_REST = 0.35  # s of rest that show a start-up to be over: spawners look for services every few tenths
 _READY_PATIENCE = 10.0  # s of work without rest after which a node of the launch is waited for no more
 _READY_STEP = 0.1  # s of simulated time between two looks at what has come
@@ -40,24 +53,31 @@ class Session:
         self.notes: List[str] = []
         self.bench: Optional[Bench] = None
         self.launches: List[Program] = []
-        self.guard = Guard(lambda: self.programs, job.limits)
+        self.guard = Guard(lambda: self.programs, job.limits, job.group, job.written, not job.unsafe)
+        self.starter: Optional[Starter] = None
+        self.core: Optional[subprocess.Popen] = None
+        self.interference = Interference()
+        self.asked: Dict[str, int] = {}  # service of the simulator -> how often the spec itself had it called
         self._begin = time.monotonic()
 
     def run(self) -> List[TaskResult]:
-        core = subprocess.Popen(
-            ["python3", "-m", "lab_check.held_master", str(self.job.port)],
+        core = self.core = subprocess.Popen(
+            [*sandbox.isolated(), "-m", "lab_check.held_master", str(self.job.port)],
+            stdin=subprocess.DEVNULL,
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,
-            env={**os.environ, "ROS_LOG_DIR": self.job.scratch},
+            env={**sandbox.own_environment(), "ROS_LOG_DIR": self.job.scratch},
+            cwd="/",
         )
         try:
             self._wait_for_master(core)
             rospy.init_node("lab_check", anonymous=True, disable_signals=True, disable_rostime=True, log_level=rospy.FATAL)
             self.nodes = Nodes(self.job.mark if self.job.unsafe else None, [os.getpid(), os.getppid(), core.pid, 1])
+            self.starter = Starter(self.job, self.job.spec["seed"], self.programs.append, self._alive)
             return self._examine()
         finally:
             self.guard.stop()
-            for program in self.programs:
+            for program in list(self.programs):
                 program.kill()
             core.kill()
 
@@ -76,8 +96,9 @@ class Session:
         self.guard.start()
         try:
             self._get_ready(self.tasks[0]["ready"])
-        except Gone as error:
-            return [self._with_log(failed_task(task, f"'roslaunch {launch}': {error}"), ()) for task in self.tasks]
+        except (Gone, *UNREADABLE) as error:
+            why = self._in_words(error)
+            return [self._with_log(failed_task(task, f"'roslaunch {launch}': {why}"), ()) for task in self.tasks]
         results = []
         for index, task in enumerate(self.tasks):
             mark = self._said()
@@ -88,15 +109,28 @@ class Session:
             )
             try:
                 results.append(self._task(task))
-            except Gone as error:
-                results.append(self._with_log(failed_task(task, str(error)), mark))
-                results += [failed_task(later, f"not tried: {error}") for later in self.tasks[index + 1 :]]
+            except (Gone, *UNREADABLE) as error:
+                why = self._in_words(error)
+                results.append(self._with_log(failed_task(task, why), mark))
+                results += [failed_task(later, f"not tried: {why}") for later in self.tasks[index + 1 :]]
                 break
         if self.bench is not None:
             self._remarks()
         return results
 
+    @staticmethod
+    def _in_words(error: BaseException) -> str:
+        """What came from inside and could not be read is the submission's doing, whatever it was."""
+        if isinstance(error, Gone):
+            return str(error)
+        traceback.print_exception(error)  # for whoever doubts it
+        return f"what your nodes said could not be read ({type(error).__name__}: {str(error)[:200]})"
+
     def _remarks(self) -> None:
+        self.notes += self.interference.notes()
+        if not self.job.spec["own_plugins"]:
+            self.notes += [f"{path}, code of the submission, ran inside the simulator, where it could have changed what was measured"
+                           for path in self._own_code()]
         for name in self.nodes.restless_names:
             self.notes.append(
                 f"{name} never rests: a loop without sleep? It is no longer waited for, and what it does may differ from run to run"
@@ -104,13 +138,13 @@ class Session:
 
     # ------------------------------------------------------------------------------------------ programs
 
-    def start(self, line: str, keys: bool = False) -> Program:
-        program = self.job.start(line, keys)
+    def start(self, line: str, keys: bool = False, launch: bool = False) -> Program:
+        program = self.job.start(line, keys, {"LAB_CHECK_SIMULATOR": self.starter.address} if launch else {})
         self.programs.append(program)
         return program
 
     def _launch(self, words: str) -> None:
-        self.launches.append(self.start(f"exec python3 -m lab_check.held_launch {self.job.spec['seed']} {words}"))
+        self.launches.append(self.start(f"exec python3 -P -m lab_check.held_launch {words}", launch=True))
 
     def _log(self, since: Sequence[int] = ()) -> str:
         """What all programs said, each after as many bytes of it as ``since`` says; :meth:`_said` makes such a mark."""
@@ -136,6 +170,8 @@ class Session:
                     + (f": {line}" if line else "")
                     + (f" ({meaning})" if meaning else "")
                 )
+        if self.core is not None and self.core.poll() is not None:
+            raise Gone("the ROS master was ended by your code")
         if rospy.is_shutdown():
             raise Gone("the examiner's node was told to shut down by your code")
 
@@ -145,12 +181,7 @@ class Session:
         def left() -> float:
             return max(ready["timeout"] - self.guard.spent, 0.0)
 
-        simulated = wait_for_simulator(self._alive, left, lambda: False)
-        if not simulated:
-            raise Gone(
-                f"no simulator came up within {ready['timeout']:g} s: does the launch file include gazebo_ros's empty_world.launch?"
-            )
-        self._make_bench()
+        self._make_bench(self._simulator(ready["timeout"], left))
         for part in self.tasks[0]["launch"].split(" + ")[1:]:  # as in a second shell, when the first has come up
             self.bench.settle(_READY_REST, patience=min(max(left(), 1.0), _READY_PATIENCE))
             self.bench.pass_time(_READY_STEP)
@@ -170,27 +201,48 @@ class Session:
             begin += 1.0
         self.bench.pass_time(begin - self.bench.now.time)
 
-    def _make_bench(self) -> None:
-        self.nodes.find()
-        for pid in self.nodes.pids:
-            try:
-                words = pathlib.Path(f"/proc/{pid}/cmdline").read_bytes().decode("utf-8", "replace").split("\0")
-            except OSError:
-                continue
-            if (
-                any(word.endswith("/lab_check/gzserver") or word.endswith("/scripts/gzserver") for word in words[:3])
-                and "bwrap" not in words[0]
-            ):
-                self.nodes.simulator_is(pid)
-                self._simulator = pid
-        self.bench = Bench(self.nodes, self.job.spec["quantum"], self._alive)
+    def _simulator(self, timeout: float, left: Callable[[], float]) -> Dict[str, str]:
+        """Waits until it is up.
 
-    def _simulator_seconds(self) -> float:
+        :returns: name and URI of its node
+        :raises Gone: it did not come
+        """
         try:
-            fields = pathlib.Path(f"/proc/{self._simulator}/stat").read_text().rpartition(")")[2].split()
-            return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
-        except (OSError, AttributeError, IndexError):
-            return 0.0
+            while left():
+                self._alive()
+                hello = self.starter.wire.hello() if self.starter.wire else None
+                if hello:
+                    return hello
+                time.sleep(0.02)
+        except Lost as error:
+            raise Gone(str(error)) from error
+        raise Gone(f"no simulator came up within {timeout:g} s: does the launch file include gazebo_ros's empty_world.launch?")
+
+    def _make_bench(self, simulator: Dict[str, str]) -> None:
+        self.nodes.find()
+        pid = self.starter.program.process.pid
+        self.nodes.simulator_is(pid)
+        self.simulator = simulator["uri"]
+        connections.simulator_is(rosgraph.Master("/lab_check"), simulator["name"], simulator["uri"], pid)
+        self.bench = Bench(self.nodes, self.starter.wire, self.job.spec["quantum"], self._alive)
+        self.bench.simulator = simulator["uri"]
+
+    def _own_code(self) -> List[str]:
+        try:
+            return self.bench.own_code(self.job.inner_home)
+        except (Gone, *UNREADABLE):
+            return []
+
+    def _look_who_interferes(self, actor: Optional[Actor] = None) -> None:
+        """What was done since the launch to the world, and to the simulator's own names."""
+        mine = rospy.get_name()
+        for what, who, count, first in self.bench.changes():
+            if who == mine and actor is not None:
+                self.asked[what] = self.asked.get(what, 0) + actor.calls(what)
+            if who != mine or count > self.asked.get(what, 0):
+                self.interference.changed(what, who, count, first)
+        for line in connections.told(rosgraph.Master("/lab_check")):
+            self.interference.names.add(line)
 
     def _missing(self, ready: Dict[str, Any]) -> List[str]:
         import fnmatch
@@ -225,7 +277,7 @@ class Session:
             bench=bench,
             actor=actor,
             model=task.get("model", ""),
-            simulator_seconds=self._simulator_seconds,
+            simulator_seconds=self.starter.seconds,
         )
         monitors = [checks.make(kind_of(e), e[kind_of(e)], context) for e in task["expect"]]
         filming = film.Film(bench, task.get("model", "")) if task["film"] and job.films else None
@@ -252,6 +304,10 @@ class Session:
         finally:
             bench.on_sample.remove(look)
         verdicts = [self._verdict(monitor, e, trouble) for monitor, e in zip(monitors, task["expect"])]
+        self._look_who_interferes(actor)
+        self.interference.twice |= {line for monitor in monitors for line in monitor.doubts}
+        if task["interference"] == "costs" and self.interference.found:
+            verdicts = [Verdict(v.kind, False, f"no points, as {self.interference.first()}", figures=v.figures) for v in verdicts]
         result = share(task, verdicts)
         for monitor in monitors:
             result.series.update(monitor.series)
@@ -273,8 +329,6 @@ class Session:
 
     @staticmethod
     def _verdict(monitor, expectation: Dict[str, Any], trouble: str):
-        from .outcome import Verdict
-
         kind = kind_of(expectation)
         if trouble:
             return Verdict(kind, False, trouble)
@@ -282,8 +336,9 @@ class Session:
             passed, reason, figures = monitor.verdict()
         except Gone:
             raise
-        except rospy.ROSException as error:
-            passed, reason, figures = False, f"could not be asked: {error}", {}
+        except Exception as error:  # what a submission's nodes can answer has no end; the teacher's own function may fail on it, too
+            what = "the spec's own function failed" if kind == "python" else "could not be asked"
+            passed, reason, figures = False, f"{what}: {type(error).__name__}: {str(error)[:200]}", {}
         if not passed and "say" in expectation:
             reason = f"{expectation['say']} ({reason})"
         return Verdict(kind, bool(passed), reason, figures=figures)
@@ -300,6 +355,10 @@ def _typed(launch: str) -> List[str]:
 
 def main() -> None:
     signal.signal(signal.SIGTERM, lambda number, frame: sys.exit(1))
+    os.umask(0o022)
+    os.environ["LAB_CHECK_WORD"] = uuid.uuid4().hex  # by which the master knows this process
+    hard = resource.getrlimit(resource.RLIMIT_DATA)[1]
+    resource.setrlimit(resource.RLIMIT_DATA, (int(_MOST_MEMORY), hard))
     job, number = Job.load(sys.argv[1]), int(sys.argv[2])
     os.environ.update(ROS_MASTER_URI=f"http://localhost:{job.port}", ROS_HOSTNAME="localhost", ROS_LOG_DIR=job.scratch)
     launches = list(dict.fromkeys(task["launch"] for task in job.spec["tasks"]))

@@ -9,16 +9,23 @@ import argparse
 import os
 import pathlib
 import re
+import tempfile
 import zlib
 from collections import Counter
 from dataclasses import dataclass
 from itertools import combinations
 from typing import Dict, List, Optional, Set
 
+from .inside import read_regular
+from .staging import Staged, StagingError, unpack, within_bounds
+
 _ENDINGS = {".cpp", ".cc", ".c", ".h", ".hpp", ".py", ".launch", ".xacro", ".urdf", ".yaml", ".world", ".sdf"}
-_COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/|<!--.*?-->|^[ \t]*#(?!include|define|if|endif|pragma)[^\n]*", re.DOTALL | re.MULTILINE)
+# One that is not closed goes to the end: to look for its end again from each beginning would take the square of the text.
+_COMMENT = re.compile(r"//[^\n]*|/\*.*?(?:\*/|\Z)|<!--.*?(?:-->|\Z)|^[ \t]*#(?!include|define|if|endif|pragma)[^\n]*",
+                      re.DOTALL | re.MULTILINE)
 _TOKEN = re.compile(r"[A-Za-z_]\w*|\d+(?:\.\d+)?|[^\s\w]")
 _RUN, _WINDOW, _LARGEST, _COMMON = 12, 8, 300_000, 0.5
+_MOST_OF_SOURCE, _MOST_IN_ALL = 10_000_000, 200e6  # bytes of sources that are compared, of an archive that is unpacked for it
 NEAR = 0.8  # share of the smaller one's prints that is near-identical
 
 
@@ -29,17 +36,33 @@ class Pair:
     share: float
 
 
-def prints(folder: pathlib.Path) -> Set[int]:
-    """Winnowed prints of all source files; empty for what is no folder."""
+def prints(submission: pathlib.Path) -> Set[int]:
+    """Winnowed prints of all source files of a folder, or of a zip or tar; empty for what is neither."""
+    if submission.is_dir():
+        return _of_folder(submission) if submission.resolve() != pathlib.Path("/") else set()
+    with tempfile.TemporaryDirectory(prefix="lab_check_similar.") as place:
+        try:
+            with within_bounds():
+                unpack(submission, pathlib.Path(place), _MOST_IN_ALL, Staged())
+        except StagingError:  # what could be read until then counts
+            pass
+        return _of_folder(pathlib.Path(place))
+
+
+def _of_folder(folder: pathlib.Path) -> Set[int]:
     found: Set[int] = set()
-    if not folder.is_dir() or folder.resolve() == pathlib.Path("/"):
-        return found
+    left = _MOST_OF_SOURCE
     for place, folders, files in os.walk(folder):
         folders[:] = sorted(name for name in folders if name not in (".git", "build", "devel"))
         for name in sorted(files):
-            path = pathlib.Path(place, name)
-            if path.suffix in _ENDINGS and not path.is_symlink() and path.is_file() and path.stat().st_size < _LARGEST:
-                found |= of_text(path.read_text(encoding="utf-8", errors="replace"))
+            if os.path.splitext(name)[1] in _ENDINGS and left > 0:
+                try:
+                    data = read_regular(place, name, _LARGEST)
+                except OSError:  # a link, a pipe, or not ours to read
+                    continue
+                if len(data) < _LARGEST:
+                    left -= len(data)
+                    found |= of_text(data.decode("utf-8", "replace"))
     return found
 
 

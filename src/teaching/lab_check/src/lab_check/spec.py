@@ -117,8 +117,17 @@ def _schema_problems(path, data, lines, schema) -> List[str]:
     problems = []
     for error in sorted(validator.iter_errors(data), key=lambda e: lines.get(tuple(e.absolute_path), 0)):
         where = tuple(error.absolute_path)
-        problems += [f"{path}:{line_of(lines, (*where, *more))}: {text}" for more, text in _words(error, where)]
+        right = example(schema, where)
+        problems += [f"{path}:{line_of(lines, (*where, *more))}: {text}{right}" for more, text in _words(error, where)]
     return problems
+
+
+def example(schema: Dict[str, Any], where: Tuple) -> str:
+    """How the command or the expectation at this path of keys is written, to be put behind a complaint; '' elsewhere."""
+    definitions = schema.get("definitions", {})
+    kinds = [definitions.get(part, {}).get("properties", {}) for part in ("command", "expectation")]
+    written = next((kind[where[4]]["examples"] for kind in kinds if len(where) > 4 and "examples" in kind.get(where[4], {})), None)
+    return f"; the right form: {written[0]}" if written else ""
 
 
 def line_of(lines: Dict[Tuple, int], where: Tuple) -> int:
@@ -178,6 +187,8 @@ def _fill(data: Dict[str, Any]) -> None:
     data.setdefault("quantum", 0.02)
     data.setdefault("launch", "")
     data.setdefault("ready", {})
+    data.setdefault("interference", "noted")
+    data.setdefault("own_plugins", False)
     for task in data["tasks"]:
         task.setdefault("points", 0)
         task.setdefault("launch", data["launch"])
@@ -185,6 +196,7 @@ def _fill(data: Dict[str, Any]) -> None:
         task.setdefault("do", [])
         task.setdefault("film", True)
         task.setdefault("all", False)
+        task.setdefault("interference", data["interference"])
 
 
 def _further(path, data, lines) -> List[str]:

@@ -8,12 +8,13 @@ import signal
 import subprocess
 import threading
 import time
-from typing import Callable, Dict, List, Optional, Tuple
+from typing import Callable, Dict, List, Optional, Sequence, Tuple
 
-from . import group
+from . import group, sockets
 
 _HEAD, _TAIL = 400_000, 200_000  # bytes of output that are kept
 _LOOK = 0.1  # s between two looks at memory and processes
+Streams = Tuple[int, int, int]  # descriptors of standard input, output and error
 STRETCH = 10.0  # wall time, in limits of time, after which a submission is ended even on the busiest machine
 
 
@@ -48,18 +49,21 @@ class Program:
 
     :param limits: of the spec, in bytes and numbers: memory, processes, log
     :param place: the control group that it enters, see :mod:`lab_check.group`
+    :param user: that it becomes, also its group; 0: as who starts it
+    :param streams: its standard streams; by default what it says is kept, and what is written to it are its keys
     """
 
     def __init__(self, words: List[str], limits: Dict[str, float], environment: Optional[Dict[str, str]] = None, cwd: Optional[str] = None,
-                 place: str = ""):
+                 place: str = "", user: int = 0, streams: Optional[Streams] = None, pass_fds: Sequence[int] = ()):
         self.output = Output()
         self.broke = ""  # the limit that it broke, in words
         self.words = words
         self._limits = limits
-        self._place = place
-        self.process = subprocess.Popen(words, env=environment, cwd=cwd, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
-                                        stderr=subprocess.STDOUT, start_new_session=True, preexec_fn=self._bound)
-        self._reader = threading.Thread(target=self._read, daemon=True)
+        self._place, self._user = place, user
+        into, out, error = streams or (subprocess.PIPE, subprocess.PIPE, subprocess.STDOUT)
+        self.process = subprocess.Popen(words, env=environment, cwd=cwd, stdin=into, stdout=out, stderr=error, start_new_session=True,
+                                        preexec_fn=self._bound, pass_fds=pass_fds)
+        self._reader = threading.Thread(target=self._read if streams is None else lambda: None, daemon=True)
         self._reader.start()
 
     def _bound(self) -> None:
@@ -70,6 +74,10 @@ class Program:
             hard = resource.getrlimit(what)[1]
             most = most if hard == resource.RLIM_INFINITY else min(most, hard)
             resource.setrlimit(what, (most, most))
+        if self._user:
+            os.setgroups([])
+            os.setresgid(self._user, self._user, self._user)
+            os.setresuid(self._user, self._user, self._user)
 
     def _read(self) -> None:
         while True:
@@ -177,13 +185,19 @@ def descendants(*pids: int) -> List[int]:
 class Guard(threading.Thread):
     """Looks at memory, processes and time of all programs together, and ends them when a limit is broken.
 
-    Memory is what lies in RAM for them alone, shared pages counted by share. Time that they spend waiting for a processor does not count,
-    up to ``STRETCH`` times the limit: a busy machine gives the same marks.
+    Memory is what lies in RAM for them alone: as their control group counts it, or, where there is none, as :class:`Held` does. Time that
+    they spend waiting for a processor does not count, up to ``STRETCH`` times the limit: a busy machine gives the same marks.
+
+    :param place: the control group, see :mod:`lab_check.group`
+    :param written: bytes that they have on their disk, which the kernel counts as memory, too
+    :param own_network: nobody else's sockets are in this network
     """
 
-    def __init__(self, programs: Callable[[], List[Program]], limits: Dict[str, float]):
+    def __init__(self, programs: Callable[[], List[Program]], limits: Dict[str, float], place: str = "",
+                 written: Callable[[], float] = lambda: 0.0, own_network: bool = False):
         super().__init__(daemon=True)
-        self._programs, self._limits = programs, limits
+        self._programs, self._limits, self._place, self._written = programs, limits, place, written
+        self._held, self._ended_before = Held(own_network), group.ended_for_memory(place)
         self._over = threading.Event()
         self.broke = ""
         self.peak_memory = 0.0
@@ -199,20 +213,25 @@ class Guard(threading.Thread):
             now = time.monotonic()
             self.spent = max(self.spent + self._worth(pids, now - last), (now - begin) / STRETCH)
             last = now
-            memory = sum(map(_resident, pids))
+            memory = self._memory(pids)
             self.peak_memory = max(self.peak_memory, memory)
             self.peak_processes = max(self.peak_processes, len(pids))
-            broke = ""
-            if len(pids) > self._limits["processes"]:
-                broke = f"it started more than {self._limits['processes']:g} processes"
-            elif memory > self._limits["memory"]:
-                broke = f"it took more than {self._limits['memory'] / 1e9:g} GB of memory"
-            elif self.spent > self._limits["time"]:
-                broke = f"it was not done after {self._limits['time']:g} s"
+            broke = self._broken(memory, len(pids))
             if broke:
                 self.broke = self.broke or broke
                 for program in programs:
                     program.breaks(broke)
+
+    def _memory(self, pids: List[int]) -> float:
+        counted = group.memory(self._place) if self._place else None
+        return self._held.bytes(pids) if counted is None else max(counted - self._written(), 0.0)
+
+    def _broken(self, memory: float, processes: int) -> str:
+        if processes > self._limits["processes"]:
+            return f"it started more than {self._limits['processes']:g} processes"
+        if memory > self._limits["memory"] or group.ended_for_memory(self._place) > self._ended_before:
+            return f"it took more than {self._limits['memory'] / 1e9:g} GB of memory"
+        return f"it was not done after {self._limits['time']:g} s" if self.spent > self._limits["time"] else ""
 
     def _worth(self, pids: List[int], wall: float) -> float:
         """What ``wall`` s would have been on a machine of their own: processor time, where they wanted a processor."""
@@ -234,6 +253,53 @@ def processor_time(pid: int) -> Tuple[float, bool]:
         return (int(fields[11]) + int(fields[12])) / _TICKS, fields[0] == b"R"
     except (OSError, IndexError, ValueError):
         return 0.0, False
+
+
+class Held:
+    """What processes hold in RAM, counted from outside, where the kernel does not: their own pages at each look; pages that they share,
+    files in memory and buffers of sockets, which take longer to count, once a second, and at once when the machine has more such pages."""
+
+    _EVERY, _GROWN = 1.0, 50e6  # s, bytes
+
+    def __init__(self, own_network: bool):
+        self._own_network = own_network
+        self._due, self._known, self._machine = 0.0, 0.0, 0.0
+
+    def bytes(self, pids: List[int]) -> float:
+        now, machine = time.monotonic(), _shared_of_machine()
+        if now >= self._due or machine - self._machine > self._GROWN:
+            self._known = _shared(pids) + (sockets.queued() if self._own_network else 0.0)
+            self._due, self._machine = now + self._EVERY, machine
+        return self._known + sum(map(_resident, pids))
+
+
+def _shared_of_machine() -> float:
+    try:
+        with open("/proc/meminfo", "rb") as file:
+            return next(float(line.split()[1]) * 1024 for line in file if line.startswith(b"Shmem:"))
+    except (OSError, StopIteration, IndexError, ValueError):
+        return 0.0
+
+
+def _shared(pids: List[int]) -> float:
+    """Bytes of shared memory: what is mapped, and files that are in memory alone, mapped or not."""
+    files: Dict[Tuple[int, int], float] = {}
+    mapped = 0.0
+    for pid in pids:
+        mine: Dict[Tuple[int, int], float] = {}
+        try:
+            with open(f"/proc/{pid}/status", "rb") as status:
+                rss = next((float(line.split()[1]) * 1024 for line in status if line.startswith(b"RssShmem:")), 0.0)
+            for name in os.listdir(f"/proc/{pid}/fd"):
+                path = f"/proc/{pid}/fd/{name}"
+                if os.readlink(path).startswith("/memfd:"):
+                    information = os.stat(path)
+                    mine[information.st_dev, information.st_ino] = information.st_blocks * 512.0
+        except OSError:  # it ended
+            continue
+        mapped += max(rss - sum(mine.values()), 0.0)
+        files.update(mine)
+    return mapped + sum(files.values())
 
 
 def _resident(pid: int) -> float:

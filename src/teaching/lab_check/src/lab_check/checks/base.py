@@ -2,8 +2,11 @@
 from __future__ import annotations
 
 import pathlib
+import re
+import signal
+import threading
 from dataclasses import dataclass, field
-from typing import Any, Callable, Dict, List, Optional, Tuple
+from typing import Any, Callable, Dict, List, Optional, Set, Tuple
 
 from ..bench import Bench, Sample
 
@@ -36,6 +39,7 @@ class Check:
     def __init__(self, wanted: Any, context: Context):
         self.wanted, self.context = wanted, context
         self.series: Dict[str, List[List[float]]] = {}
+        self.doubts: Set[str] = set()  # what makes it doubtful what was measured, a sentence each
 
     def start(self) -> None:
         """Before the commands."""
@@ -49,6 +53,29 @@ class Check:
     def verdict(self) -> Tuple[bool, str, Dict[str, Any]]:
         """(passed, sentence, figures)"""
         raise NotImplementedError
+
+
+_PATIENCE = 5.0  # s that a pattern may be looked for
+
+
+def search(pattern: str, text: str) -> "Optional[re.Match]":
+    """``re.search`` that gives up: what a submission wrote may be made so that the teacher's pattern goes through it for ever. None
+    then, too."""
+    if threading.current_thread() is not threading.main_thread():
+        return re.search(pattern, text)
+
+    def over(number, frame):
+        raise TimeoutError
+
+    before = signal.signal(signal.SIGALRM, over)
+    signal.setitimer(signal.ITIMER_REAL, _PATIENCE)
+    try:
+        return re.search(pattern, text)
+    except TimeoutError:
+        return None
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0.0)
+        signal.signal(signal.SIGALRM, before)
 
 
 def names(found, most: int = 8) -> str:

@@ -2,11 +2,14 @@
 from __future__ import annotations
 
 import math
-import re
+import pathlib
 import xml.etree.ElementTree as ET
 from typing import Any, Dict, List, Tuple
 
-from .base import Check, names
+from ..inside import matching, read_regular
+from .base import Check, names, search
+
+_LARGEST = 1_000_000  # bytes of a file in which a pattern is looked for
 
 
 class FileCheck(Check):
@@ -14,28 +17,30 @@ class FileCheck(Check):
 
     def verdict(self) -> Tuple[bool, str, Dict[str, Any]]:
         path = self.wanted["path"]
-        found = self._find(path)
+        found = self._find(path)  # (folder, path below it)
         if self.wanted.get("absent"):
             return not found, f"{path} is {'still there' if found else 'not there, as it should be'}", {}
         if not found:
             return False, f"there is no file {path} in your submission", {}
         contains = self.wanted.get("contains")
         if contains:
-            texts = [file.read_text(encoding="utf-8", errors="replace") for file in found]
-            if not any(re.search(contains, text) for text in texts):
+            if not any(self._holds(contains, folder, name) for folder, name in found):
                 return False, f"{path} is there, but holds nothing like '{contains}'", {}
         return True, f"{path} is there" + (f" and holds '{contains}'" if contains else ""), {}
 
-    def _find(self, path: str) -> List:
+    @staticmethod
+    def _holds(pattern: str, folder: pathlib.Path, name: str) -> bool:
+        try:
+            return bool(search(pattern, read_regular(folder, name, _LARGEST).decode("utf-8", "replace")))
+        except OSError:  # something else stands there by now
+            return False
+
+    def _find(self, path: str) -> List[Tuple[pathlib.Path, str]]:
         package, _, rest = path.partition("/")
         if package in self.context.packages and rest:
-            found = self.context.packages[package].glob(rest)
-        else:
-            try:
-                found = self.context.source.rglob(path)
-            except (ValueError, NotImplementedError):
-                return []
-        return [file for file in sorted(found) if file.is_file() and not file.is_symlink()]
+            folder = self.context.packages[package]
+            return [(folder, name) for name in matching(folder, rest)]
+        return [(self.context.source, name) for name in matching(self.context.source, path, anywhere=True)]
 
 
 class UrdfCheck(Check):

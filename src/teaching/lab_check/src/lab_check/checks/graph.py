@@ -4,7 +4,6 @@ from __future__ import annotations
 import difflib
 import fnmatch
 import math
-import re
 from typing import Any, Dict, List, Tuple
 
 import rosgraph
@@ -13,7 +12,7 @@ import rospy
 from ..bench import Sample
 from ..commands import CommandError, find_topic
 from ..explain import crashed, error_lines, refusal, timeless
-from .base import Check, names
+from .base import Check, names, search
 
 
 def master() -> rosgraph.Master:
@@ -188,8 +187,8 @@ class ControllersCheck(Check):
 
 class NoErrorsCheck(Check):
     def verdict(self) -> Tuple[bool, str, Dict[str, Any]]:
-        ignored = [re.compile(pattern) for pattern in self.wanted.get("ignore", [])]
-        lines = [line for line in error_lines(self.context.log()) if not any(p.search(line) for p in ignored)]
+        ignored = self.wanted.get("ignore", [])
+        lines = [line for line in error_lines(self.context.log()) if not any(search(pattern, line) for pattern in ignored)]
         if lines:
             return False, f"{len(lines)} error lines, the first: {timeless(lines[0])[:200]}", {}
         return True, "nothing was reported as an error", {}
@@ -233,7 +232,7 @@ class ExitCheck(Check):
         if "code" in self.wanted and program.code != self.wanted["code"]:
             how = "still runs" if program.running else f"ended with code {program.code}"
             return False, f"the program {how}; it should end with {self.wanted['code']} (it last printed: {last})", {}
-        if "says" in self.wanted and not re.search(self.wanted["says"], said):
+        if "says" in self.wanted and not search(self.wanted["says"], said):
             return False, f"the program printed nothing like '{self.wanted['says']}'; it last printed: {last}", {}
         if not set(self.wanted) & {"code", "refused", "says"} and not program.running and program.code:
             return False, f"the program ended with code {program.code}: {last}", {}
@@ -248,7 +247,7 @@ class ExitCheck(Check):
             return "the program took a wrong argument and went on, instead of refusing it"
         if crashed(program.code, said):
             return f"the program crashed on a wrong argument instead of refusing it: {last}"
-        if program.code == 0 and not (re.search(self.wanted["says"], said) if "says" in self.wanted else refusal(said)):
+        if program.code == 0 and not (search(self.wanted["says"], said) if "says" in self.wanted else refusal(said)):
             return ("the program took a wrong argument: it ended with code 0 and did not say what is wrong with it, nor how it is used "
                     f"(it last printed: {last})")
         return ""

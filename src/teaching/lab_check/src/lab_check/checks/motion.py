@@ -15,6 +15,7 @@ from ..seen import share_of
 from .base import Check, names
 
 _EVERY = 0.05  # s between two points of a plot
+_MOST_MESSAGES = 200_000  # of a topic that one task keeps
 _SHARE = [0.005, 1.0]  # of a picture, where the spec says none
 
 
@@ -44,6 +45,7 @@ class JointCheck(Timed):
         found = sample.joint(self.wanted["name"], self.context.model)
         if found is None:
             return
+        _doubt(self, sample, self.wanted["name"])
         value = found[1 if self.wanted.get("velocity") else 0]
         self._last = value
         self.note(self.wanted["name"], sample.time, value)
@@ -87,6 +89,14 @@ class JointCheck(Timed):
         )
 
 
+def _doubt(check: Check, sample: Sample, joint: str) -> None:
+    """Several models have a joint of that name, and the spec names none."""
+    models = [] if check.context.model else sample.models_with(joint)
+    if len(models) > 1:
+        check.doubts.add(f"the joint {joint} is there in several models ({names(models)}), and the spec's task names no model: "
+                         f"that of {models[0]} was measured")
+
+
 class StillCheck(Timed):
     """Joints that must not move."""
 
@@ -105,6 +115,7 @@ class StillCheck(Timed):
     def sample(self, sample: Sample) -> None:
         for name, first in self._first.items():
             found = sample.joint(name, self.context.model)
+            _doubt(self, sample, name)
             if found is not None:
                 self._most[name] = max(self._most.get(name, 0.0), abs(found[0] - first))
                 self.note(name, sample.time, found[0])
@@ -271,14 +282,29 @@ class _Listening(Timed):
         self._subscriber = rospy.Subscriber(
             name,
             message,
-            lambda m: self.messages.append((self.context.bench.now.time, m)),
+            self._take,
             queue_size=None,
             buff_size=1 << 24,
             tcp_nodelay=True,
         )
         self.context.bench.connect()
 
+    def _take(self, message) -> None:
+        if len(self.messages) < _MOST_MESSAGES:
+            self.messages.append((self.context.bench.now.time, message))
+
+    def _of_the_simulator(self) -> None:
+        """Where the simulator publishes the topic, what others publish there does not count, and is a doubt."""
+        simulator = self.context.bench.simulator
+        headers = {id(c.header): c.endpoint_id for c in self._subscriber.impl.connections}
+        sources = [headers.get(id(message._connection_header)) for _, message in self.messages]
+        if simulator in sources and any(source != simulator for source in sources):
+            self.doubts.add(f"another node publishes {self._topic}, too, which is the simulator's: what it sent does not count")
+            self.messages = [entry for entry, source in zip(self.messages, sources) if source == simulator]
+
     def stop(self) -> None:
+        if self._subscriber is not None:
+            self._of_the_simulator()
         if self._subscriber is not None:
             self._subscriber.unregister()
         if not self.problem and not self.messages:
@@ -347,7 +373,7 @@ class ImageCheck(_Listening):
 
     def sample(self, sample: Sample) -> None:
         del sample
-        del self.messages[:-1]
+        del self.messages[:-20]  # of whom they came is looked at later
 
     def verdict(self) -> Tuple[bool, str, Dict[str, Any]]:
         self.stop()

@@ -1,0 +1,30 @@
+"""What nodes of the submission did to what is measured: noted in the report, and by the spec's word it costs the task."""
+from __future__ import annotations
+
+from typing import Dict, List, Set, Tuple
+
+
+class Interference:
+    """``names``, ``twice``: sentences about names of the simulator, and about joints that several models have."""
+
+    def __init__(self) -> None:
+        self.names: Set[str] = set()
+        self.twice: Set[str] = set()
+        self._changes: Dict[Tuple[str, str], Tuple[int, float]] = {}
+
+    def changed(self, what: str, who: str, count: int, first: float) -> None:
+        """A node called a service of the simulator that changes the world, or published what does."""
+        self._changes[what, who] = (count, first)
+
+    @property
+    def found(self) -> bool:
+        return bool(self.names or self.twice or self._changes)
+
+    def notes(self) -> List[str]:
+        """A sentence each."""
+        changes = [f"the node {who} used /gazebo/{what} {count} times, for the first time at {first:.3f} s of simulation: "
+                   "it changed the world by hand" for (what, who), (count, first) in sorted(self._changes.items())]
+        return changes + sorted(self.names) + sorted(self.twice)
+
+    def first(self) -> str:
+        return self.notes()[0]
