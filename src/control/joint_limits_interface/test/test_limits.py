@@ -45,6 +45,10 @@ def test_bad_urdf():
         read_joints("<robot>")
     with pytest.raises(DescriptionError, match="joint 'j'.*velocity=\"fast\""):
         read_joints('<robot><joint name="j" type="revolute"><limit velocity="fast"/></joint></robot>')
+    for bad in ("nan", "inf", "1_0", "1 m", "1,5", "1e400", ""):  # none is a number for urdfdom
+        with pytest.raises(DescriptionError, match="is no number"):
+            read_joints(f'<robot><joint name="j" type="revolute"><limit velocity="{bad}"/></joint></robot>')
+    assert read_joints('<robot><joint name="a & b" type="fixed"/></robot>').keys() == {"a  b"}  # as TinyXML reads it
 
 
 @pytest.mark.parametrize("values, changed", [

@@ -162,7 +162,10 @@ void ModelBuilder::addJoint(const urdf::Joint& urdf, int parent_link)
   if (joint.type == JointType::Revolute || joint.type == JointType::Prismatic)
   {
     if (joint.axis.norm() < 1e-12)
-      throw ModelError("joint '" + joint.name + "': <axis xyz> is zero");
+    {
+      error("joint '" + joint.name + "': <axis xyz> is zero; 0 0 1 is used, as by the simulator");
+      joint.axis = Vector3::UnitZ();
+    }
     joint.axis.normalize();
   }
   addVariables(joint);
@@ -390,8 +393,8 @@ void ModelBuilder::applyLimits()
   for (const JointModel& joint : model_.joints)
     for (const VariableBounds& b : joint.bounds)
       if (b.has_position && !(b.min_position <= b.max_position))
-        throw ModelError("joint '" + joint.name + "': its lower limit " + std::to_string(b.min_position) +
-                         " is above its upper limit " + std::to_string(b.max_position));
+        error("joint '" + joint.name + "': its lower limit " + std::to_string(b.min_position) + " is above its upper limit " +
+              std::to_string(b.max_position) + ": no position is within them, so nothing that moves it can be planned; exchange the two");
 }
 
 void ModelBuilder::finishVariables()

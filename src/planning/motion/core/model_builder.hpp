@@ -11,7 +11,8 @@
 namespace motion
 {
 // Parses with urdfdom; its complaints become one ModelError. The root link's names etc. are checked there.
-urdf::ModelInterfaceSharedPtr parseUrdf(const std::string& text);
+// `faults` takes the first fault of each part that urdfdom left out.
+urdf::ModelInterfaceSharedPtr parseUrdf(const std::string& text, std::vector<std::string>& faults);
 
 class ModelBuilder
 {
@@ -39,6 +40,7 @@ private:
   void finishVariables();
   void findDescendants();
   void warn(const std::string& text) { model_.warnings.push_back(text); }
+  void error(const std::string& text) { warn("error: " + text); }  // some of the robot cannot be planned for; who logs it tells by the mark
 
   // groups (groups.cpp)
   void buildGroups();

@@ -210,7 +210,7 @@ bool JointModelGroup::hasJoint(int joint) const { return std::binary_search(join
 RobotModelPtr RobotModel::load(const std::string& urdf, const std::string& srdf, const Options& options)
 {
   auto model = std::make_shared<RobotModel>();
-  const auto parsed = parseUrdf(urdf);
+  const auto parsed = parseUrdf(urdf, model->warnings);
   if (!srdf.empty())
     model->srdf = Srdf::parse(srdf, model->warnings);
   ModelBuilder(parsed, options, *model).build();

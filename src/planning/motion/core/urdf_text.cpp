@@ -9,20 +9,32 @@ namespace motion
 {
 namespace
 {
-// urdfdom says what is wrong on the console only: hold its mouth and keep the first error.
+// urdfdom says what is wrong on the console only, each fault twice (what it is, then in which link): hold its mouth and keep that.
 class Listener : public console_bridge::OutputHandler
 {
 public:
   void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override
   {
-    if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR && first.empty())
+    if (level < console_bridge::CONSOLE_BRIDGE_LOG_ERROR)
+      return;
+    if (first.empty())
       first = text.substr(0, 200);
+    const std::size_t link = text.find(" element for Link [");
+    if (text.compare(0, 16, "Could not parse ") != 0 || link == std::string::npos)
+    {
+      reason = text.substr(0, 200);
+      return;
+    }
+    if (faults.size() < 20)
+      faults.push_back("link '" + text.substr(link + 19, text.size() - link - 20) + "': its <" + text.substr(16, link - 16) +
+                       "> is at fault (" + reason + "); nothing behind it in this link is read");
   }
-  std::string first;
+  std::string first, reason;
+  std::vector<std::string> faults;
 };
 }  // namespace
 
-urdf::ModelInterfaceSharedPtr parseUrdf(const std::string& text)
+urdf::ModelInterfaceSharedPtr parseUrdf(const std::string& text, std::vector<std::string>& faults)
 {
   static std::mutex one_at_a_time;
   std::lock_guard<std::mutex> lock(one_at_a_time);
@@ -50,6 +62,7 @@ urdf::ModelInterfaceSharedPtr parseUrdf(const std::string& text)
   }
   if (!urdf->getRoot())
     throw ModelError("the URDF '" + urdf->getName() + "' has no root link");
+  faults.insert(faults.end(), listener.faults.begin(), listener.faults.end());
   return urdf;
 }
 }  // namespace motion

@@ -266,12 +266,29 @@ def test_copies_are_apart(hand):
 @pytest.mark.parametrize("urdf, srdf, said", [
     ("<robot", None, "URDF cannot be read"), ("", None, "URDF cannot be read"), ("<robot name='r'/>", None, "URDF"),
     (GRIPPER, "<robot", "SRDF is not well-formed XML near line 1"), (GRIPPER, "<nothing/>", "no <robot>"),
-    (GRIPPER.replace('xyz="0 0 2"', 'xyz="0 0 0"'), None, "joint 'lift'.*axis"),
-    (GRIPPER.replace('lower="0.1"', 'lower="0.9"'), None, "joint 'lift'.*lower limit")])
+    (GRIPPER.replace('effort="1"', 'effort="x"', 1), None, "URDF cannot be read: effort value")])
 def test_bad_descriptions_are_refused_in_one_line(urdf, srdf, said):
     with pytest.raises(motion.ModelError, match=said) as error:
         motion.load_model(urdf, srdf)
     assert "\n" not in str(error.value)
+
+
+@pytest.mark.parametrize("change, said", [
+    (('lower="0.1"', 'lower="0.9"'), "joint 'lift': its lower limit 0.900000 is above its upper limit"),
+    (('xyz="0 0 2"', 'xyz="0 0 0"'), "joint 'lift': <axis xyz> is zero")])
+def test_what_moveit_loads_is_loaded_with_one_error(change, said):
+    """MoveIt checks neither (RobotModel::jointBoundsFromURDF): the robot is there, and what moves that joint cannot be planned."""
+    model = motion.load_model(GRIPPER.replace(*change), HAND_SRDF)
+    line, = (warning for warning in model.warnings if warning.startswith("error: "))
+    assert said in line and "lift" in model.joints
+    if "limit" in said:
+        assert not model.state().in_bounds("arm")
+
+
+def test_a_fault_that_urdfdom_forgives_is_told():
+    model = motion.load_model(GRIPPER.replace('size="0.1 0.1 0.4"', 'size="0.1 0.4"'))
+    line, = (warning for warning in model.warnings if "collision" in warning)
+    assert "its <collision> is at fault (Parser found 2 elements but 3 expected" in line
 
 
 @pytest.mark.parametrize("call, said", [

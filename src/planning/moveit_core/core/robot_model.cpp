@@ -34,8 +34,12 @@ std::shared_ptr<motion::RobotModel> load(const urdf::ModelInterfaceSharedPtr& ur
   try
   {
     const auto core = motion::RobotModel::load(urdf, srdf ? *srdf->core() : motion::Srdf(), options);
+    const std::string mark = "error: ";
     for (const std::string& warning : core->warnings)
-      ROS_WARN_NAMED(LOGNAME, "%s", warning.c_str());
+      if (warning.compare(0, mark.size(), mark) == 0)
+        ROS_ERROR_NAMED(LOGNAME, "%s", warning.c_str() + mark.size());
+      else
+        ROS_WARN_NAMED(LOGNAME, "%s", warning.c_str());
     return core;
   }
   catch (const motion::Error& error)

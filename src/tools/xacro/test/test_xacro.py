@@ -187,6 +187,7 @@ def test_a_loop_by_map_is_refused_in_one_line(write):
     assert result.returncode == 2 and "a loop of more than 5000000 rounds is too much for a robot description" in result.stderr
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("body", [
     "".join(f'<xacro:property name="a{i}" value="{f"${{a{i - 1}}}" * 10 if i else "ha" * 50}"/>' for i in range(12)) + '<a b="${a11}"/>',
     '<xacro:macro name="m0"><a/></xacro:macro>' + "".join(

@@ -1,6 +1,7 @@
 """The joints of a URDF, as far as controllers and limits need them."""
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from math import inf
 from typing import Dict, Optional
@@ -9,6 +10,8 @@ from xml.etree import ElementTree
 from hardware_interface import ControlError, description_root
 
 from .angles import distance_within_limits, shortest_angular_distance
+
+_NUMBER = re.compile(r"\s*[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?", re.ASCII)
 
 
 class DescriptionError(ControlError):
@@ -68,11 +71,12 @@ class JointDescription:
 
 
 def _number(element: ElementTree.Element, attribute: str, joint: str) -> float:
+    """A number as urdfdom reads it, which knows neither NaN nor infinity."""
     text = element.get(attribute, "0")
-    try:
-        return float(text)
-    except ValueError:
-        raise DescriptionError(f"joint '{joint}': <{element.tag} {attribute}=\"{text}\"> is no number") from None
+    value = float(text) if _NUMBER.fullmatch(text) else inf
+    if value in (inf, -inf):
+        raise DescriptionError(f"joint '{joint}': <{element.tag} {attribute}=\"{text}\"> is no number")
+    return value
 
 
 def _joint(element: ElementTree.Element) -> JointDescription:

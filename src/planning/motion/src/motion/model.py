@@ -18,7 +18,8 @@ def load_model(urdf: str, srdf: Optional[str] = None, *, joint_limits: Optional[
         or under ``"base/x"``.
     :param find_package: ``f(package name) -> directory or None``; by default a search below ROS_PACKAGE_PATH.
     :param meshes: load collision meshes.
-    :raises ModelError: the texts cannot be made into a robot. What is only left out is in ``warnings``.
+    :raises ModelError: the texts cannot be made into a robot. What is only left out is in ``warnings``;
+        a line of these that begins with ``error: `` says that some of the robot cannot be planned for.
     :raises InvalidInputError: the joint limits are not what they should be.
     """
     limits = dict(joint_limits or {})
