@@ -97,10 +97,14 @@ def number(value: Optional[float]) -> str:
     return "none" if math.isnan(value) else f"{value + 0.0:.5g}"
 
 
+def verdict(result: Result, solver: str) -> str:
+    cause = result.cause(solver)
+    if result.within(solver):
+        return "ok, though a cause is told" if cause else "ok"
+    return "OFF (told)" if cause else "OFF"
+
+
 def told(scene: Scene, result: Result) -> str:
-    verdict = " ".join(
-        f"{solver} {number(result.ours[solver])} {'ok' if result.within(solver) else 'OFF' + (' (told)' if result.cause(solver) else '')}"
-        for solver in result.ours
-    )
+    ours = " ".join(f"{solver} {number(value)} {verdict(result, solver)}" for solver, value in result.ours.items())
     law = "" if result.row.law is None else f" law {number(result.row.law)}"
-    return f"{scene.name}: {result.row.quantity}: real {number(result.real)}{law} {verdict}"
+    return f"{scene.name}: {result.row.quantity}: real {number(result.real)}{law} {ours}"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import multiprocessing
 import os
-from typing import Dict, List
+from typing import Dict, List, Tuple
 
 from real_gazebo.compare import Result, compare, number, told
 from real_gazebo.records import path_of
@@ -83,8 +83,9 @@ def section(scene: Scene, results: List[Result]) -> List[str]:
     return lines + [""] + [f"* {cause}" for cause in causes] + ([""] if causes else [])
 
 
-def results_of(name: str) -> List[Result]:
-    return list(compare(next(scene for scene in SCENES if scene.name == name)))
+def values_of(name: str) -> List[Tuple[float, Dict[str, float]]]:
+    """Of each row of a scene: real Gazebo's and ours."""
+    return [(result.real, result.ours) for result in compare(next(scene for scene in SCENES if scene.name == name))]
 
 
 def write(tell=print) -> str:
@@ -93,7 +94,8 @@ def write(tell=print) -> str:
     counts = {solver: [0, 0] for solver in ("gazebo", "default")}
     scenes = [scene for scene in SCENES if os.path.exists(path_of(scene.name))]
     with multiprocessing.Pool() as pool:
-        for scene, results in zip(scenes, pool.imap(results_of, [scene.name for scene in scenes])):
+        for scene, values in zip(scenes, pool.imap(values_of, [scene.name for scene in scenes])):
+            results = [Result(scene, row, *of_row) for row, of_row in zip(scene.rows, values)]
             for result in results:
                 tell(told(scene, result))
             for solver, count in counts.items():

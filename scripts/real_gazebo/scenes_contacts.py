@@ -449,7 +449,7 @@ def force_on(r, body, start, end):
         if name.startswith("contact:"):
             first = name.split(":", 1)[1].split("|")[0].startswith(body + "::")
             total += sum(row[10] for row in rows if start - 1e-9 <= row[0] <= end + 1e-9) * (1 if first else -1)
-    return total / (round((end - start) / 0.01) + 1)
+    return total / (round((end - start) / 0.001) + 1)
 
 
 contact(
@@ -459,8 +459,8 @@ contact(
     cube("b", 0.2, 2, "0 0 0.1 0 0 0", surface(1.0)),
     (
         Row(
-            "mean force on the cube from 0.05 to 0.4 s, N",
-            lambda r: force_on(r, "b", 0.05, 0.4),
+            "mean force on the cube from 0.05 to 0.2 s, N",
+            lambda r: force_on(r, "b", 0.05, 0.2),
             law=19.6,
             gazebo=(0.05, 0),
             default=(1e-2, 0),
@@ -472,6 +472,7 @@ contact(
             default=(9, 9),
         ),
     ),
-    0.5,
+    0.2,
     contacts=True,
+    every=0.001,
 )

@@ -87,7 +87,7 @@ one(
     1.2,
     (Deed("torque", "p::a", "4 2 0", 0, 1.0),),
 )
-FEEDBACK = "<physics><ode><provide_feedback>1</provide_feedback></ode></physics>"
+FEEDBACK = "<physics><provide_feedback>1</provide_feedback></physics>"
 WHEEL = axis("0 0 1", -0.5, 0.5, damping=0.1) + axis("0 1 0", name="axis2", damping=0.001)
 one(
     "revolute2_wheel",
