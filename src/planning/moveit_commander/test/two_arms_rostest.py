@@ -7,8 +7,8 @@ import numpy as np
 import rospy
 import rostest
 from moveit_commander import MoveGroupCommander
-from moveit_msgs.msg import MoveItErrorCodes
-from moveit_msgs.srv import GetPositionIK, GetPositionIKRequest
+from moveit_msgs.msg import MoveItErrorCodes, PositionIKRequest
+from moveit_msgs.srv import GetPositionFK, GetPositionIK
 
 LEFT, RIGHT = "left_hand", "right_hand"
 
@@ -57,6 +57,23 @@ class TwoArms(unittest.TestCase):
         self.assertTrue(self.both.go())
         for link, position in wanted.items():
             np.testing.assert_allclose(vector(self.both.get_current_pose(link)), position, atol=2e-3)
+
+    def solve(self, **fields):
+        wanted = PositionIKRequest(group_name="both", ik_link_names=[LEFT, RIGHT], timeout=rospy.Duration(1.0), **fields)
+        wanted.robot_state.is_diff = True
+        return rospy.ServiceProxy("compute_ik", GetPositionIK)(wanted)
+
+    def test_compute_ik_shares_poses_out_among_the_arms(self):
+        """kinematics.yaml has the arms and not the group of both: as upstream, the groups in it solve."""
+        wanted = [self.moved(LEFT, -0.05, 0.05, 0.05), self.moved(RIGHT, -0.05, -0.05, 0.1)]
+        answer = self.solve(pose_stamped_vector=wanted)
+        self.assertEqual(answer.error_code.val, MoveItErrorCodes.SUCCESS)
+        there = rospy.ServiceProxy("compute_fk", GetPositionFK)(wanted[0].header, [LEFT, RIGHT], answer.solution)
+        for found, pose in zip(there.pose_stamped, wanted):
+            np.testing.assert_allclose(vector(found), vector(pose), atol=1e-3)
+        self.assertEqual(self.solve(pose_stamped_vector=[wanted[0], self.moved(RIGHT, x=5.0)]).error_code.val,
+                         MoveItErrorCodes.NO_IK_SOLUTION)
+        self.assertEqual(self.solve(pose_stamped=wanted[0]).error_code.val, MoveItErrorCodes.NO_IK_SOLUTION)  # no solver for one alone
 
     def test_what_one_tip_cannot_reach_fails_the_goal(self):
         self.both.set_pose_target(self.moved(LEFT), LEFT)

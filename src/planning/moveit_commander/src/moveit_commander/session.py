@@ -7,6 +7,7 @@ from typing import Dict, Optional, Tuple
 
 import actionlib
 import rospy
+import tf2_ros
 from actionlib_msgs.msg import GoalStatus
 from rosgraph.names import ns_join
 
@@ -36,6 +37,7 @@ class Session:
             raise RuntimeError(str(error)) from error
         self.model: motion.RobotModel = self.description.model
         self._monitor: Optional[CurrentStateMonitor] = None
+        self._listener: Optional[tf2_ros.TransformListener] = None
         self._stopped = -_STOP_HOLDS
 
     def name(self, relative: str) -> str:
@@ -55,8 +57,16 @@ class Session:
         """Listens from the first use on."""
         with _lock:
             if self._monitor is None:
-                self._monitor = CurrentStateMonitor(self.model, None, self.name("joint_states"))
+                self._monitor = CurrentStateMonitor(self.model, self._frames(), self.name("joint_states"))
             return self._monitor
+
+    def _frames(self) -> Optional[tf2_ros.Buffer]:
+        """TF, which says where a planar or floating base stands; None for robots without one."""
+        if not any(self.model.joint(name).type in ("planar", "floating") for name in self.model.active_joints):
+            return None
+        buffer = tf2_ros.Buffer(rospy.Duration(10.0), debug=False)
+        self._listener = tf2_ros.TransformListener(buffer)
+        return buffer
 
     def state(self, timeout: float = 1.0) -> Optional[motion.RobotState]:
         """The state now; None (and an error line saying why) when none newer than this call comes within ``timeout``

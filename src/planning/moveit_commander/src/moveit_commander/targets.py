@@ -31,7 +31,7 @@ class Targets:
         """Take joint values (a dict); False when they are out of bounds, which are taken all the same."""
         self.kind = JOINT
         self.state.set(values)
-        wrong = self.state.violations(self._group)
+        wrong = self.state.violations(self._group, self.joint_tolerance)
         for name, value, low, high in wrong:
             rospy.logwarn("joint '%s' is to go to %g, which is outside its limits [%g, %g]", name, value, low, high)
         return not wrong

@@ -12,6 +12,7 @@ import rospy
 from sensor_msgs.msg import JointState
 
 from moveit_core import convert, states
+from moveit_core.errors import one_line
 
 #: clock jumps back by more than this (s): a simulation that was reset or a looping bag; all stamps are forgotten
 _JUMP = 0.5
@@ -116,19 +117,21 @@ class CurrentStateMonitor:
             self._look_up_multi_dof()
             return self._state.copy()
 
-    def _look_up_multi_dof(self) -> None:
+    def _look_up_multi_dof(self) -> Dict[str, str]:
+        """Take the joints with several variables from TF; for each that cannot be, why."""
+        failed = {}
         for name in self._multi if self._buffer is not None else ():
             joint = self._model.joint(name)
             parent = joint.parent_link or self._model.frame
             try:
                 found = self._buffer.lookup_transform(parent, joint.child_link, rospy.Time(0))
+                pose = convert.pose(found.transform, f"joint '{name}'")
             except Exception as error:  # tf2 has many kinds; none of them may stop the monitor
-                rospy.logwarn_once("Unable to update multi-DOF joint '%s': Failure to lookup transform between '%s' "
-                                   "and '%s' with TF "
-                                   "exception: %s", name, parent, joint.child_link, error)
+                failed[name] = f"from '{parent}' to '{joint.child_link}': {one_line(error)}"
                 continue
-            states.set_multi_dof(self._state, name, convert.pose(found.transform, f"joint '{name}'"))
+            states.set_multi_dof(self._state, name, pose)
             self._stamps[name] = found.header.stamp
+        return failed
 
     def missing(self, since: Optional[rospy.Time] = None, group: str = "") -> List[str]:
         """Joints never heard of, or (``since``) not newer than that; of one group or of the whole robot."""
@@ -136,6 +139,14 @@ class CurrentStateMonitor:
         with self._lock:
             return [name for name in wanted
                     if name not in self._stamps or (since is not None and self._stamps[name] < since)]
+
+    def _frames_missing(self, group: str) -> Dict[str, str]:
+        """Joints with several variables that TF has never told of, and why, but for those that were waited for already."""
+        names = self._model.group(group).active_joints if group else self._multi
+        with self._lock:
+            failed = self._look_up_multi_dof()
+            known = {*self._stamps, *self._told}
+            return {name: why for name, why in failed.items() if name in names and name not in known}
 
     def _wanted(self, group: str) -> List[str]:
         names = self._model.group(group).active_joints if group else self._model.active_joints
@@ -152,11 +163,17 @@ class CurrentStateMonitor:
         end = time.monotonic() + timeout
         while True:
             late = [name for name in self.missing(since, group) if name not in self._told or name in self._stamps]
-            if not late:
+            frames = self._frames_missing(group)
+            if not late and not frames:
                 return True
             left = end - time.monotonic()
             if left <= 0 or rospy.is_shutdown():
-                return bool(self._stamps) and self._excuse(late)
+                for name, why in frames.items():
+                    rospy.logwarn("Unable to update multi-DOF joint '%s': TF has no transform %s. It is taken to be where a state "
+                                  "begins by default", name, why)
+                self._told.update(frames)
+                heard = any(name in self._stamps for name in self._single)
+                return not late or (heard and self._excuse(late))
             with self._lock:
                 self._news.wait(min(left, 0.05))
 

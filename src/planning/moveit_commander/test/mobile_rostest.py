@@ -1,0 +1,85 @@
+#!/usr/bin/env python3
+"""A robot on a base that drives, and a joint that turns without end, as MoveGroupCommander and RobotCommander see them."""
+import unittest
+
+import moveit_commander
+import numpy as np
+import rospy
+import rostest
+from geometry_msgs.msg import TransformStamped
+from moveit_commander import MoveGroupCommander, MoveItCommanderException, RobotCommander
+from moveit_msgs.msg import RobotState
+from moveit_msgs.srv import GetPositionFK
+from std_msgs.msg import Header
+from tf2_ros import StaticTransformBroadcaster
+
+HOME = [0.0, -0.6, 1.6, 0.0, 1.0, 0.0]
+
+
+def vector(pose):
+    return [pose.position.x, pose.position.y, pose.position.z]
+
+
+class Mobile(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.frames = StaticTransformBroadcaster()
+        place = TransformStamped(header=Header(frame_id="odom", stamp=rospy.Time.now()), child_frame_id="world")
+        place.transform.translation.x, place.transform.translation.y = 1.0, -0.5
+        place.transform.rotation.z, place.transform.rotation.w = np.sin(0.15), np.cos(0.15)
+        cls.frames.sendTransform(place)
+        cls.arm = MoveGroupCommander("manipulator", wait_for_servers=60.0)
+        cls.base = MoveGroupCommander("base")
+        cls.robot = RobotCommander()
+
+    def test_the_base_is_where_tf_has_it(self):
+        np.testing.assert_allclose(self.base.get_current_joint_values(), [1.0, -0.5, 0.3], atol=1e-6)
+        np.testing.assert_allclose(self.robot.get_joint("base").value(), [1.0, -0.5, 0.3], atol=1e-6)
+        there = rospy.ServiceProxy("compute_fk", GetPositionFK)(Header(frame_id="odom"), ["hand"], RobotState(is_diff=True)).pose_stamped[0]
+        for pose in (self.arm.get_current_pose("hand"), self.robot.get_link("hand").pose()):
+            self.assertEqual(pose.header.frame_id, "odom")
+            np.testing.assert_allclose(vector(pose.pose), vector(there.pose), atol=1e-4)
+        state = self.robot.get_current_state().multi_dof_joint_state
+        self.assertAlmostEqual(dict(zip(state.joint_names, state.transforms))["base"].translation.x, 1.0)
+
+    def test_a_line_from_where_the_hand_is(self):
+        self.arm.set_joint_value_target(HOME)
+        self.assertTrue(self.arm.go())
+        down = self.arm.get_current_pose("hand").pose
+        down.position.z -= 0.05
+        path, share = self.arm.compute_cartesian_path([down], 0.01, 0.0)
+        self.assertEqual(share, 1.0)
+        rows = np.array([point.positions for point in path.joint_trajectory.points])
+        self.assertLess(np.abs(np.diff(rows, axis=0)).max(), 0.2)
+
+    def test_limits_of_the_base_and_limits_without_flags_count(self):
+        """1 m at 0.2 m/s; 0.9 rad at 0.2 rad/s^2 takes 2 sqrt(0.9 / 0.2) s."""
+        self.base.set_workspace([-5, -5, 0, 5, 5, 0])
+        self.base.set_joint_value_target([2.0, -0.5, 0.3])
+        good, path, _, _ = self.base.plan()
+        self.assertTrue(good)
+        self.assertGreaterEqual(path.multi_dof_joint_trajectory.points[-1].time_from_start.to_sec(), 5.0 - 1e-3)
+        self.assertRaises(MoveItCommanderException, self.base.set_joint_value_target, [3.5, 0.0, 0.0])
+        self.arm.set_joint_value_target([self.arm.get_current_joint_values()[0] + 0.9] + HOME[1:])
+        good, path, _, _ = self.arm.plan()
+        self.assertTrue(good)
+        self.assertGreaterEqual(path.joint_trajectory.points[-1].time_from_start.to_sec(), 0.95 * 2 * np.sqrt(0.9 / 0.2))
+
+    def test_a_joint_without_end_may_be_sent_anywhere(self):
+        for target in (9.0, -4.0):
+            self.arm.set_joint_value_target(dict(zip(self.arm.get_active_joints(), HOME[:5] + [target])))
+            self.assertTrue(self.arm.go())
+            turned = self.arm.get_current_joint_values()[5]
+            self.assertAlmostEqual(np.cos(turned - target), 1.0, delta=1e-4)
+        self.assertRaises(MoveItCommanderException, self.arm.set_joint_value_target, [9.0] + HOME[1:])
+
+    def test_a_value_within_the_tolerance_of_a_limit_is_taken(self):
+        """As upstream: bounds are asked with the goal's joint tolerance."""
+        self.arm.set_joint_value_target([3.1 + 5e-5] + HOME[1:])
+        self.assertRaises(MoveItCommanderException, self.arm.set_joint_value_target, [3.1 + 2e-4] + HOME[1:])
+
+
+if __name__ == "__main__":
+    moveit_commander.roscpp_initialize([])
+    rospy.init_node("mobile_rostest")
+    rostest.rosrun("moveit_commander", "mobile", Mobile)
