@@ -1,14 +1,38 @@
-"""Names that the Python of Noetic (Ubuntu 20.04: Python 3.8, NumPy 1.17, PyYAML 5.3, Matplotlib 3.1, KDL 1.4) has and Debian's has dropped.
+"""Names that the Python of Noetic (Ubuntu 20.04: Python 3.8, NumPy 1.17, SciPy 1.3, Matplotlib 3.1, Pillow 7, OpenCV 4.2, PyYAML 5.3,
+KDL 1.4) has and Debian's has dropped.
 
-Python imports this when it starts in a shell that is sourced. Nothing is imported here: what is missing is put into a module
-when a program imports that module, and a name that is there stays as it is.
+Python imports this when it starts in a shell that is sourced. Nothing else is imported here: what is missing is put into a module
+when a program imports that module (``noetic_names``), and a name that is there stays as it is.
 """
 import sys
-from importlib.machinery import PathFinder
+import time
+from importlib.machinery import BuiltinImporter
 
 TYPE_CHECKING = False  # importing typing takes longer than all of this
 if TYPE_CHECKING:
     from typing import Any
+
+#: Which module of noetic_names completes which module.
+COMPLETED_BY = {name: group for group, names in {
+    "standard": "array asyncio base64 cgi collections configparser fractions html.parser importlib inspect json locale plistlib random "
+                "threading unittest xml.etree.ElementTree",
+    "numbers": "numpy numpy.lib scipy scipy.integrate scipy.interpolate scipy.linalg scipy.misc scipy.signal scipy.spatial.distance "
+               "scipy.spatial.transform scipy.stats",
+    "drawings": "matplotlib matplotlib.axes matplotlib.axis matplotlib.backend_bases matplotlib.backends.backend_agg matplotlib.cbook "
+                "matplotlib.cm matplotlib.colors matplotlib.figure matplotlib.lines matplotlib.patches matplotlib.pyplot matplotlib.style "
+                "mpl_toolkits.mplot3d.axes3d",
+    "pictures": "PIL.Image PIL.ImageDraw PIL.ImageFont cv2",
+    "files": "yaml PyKDL",
+}.items() for name in names.split()}
+
+#: Those that only lack names: nothing that is in them is replaced.
+ONLY_LACKS = {"base64", "collections", "fractions", "importlib", "inspect", "locale", "threading"}
+#: Modules that are gone from Python, and Debian's package that has them.
+GONE = {"asynchat": "python3-pyasynchat", "asyncore": "python3-pyasyncore", "cgi": "python3-legacy-cgi", "cgitb": "python3-legacy-cgi",
+        "distutils": "python3-setuptools", "telnetlib": "python3-zombie-telnetlib"}
+#: Those of which noetic_names has what scripts use.
+REMADE = {"imp": "noetic_names.remade_imp", "numpy.core.umath_tests": "noetic_names.remade_umath_tests",
+          "pipes": "noetic_names.remade_pipes"}
 
 
 def _add(module, **names):
@@ -17,105 +41,47 @@ def _add(module, **names):
             setattr(module, name, value)
 
 
-def _collections(module):
-    from collections import abc
-    _add(module, **{name: getattr(abc, name) for name in abc.__all__ if name[0].isupper()})
-
-
-def _fractions(module):
-    from math import gcd
-    _add(module, gcd=gcd)
-
-
-def _threading(module):
-    _add(module.Thread, isAlive=module.Thread.is_alive)
-
-
-def _base64(module):
-    _add(module, encodestring=module.encodebytes, decodestring=module.decodebytes)
-
-
-def _inspect(module):
-    if hasattr(module, "getargspec"):
-        return
-    from collections import namedtuple
-    ArgSpec = namedtuple("ArgSpec", "args varargs keywords defaults")
-
-    def getargspec(func):
-        """Names and defaults of a function's parameters; :func:`inspect.getfullargspec` knows them all."""
-        spec = module.getfullargspec(func)
-        if spec.kwonlyargs or spec.annotations:
-            raise ValueError("Function has keyword-only parameters or annotations, use inspect.signature() API which can support them")
-        return ArgSpec(*spec[:4])
-    _add(module, ArgSpec=ArgSpec, getargspec=getargspec)
-
-
-#: Names of NumPy 1.17, by what they stood for; the second half went with NumPy 2.
-_NUMPY = {"cumproduct": "cumprod", "product": "prod", "sometrue": "any", "alltrue": "all", "float_": "float64", "complex_": "complex128",
-          "unicode_": "str_", "string_": "bytes_", "Inf": "inf", "Infinity": "inf", "PINF": "inf", "infty": "inf", "NaN": "nan",
-          "in1d": "isin", "row_stack": "vstack", "trapz": "trapezoid"}
-
-
-def _numpy(module):
-    _add(module, float=float, int=int, bool=bool, complex=complex, object=object, str=str, long=int, unicode=str, NINF=-module.inf,
-         asscalar=lambda a: a.item(), alen=lambda a: len(module.array(a, ndmin=1)))
-    _add(module, **{old: getattr(module, new) for old, new in _NUMPY.items() if hasattr(module, new)})
-
-
-def _yaml(module):
-    if module.load.__defaults__:
-        return
-    new_load, new_load_all = module.load, module.load_all
-
-    def load(stream, Loader=module.FullLoader):
-        """The first document of a stream; as in PyYAML 5, without a Loader by FullLoader."""
-        return new_load(stream, Loader)
-
-    def load_all(stream, Loader=module.FullLoader):
-        """All documents of a stream; as in PyYAML 5, without a Loader by FullLoader."""
-        return new_load_all(stream, Loader)
-    module.load, module.load_all = load, load_all
-
-
-def _figure(module):
-    from functools import wraps  # pyplot asks the function of which class it is
-
-    new_gca = module.Figure.gca
-
-    @wraps(new_gca)
-    def gca(self, **kwargs):
-        """The current axes; with arguments (``projection="3d"``) those of that kind, made if the current ones are others."""
-        if not kwargs:
-            return new_gca(self)
-        axes = self.axes and new_gca(self)
-        same = axes and all(getattr(axes, {"projection": "name"}.get(key, key), None) == value for key, value in kwargs.items())
-        return axes if same else self.add_subplot(1, 1, 1, **kwargs)
-    module.Figure.gca = gca
-
-
-def _pyplot(module):
-    module.gca = lambda **kwargs: module.gcf().gca(**kwargs)
-
-
-def _pykdl(module):
-    """Debian's KDL, 1.5, calls the type of a joint that does not move "Fixed"; Noetic's, 1.4, "None"."""
-    new_name = module.Joint.getTypeName
-
-    def getTypeName(self):
-        name = new_name(self)
-        return "None" if name == "Fixed" else name
-    module.Joint.getTypeName = getTypeName
-
-
-MISSING = {"collections": _collections, "fractions": _fractions, "threading": _threading, "base64": _base64, "inspect": _inspect,
-           "numpy": _numpy, "yaml": _yaml, "PyKDL": _pykdl, "matplotlib.figure": _figure, "matplotlib.pyplot": _pyplot}
-
-
 def _complete(name, module):
+    from importlib import import_module
     try:
-        MISSING[name](module)
-    except (AttributeError, TypeError):  # another module of that name, or one yet to come: it stays as it is
+        import_module("noetic_names." + COMPLETED_BY[name]).COMPLETE[name](module)
+    except (AttributeError, ImportError, LookupError, TypeError):  # another module of that name, or one yet to come: it stays as it is
         pass
+
+
+def _complete_when_asked(name, module):
+    """For what Python itself has loaded when it starts: at the first name that the module lacks."""
+    def __getattr__(attribute):
+        if not attribute.startswith("__") and vars(module).pop("__getattr__", None):
+            _complete(name, module)
+            if attribute in vars(module):
+                return vars(module)[attribute]
+        raise AttributeError(f"module {name!r} has no attribute {attribute!r}")
+    if "__getattr__" in vars(module):
+        _complete(name, module)
+    else:
+        module.__getattr__ = __getattr__
+
+
+class _BuiltIn:
+    """Loads a module that is compiled into Python, and completes it."""
+
+    create_module = staticmethod(BuiltinImporter.create_module)
+
+    @staticmethod
+    def exec_module(module):
+        BuiltinImporter.exec_module(module)
+        _complete(module.__name__, module)
+
+
+def _find(name, path, target):
+    """The spec that Python's other finders give."""
+    for finder in sys.meta_path:
+        if finder is not Finder and finder is not Gone and hasattr(finder, "find_spec"):
+            spec = finder.find_spec(name, path, target)
+            if spec is not None:
+                return spec
+    return None
 
 
 class Finder:
@@ -123,29 +89,49 @@ class Finder:
 
     @staticmethod
     def find_spec(name, path=None, target=None):
-        spec = PathFinder.find_spec(name, path, target) if name in MISSING else None
-        loader: Any = spec and spec.loader
-        if not loader:
+        spec: Any = _find(name, path, target) if name in COMPLETED_BY else None
+        if spec is None or not hasattr(spec.loader, "exec_module"):
             return None
-        load = loader.exec_module
+        if spec.loader is BuiltinImporter:
+            spec.loader = _BuiltIn()
+            return spec
+        load = spec.loader.exec_module
 
         def exec_module(module):
             load(module)
             _complete(name, module)
-        loader.exec_module = exec_module
+        spec.loader.exec_module = exec_module
         return spec
+
+
+class Gone:
+    """Comes last: makes what is gone, or says who has it."""
+
+    @staticmethod
+    def find_spec(name, path=None, target=None):
+        if name in REMADE:
+            spec: Any = _find(REMADE[name], __import__("noetic_names").__path__, None)
+            if spec is not None:
+                spec.name = spec.loader.name = name
+            return spec
+        if name in GONE:
+            raise ModuleNotFoundError(f"No module named '{name}': Python has dropped it; sudo apt install {GONE[name]}", name=name)
+        return None
 
 
 def _run_the_next():
     """Runs the file of this name that this one hides: Debian's own, or a tool's."""
+    from importlib.machinery import PathFinder
     here = __file__.rpartition("/")[0]
     spec: Any = PathFinder.find_spec("sitecustomize", [folder for folder in sys.path if folder.rstrip("/") != here])
     if spec and hasattr(spec.loader, "get_code"):
         exec(spec.loader.get_code(spec.name), {"__name__": spec.name, "__file__": spec.origin, "__spec__": spec})
 
 
-for _name in MISSING:
-    if _name in sys.modules:
-        _complete(_name, sys.modules[_name])
+_add(sys, getcheckinterval=lambda: 100, setcheckinterval=lambda instructions: None)
+_add(time, clock=time.process_time)  # as on Linux; older than Noetic, and what scripts of its time still measure with
+for _name in [name for name in COMPLETED_BY if name in sys.modules]:
+    (_complete_when_asked if _name in ONLY_LACKS else _complete)(_name, sys.modules[_name])
 sys.meta_path.insert(0, Finder)
+sys.meta_path.append(Gone)
 _run_the_next()

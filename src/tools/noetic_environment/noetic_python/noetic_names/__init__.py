@@ -1,0 +1,38 @@
+"""What :mod:`sitecustomize` adds to modules. Each of these has ``COMPLETE``: name of a module -> function that completes it."""
+import functools
+import gc
+
+
+def add(module, **names):
+    """Give a module, or a class, the names that it lacks."""
+    for name, value in names.items():
+        if name not in vars(module):
+            setattr(module, name, value)
+
+
+def add_to_compiled(cls, **methods):
+    """As :func:`add`, for a class in C that takes no attributes. Nobody has looked for them yet: the class was made a moment ago."""
+    attributes = gc.get_referents(vars(cls))[0]
+    for name, value in methods.items():
+        attributes.setdefault(name, value)
+
+
+def aliases(module, **names):
+    """New name by old name, of those that the module has."""
+    add(module, **{old: getattr(module, new) for old, new in names.items() if hasattr(module, new)})
+
+
+def without(function, *names):
+    """``function``, which no longer takes the keyword arguments ``names``: they are ignored."""
+    @functools.wraps(function)
+    def call(*arguments, **options):
+        return function(*arguments, **{name: value for name, value in options.items() if name not in names})
+    return call
+
+
+def renamed(function, **names):
+    """``function``, which calls the keyword argument ``old`` ``new`` now."""
+    @functools.wraps(function)
+    def call(*arguments, **options):
+        return function(*arguments, **{names.get(name, name): value for name, value in options.items()})
+    return call
