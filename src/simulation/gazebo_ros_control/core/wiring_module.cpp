@@ -55,7 +55,7 @@ py::object write_commands(Wiring& wiring, double dt)
 
 PYBIND11_MODULE(_wiring, module)
 {
-  py::module_::import("joint_limits_interface._limits");
+  py::module_::import("joint_limits_interface");
   py::class_<Wiring>(module, "Wiring")
       .def(py::init<>())
       .def("add_joint", &add_joint)

@@ -1,6 +1,6 @@
 from typing import List, Optional, Tuple
 
-from joint_limits_interface._limits import CommandLimiter
+from joint_limits_interface import CommandLimiter
 
 class Wiring:
     """``core/wiring.hpp``: joints that are read into, and commanded from, doubles at given addresses, which must outlive it
