@@ -19,6 +19,7 @@ MOST_ITEMS = 1_000_000  # of a text or a list
 MOST_RANGE = 100_000
 MOST_ROUNDS = 5_000_000  # of all loops of one expression, and items that its builtins go through
 MOST_MADE = 20_000_000  # items and characters that one expression makes
+_CALL = 5  # rounds that a call of a lambda counts as: it takes as long
 _SEQUENCES = (str, bytes, list, tuple)
 _COLLECTIONS = (*_SEQUENCES, dict, set, frozenset)
 _GROWING = {"ljust", "rjust", "center", "zfill", "expandtabs", "replace", "join", "extend"}  # methods whose result may be a product
@@ -347,7 +348,7 @@ class _Bounded(ast.NodeTransformer):
 
     def visit_Lambda(self, node: ast.Lambda) -> ast.AST:
         self.generic_visit(node)
-        counted = ast.Tuple([self._call("__spend__", ast.Constant(1)), node.body], ast.Load())
+        counted = ast.Tuple([self._call("__spend__", ast.Constant(_CALL)), node.body], ast.Load())
         node.body = ast.Subscript(counted, ast.Constant(1), ast.Load())
         return node
 
