@@ -5,7 +5,7 @@ import pytest
 from sensor_msgs.msg import Image
 from web_video_server.pages import groups, topics_page, viewer_page
 from web_video_server.pictures import NoPicture, encoded
-from web_video_server.request import BadRequest, Request, read
+from web_video_server.request import BadRequest, Request, read, shown
 
 
 def test_what_an_address_asks_for():
@@ -47,3 +47,27 @@ def test_depth_of_16_bit_is_as_bright_as_its_largest_number():
     message = Image(height=1, width=2, encoding="16UC1", step=4, data=np.array([500, 2000], np.uint16).tobytes())
     shown = cv2.imdecode(np.frombuffer(encoded(message, read("topic=/a&type=png")), np.uint8), cv2.IMREAD_UNCHANGED)
     assert shown.tolist() == [[64, 255]]
+
+
+@pytest.mark.parametrize("query, sentence", [
+    ("topic=/camera/%0a[ERROR]%20[1]:%20forged%20line", r"/camera/\\n[ERROR] [1]: forged line is no name"),
+    ("topic=/x%1b]0;title%07%1b[2J", r"/x\\x1b]0;title\\x07\\x1b[2J is no name"), ("topic=/a&type=%1b[2J", r"no type \\x1b[2J;"),
+    ("topic=/a&width=%0d%0a", r"width=\\r\\n must be"), ("topic=/a%c2%9b31m", r"/a\\x9b31m is"), ("topic=/a%e2%80%ae", r"/a\\u202e is"),
+    ("topic=/a/../b", "/a/../b is no name"), ("topic=/%ff", "is no name"), ("topic=/" + "a" * 9999 + "!", "a[.]{3} is no name")])
+def test_what_a_stranger_sends_is_one_line_of_printable_characters(query, sentence):
+    with pytest.raises(BadRequest) as told:
+        read(query)
+    assert str(told.value).isprintable() and len(str(told.value)) < 300
+    assert sentence.replace("\\\\", "\\").replace("[.]{3}", "...") in str(told.value)
+
+
+def test_what_is_shown_of_it():
+    assert shown("/camera/image_raw?a=\u00e9") == "/camera/image_raw?a=\u00e9" and shown("a\nb") == "a\\nb" and len(shown("a" * 999)) == 203
+
+
+@pytest.mark.parametrize("query, size", [("width=8192&height=8192&type=png&quality=9", (40, 60)), ("width=8192", (40, 60)),
+                                         ("height=20", (20, 60)), ("width=30&height=4000", (40, 30))])
+def test_a_picture_is_not_made_larger_than_it_came(query, size):
+    message = Image(height=40, width=60, encoding="mono8", step=60, data=bytes(2400))
+    shape = cv2.imdecode(np.frombuffer(encoded(message, read("topic=/a&" + query)), np.uint8), cv2.IMREAD_UNCHANGED).shape
+    assert shape[:2] == size

@@ -31,7 +31,7 @@ class WebVideoServer(unittest.TestCase):
         rospy.init_node("watcher")
         cls.colours = rospy.Publisher("/camera/image_raw", Image, queue_size=1)
         cls.compressed = rospy.Publisher("/camera/image_raw/compressed", CompressedImage, queue_size=1, latch=True)
-        rospy.Publisher("/camera/camera_info", CameraInfo, queue_size=1)
+        cls.info = rospy.Publisher("/camera/camera_info", CameraInfo, queue_size=1)
         cls.depth = rospy.Publisher("/depth", Image, queue_size=1, latch=True)
         cls.server = subprocess.Popen(["rosrun", "web_video_server", "web_video_server", "_port:=0", "_address:=127.0.0.1"],
                                       stdout=subprocess.PIPE, text=True)
@@ -100,11 +100,17 @@ class WebVideoServer(unittest.TestCase):
     def test_what_is_not_there_is_said(self):
         for path, sentence in (("/stream?topic=/cam", "nobody publishes /cam; image topics: /camera/image_raw, /depth"),
                                ("/stream?topic=/depth&type=vp8", "type=vp8 is not supplied here; ask for type=mjpeg"),
+                               ("/stream?topic=/rosout", "/rosout has messages of rosgraph_msgs/Log, which are no pictures"),
+                               ("/snapshot?topic=/camera/camera_info", "has messages of sensor_msgs/CameraInfo, which are no pictures"),
+                               ("/snapshot?topic=/camera/%0a[ERROR]%20forged", "/camera/\\n[ERROR] forged is no name of a topic"),
+                               ("/%1b[2J", "there is nothing at /%1b[2J"),
                                ("/index.html", "there is nothing at /index.html")):
             with self.subTest(path), self.assertRaises(urllib.error.HTTPError) as caught:
                 self.get(path)
             self.assertEqual(caught.exception.code, 404)
-            self.assertIn(sentence, caught.exception.read().decode())
+            answer = caught.exception.read().decode()
+            self.assertIn(sentence, answer)
+            self.assertTrue(answer[:-1].isprintable(), answer)
 
     def test_a_port_that_is_taken_ends_it_with_one_line(self):
         ended = subprocess.run(["rosrun", "web_video_server", "web_video_server", f"_port:={self.port}", "_address:=127.0.0.1",

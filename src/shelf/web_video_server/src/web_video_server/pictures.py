@@ -23,7 +23,7 @@ def encoded(message: Any, request: Request) -> bytes:
     if request.invert:
         pixels = cv2.rotate(pixels, cv2.ROTATE_180)
     height, width = pixels.shape[:2]
-    wanted = (request.width or width, request.height or height)
+    wanted = (min(request.width or width, width), min(request.height or height, height))  # a page makes it larger, for nothing
     if wanted != (width, height):
         pixels = cv2.resize(pixels, wanted)
     if request.type == "png":

@@ -1,6 +1,7 @@
 """What is asked for in an address: ``/stream?topic=/camera/image_raw&type=mjpeg&width=320``."""
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from typing import Dict, Optional
 from urllib.parse import parse_qs
@@ -11,6 +12,13 @@ AS_SENT = "ros_compressed"
 #: films that upstream encodes with FFmpeg
 FILMS = ("vp8", "vp9", "h264")
 LARGEST = 8192  # pixels along a side that an address may ask for
+_NAME = re.compile(r"/[A-Za-z][A-Za-z0-9_]*(/[A-Za-z0-9_]+)*")  # of a topic, http://wiki.ros.org/Names
+
+
+def shown(text: str) -> str:
+    """What a stranger sent, for a log, a terminal or an answer: in one line of at most 200 printable characters."""
+    plain = "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
+    return plain if len(plain) <= 200 else plain[:200] + "..."
 
 
 class VideoError(ValueError):
@@ -46,13 +54,16 @@ def read(query: str, default_type: str = "mjpeg") -> Request:
     if kind in FILMS:
         raise BadRequest(f"type={kind} is not supplied here; ask for type=mjpeg")
     if kind not in (*ENCODED, AS_SENT):
-        raise BadRequest(f"there is no type {kind}; there are {', '.join((*ENCODED, AS_SENT))}")
+        raise BadRequest(f"there is no type {shown(kind)}; there are {', '.join((*ENCODED, AS_SENT))}")
     topic = values.get("topic", "").strip()
     if not topic:
         raise BadRequest("name a topic: ?topic=/camera/image_raw")
+    topic = "/" + topic.lstrip("/")
+    if not _NAME.fullmatch(topic):
+        raise BadRequest(f"{shown(topic)} is no name of a topic: letters, digits, _ and /")
     most, usual = (9, 3) if kind == "png" else (100, 95)
     quality = _number(values, "quality", most)
-    return Request("/" + topic.lstrip("/"), kind, _size(values, "width"), _size(values, "height"),
+    return Request(topic, kind, _size(values, "width"), _size(values, "height"),
                    usual if quality is None else quality, "invert" in values,
                    "compressed" if values.get("default_transport") == "compressed" else "raw")
 
@@ -70,5 +81,5 @@ def _number(values: Dict[str, str], name: str, most: int) -> Optional[int]:
     except ValueError:
         number = -2
     if not -1 <= number <= most:
-        raise BadRequest(f"{name}={text[:20]} must be a whole number up to {most}")
+        raise BadRequest(f"{name}={shown(text[:20])} must be a whole number up to {most}")
     return None if number == -1 else number

@@ -16,11 +16,12 @@ from web_video_server import request as requests
 from web_video_server import topics
 from web_video_server.pages import topics_page, viewer_page
 from web_video_server.pictures import NoPicture, encoded
-from web_video_server.request import AS_SENT, BadRequest, Request
+from web_video_server.request import AS_SENT, BadRequest, Request, shown
 
 _BOUNDARY = "boundarydonotcross"
 _LOOK = 0.25  # s between looks whether a browser that waits is still there
 _PATIENCE = 60.0  # s that a single picture is waited for
+_PICTURES = (("sensor_msgs/Image", "*"), ("sensor_msgs/CompressedImage", "*"))  # of a topic, of its compressed one; *: not known yet
 _NOT_KEPT = {"Cache-Control": "no-cache, no-store, must-revalidate, pre-check=0, post-check=0, max-age=0", "Pragma": "no-cache"}
 _FOR_ALL = {"Access-Control-Allow-Origin": "*", "Access-Control-Allow-Methods": "GET,POST,PUT,DELETE,HEAD,OPTIONS",
             "Access-Control-Allow-Headers": "Origin, Authorization, Accept, Content-Type", "Access-Control-Max-Age": "3600"}
@@ -60,12 +61,12 @@ class _Handler(BaseHTTPRequestHandler):
 
     def do_GET(self) -> None:
         if self.server.verbose:
-            rospy.loginfo("Handling Request: %s", self.path)
+            rospy.loginfo("Handling Request: %s", shown(self.path))
         parts = urlsplit(self.path)
         answer = {"/": self._topics, "/stream": self._stream, "/stream_viewer": self._viewer, "/snapshot": self._snapshot}.get(parts.path)
         try:
             if answer is None:
-                raise BadRequest(f"there is nothing at {parts.path}; there are /, /stream, /stream_viewer and /snapshot")
+                raise BadRequest(f"there is nothing at {shown(parts.path)}; there are /, /stream, /stream_viewer and /snapshot")
             answer(parts.query)
         except BadRequest as error:
             self._say(HTTPStatus.NOT_FOUND, str(error))
@@ -126,10 +127,14 @@ class _Handler(BaseHTTPRequestHandler):
         if asked.type == AS_SENT and not compressed:
             rospy.logwarn("nobody publishes %s/compressed: %s is sent as mjpeg", asked.topic, asked.topic)
             asked = Request(asked.topic, "mjpeg", asked.width, asked.height, asked.quality, asked.invert)
-        if asked.topic in kinds or compressed and (asked.type == AS_SENT or asked.transport == "compressed"):
+        wanted = f"{asked.topic}/compressed" if asked.type == AS_SENT or asked.transport == "compressed" else asked.topic
+        kind = kinds.get(wanted, "")
+        if kind in _PICTURES[wanted != asked.topic]:
             return asked
+        if kind:
+            raise BadRequest(f"{wanted} has messages of {shown(kind)}, which are no pictures; wanted is {_PICTURES[wanted != asked.topic][0]}")
         images = ", ".join(sorted(name for name, kind in kinds.items() if kind == "sensor_msgs/Image")) or "none"
-        raise BadRequest(f"nobody publishes {asked.topic}; image topics: {images}")
+        raise BadRequest(f"nobody publishes {wanted}; image topics: {images}")
 
     def _listening(self, asked: Request) -> topics.Latest:
         if asked.type == AS_SENT or asked.transport == "compressed":
@@ -143,7 +148,7 @@ class _Handler(BaseHTTPRequestHandler):
         try:
             return encoded(message, asked)
         except NoPicture as error:
-            rospy.logerr_throttle(30, f"{asked.topic}: {error}")
+            rospy.logerr_throttle(30, shown(f"{asked.topic}: {error}"))
             return None
 
     @staticmethod
@@ -165,7 +170,7 @@ class _Handler(BaseHTTPRequestHandler):
         self.wfile.write(data)
 
     def _say(self, status: HTTPStatus, sentence: str) -> None:
-        rospy.logwarn("%s", sentence)
+        rospy.logwarn("%s", shown(sentence))
         data = (sentence + "\n").encode()
         self._begin(status, "text/plain; charset=utf-8", {"Content-Length": str(len(data)), **_FOR_ALL})
         self.wfile.write(data)
