@@ -131,7 +131,8 @@ def build(root: Path, prefix: Path) -> Path:
         {**environment, "DESTDIR": str(stage)})
     tree = stage / prefix.relative_to("/")
     run([sys.executable, "-m", "pip", "install", "-q", "--disable-pip-version-check", "--root-user-action=ignore", "--no-deps",
-         "--require-hashes", "--no-compile", "--target", tree / "share/noetic_environment/python", "-r", sources / "scripts/requirements.txt"],
+         "--require-hashes", "--no-compile", "--target", tree / "share/noetic_environment/python",
+         "-r", sources / "scripts/requirements.txt"],
         "installing the PyPI add-ons", {**os.environ, "PYTHONPATH": ""})
     clean(tree)
     missing = not_installed(sources, tree)

@@ -23,7 +23,7 @@ def master(monkeypatch, tmp_path):
     process = subprocess.Popen(
         [sys.executable, "-m", "lab_check.held_master", str(port)], env={**os.environ, "ROS_LOG_DIR": str(tmp_path)}
     )
-    end = time.monotonic() + 20
+    end = time.monotonic() + 60
     while not rosgraph.is_master_online():
         assert process.poll() is None and time.monotonic() < end
         time.sleep(0.02)

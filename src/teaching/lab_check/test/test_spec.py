@@ -122,8 +122,10 @@ def test_every_example_of_the_schema_is_good(tmp_path):
 
 
 @pytest.mark.parametrize("launch, holds", [
-    ("arm_gazebo arm_gazebo.launch", ["moving: 4, joints: [j0, j1, j2, j3]", "model: arm", "command of j3", "arm_description", "count: 5"]),
-    ("mbot_gazebo view_mbot_gazebo_room.launch", ["topic: /cmd_vel, type: geometry_msgs/Twist", "moved: {by: [0.8, 1.2]", "models: [mbot]"]),
+    ("arm_gazebo arm_gazebo.launch", ["moving: 4, joints: [j0, j1, j2, j3]", "model: arm", "command of j3", "arm_description",
+                                 "count: 5"]),
+    ("mbot_gazebo view_mbot_gazebo_room.launch", ["topic: /cmd_vel, type: geometry_msgs/Twist", "moved: {by: [0.8, 1.2]",
+                                                "models: [mbot]"]),
     ("myur5_description myur5.launch", ["/arm_controller/follow_joint_trajectory", "moving: 6", "joint: {name: wrist_3_joint"])])
 def test_a_first_spec_for_a_launch_file_is_good_as_it_stands(tmp_path, launch, holds):
     """What it must hold is what the labs' URDF and launch files say. Windows are no nodes of an examination."""

@@ -156,9 +156,9 @@ def test_nothing_of_the_machine_can_be_written_and_no_room_is_without_bound(teac
 HELD = {
     "memfd": """
 import os, time
-for _ in range(20):
+for _ in range(50):  # each smaller than a file may be
     file = os.memfd_create("x")
-    for _ in range(100):
+    for _ in range(40):
         os.write(file, bytes(1 << 20))
 """,
     "shared anonymous memory": """

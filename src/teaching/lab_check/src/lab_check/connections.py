@@ -3,8 +3,6 @@ from __future__ import annotations
 
 import http.client
 import os
-import socket
-import time
 import xmlrpc.client
 from collections import Counter
 from typing import Dict, List, Set

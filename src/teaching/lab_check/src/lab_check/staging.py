@@ -10,7 +10,6 @@ import os
 import pathlib
 import re
 import resource
-import shutil
 import signal
 import stat
 import tarfile

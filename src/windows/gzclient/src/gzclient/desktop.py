@@ -45,8 +45,8 @@ def command(address: str, profile: str) -> Optional[List[str]]:
 
 
 def _door(folder: str, address: str) -> str:
-    """Where the browser is sent: a file of this user's alone that leads to the address. Other users can read a command line, and the address holds
-    what they must not have."""
+    """Where the browser is sent: a file of this user's alone that leads to the address. Other users can read a command line, and the
+    address holds what they must not have."""
     path = os.path.join(folder, "open.html")
     with open(path, "w", encoding="utf-8", opener=lambda name, flags: os.open(name, flags, 0o600)) as file:
         file.write(f'<!doctype html><meta http-equiv="refresh" content="0; url={html.escape(address)}">\n')
