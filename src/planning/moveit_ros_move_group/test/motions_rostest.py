@@ -9,10 +9,11 @@ import rostest
 from client import HOME, JOINTS, PATIENCE, Goal, apply, box, call, clear, joint_goal, move, plan, request
 from geometry_msgs.msg import Pose, Quaternion
 from moveit_msgs.msg import (AllowedCollisionEntry, AllowedCollisionMatrix, CollisionObject, Constraints, DisplayTrajectory,
-                             MoveGroupSequenceAction, MoveGroupSequenceGoal, MoveItErrorCodes, MotionSequenceItem,
-                             ObjectColor, OrientationConstraint, PlanningSceneComponents, PositionConstraint, RobotState)
+                             GenericTrajectory, MoveGroupSequenceAction, MoveGroupSequenceGoal, MoveItErrorCodes, MotionSequenceItem,
+                             ObjectColor, OrientationConstraint, PlanningSceneComponents, PositionConstraint, RobotState, TrajectoryConstraints)
 from moveit_msgs.srv import (GetCartesianPath, GetCartesianPathRequest, GetMotionSequence, GetMotionSequenceRequest,
                              GetPlanningScene, GetPositionFK, GetStateValidity)
+from rosgraph_msgs.msg import Log
 from sensor_msgs.msg import JointState
 from shape_msgs.msg import SolidPrimitive
 from std_msgs.msg import Header
@@ -146,6 +147,21 @@ class Requests(unittest.TestCase):
         self.assertGreater(times[-1], 2 * fast.trajectory.joint_trajectory.points[-1].time_from_start.to_sec())
 
 
+    def test_what_nobody_uses_is_said(self):
+        """OMPL and Pilz look at neither; a link's speed is kept by an adapter, which Pilz's pipeline has not got."""
+        heard = []
+        subscriber = rospy.Subscriber("/rosout", Log, lambda message: heard.append(message.msg))
+        wait_until(subscriber.get_num_connections, "the connection")
+        constrained = TrajectoryConstraints(constraints=[Constraints(name="all the way")])
+        for words, fields in (("trajectory_constraints", dict(trajectory_constraints=constrained)),
+                              ("reference_trajectories", dict(reference_trajectories=[GenericTrajectory()])),
+                              ("LimitMaxCartesianLinkSpeed", dict(max_cartesian_speed=0.1, pipeline_id=PILZ, planner_id="PTP"))):
+            found = plan([0.2] + HOME[1:], start_state=state_of(HOME), **fields)
+            self.assertEqual(found.error_code.val, Codes.SUCCESS, words)
+            wait_until(lambda words=words: any(words in line and "ignored" in line for line in heard), words)
+        subscriber.unregister()
+
+
 class Sequences(unittest.TestCase):
     def setUp(self):
         clear()
@@ -228,9 +244,9 @@ class Sequences(unittest.TestCase):
 
 
 class Lines(unittest.TestCase):
-    def ask(self, *waypoints):
+    def ask(self, *waypoints, **fields):
         return call("compute_cartesian_path", GetCartesianPath, GetCartesianPathRequest(
-            group_name="manipulator", start_state=state_of(HOME), waypoints=list(waypoints), max_step=0.01, link_name="hand"))
+            group_name="manipulator", start_state=state_of(HOME), waypoints=list(waypoints), max_step=0.01, **{"link_name": "hand", **fields}))
 
     def turned(self, angle, axis=(0, 0, 1)):
         there = place(HOME)
@@ -245,6 +261,17 @@ class Lines(unittest.TestCase):
         self.assertEqual((found.fraction, len(points)), (1.0, int(1.0 / 0.035) + 2))
         for a, b in zip(points, points[1:]):
             self.assertLess(np.linalg.norm(vector(place((a + b) / 2)) - vector(place(HOME))), 1e-3)
+
+    def test_jumps_may_be_limited_by_their_size(self):
+        found = self.ask(moved(z=-0.1), revolute_jump_threshold=1e-3)  # a centimetre takes more than that
+        self.assertEqual((found.error_code.val, found.fraction, len(found.solution.joint_trajectory.points)), (Codes.SUCCESS, 0.0, 1))
+        self.assertEqual(self.ask(moved(z=-0.1), revolute_jump_threshold=0.5, prismatic_jump_threshold=0.01).fraction, 1.0)
+
+    def test_a_speed_without_a_link_is_that_of_the_link_that_is_moved(self):
+        for link in ("hand", ""):
+            found = self.ask(moved(z=-0.1), link_name=link, max_cartesian_speed=0.05)
+            self.assertEqual((found.error_code.val, found.fraction), (Codes.SUCCESS, 1.0), link)
+            self.assertGreaterEqual(found.solution.joint_trajectory.points[-1].time_from_start.to_sec(), 0.1 / 0.05 - 1e-3)
 
     def test_a_path_that_begins_where_the_hand_is_can_be_executed(self):
         """Way points of tutorials begin with the present pose: no two points may come at one time."""

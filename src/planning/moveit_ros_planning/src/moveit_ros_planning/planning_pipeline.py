@@ -174,6 +174,7 @@ class Pipeline:
         """
         group = message.group_name
         self._check_group(group)
+        self._warn(self._unused(message))
         start = self._start(scene, message)
         fields: Dict[str, Any] = {}
         if self.is_pilz:
@@ -192,6 +193,16 @@ class Pipeline:
                                                "max_acceleration_scaling_factor"),
             workspace=_workspace(message), cartesian_link=message.cartesian_speed_limited_link,
             cartesian_speed=message.max_cartesian_speed, **fields)
+
+    def _unused(self, message: MotionPlanRequest) -> List[str]:
+        """A line for each thing that the request says and nobody here looks at."""
+        lines = [f"the request has {name}, which planner '{self.title}' does not use: they are ignored"
+                 for name, given in (("trajectory_constraints", message.trajectory_constraints.constraints),
+                                     ("reference_trajectories", message.reference_trajectories)) if given]
+        if message.max_cartesian_speed > 0 and "LimitMaxCartesianLinkSpeed" not in self._adapters.adapters:
+            lines.append("the request has max_cartesian_speed, which is ignored: request_adapters of "
+                         f"{rospy.resolve_name(self.namespace.rstrip('/'))} has no default_planner_request_adapters/LimitMaxCartesianLinkSpeed")
+        return lines
 
     def _check_group(self, group: str) -> None:
         if not group:

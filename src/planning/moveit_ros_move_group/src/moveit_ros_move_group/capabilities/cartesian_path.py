@@ -53,11 +53,13 @@ class CartesianPath(Capability):
         settings = self.context.description.kinematics.get(request.group_name)
         found = motion.cartesian_path(scene, request.group_name, poses, link=link, start=state,
                                       max_step=request.max_step,
-                                      jump_threshold=request.jump_threshold, avoid_collisions=request.avoid_collisions,
+                                      jump_threshold=request.jump_threshold,
+                                      prismatic_jump=request.prismatic_jump_threshold,
+                                      revolute_jump=request.revolute_jump_threshold, avoid_collisions=request.avoid_collisions,
                                       constraints=None if limits.empty() else limits, relative=relative,
                                       position_only=settings is not None and settings.position_only)
         response.fraction, response.error_code.val = found.fraction, codes.SUCCESS
-        self._finish(request, response, found)
+        self._finish(request, response, found, link)
 
     @staticmethod
     def _pose(scene, frame: str, message) -> motion.Pose:
@@ -67,7 +69,7 @@ class CartesianPath(Capability):
         except motion.UnknownNameError as error:
             raise PlanningError(MoveItErrorCodes.FRAME_TRANSFORM_FAILURE, f"frame '{frame}': {error}") from error
 
-    def _finish(self, request, response, found) -> None:
+    def _finish(self, request, response, found, link: str) -> None:
         if found.message:
             rospy.loginfo("%s", found.message)
         trajectory = found.trajectory
@@ -75,7 +77,7 @@ class CartesianPath(Capability):
             return
         timed = motion.time_parameterize(self.context.model, trajectory, "iterative_parabolic")
         if request.max_cartesian_speed > 0:
-            timed = motion.limit_cartesian_speed(timed, request.cartesian_speed_limited_link or request.link_name,
+            timed = motion.limit_cartesian_speed(timed, request.cartesian_speed_limited_link or link,
                                                  request.max_cartesian_speed)
         response.solution = states.trajectory_message(timed)
         rospy.loginfo("Computed Cartesian path with %d points (followed %f%% of requested trajectory)", len(timed),
