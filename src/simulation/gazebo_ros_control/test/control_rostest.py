@@ -70,6 +70,18 @@ class PositionTest(test_support.TestCase):
             for got, wanted in zip((*felt.child_force, *felt.child_torque), (0, 0, weight, 0, -0.5 * weight, 0)):
                 self.assertAlmostEqual(got, wanted, delta=1e-3)
 
+    def test_it_tells_the_simulator_which_joints_it_drives(self):
+        """At once those that hold without a controller; one on efforts is free until its controller starts."""
+        with SimulatedRobot(one_joint(POSITION)) as robot:
+            self.assertEqual(robot.server.driven, [["j"]])
+        with SimulatedRobot(one_joint(VELOCITY)) as robot:
+            self.assertEqual(robot.server.driven, [["j"]])
+        with SimulatedRobot(one_joint(EFFORT), parameters={"eff": {
+                "type": "effort_controllers/JointEffortController", "joint": "j"}}) as robot:
+            self.assertEqual(robot.server.driven, [])
+            robot.start("eff")
+            self.assertEqual(robot.server.driven, [["j"]])
+
     def test_no_p_gain_is_harmless_and_says_so(self):
         with Log.recorded() as log, SimulatedRobot(one_joint(POSITION)):
             line, = log.having("No p gain specified for pid.  Namespace: /robot/gazebo_ros_control/pid_gains/j")

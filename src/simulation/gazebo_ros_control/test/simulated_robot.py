@@ -85,6 +85,10 @@ class Server:
 
     def __init__(self, world):
         self.world = world
+        self.driven = []  # names of joints, each time the plugin says that it drives some
+
+    def drives(self, *joints):
+        self.driven += [[joint.name for joint in joints]] if joints else []
 
     def before_step(self, f):
         def call(world):
@@ -119,7 +123,8 @@ class SimulatedRobot:
         self.sdf = SdfElement(ET.fromstring(f"<plugin>{plugin}</plugin>"))
 
     def load(self):
-        self.plugin.load(Server(self.world), self.model, self.sdf)
+        self.server = Server(self.world)
+        self.plugin.load(self.server, self.model, self.sdf)
         return self
 
     def __enter__(self):

@@ -68,6 +68,7 @@ class DefaultRobotHWSim(RobotHWSim):
                           "a namespace above if a PID should drive its joint by forces", ", ".join(self._without_gains))
         self._writers = tuple(self._joints.values())
         self._wiring = Wiring(self._writers)
+        self.on_drive(*(sim.joint for sim in self._writers if not isinstance(sim.mode, EffortMode)))  # which hold without a controller
         if not self._writers:
             rospy.logwarn("model '%s': no joint has a transmission that can be used, so controllers find no joints",
                           model.name)
@@ -166,6 +167,7 @@ class DefaultRobotHWSim(RobotHWSim):
                 mode.limits.reset()
 
     def do_switch(self, start, stop) -> None:
+        driven = []
         for controller in start:
             for claimed in controller.claimed_resources:
                 for name in claimed.resources:
@@ -173,6 +175,8 @@ class DefaultRobotHWSim(RobotHWSim):
                     if sim is not None and claimed.hardware_interface in sim.modes:
                         sim.modes[claimed.hardware_interface].handle.slope = 0.0  # the law of whoever commanded before
                         sim.switch(claimed.hardware_interface)
+                        driven.append(sim.joint)
+        self.on_drive(*driven)
         self._wiring.engage()
 
 

@@ -1,7 +1,9 @@
 """The model plugin ``libgazebo_ros_control.so``."""
 from __future__ import annotations
 
+import contextlib
 import threading
+import time
 import traceback
 from typing import Optional, Union
 
@@ -23,6 +25,9 @@ _DEFAULT_SIM = "gazebo_ros_control/DefaultRobotHWSim"
 
 #: s between two looks for the robot description
 _POLL = 0.1
+
+#: s between two looks, in a paused world, at what is to be started; and after which it is said what is waited for
+_LOOK, _PATIENCE = 0.005, 20.0
 
 
 class GazeboRosControl(ModelPlugin):
@@ -53,12 +58,21 @@ class GazeboRosControl(ModelPlugin):
         self._hw: Optional[RobotHWSim] = None
         self._manager: Optional[ControllerManager] = None
         self._gone = threading.Event()
+        self._holds = self._told_to_hold()
         self._forget_times()
         urdf = self._find_description()
         if urdf is not None:
             self._start(urdf)
         else:
             threading.Thread(target=self._wait_for_description, name="gazebo_ros_control", daemon=True).start()
+
+    def _told_to_hold(self) -> bool:
+        """``spawn_model -paused_until_controllers``: said once, for this model."""
+        parameter = f"{rospy.get_name()}/paused_until_controllers/{self._model.name}"
+        held = rospy.get_param(parameter, False) is True
+        if held:
+            rospy.delete_param(parameter)
+        return held
 
     def _control_period(self, wanted: float) -> int:
         """ns; 0 updates in every step."""
@@ -130,6 +144,25 @@ class GazeboRosControl(ModelPlugin):
         self._server.before_step(self._step)
         rospy.logdebug("Command interfaces in %s: %s", self._namespace, names)
         rospy.loginfo("Loaded gazebo_ros_control.")
+        if self._holds:
+            threading.Thread(target=self._run_with_controllers, args=(manager,), name="paused", daemon=True).start()
+
+    def _run_with_controllers(self, manager: ControllerManager) -> None:
+        """Let the paused world run when controllers that move something are about to start."""
+        told = time.monotonic() + _PATIENCE
+        while self._server.paused and not self._gone.wait(_LOOK):
+            asked = manager.asked_to_start
+            if any(claimed.resources for info in asked for claimed in info.claimed_resources):
+                self._server.unpause()
+                return
+            if asked:  # they only read; whoever starts them waits, and the next one for that
+                with contextlib.suppress(ValueError):  # somebody else steps
+                    self._server.step()
+            if time.monotonic() > told:
+                told = float("inf")
+                rospy.logwarn("the simulation stands still until controllers of model '%s' start, as spawn_model "
+                              "-paused_until_controllers asked: start them with the controller manager in %s, or call unpause_physics",
+                              self._model.name, self._namespace)
 
     def _make_hw(self, nh: NodeHandle, urdf: str) -> RobotHWSim:
         try:
@@ -139,6 +172,8 @@ class GazeboRosControl(ModelPlugin):
         for problem in problems:
             rospy.logerr("model '%s': %s", self._model.name, problem)
         hw = self._sim_class(self._server) if isinstance(self._sim_class, CompiledSimClass) else self._sim_class()
+        if isinstance(hw, RobotHWSim):
+            hw.on_drive = self._server.drives
         if hw.init_sim(self._namespace, nh, self._model, urdf, transmissions) is False:
             raise PluginError("Could not initialize robot simulation interface")
         return hw

@@ -1,7 +1,7 @@
 """Base class of robot hardware that lives in the simulator."""
 from __future__ import annotations
 
-from typing import List, Optional
+from typing import Callable, List, Optional
 
 from controller_interface import NodeHandle
 from hardware_interface import RobotHW
@@ -9,7 +9,13 @@ from transmission_interface import TransmissionInfo
 
 
 class RobotHWSim(RobotHW):
-    """Derive, and register interfaces in ``init_sim``. Everything but ``init_sim`` runs in the physics thread."""
+    """Derive, and register interfaces in ``init_sim``. Everything but ``init_sim`` runs in the physics thread.
+
+    :ivar on_drive: to be called with the joints (ode_sim.JointHandle) that are moved from now on, so that the user is told where
+        another plugin moves one of them, too
+    """
+
+    on_drive: Callable[..., None] = staticmethod(lambda *joints: None)
 
     def init_sim(self, robot_namespace: str, model_nh: NodeHandle, model, urdf: Optional[str],
                  transmissions: List[TransmissionInfo]) -> bool:
