@@ -2,6 +2,9 @@
 #include <gazebo/physics/physics.hh>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
 #include <map>
 #include <mutex>
 #include <sstream>
@@ -59,11 +62,16 @@ ModelPtr Collision::GetModel() const
   return link ? link->GetModel() : ModelPtr();
 }
 unsigned int Collision::GetShapeType() const { return shape_ ? shape_->GetType() & ~SHAPE : 0; }
-void Collision::SetCollideBits(unsigned int bits) { core_->surface.collide_bitmask = bits; }
+void Collision::SetCollideBits(unsigned int bits)
+{
+  core_->surface.collide_bitmask = bits;
+  core_->link->model->changed = true;
+}
 unsigned int Collision::GetMaxContacts() { return static_cast<unsigned int>(core_->max_contacts); }
 void Collision::SetMaxContacts(unsigned int most)
 {
   core_->max_contacts = static_cast<int>(std::min(most, static_cast<unsigned int>(MAX_CONTACT_JOINTS)));
+  core_->link->model->changed = true;
 }
 
 SurfaceParams::SurfaceParams(std::shared_ptr<ode_sim::Shape> core)
@@ -74,8 +82,16 @@ SurfaceParams::SurfaceParams(std::shared_ptr<ode_sim::Shape> core)
 }
 double FrictionPyramid::MuPrimary() { return core_->surface.mu; }
 double FrictionPyramid::MuSecondary() { return core_->surface.mu2; }
-void FrictionPyramid::SetMuPrimary(double mu) { core_->surface.mu = mu >= 0 ? std::min(mu, ode_sim::kRoughest) : 0; }
-void FrictionPyramid::SetMuSecondary(double mu) { core_->surface.mu2 = mu >= 0 ? std::min(mu, ode_sim::kRoughest) : 0; }
+void FrictionPyramid::SetMuPrimary(double mu)
+{
+  core_->surface.mu = mu >= 0 ? std::min(mu, ode_sim::kRoughest) : 0;
+  core_->link->model->changed = true;
+}
+void FrictionPyramid::SetMuSecondary(double mu)
+{
+  core_->surface.mu2 = mu >= 0 ? std::min(mu, ode_sim::kRoughest) : 0;
+  core_->link->model->changed = true;
+}
 
 // -- shapes -------------------------------------------------------------------------------------------------------------------------
 
@@ -86,6 +102,8 @@ void BoxShape::SetSize(const Vector3d& size)
     const ode_sim::OdeScope scope;
     for (double side : { size.X(), size.Y(), size.Z() })
       ode_sim::checked_size(side, "a side of a box");
+    if (ode_sim::World* world = core ? world_of(core->link->model) : nullptr)
+      world->disturb(*core->link->model), core->link->model->changed = true;  // what touches the old size, and the new one
     if (core && core->geom)
       dGeomBoxSetLengths(core->geom, size.X(), size.Y(), size.Z());
     size_ = size;
@@ -226,6 +244,67 @@ Contact& Contact::operator=(const msgs::Contact& message)
   return *this;
 }
 
+// Which of two collisions that touch Gazebo names first: `pair_order.py` of gazebo_plugins says by which rule.
+class PairOrder
+{
+public:
+  bool InOrder(const ode_sim::Shape& one, const ode_sim::Shape& other)
+  {
+    const int first = ClassOf(*one.link), second = ClassOf(*other.link);
+    if (first != second)
+      return first < second;
+    if (one.link->model->is_static != other.link->model->is_static)
+      return one.link->model->is_static;
+    return one.id > other.id;
+  }
+
+private:
+  using Box = std::array<double, 6>;  // as ODE has it: low x, high x, low y ...
+
+  static void Widen(Box& box, const ode_sim::Link& link)
+  {
+    for (const auto& shape : link.shapes)
+    {
+      if (!shape->geom)
+        continue;
+      dReal b[6];
+      dGeomGetAABB(shape->geom, b);
+      for (int i = 0; i < 6; i += 2)
+        box[i] = std::min(box[i], b[i]), box[i + 1] = std::max(box[i + 1], b[i + 1]);
+    }
+  }
+
+  static int SizeClass(const Box& box)
+  {
+    constexpr int kLeast = -2, kMost = 8, kBeyond = 99;
+    const double side = std::max({ box[1] - box[0], box[3] - box[2], box[5] - box[4] });
+    if (!std::isfinite(side))
+      return kBeyond;
+    int exponent = 0;
+    std::frexp(side, &exponent);
+    return exponent > kMost ? kBeyond : std::max(exponent, kLeast);
+  }
+
+  int ClassOf(const ode_sim::Link& link)
+  {
+    const void* const unit = link.self_collide ? static_cast<const void*>(&link) : link.model;
+    const auto known = classes_.find(unit);
+    if (known != classes_.end())
+      return known->second;
+    constexpr double kFar = std::numeric_limits<double>::infinity();
+    Box box{ kFar, -kFar, kFar, -kFar, kFar, -kFar };
+    if (link.self_collide)
+      Widen(box, link);
+    else
+      for (const auto& each : link.model->links)
+        if (!each->self_collide)
+          Widen(box, *each);
+    return classes_[unit] = SizeClass(box);
+  }
+
+  std::map<const void*, int> classes_;
+};
+
 struct ContactManager::Private
 {
   std::vector<std::unique_ptr<Contact>> pool;
@@ -250,11 +329,15 @@ struct ContactManager::Private
     return *pool[index];
   }
 
-  void add(const ode_sim::ContactRecord& r, std::map<std::pair<int, int>, Contact*>& pairs, const WorldPtr& world)
+  void add(const ode_sim::ContactRecord& r, std::map<std::pair<int, int>, Contact*>& pairs, PairOrder& order, const WorldPtr& world)
   {
     Collision *one = collision_of(r.collision1), *two = collision_of(r.collision2);
     if (!one || !two)
       return;
+    const bool swapped = !order.InOrder(*one->Core(), *two->Core());
+    const double sign = swapped ? -1 : 1;
+    if (swapped)
+      std::swap(one, two);
     Contact*& c = pairs[{ r.collision1, r.collision2 }];
     if (!c)
     {
@@ -266,9 +349,9 @@ struct ContactManager::Private
       return;
     const int i = c->count++;
     c->positions[i].Set(r.position[0], r.position[1], r.position[2]);
-    c->normals[i].Set(r.normal[0], r.normal[1], r.normal[2]);
+    c->normals[i].Set(sign * r.normal[0], sign * r.normal[1], sign * r.normal[2]);
     c->depths[i] = r.depth;
-    const Vector3d force(r.force[0], r.force[1], r.force[2]);
+    const Vector3d force(sign * r.force[0], sign * r.force[1], sign * r.force[2]);
     const auto turned = [&](const Collision& on, const Vector3d& f, const Vector3d& arm, Vector3d& f_L, Vector3d& t_L) {
       const auto rotation = on.GetLink()->WorldPose().Rot();
       f_L = rotation.RotateVectorReverse(f);
@@ -295,8 +378,10 @@ const std::vector<Contact*>& ContactManager::GetContacts() const
   d.time = world->Core()->scene().time_ns, d.iterations = world->Core()->scene().iterations;
   d.contacts.clear();
   std::map<std::pair<int, int>, Contact*> pairs;
+  PairOrder order;
+  const ode_sim::OdeScope scope;
   for (const auto& record : world->Core()->contacts())
-    d.add(record, pairs, world);
+    d.add(record, pairs, order, world);
   return d.contacts;
 }
 

@@ -16,6 +16,8 @@ from simulator import HearingCase  # noqa: E402
 
 MODEL = """<sdf version="1.6"><model name="post"><pose>0 0 0.5 0 0 {yaw}</pose><link name="l"><inertial><mass>2</mass></inertial>
 <collision name="c"><geometry><box><size>1 1 1</size></box></geometry></collision>{sensors}</link></model></sdf>"""
+TABLE = """<sdf version="1.6"><model name="post"><static>1</static><pose>0 0 0.5 0 0 0</pose><link name="l">
+<collision name="top"><geometry><box><size>4 4 1</size></box></geometry></collision>{sensors}</link></model></sdf>"""
 WALL = """<sdf version="1.6"><model name="wall"><static>1</static><pose>3.5 0 1 0 0 0</pose><link name="l"><collision name="c">
 <laser_retro>70</laser_retro><geometry><box><size>1 10 4</size></box></geometry></collision></link></model></sdf>"""
 RAY = """<sensor name="eye" type="{type}"><update_rate>50</update_rate><pose>0.5 0 0.4 0 0 0</pose><ray><scan>
@@ -32,11 +34,11 @@ class SensorsTest(HearingCase):
         super().setUp()
         self.got = {}
 
-    def values(self, topic, sensors, steps, count, yaw=0.0):
+    def values(self, topic, sensors, steps, count, yaw=0.0, model=MODEL):
         """The values of a topic, with the one that is latched at the start, after so many steps."""
         got = []
         self.listen(topic, Float64MultiArray, lambda m: got.append(m.data))
-        self.done(self.sim.spawn("post", MODEL.format(sensors=sensors, yaw=yaw)))
+        self.done(self.sim.spawn("post", model.format(sensors=sensors, yaw=yaw)))
         self.wait(lambda: heard(self.subscribers[1:]))
         self.sim.step(steps)
         self.wait(lambda: len(got) >= count)
@@ -72,9 +74,25 @@ class SensorsTest(HearingCase):
         self.near(self.feel("imu", yaw=0.3), (0.05, 0, 0, 0, 0, 0, 9.8, 0, 0, 0), 0.01)
 
     def test_contact(self):
-        _, points, force = self.feel("contact", block="<contact><collision>c</collision></contact>")
+        """The smaller of the two is the first, as in Gazebo: the box, not the ground; what it bears points up."""
+        _, points, own, force, other = self.feel("contact", block="<contact><collision>c</collision></contact>")
         self.assertGreaterEqual(points, 3)
+        self.assertEqual(own, 1.0)
         self.assertAlmostEqual(force, 2 * 9.8, delta=0.2)
+        self.assertAlmostEqual(other, -2 * 9.8, delta=0.2)
+
+    def test_contact_of_a_large_model_with_a_small_one(self):
+        """The sensor's own collision need not be the first."""
+        self.done(self.sim.spawn("pebble", """<sdf version="1.6"><model name="any"><pose>0 0 1.1 0 0 0</pose><link name="l"><inertial>
+            <mass>3</mass></inertial><collision name="c"><geometry><box><size>0.2 0.2 0.2</size></box></geometry></collision></link></model>
+            </sdf>"""))
+        got = self.values("/feel/contact", SENSOR.format(type="contact", rate=100, block="<contact><collision>top</collision></contact>"
+                                                         ), 50, 6, model=TABLE)
+        _, points, own, force, other = got[-1]
+        self.assertGreaterEqual(points, 3)
+        self.assertEqual(own, 0.0)
+        self.assertAlmostEqual(force, 3 * 9.8, delta=0.5)
+        self.assertAlmostEqual(other, -3 * 9.8, delta=0.5)
 
     def test_gps(self):
         self.near(self.feel("gps"), (0.05, 0.0, 0.0, 0.5), 1e-3)

@@ -23,7 +23,7 @@ class Transport:
             listening.listen()
             self.reader = socket.create_connection(listening.getsockname())
             self.socket, _ = listening.accept()
-        self.name, self.header, self.done = name, {"callerid": "/looks"}, False
+        self.name, self.endpoint_id, self.done = name, "/looks", False
         self._closed = None
 
     def set_cleanup_callback(self, f):

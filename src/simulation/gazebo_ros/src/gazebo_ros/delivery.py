@@ -166,8 +166,7 @@ class _Kept(QueuedConnection):
 
 def _caller(connection: Any) -> str:
     """``/node``, or what else is known of who is at the other end."""
-    header = getattr(connection, "header", None) or {}
-    return header.get("callerid") or f"a subscriber at {getattr(connection, 'endpoint_id', 'an unknown place')}"
+    return str(getattr(connection, "endpoint_id", None) or "an unknown subscriber")
 
 
 def _unreceived(socket: Any) -> int:

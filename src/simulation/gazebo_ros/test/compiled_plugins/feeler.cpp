@@ -30,11 +30,14 @@ private:
     {
       const msgs::Contacts now = contact->Contacts();
       values.push_back(contact->GetCollisionContactCount(contact->GetCollisionName(0)));
-      double force = 0;
+      double forces[2] = { 0, 0 }, own = 0;  // on the first and on the second of the two; whether the first is the sensor's
       for (const auto& each : now.contact())
+      {
+        own = each.collision1() == contact->GetCollisionName(0);
         for (const auto& wrench : each.wrench())
-          force += std::abs(wrench.body_1_wrench().force().z());
-      values.push_back(force);
+          forces[0] += wrench.body_1_wrench().force().z(), forces[1] += wrench.body_2_wrench().force().z();
+      }
+      values.insert(values.end(), { own, forces[0], forces[1] });
     }
     else if (const auto gps = std::dynamic_pointer_cast<sensors::GpsSensor>(sensor_))
       values.insert(values.end(), { gps->Latitude().Degree(), gps->Longitude().Degree(), gps->Altitude() });
