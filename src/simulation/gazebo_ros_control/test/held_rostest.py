@@ -23,8 +23,10 @@ class Held(test_support.TestCase):
         self.assertAlmostEqual(positions[-1], SAG, delta=SAG / 10)
 
     def test_a_model_without_controllers_is_not_waited_for(self):
+        rospy.wait_for_service("/gazebo/get_physics_properties", 60)
         physics = rospy.ServiceProxy("/gazebo/get_physics_properties", GetPhysicsProperties)
-        self.wait(lambda: not physics().pause)  # that of the other test has begun
+        rospy.wait_for_message("/held/joint_states", JointState, 90)
+        self.wait(lambda: not physics().pause)  # the arm of the other test is held no more
         done = subprocess.run(["rosrun", "gazebo_ros", "spawn_model", "-urdf", "-stdin", "-model", "bare", "-x", "5",
                                "-paused_until_controllers"], input=BARE, text=True, capture_output=True, timeout=60)
         self.assertEqual(done.returncode, 0, done.stderr)
