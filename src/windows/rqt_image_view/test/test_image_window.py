@@ -223,3 +223,33 @@ def test_no_packet_of_a_stream_is_dropped():
         assert received(gui.plugin._source._subscriber, Image, images) == 1
         wait_until(lambda: shown(gui).picture is not None)
         assert shown(gui).picture[0, 0] == 30
+
+
+def test_with_one_camera_on_the_graph_it_is_shown(topics):
+    topics[:] = ["/camera/image_raw", "/camera/image_raw/compressed", "/camera/image_raw/theora"]
+    with open_plugin("rqt_image_view") as gui:
+        wait_until(lambda: find(gui, "topics_combo_box").currentText() == "/camera/image_raw")
+        assert "waiting for /camera/image_raw" in shown(gui).message
+
+
+@pytest.mark.parametrize("names, told", [([], "nobody publishes images"), (["/left/image", "/right/image"], "choose a topic")])
+def test_without_a_topic_it_says_what_to_do(topics, names, told):
+    topics[:] = names
+    with open_plugin("rqt_image_view") as gui:
+        gui.plugin._look_for_the_only_one()
+        wait_until(lambda: told in shown(gui).message)
+        topics[:] = ["/late/image"]  # a camera that comes later
+        gui.plugin._look_for_the_only_one()
+        wait_until(lambda: find(gui, "topics_combo_box").currentText() == "/late/image")
+
+
+def test_a_choice_is_not_taken_away(topics, tmp_path):
+    settings = str(tmp_path / "rqt.ini")
+    topics[:] = ["/left/image", "/right/image"]
+    with open_plugin("rqt_image_view", settings=settings) as gui:
+        gui.plugin.select_topic("/right/image")
+    topics[:] = ["/left/image"]
+    with open_plugin("rqt_image_view", settings=settings) as gui:
+        process_events()
+        gui.plugin._choose_the_only_one(topics)
+        assert find(gui, "topics_combo_box").currentText() == "/right/image"

@@ -1,6 +1,7 @@
 """The window: its geometry and the places of docks and toolbars, stored per perspective."""
 from python_qt_binding.QtCore import QByteArray, Qt, Signal
-from python_qt_binding.QtWidgets import QMainWindow, QToolBar
+from python_qt_binding.QtGui import QPainter
+from python_qt_binding.QtWidgets import QDockWidget, QLabel, QMainWindow, QToolBar
 
 from qt_gui.dock_widget import Containers
 from qt_gui.minimized_dock_widgets_toolbar import MinimizedDockWidgetsToolbar
@@ -20,6 +21,7 @@ class MainWindow(QMainWindow):
         self.minimized = MinimizedDockWidgetsToolbar(self)
         self.addToolBar(Qt.ToolBarArea.BottomToolBarArea, self.minimized)
         self._settings = None
+        self._notice = None
         self._may_close = False
 
     def closeEvent(self, event):
@@ -27,6 +29,31 @@ class MainWindow(QMainWindow):
             self._may_close = True
             self.close_requested.emit()
         event.accept()
+
+    def show_notice(self, text):
+        """A line at the bottom of the window until it is called with ""."""
+        if self._notice is None:
+            if not text:
+                return
+            self._notice = QLabel()
+            self._notice.setObjectName("notice")
+            self._notice.setWordWrap(True)
+            self.statusBar().addWidget(self._notice, 1)
+        self._notice.setText(text)
+        self._notice.setVisible(bool(text))
+        self.statusBar().setVisible(bool(text) or not self.options.lock_perspective)
+
+    def empty_text(self):
+        """What the window says while nothing is open in it."""
+        if self.options.lock_perspective or any(dock.isVisible() for dock in self.findChildren(QDockWidget)):
+            return ""
+        return "Nothing is open here.\nThe menu Plugins opens a window of its own; the menu Perspectives has sets of them."
+
+    def paintEvent(self, event):
+        super().paintEvent(event)
+        text = self.empty_text()
+        if text:
+            QPainter(self).drawText(self.rect(), int(Qt.AlignmentFlag.AlignCenter | Qt.TextFlag.TextWordWrap), text)
 
     def perspective_changed(self, name):
         self.setWindowTitle(f"{name} - rqt")

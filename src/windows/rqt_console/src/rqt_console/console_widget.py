@@ -7,6 +7,8 @@ from python_qt_binding.QtGui import QIcon
 from python_qt_binding.QtWidgets import (QApplication, QDialog, QFileDialog, QHBoxLayout, QHeaderView, QLabel, QMenu, QMessageBox,
                                          QPushButton, QSplitter, QTableView, QToolButton, QVBoxLayout, QWidget)
 
+from rqt_py_common.empty_text import EmptyText
+
 from . import saved_messages
 from .filters import stored
 from .message import SEVERITIES
@@ -78,6 +80,7 @@ class ConsoleWidget(QWidget):
         table = QTableView()
         table.setObjectName("table_view")
         table.setModel(self.model)
+        EmptyText(table, "No message has come yet: nodes write here what they log.")
         table.setSelectionBehavior(QTableView.SelectionBehavior.SelectRows)
         table.setWordWrap(False)
         table.setShowGrid(False)

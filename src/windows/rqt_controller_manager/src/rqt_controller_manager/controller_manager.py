@@ -5,6 +5,7 @@ from python_qt_binding.QtWidgets import (QComboBox, QDialog, QFormLayout, QHeade
                                          QTreeWidget, QTreeWidgetItem, QVBoxLayout, QHBoxLayout, QWidget)
 from rqt_gui_py.plugin import Plugin
 from rqt_py_common.background import Background
+from rqt_py_common.empty_text import EmptyText
 
 from .manager_calls import UNINITIALIZED, ManagerCalls
 
@@ -37,6 +38,7 @@ class ControllerManager(Plugin):
         self.manager_box.currentTextChanged.connect(self._manager_changed)
         self.table = QTableWidget(0, 2)
         self.table.setObjectName("table_view")
+        EmptyText(self.table, "No controllers: start a robot with a controller_manager, or load controllers by the menu of the right button.")
         self.table.setHorizontalHeaderLabels(("controller", "state"))
         self.table.horizontalHeader().setSectionResizeMode(0, QHeaderView.ResizeMode.Stretch)
         self.table.verticalHeader().setVisible(False)

@@ -8,14 +8,18 @@ import rosgraph
 import rosgraph.names
 import rospy
 from geometry_msgs.msg import Point
-from python_qt_binding.QtCore import Signal, qWarning
+from python_qt_binding.QtCore import QTimer, Signal, qWarning
 from python_qt_binding.QtWidgets import QFileDialog
 from rqt_gui_py.plugin import Plugin
+from rqt_py_common.background import Background
 
 from rqt_image_view.canvas import to_qimage
 from rqt_image_view.pictures import DepthView
 from rqt_image_view.source import ImageSource, image_topics
 from rqt_image_view.widget import ImageViewWidget
+
+_LOOK = 2000  # ms between two looks for a topic
+_EMPTY = ("nobody publishes images: start a camera or a simulation", "choose a topic in the list above")
 
 
 class ImageView(Plugin):
@@ -28,6 +32,7 @@ class ImageView(Plugin):
         super().__init__(context)
         self.setObjectName("ImageView")
         self._source: Optional[ImageSource] = None
+        self._background = Background(self)
         self._publisher = None
         self._told = ""
         self._argument = self._parse_args(context.argv()).topic
@@ -45,9 +50,14 @@ class ImageView(Plugin):
         widget.save_button.clicked.connect(lambda: self._save())
         widget.publish_click.toggled.connect(lambda _on: self._advertise())
         widget.click_topic.editingFinished.connect(self._advertise)
+        self._select("")
         self.update_topics()
         if self._argument:
             self.select_topic(self._argument)
+        self._looking = QTimer(self)  # for a first topic, until one is shown
+        self._looking.timeout.connect(self._look_for_the_only_one)
+        self._looking.start(_LOOK)
+        QTimer.singleShot(0, self._look_for_the_only_one)  # when the settings are there
 
     def _parse_args(self, argv):
         parser = argparse.ArgumentParser(prog="rqt_image_view", add_help=False)
@@ -73,6 +83,23 @@ class ImageView(Plugin):
             names = []
         self._widget.list_topics(names)
 
+    def _look_for_the_only_one(self) -> None:
+        """With one camera on the graph there is nothing to choose."""
+        if self._source is not None:
+            self._looking.stop()
+        else:
+            self._background.run("topics", image_topics, self._choose_the_only_one)
+
+    def _choose_the_only_one(self, names) -> None:
+        if self._source is not None:
+            return
+        self._widget.list_topics(names)
+        cameras = [name for name in names if not any(name.startswith(other + "/") for other in names)]
+        if len(cameras) == 1:
+            self.select_topic(cameras[0])
+        else:
+            self._widget.canvas.set_picture(None, _EMPTY[bool(names)])
+
     def select_topic(self, topic: str) -> None:
         """Show a topic, listed or not."""
         self._widget.select_topic(topic)
@@ -82,7 +109,7 @@ class ImageView(Plugin):
             self._source.close()
             self._source = None
         self._told = ""
-        self._widget.canvas.set_picture(None, f"waiting for {topic}" if topic else "")
+        self._widget.canvas.set_picture(None, f"waiting for {topic}" if topic else _EMPTY[self._widget.topics.count() > 1])
         if topic:
             self._source = source = ImageSource(
                 topic, lambda picture: self._arrived.emit(picture, source), lambda text: self._failed.emit(text, source))
@@ -156,6 +183,8 @@ class ImageView(Plugin):
         self._advertise()
 
     def shutdown_plugin(self) -> None:
+        self._looking.stop()
+        self._background.close()
         if self._source is not None:
             self._source.close()
             self._source = None

@@ -3,6 +3,7 @@ from python_qt_binding.QtCore import QSize
 from python_qt_binding.QtGui import QIcon
 from python_qt_binding.QtWidgets import QGridLayout, QLabel, QListWidget, QPushButton, QWidget
 from rqt_py_common.background import Background
+from rqt_py_common.empty_text import EmptyText
 
 from .logger_level_service_caller import LEVELS, LoggerLevelServiceCaller
 
@@ -27,6 +28,7 @@ class LoggerLevelWidget(QWidget):
             layout.addWidget(entries, 1, column)
             lists.append(entries)
         self.node_list, self.logger_list, self.level_list = lists
+        EmptyText(self.logger_list, "Choose a node.")
         self.refresh_button = QPushButton(QIcon.fromTheme("view-refresh"), "Refresh")
         self.refresh_button.setObjectName("refresh_button")
         self.refresh_button.clicked.connect(lambda: self.refresh_nodes())

@@ -3,6 +3,7 @@ from python_qt_binding.QtCore import QSize, Qt, Signal
 from python_qt_binding.QtGui import QIcon
 from python_qt_binding.QtWidgets import (QComboBox, QHBoxLayout, QLabel, QMenu, QPushButton, QSizePolicy, QTreeWidgetItem, QVBoxLayout,
                                          QWidget)
+from rqt_py_common.empty_text import EmptyText
 from rqt_py_common.expression_tree import ExpressionTree
 from rqt_py_common.extended_combo_box import ExtendedComboBox
 
@@ -57,6 +58,7 @@ class PublisherWidget(QWidget):
         self._button(bar, "remove_publisher_button", "list-remove", "-", "Remove the selected publishers", self._remove_selected)
         self._button(bar, "clear_button", "edit-clear", "Clear", "Remove all publishers", self.clear_requested.emit)
         self.tree = PublisherTree()
+        EmptyText(self.tree, "Choose a topic above and press + to publish on it.")
         self.tree.itemChanged.connect(self._item_changed)
         self.tree.customContextMenuRequested.connect(self._show_menu)
         self.error_label = QLabel()

@@ -9,10 +9,13 @@ from python_qt_binding.QtCore import QSize, QTimer, Qt, Signal
 from python_qt_binding.QtGui import QColor, QIcon, QPainter
 from python_qt_binding.QtWidgets import (QDialog, QHBoxLayout, QLabel, QPlainTextEdit, QPushButton, QSplitter, QTreeWidget,
                                          QTreeWidgetItem, QVBoxLayout, QWidget)
+from rqt_py_common.empty_text import EmptyText
 
 HISTORY = 30  # messages that can be looked back on
 SILENCE = 10.0  # s after which all is stale
 STALE = 3
+_EMPTY = {"errors": "No errors.", "warnings": "No warnings.",
+          "all": "Nobody publishes /diagnostics_agg: diagnostic_aggregator makes it of /diagnostics."}
 LEVELS = {DiagnosticStatus.OK: ("OK", "#2eb82e", "dialog-information"), DiagnosticStatus.WARN: ("Warning", "#e0b020", "dialog-warning"),
           DiagnosticStatus.ERROR: ("Error", "#d93030", "dialog-error"), STALE: ("Stale", "#6080c0", "dialog-question")}
 
@@ -82,6 +85,7 @@ class RobotMonitorWidget(QWidget):
             tree.itemDoubleClicked.connect(lambda item, column: self.inspect(item.data(0, Qt.ItemDataRole.UserRole)))
             self.trees[name] = tree
             self.splitter.addWidget(tree)
+            EmptyText(tree, _EMPTY[name])
         self.splitter.setSizes([80, 80, 300])
         self.timeline, self.pause_button, self.status_label = Timeline(), QPushButton("Pause"), QLabel()
         self.timeline.chosen.connect(self.look_at)

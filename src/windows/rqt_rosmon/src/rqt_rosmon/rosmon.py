@@ -11,6 +11,7 @@ from rosmon_msgs.msg import NodeState, State
 from rosmon_msgs.srv import StartStop, StartStopRequest
 from rqt_gui_py.plugin import Plugin
 from rqt_py_common.background import Background
+from rqt_py_common.empty_text import EmptyText
 
 PERIOD = 250  # ms between two looks at what has come
 LOOK = 2000  # ms between two looks for rosmons
@@ -62,6 +63,7 @@ class Rosmon(Plugin):
         self.combo.setToolTip("The topics of rosmons: those of type rosmon_msgs/State")
         self.combo.currentTextChanged.connect(self._listen)
         self.table.setObjectName("node_table")
+        EmptyText(self.table, "No rosmon runs: mon launch PACKAGE FILE.launch")
         self.table.setHorizontalHeaderLabels(COLUMNS)
         self.table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
         self.table.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)

@@ -11,6 +11,7 @@ from python_qt_binding.QtCore import Qt, Signal, qWarning
 from python_qt_binding.QtWidgets import (QCheckBox, QHBoxLayout, QLabel, QLineEdit, QPushButton, QTreeWidget, QTreeWidgetItem,
                                          QVBoxLayout, QWidget)
 from rqt_gui_py.plugin import Plugin
+from rqt_py_common.empty_text import EmptyText
 
 from rqt_top.node_info import NodeInfo, NodeUsage
 
@@ -61,6 +62,7 @@ class Top(Plugin):
             bar.addWidget(widget)
         self._table = QTreeWidget()
         self._table.setObjectName("TopTable")
+        EmptyText(self._table, "No processes of nodes yet.")
         self._table.setHeaderLabels(_LABELS)
         self._table.setRootIsDecorated(False)
         self._table.setAlternatingRowColors(True)

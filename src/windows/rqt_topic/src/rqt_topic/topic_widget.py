@@ -6,6 +6,7 @@ from python_qt_binding.QtCore import QMimeData, QSize, QTimer, Qt
 from python_qt_binding.QtGui import QIcon
 from python_qt_binding.QtWidgets import QHeaderView, QMenu, QTreeWidget, QTreeWidgetItem, QVBoxLayout, QWidget
 from rqt_py_common.background import Background
+from rqt_py_common.empty_text import EmptyText
 
 from .topic_info import TopicInfo
 
@@ -55,6 +56,7 @@ class TopicWidget(QWidget):
         self._rows: Dict[str, tuple] = {}  # topic -> (item, TopicInfo)
         self.tree = TopicTree()
         self.tree.setObjectName("topics_tree_widget")
+        EmptyText(self.tree, "There are no topics yet: start a node.")
         self.tree.setColumnCount(len(COLUMNS))
         self.tree.setHeaderLabels(COLUMNS)
         self.tree.setSortingEnabled(True)
