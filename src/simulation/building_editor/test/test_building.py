@@ -1,4 +1,5 @@
 """build_world: plans and pictures to SDF, read back by the simulator's own reader."""
+import json
 import xml.etree.ElementTree as ET
 
 import numpy as np
@@ -181,6 +182,26 @@ def test_command_writes_a_world_and_a_preview(tmp_path, capsys):
     assert {preview._WALL, preview._DOOR, preview._MODEL} <= colours
 
 
+@pytest.mark.parametrize("name", ["房间", "Комната", "café", "غرفة", "🏠"])
+@pytest.mark.parametrize("place", ["plan", "model"])
+def test_names_in_any_script_are_drawn(tmp_path, capsys, name, place):
+    plan, png = tmp_path / "plan.yaml", tmp_path / "out.png"
+    names = {"plan": "flat", "model": "table", place: name}
+    plan.write_text(f"name: {json.dumps(names['plan'], ensure_ascii=False)}\nwalls:\n- {{from: [0, 0], to: [3, 0]}}\n"
+                    f"models: [{{model: {json.dumps(names['model'], ensure_ascii=False)}, at: [1, 2]}}]\n")
+    assert build_world.main([str(plan), "-o", str(tmp_path / "room.world"), "--preview", str(png)]) == 0, capsys.readouterr().err
+    point = preview.draw(building.building_of({"walls": [{"from": [0, 0], "to": [3, 0]}], "name": "." if place == "plan" else "flat",
+                                               "models": [{"model": "." if place == "model" else "table", "at": [1, 2]}]}))
+    with Image.open(png) as image:
+        assert (np.asarray(image) != np.asarray(point)).any(axis=2).sum() > 5, "there is something to read"
+
+
+def test_without_a_font_for_it_a_name_is_question_marks(tmp_path, monkeypatch):
+    monkeypatch.setattr(preview, "_FONTS", ())
+    plans = [building.building_of({"name": name, "walls": [ROOM]}) for name in ("房间", "??")]
+    assert preview.draw(plans[0]).tobytes() == preview.draw(plans[1]).tobytes()
+
+
 def test_command_writes_a_model_directory(tmp_path):
     (tmp_path / "plan.yaml").write_text(PLAN)
     assert build_world.main([str(tmp_path / "plan.yaml"), "-o", str(tmp_path / "models/flat") + "/"]) == 0
@@ -306,7 +327,7 @@ def test_many_walls_are_joined_quickly():
 
 def test_command_names_a_preview_that_cannot_be_written(tmp_path, capsys):
     (tmp_path / "plan.yaml").write_text(PLAN)
-    for file, message in (("a.xyz", "give it the ending .png or .jpg"), ("none/a.png", "cannot write")):
+    for file, message in (("a.xyz", "give it the ending .png or .jpg"), ("a", "give it the ending"), ("none/a.png", "cannot write")):
         arguments = [str(tmp_path / "plan.yaml"), "-o", str(tmp_path / "a.world"), "--preview", str(tmp_path / file)]
         assert build_world.main(arguments) == 1
         error = capsys.readouterr().err

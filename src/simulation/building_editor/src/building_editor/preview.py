@@ -1,10 +1,12 @@
 """A building drawn from above."""
 from __future__ import annotations
 
+import contextlib
 import math
-from typing import Tuple
+import os
+from typing import Any, Tuple
 
-from PIL import Image, ImageDraw
+from PIL import Image, ImageDraw, ImageFont
 
 from building_editor.building import Building, PlanError, Wall
 from building_editor.sdf_model import outline
@@ -51,8 +53,8 @@ def draw(building: Building, width: int = 1000) -> Image.Image:
             for placed in building.models:
                 u, v = at(*placed.at[:2])
                 pen.ellipse([u - 5, v - 5, u + 5, v + 5], fill=_MODEL)
-                pen.text((u + 8, v - 6), placed.name, fill=_MODEL)
-        pen.text((number * page[0] + 8, 6), f"{building.name}, level {number}   grid {grid} m", fill=_WALL)
+                _write(pen, (u + 8, v - 6), placed.name, _MODEL)
+        _write(pen, (number * page[0] + 8, 6), f"{building.name}, level {number}   grid {grid} m", _WALL)
     return image
 
 
@@ -61,10 +63,42 @@ def save(building: Building, path: str) -> None:
 
     :raises PlanError: no such format. :raises OSError: the file cannot be written.
     """
+    if os.path.splitext(path)[1].lower() not in Image.registered_extensions():
+        raise PlanError(f"preview '{path}': give it the ending .png or .jpg")
+    image = draw(building)
     try:
-        draw(building).save(path)
-    except (ValueError, KeyError):
+        image.save(path)
+    except (ValueError, KeyError):  # a format that Pillow reads and does not write
         raise PlanError(f"preview '{path}': give it the ending .png or .jpg") from None
+
+
+#: Fonts of Debian by how much they know: the last is Pillow's own, of Latin letters alone.
+_FONTS = ("NotoSansCJK-Regular.ttc", "wqy-zenhei.ttc", "wqy-microhei.ttc", "DroidSansFallbackFull.ttf", "DejaVuSans.ttf")
+_SIZE = 11  # pixels, as large as Pillow's own
+
+
+def _write(pen: ImageDraw.ImageDraw, at: Tuple[float, float], text: str, colour: Tuple[int, int, int]) -> None:
+    """A name in any script; where no font is there for it, its characters are question marks."""
+    try:
+        text.encode("latin-1")
+    except UnicodeEncodeError:
+        font = _font_of(text)
+        if font is not None:
+            pen.text(at, text, fill=colour, font=font)
+            return
+        text = text.encode("latin-1", "replace").decode("latin-1")
+    pen.text(at, text, fill=colour)
+
+
+def _font_of(text: str) -> Any:
+    """The first font of this machine that has all of its characters, or None."""
+    for name in _FONTS:
+        with contextlib.suppress(OSError, ImportError):
+            font = ImageFont.truetype(name, _SIZE)
+            missing = bytes(font.getmask(chr(0x10FFFF)))
+            if not any(bytes(font.getmask(character)) == missing for character in text if not character.isspace()):
+                return font
+    return None
 
 
 def _draw_wall(pen: ImageDraw.ImageDraw, wall: Wall, at) -> None:
