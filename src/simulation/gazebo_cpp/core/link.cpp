@@ -69,6 +69,7 @@ void Link::SetCollideMode(const std::string& mode)
   const bool none = mode == "none" || mode == "ghost" || mode == "sensors";
   for (const auto& shape : core_->shapes)
     shape->surface.collide_bitmask = none ? 0 : 0xFFFF;
+  core_->model->changed = true;
 }
 
 void Link::SetLaserRetro(float retro)

@@ -111,7 +111,8 @@ def test_many_feet_bounce_as_one():
     """25 of them touch at once: too many rows for the direct solver, the iterative one takes them."""
     world = ode_sim.World()
     world.spawn(ground(surface=lively(0.6)))
-    feet = tuple(Collision(f"foot{i}", Pose((0.2 * (i % 5 - 2), 0.2 * (i // 5 - 2), 0)), Box((0.1, 0.1, 0.1)), lively(0.6)) for i in range(25))
+    feet = tuple(Collision(f"foot{i}", Pose((0.2 * (i % 5 - 2), 0.2 * (i // 5 - 2), 0)), Box((0.1, 0.1, 0.1)), lively(0.6))
+                 for i in range(25))
     link = Link("link", inertial=box_inertia(5.0, (1.0, 1.0, 0.1)), collisions=feet)
     table = world.spawn(Model("table", Pose((0, 0, FALLS + 0.05)), (link,)))
     assert rises(world, table) == pytest.approx(0.36 * FALLS, rel=0.02)
