@@ -56,8 +56,23 @@ def test_a_script_that_is_not_executable(package):
     assert of_program("my_arm", "move.py") == f"Such a file is there and is not executable: chmod +x {package}/scripts/move.py"
 
 
+@pytest.mark.parametrize("name, told", [
+    ("arm.launch", "That is a launch file: roslaunch my_arm arm.launch"), ("arm", "That is a launch file: roslaunch my_arm arm.launch"),
+    ("arm.test", "That is a test: rostest my_arm arm.test"), ("room.world", "world_name:={path}"), ("arm.rviz", "rviz -d {path}"),
+    ("arm.urdf", "check_urdf {path}; into a simulation: rosrun gazebo_ros spawn_model -urdf -file {path}"), ("arm.urdf.xacro", "xacro {path}"),
+    ("Move.srv", "rossrv show my_arm/Move"), ("Pose.msg", "rosmsg show my_arm/Pose"), ("Grip.action", "rosmsg show my_arm/GripGoal"),
+    ("gains.yaml", "rosparam load {path}"), ("arm.launch.py", "a launch file of ROS 2; this is ROS 1"),
+    ("move.py", "Such a file is there and is not executable: chmod +x {path}")])
+def test_a_file_that_is_no_program(package, name, told):
+    path = package / "scripts" / (name if "." in name else name + ".launch")
+    program(path, 0o644)
+    assert told.format(path=path) in of_program("my_arm", name)
+    assert "chmod" not in of_program("my_arm", name) or name == "move.py"
+
+
 def test_a_program_in_cpp_that_is_not_built(package):
     (package / "CMakeLists.txt").write_text("# add_executable(old old.cpp)\nadd_executable( arm_node src/arm.cpp)\n")
+    (package / "scripts/arm_node.launch").write_text("<launch/>")
     assert of_program("my_arm", "arm_node").endswith("is not built: catkin build my_arm")
     assert of_program("my_arm", "old") == of_program("my_arm", "arm") == "The package has no programs at all"
 
@@ -83,5 +98,5 @@ def test_roslaunch_adds_it_to_its_own_line(package):
     def missing(node, machine, env):
         raise node_args.NodeParamsException("Cannot locate node of type [a] in package [my_arm]")
     with pytest.raises(node_args.NodeParamsException) as told:
-        launching._saying_what_a_package_has(missing)(Node("my_arm", "a"), None)
+        launching.arguments_of(missing)(Node("my_arm", "a"), None)
     assert str(told.value) == "Cannot locate node of type [a] in package [my_arm]. The package has no programs at all"

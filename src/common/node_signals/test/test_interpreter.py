@@ -1,11 +1,12 @@
 """What `#!/usr/bin/env python` finds in nodes."""
+import contextlib
 import os
 import shutil
 import socket
 import subprocess
 
 import pytest
-from node_signals.interpreter import supply_python
+from node_signals.interpreter import as_it_can_run, supply_python
 
 
 def program(folder, name, text="#!/bin/sh\nexit 3\n"):
@@ -63,6 +64,62 @@ def test_a_script_for_python_2_runs_if_python_3_reads_it_and_else_one_line_says_
     answer = subprocess.run([tmp_path / "node", "a b"], env=environment, capture_output=True, text=True, timeout=60)
     assert (answer.returncode, answer.stdout, answer.stderr.count("\n")) == (code, out, 1)
     assert told in answer.stderr
+
+
+PLAIN = "import sys\nprint(sys.version_info[0], sys.argv[1:])\n"
+FIRST_LINES = [  # what the file begins with, what is told; Debian has none of these interpreters
+    (b"#!/usr/bin/python2\n", "it runs with Python 3, where 1/2 is 0.5"), (b"#!/usr/bin/python2.7 -u\n", "it runs with Python 3"),
+    (b"#!/usr/local/bin/python2\n", "it runs with Python 3"), (b"#!/usr/local/bin/python\n", ""),
+    (b"#!/opt/nowhere/bin/python3\n", ""), (b"#!/usr/bin/env python3.8\n", "asks for python3.8, which is not here; it runs with Python 3"),
+    (b"#!/usr/bin/python3.6\n", "asks for python3.6"), (b"#!/usr/bin/env python3\r\n", "dos2unix"),
+    (b"#!/usr/bin/python\r\n", "dos2unix"), (b"#!/usr/bin/env python2\r\n", "dos2unix"),
+    (b"\xef\xbb\xbf#!/usr/bin/env python3\n", "mark of UTF-8")]
+
+
+@pytest.mark.parametrize("first, told", FIRST_LINES)
+def test_a_first_line_that_names_what_is_not_there(tmp_path, debian, monkeypatch, first, told):
+    program(tmp_path, "node", "")
+    (tmp_path / "node").write_bytes(first + (PLAIN.replace("\n", "\r\n") if b"\r" in first else PLAIN).encode())
+    environment = {"PATH": f"{debian}:/usr/bin:/bin"}
+    supply_python(environment)
+    monkeypatch.setenv("PATH", environment["PATH"])
+    with pytest.raises(OSError) if b"env" not in first or first[:1] == b"\xef" else contextlib.nullcontext():  # as it stands it cannot be started
+        assert subprocess.run([tmp_path / "node"], env=environment, capture_output=True).returncode == 127
+    words, line = as_it_can_run(str(tmp_path / "node"))
+    answer = subprocess.run([*words, "a b"], env=environment, capture_output=True, text=True, timeout=60)
+    assert (answer.returncode, answer.stdout) == (0, "3 ['a b']\n"), answer.stderr
+    said = line + answer.stderr
+    assert told in said and (said.count("it runs") == 1 if told else said == "")
+
+
+@pytest.mark.parametrize("first", [b"#!/usr/bin/env python3\n", b"#!/bin/sh\n", b"#!/usr/bin/python3 -u\n", b"\x7fELF\r\n", b"import rospy\n",
+                                   b"#!/usr/bin/perl\n", b"#!\n", b""])
+def test_what_can_be_started_is_left_to_the_kernel(tmp_path, first):
+    (tmp_path / "node").write_bytes(first)
+    assert as_it_can_run(str(tmp_path / "node")) == ([str(tmp_path / "node")], "")
+
+
+def test_a_shell_script_with_windows_line_ends_is_told(tmp_path):
+    (tmp_path / "node").write_bytes(b"#!/bin/bash\r\necho a\r\n")
+    words, line = as_it_can_run(str(tmp_path / "node"))
+    assert words == [str(tmp_path / "node")] and line.endswith(f"dos2unix {tmp_path}/node")
+
+
+@pytest.mark.parametrize("first", ["#!/usr/bin/python2", "#!/usr/local/bin/python", "#!/usr/bin/env python3.8"])
+@pytest.mark.parametrize("command", ["rosrun old_nodes talk", "roslaunch old_nodes talk.launch"])
+def test_the_commands_give_them_to_nodes(tmp_path, command, first):
+    package = tmp_path / "old_nodes"
+    program(package, "talk", f"{first}\nprint('it talks')\n")
+    (package / "package.xml").write_text("<package><name>old_nodes</name><version>1.0.0</version></package>")
+    (package / "talk.launch").write_text(
+        '<launch><node name="talk" pkg="old_nodes" type="talk" output="screen" required="true" launch-prefix="nice -n 1"/></launch>')
+    with socket.socket() as probe:
+        probe.bind(("localhost", 0))
+        port = probe.getsockname()[1]
+    environment = {**os.environ, "ROS_HOME": str(tmp_path), "ROS_MASTER_URI": f"http://localhost:{port}",
+                   "ROS_PACKAGE_PATH": f"{tmp_path}:{os.environ['ROS_PACKAGE_PATH']}"}
+    answer = subprocess.run(command.split(), env=environment, capture_output=True, text=True, timeout=120)
+    assert "it talks" in answer.stdout, answer.stdout + answer.stderr
 
 
 @pytest.mark.parametrize("command", ["rosrun old_nodes talk", "roslaunch old_nodes talk.launch"])

@@ -54,6 +54,22 @@ def test_runs_what_debians_runs(workspace, words):
     assert (code, printed) == run(DEBIANS, *words)[:2]
 
 
+def test_a_launch_file_is_no_program_also_when_it_is_executable(workspace):
+    for mode in (0o644, 0o755):
+        (workspace / "arm.launch").write_text("<launch/>")
+        (workspace / "arm.launch").chmod(mode)
+        code, printed, said = run(OWN, "my_arm", "arm.launch")
+        assert code != 0 and printed == "" and "That is a launch file: roslaunch my_arm arm.launch" in said and "chmod" not in said
+
+
+@pytest.mark.parametrize("words, told", [(["my_arm", "node.py"], "rosrun my_arm node.py"), (["src/node.py"], "rosrun PACKAGE node.py"),
+                                         (["my_arm", "arm.launch.py", "a:=b"], "of ROS 2")])
+def test_a_program_is_no_launch_file(workspace, words, told):
+    code, _, said = run([sys.executable, str(BIN / "roslaunch")], *words)
+    assert code == 1 and said.startswith(f"roslaunch: {words[-1] if ':=' not in words[-1] else words[-2]} is no launch file. ")
+    assert told in said and said.count("\n") == 1
+
+
 def test_debians_need_not_be_asked(workspace):
     assert programs.find("my_arm", "relayed.py") == [os.environ["CMAKE_PREFIX_PATH"] + "/lib/my_arm/relayed.py"]
 

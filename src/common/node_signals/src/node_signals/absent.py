@@ -1,6 +1,7 @@
 """What is known of a package, or a program of one, that a launch file names and that is not there: one line, not all folders searched."""
 from __future__ import annotations
 
+import glob
 import os
 import re
 from pathlib import Path
@@ -15,6 +16,17 @@ _UNKNOWN = "Is it built in your workspace, and that sourced? `rosdep resolve {na
 #: Programs that packages of Noetic no longer have, and what they are called.
 _RENAMED = {("robot_state_publisher", "state_publisher"): "robot_state_publisher"}
 _MOST_NAMED = 12
+#: Files that rosrun is given and that are no programs: what they are, and what takes them.
+_NO_PROGRAMS = {
+    ".launch": "a launch file: roslaunch {package} {name}", ".launch.py": "a launch file of ROS 2; this is ROS 1, whose end with .launch",
+    ".test": "a test: rostest {package} {name}",
+    ".world": "a world: roslaunch gazebo_ros empty_world.launch world_name:={path}", ".rviz": "a configuration of RViz: rviz -d {path}",
+    ".urdf": "a robot description: check_urdf {path}; into a simulation: rosrun gazebo_ros spawn_model -urdf -file {path} -model NAME",
+    ".xacro": "a robot description: xacro {path} writes it as URDF",
+    ".sdf": "a model: rosrun gazebo_ros spawn_model -sdf -file {path} -model NAME",
+    ".msg": "a message type: rosmsg show {package}/{stem}", ".srv": "a service type: rossrv show {package}/{stem}",
+    ".action": "an action type: rosmsg show {package}/{stem}Goal", ".bag": "a recording: rosbag play {path}",
+    ".yaml": "a file of parameters: rosparam load {path}", ".perspective": "a perspective of rqt: rqt --perspective-file {path}"}
 
 
 def explanation(name: str) -> str:
@@ -52,6 +64,14 @@ def in_one_line(error: rospkg.ResourceNotFound) -> str:
     return f"the package '{what}' is not here. {explanation(what)}" if re.fullmatch(r"[A-Za-z][\w-]*", what) else what
 
 
+def no_program(path: Path, package: str) -> str:
+    """What a file is that nobody can run, and what takes it; "" for others."""
+    kind = ".launch.py" if path.name.endswith(".launch.py") else path.suffix
+    if kind not in _NO_PROGRAMS:
+        return ""
+    return "That is " + _NO_PROGRAMS[kind].format(package=package, name=path.name, stem=path.stem, path=path)
+
+
 def of_program(package: str, name: str) -> str:
     """Why a package that is there has no program of that name, as far as its files tell; "" if they tell nothing."""
     renamed = _RENAMED.get((package, name))
@@ -62,11 +82,16 @@ def of_program(package: str, name: str) -> str:
     except rospkg.ResourceNotFound:
         return ""
     files = [path for path in sorted(folder.rglob("*")) if path.name == name and path.is_file()]
+    if files and no_program(files[0], package):
+        return no_program(files[0], package)
     if files:
         return f"Such a file is there and is not executable: chmod +x {files[0]}"
     cmake = folder / "CMakeLists.txt"
     if cmake.is_file() and re.search(rf"^[ \t]*add_executable\(\s*{re.escape(name)}\b", cmake.read_text(errors="replace"), re.MULTILINE):
         return f"The package makes it of C++ and is not built: catkin build {package}"
+    launch = folder.rglob(glob.escape(name) + ".launch") if name and "/" not in name else ()
+    for path in sorted(launch):
+        return no_program(path, package)
     there = _programs(package, folder)
     others = f" and {len(there) - _MOST_NAMED} more" if len(there) > _MOST_NAMED else ""
     return f"The package has {', '.join(there[:_MOST_NAMED])}{others}" if there else "The package has no programs at all"

@@ -1,9 +1,14 @@
-"""``python`` and ``python2`` in first lines of nodes: on Ubuntu a package (python-is-python3) gives the first, Debian has neither."""
+"""First lines of nodes that name an interpreter which is not there.
+
+``python``: on Ubuntu a package (python-is-python3) gives it; ``python2``, by its name or its path; Noetic's ``python3.8``; and any of
+them with the line end of Windows, or with its mark of UTF-8 before the ``#!``.
+"""
 from __future__ import annotations
 
 import os
+import re
 import shutil
-from typing import MutableMapping, Optional
+from typing import List, MutableMapping, Optional, Tuple
 
 _DEBIANS = "/usr/bin/python3"
 _HERE = os.path.dirname(os.path.abspath(__file__))
@@ -23,6 +28,41 @@ def supply_python(environment: MutableMapping[str, str]) -> None:
         _put_first("python2", environment)
     if plain is None or os.path.realpath(plain) != os.path.realpath(third):
         _put_first("python", environment)
+
+
+def as_it_can_run(program: str) -> Tuple[List[str], str]:
+    """The words that start ``program``, and a line saying what is different, or "".
+
+    What the kernel starts is left to it. Scripts of Python whose first line names what is not there are given to Python.
+    """
+    try:
+        with open(program, "rb") as file:
+            first = file.readline(256)
+    except OSError:
+        return [program], ""
+    marked, ended = first.startswith(b"\xef\xbb\xbf#!"), first.rstrip(b"\n").endswith(b"\r")
+    if not marked and not first.startswith(b"#!"):
+        return [program], ""
+    words = [word for word in first.decode(errors="replace").partition("#!")[2].split() if word != "-S"]
+    from_path = bool(words) and os.path.basename(words[0]) == "env"
+    asked, *options = words[from_path:] or [""]
+    python = re.fullmatch(r"python(\d?)[.\d]*", os.path.basename(asked))
+    if python is None:
+        return [program], f"{program}: its lines end as on Windows, which no shell takes: dos2unix {program}" if ended else ""
+    if not marked and not ended and (shutil.which(asked) if from_path else os.access(asked, os.X_OK)):
+        return [program], ""
+    why = "its lines end as on Windows (dos2unix mends them)" if ended else "it begins with Windows' mark of UTF-8" if marked else ""
+    if not why and "." in os.path.basename(asked) and python[1] == "3":
+        why = f"its first line asks for {os.path.basename(asked)}, which is not here"
+    interpreter = _second() if python[1] == "2" else _DEBIANS
+    runs = "" if python[1] == "2" else "; it runs with Python 3"  # what takes the place of python2 says so itself
+    return [interpreter, *options, program], f"{program}: {why}{runs}" if why else ""
+
+
+def _second() -> str:
+    """python2, or what takes its place and says so."""
+    found, folder = shutil.which("python2"), _folder("python2")
+    return found or (os.path.join(folder, "python2") if folder else _DEBIANS)
 
 
 def _put_first(name: str, environment: MutableMapping[str, str]) -> None:

@@ -15,6 +15,7 @@ import sys
 import tempfile
 import threading
 import time
+from pathlib import Path
 from typing import Optional, Set
 
 from node_signals import quick_start
@@ -24,10 +25,10 @@ import rospkg  # noqa: E402
 import roslaunch  # noqa: E402
 from roslaunch import core, launch, node_args, nodeprocess, pmon  # noqa: E402
 
-from node_signals.absent import in_one_line, of_program
+from node_signals.absent import in_one_line, no_program, of_program
 from node_signals.children import end_with_parent
 from node_signals.display import asked_for, choose_platform, missing_display
-from node_signals.interpreter import supply_python
+from node_signals.interpreter import as_it_can_run, supply_python
 from node_signals.terminals import with_what_is_there
 
 _PID = os.getpid()
@@ -136,15 +137,26 @@ def _naming_windows_without_display(start):
     return checked
 
 
-def _saying_what_a_package_has(make_arguments):
-    """Upstream's line for a node that is not found, and why."""
+def arguments_of(make_arguments):
+    """Upstream's line for a node that is not found, and why; scripts with the interpreter that they can run with."""
     def checked(node, machine, env=None):
         try:
-            return make_arguments(node, machine, env)
+            return _with_interpreter(node, make_arguments(node, machine, env))
         except node_args.NodeParamsException as error:
             why = of_program(node.package, node.type) if "Cannot locate node" in str(error) else ""
             raise node_args.NodeParamsException(f"{error}. {why}" if why else str(error)) from error
     return checked
+
+
+def _with_interpreter(node, words):
+    """The words of a node's process: what is before its program, the program, its arguments."""
+    at = len(node_args._launch_prefix_args(node))
+    if at and os.path.basename(words[at - 1]).startswith("python"):
+        return words
+    program, difference = as_it_can_run(words[at])
+    if difference:
+        print(f"roslaunch: {node.name}: {difference}", file=sys.stderr, flush=True)
+    return [*words[:at], *program, *words[at + 1:]]
 
 
 def _mend() -> None:
@@ -159,12 +171,22 @@ def _mend() -> None:
     core.Master.is_running = _unless_ending(core.Master.is_running)
     nodeprocess.LocalProcess._stop_unix = _master_first_by_sigterm(nodeprocess.LocalProcess._stop_unix)
     nodeprocess.LocalProcess.start = _naming_windows_without_display(nodeprocess.LocalProcess.start)
-    nodeprocess.create_local_process_args = _saying_what_a_package_has(nodeprocess.create_local_process_args)
+    nodeprocess.create_local_process_args = arguments_of(nodeprocess.create_local_process_args)
     rospkg.ResourceNotFound.__str__ = in_one_line
     roslaunch.handle_exception = _silent_when_ending(roslaunch.handle_exception)
 
 
+def _refuse_programs(words) -> None:
+    """What roslaunch would read as XML and is none."""
+    files = [word for word in words if not word.startswith("-") and ":=" not in word]
+    if files and files[-1].endswith((".py", ".sh")):
+        package = files[0] if len(files) == 2 else "PACKAGE"
+        of_ros_2 = no_program(Path(files[-1]), package)
+        sys.exit(f"roslaunch: {files[-1]} is no launch file. {of_ros_2 or f'Programs are started by: rosrun {package} {os.path.basename(files[-1])}'}")
+
+
 def main() -> None:
+    _refuse_programs(sys.argv[1:])
     _mend()
     roslaunch.main()
 

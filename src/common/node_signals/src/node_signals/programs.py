@@ -10,7 +10,8 @@ import subprocess
 import sys
 from typing import List, NamedTuple, Optional
 
-from node_signals import rviz_start
+from node_signals import rviz_displays, rviz_start
+from node_signals.interpreter import as_it_can_run
 
 DEBIANS = "/usr/bin/rosrun"
 
@@ -71,13 +72,33 @@ def run(words: List[str]) -> None:
         return
     found = find(asked.package, asked.program)
     if len(found) == 1:
-        line = [*asked.prefix.split(), found[0], *asked.arguments]
+        _refuse_what_is_none(asked.package, found[0])
+        program, difference = as_it_can_run(found[0])
+        if difference:
+            print(f"rosrun: {difference}", file=sys.stderr, flush=True)
+        line = [*asked.prefix.split(), *program, *asked.arguments]
         if asked[:3] == ("", "rviz", "rviz"):
+            rviz_displays.start()
             rviz_start.run(line)
         with contextlib.suppress(OSError):  # a script without its first line, a prefix that is no program: the shell's own way with them
             os.execvp(line[0], line)
     elif not found:
-        print(f"rosrun: {_why_nothing(asked.package, asked.program)}", file=sys.stderr, flush=True)
+        why = _why_nothing(asked.package, asked.program)
+        if "That is " in why:  # Debian's would only ask for its executable bit
+            sys.exit(f"rosrun: {why}")
+        print(f"rosrun: {why}", file=sys.stderr, flush=True)
+
+
+def _refuse_what_is_none(package: str, path: str) -> None:
+    """Launch files and the like that somebody made executable: a shell would read them as its own."""
+    from pathlib import Path
+
+    from node_signals.absent import no_program
+    with open(path, "rb") as file:
+        script = file.read(2) == b"#!"
+    why = "" if script else no_program(Path(path), package)
+    if why:
+        sys.exit(f"rosrun: {os.path.basename(path)} of the package {package} is no program. {why}")
 
 
 def _why_nothing(package: str, name: str) -> str:

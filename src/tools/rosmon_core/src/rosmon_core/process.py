@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from typing import Callable, Dict, List, Optional, Tuple
 
 import rospkg
+from node_signals.interpreter import as_it_can_run
 from node_signals.terminals import with_what_is_there
 from roslaunch.core import RLException, setup_env
 from roslaunch.node_args import NodeParamsException, create_local_process_args
@@ -161,7 +162,12 @@ class NodeProcess:
     def _spawn(self) -> None:
         node = self.spec.node
         arguments = self.command()
-        self.executable = arguments[len(shlex.split(node.launch_prefix or ""))]
+        at = len(shlex.split(node.launch_prefix or ""))
+        self.executable = arguments[at]
+        program, difference = as_it_can_run(self.executable)
+        if difference:
+            self._event(self, difference, "warn")
+        arguments[at:at + 1] = program
         arguments, difference = with_what_is_there(arguments)
         if difference:
             self._event(self, difference, "warn")
