@@ -57,6 +57,18 @@ def read(path):
     return yaml.safe_load(path.read_text())
 
 
+@pytest.mark.parametrize("joints, told", [
+    ("{turn: 0.5, spin: -0.25}", []), ("{turn: 1.0}", []),
+    ("{turn: 1.5}", ["Pose 'home' of group 'arm': joint 'turn' is at 1.5, beyond its limits -1 to 1; MoveIt does not plan to it."]),
+    ("{spin: -1.01}", ["Pose 'home' of group 'arm': joint 'spin' is at -1.01, beyond its limits -1 to 1; MoveIt does not plan to it."]),
+    ("{swinging: 0.1}", ["Pose 'home' of group 'arm' moves joint 'swinging', which is not in that group: it is left out when MoveIt "
+                         "plans to it."])])
+def test_a_pose_that_cannot_be_reached_is_told(described, joints, told):
+    """The URDF's limits are -1 to 1 rad; MoveIt's planners refuse a goal beyond them."""
+    config = made(described, CONFIG.replace("{turn: 0.5, spin: -0.25}", joints))
+    assert [line for line in config.incomplete() if line.startswith("Pose")] == told
+
+
 def test_every_launch_file_loads_and_names_what_it_loads(package, monkeypatch):
     monkeypatch.setenv("DISPLAY", "")
     for file in sorted((package / "launch").glob("*.launch")):

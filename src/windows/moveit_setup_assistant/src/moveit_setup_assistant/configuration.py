@@ -185,7 +185,7 @@ class Configuration:
             found.append("There is no end effector; pick and place, and RViz's marker at a gripper, want one.")
         if not self.semantics.virtual_joints:
             found.append("There is no virtual joint; the robot's root link is then the planning frame.")
-        return found
+        return found + self.semantics.unreachable_poses(self.model())
 
 
 def written_at(package: Path) -> int:

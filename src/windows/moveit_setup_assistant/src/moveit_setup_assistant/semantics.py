@@ -27,6 +27,8 @@ SECTIONS: Tuple[Tuple[str, str], ...] = (
 _HEAD = ("This file adds to the URDF what planning needs to know of a robot: groups, named states, end effectors, and which links "
          "need not be checked for collision. It does not replace the URDF.")
 
+_ROUNDED = 1e-4  # rad or m: poses are written with four digits
+
 
 class Semantics(Robot):
     """srdfdom's document, and with it every element that srdfdom does not know: kept as it was read."""
@@ -82,6 +84,26 @@ class Semantics(Robot):
             found += [f"{kind} '{name}' is there {names.count(name)} times" for name in sorted(set(names)) if names.count(name) > 1]
         found += [f"group '{g.name}' is empty: give it joints, links, a chain or other groups" for g in self.groups
                   if not (g.joints or g.links or g.chains or g.groups)]
+        return found
+
+    def unreachable_poses(self, model) -> List[str]:
+        """Poses that MoveIt takes and never plans to, one line for each joint: beyond its limits, or not of the pose's group.
+
+        :param model: the robot, read with this document.
+        """
+        found = []
+        for state in self.group_states:
+            of_group = set(model.group(state.group).joints) if model.has_group(state.group) else set()
+            for joint in state.joints:
+                what = f"Pose '{state.name}' of group '{state.group}'"
+                if of_group and joint.name not in of_group:
+                    found.append(f"{what} moves joint '{joint.name}', which is not in that group: it is left out when MoveIt plans to it.")
+                if not model.has_joint(joint.name):
+                    continue
+                for value, limits in zip(joint.value, model.joint(joint.name).limits):
+                    if limits.has_position and not limits.min_position - _ROUNDED <= value <= limits.max_position + _ROUNDED:
+                        found.append(f"{what}: joint '{joint.name}' is at {value:g}, beyond its limits {limits.min_position:g} to "
+                                     f"{limits.max_position:g}; MoveIt does not plan to it.")
         return found
 
     def _unknown_names(self, model) -> List[str]:
