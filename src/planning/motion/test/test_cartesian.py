@@ -143,7 +143,8 @@ def test_a_joint_without_a_limit_goes_on_past_half_a_turn():
     scene.set_state(state)
     goal = state.pose("tool") * motion.Pose.from_rpy((0, 0, 0), (0.6, 0, 0))
     line = motion.time_parameterize(model, motion.cartesian_path(scene, "arm", [goal], avoid_collisions=False).trajectory)
-    asked = motion.MotionRequest("arm", goals=[motion.pose_goal("tool", goal)], planner="LIN", velocity_scaling=0.1, acceleration_scaling=0.1)
+    asked = motion.MotionRequest("arm", goals=[motion.pose_goal("tool", goal)], planner="LIN", velocity_scaling=0.1,
+                                 acceleration_scaling=0.1)
     for trajectory in (line, motion.pilz_plan(scene, asked).trajectory):
         assert trajectory.positions[-1][6] > 3.3  # a redundant arm does some of it with other joints
         assert np.abs(np.diff(trajectory.positions, axis=0)).max() < 0.2

@@ -179,7 +179,8 @@ def test_a_limit_counts_without_its_flag_and_the_flag_takes_it_back():
 
 
 def test_the_variables_of_a_planar_joint_have_limits_of_their_own():
-    limits = {"drive": {"x": {"max_velocity": 0.2, "min_position": -1, "max_position": 2}, "theta": {"max_acceleration": 3, "max_position": 1}},
+    limits = {"drive": {"x": {"max_velocity": 0.2, "min_position": -1, "max_position": 2},
+                        "theta": {"max_acceleration": 3, "max_position": 1}},
               "drive/y": {"max_velocity": 0.4}}
     model = motion.load_model(GRIPPER, HAND_SRDF, joint_limits=limits)
     x, y, theta = model.joint("drive").limits

@@ -8,9 +8,10 @@ import rospy
 import rostest
 from client import HOME, JOINTS, PATIENCE, Goal, apply, box, call, clear, joint_goal, move, plan, request
 from geometry_msgs.msg import Pose, Quaternion
-from moveit_msgs.msg import (AllowedCollisionEntry, AllowedCollisionMatrix, CollisionObject, Constraints, DisplayTrajectory,
-                             GenericTrajectory, MoveGroupSequenceAction, MoveGroupSequenceGoal, MoveItErrorCodes, MotionSequenceItem,
-                             ObjectColor, OrientationConstraint, PlanningSceneComponents, PositionConstraint, RobotState, TrajectoryConstraints)
+from moveit_msgs.msg import (AllowedCollisionEntry, AllowedCollisionMatrix, CollisionObject, Constraints,
+                             DisplayTrajectory, GenericTrajectory, MoveGroupSequenceAction, MoveGroupSequenceGoal,
+                             MoveItErrorCodes, MotionSequenceItem, ObjectColor, OrientationConstraint,
+                             PlanningSceneComponents, PositionConstraint, RobotState, TrajectoryConstraints)
 from moveit_msgs.srv import (GetCartesianPath, GetCartesianPathRequest, GetMotionSequence, GetMotionSequenceRequest,
                              GetPlanningScene, GetPositionFK, GetStateValidity)
 from rosgraph_msgs.msg import Log
@@ -77,7 +78,8 @@ class Circles(unittest.TestCase):
         point.header.frame_id = frame
         point.constraint_region.primitive_poses = [at] * poses
         point.constraint_region.primitives = [SolidPrimitive(SolidPrimitive.SPHERE, [0.01])] if region else []
-        return answer(industrial("CIRC", goal or pose_goal(moved(y=0.2)), path_constraints=Constraints(name=kind, position_constraints=[point])))
+        way = Constraints(name=kind, position_constraints=[point])
+        return answer(industrial("CIRC", goal or pose_goal(moved(y=0.2)), path_constraints=way))
 
     def test_the_point_is_the_primitive_pose_with_or_without_a_region(self):
         start, middle = vector(moved()), vector(moved(y=0.1))
@@ -132,8 +134,8 @@ class Requests(unittest.TestCase):
         """MotionPlanRequest.msg: what is not in (0, 1], 0 above all, means 1."""
         times = []
         for scale in (0.0, 1.0, 3.0):
-            found = plan([0.5] + HOME[1:], start_state=state_of(HOME), max_velocity_scaling_factor=scale, max_acceleration_scaling_factor=scale,
-                         pipeline_id=PILZ, planner_id="PTP")
+            found = plan([0.5] + HOME[1:], start_state=state_of(HOME), max_velocity_scaling_factor=scale,
+                         max_acceleration_scaling_factor=scale, pipeline_id=PILZ, planner_id="PTP")
             times.append(found.trajectory.joint_trajectory.points[-1].time_from_start.to_sec())
         np.testing.assert_allclose(times, 2 * np.sqrt(0.5 / 4.0), rtol=1e-6)  # the way at 4 rad/s^2, never at 2 rad/s
 
@@ -171,7 +173,8 @@ class Sequences(unittest.TestCase):
         clear()
 
     def item(self, radius, x=0.0, y=0.0, z=0.0, **fields):
-        return MotionSequenceItem(req=industrial("LIN", pose_goal(moved(x, y, z)), **{"start_state": RobotState(), **fields}), blend_radius=radius)
+        asked = industrial("LIN", pose_goal(moved(x, y, z)), **{"start_state": RobotState(), **fields})
+        return MotionSequenceItem(req=asked, blend_radius=radius)
 
     def ask(self, *items):
         wanted = GetMotionSequenceRequest()
@@ -179,7 +182,7 @@ class Sequences(unittest.TestCase):
         return call("plan_sequence_path", GetMotionSequence, wanted).response
 
     def test_two_motions_are_one_trajectory(self):
-        """Start states as documentation wants them (none), as C++ and Python clients fill them in (an empty difference), and of the first."""
+        """Start states as documentation wants them (none), as clients fill them in (an empty difference), and of the first."""
         for start in (RobotState(), RobotState(is_diff=True)):
             for first in (start, state_of(HOME)):
                 found = self.ask(self.item(0.0, y=0.1, start_state=first), self.item(0.0, y=0.1, z=-0.1, start_state=start))
@@ -200,7 +203,8 @@ class Sequences(unittest.TestCase):
         cases = [("a start of the second", [self.item(0.0, y=0.1), self.item(0.0, start_state=state_of(HOME))], Codes.INVALID_ROBOT_STATE),
                  ("a last radius", [self.item(0.0, y=0.1), self.item(0.02)], Codes.INVALID_MOTION_PLAN),
                  ("a negative radius", [self.item(-0.1, y=0.1), self.item(0.0)], Codes.INVALID_MOTION_PLAN),
-                 ("radii that overlap", [self.item(0.06, y=0.1), self.item(0.06, y=0.1, z=-0.1), self.item(0.0, z=-0.1)], Codes.INVALID_MOTION_PLAN),
+                 ("radii that overlap", [self.item(0.06, y=0.1), self.item(0.06, y=0.1, z=-0.1), self.item(0.0, z=-0.1)],
+                  Codes.INVALID_MOTION_PLAN),
                  ("out of reach", [self.item(0.0, y=0.1), self.item(0.0, x=5.0)], Codes.NO_IK_SOLUTION),
                  ("no pipeline", [self.item(0.0, y=0.1, pipeline_id="magic"), self.item(0.0)], Codes.FAILURE)]
         for name, items, code in cases:
@@ -246,7 +250,8 @@ class Sequences(unittest.TestCase):
 class Lines(unittest.TestCase):
     def ask(self, *waypoints, **fields):
         return call("compute_cartesian_path", GetCartesianPath, GetCartesianPathRequest(
-            group_name="manipulator", start_state=state_of(HOME), waypoints=list(waypoints), max_step=0.01, **{"link_name": "hand", **fields}))
+            group_name="manipulator", start_state=state_of(HOME), waypoints=list(waypoints), max_step=0.01,
+            **{"link_name": "hand", **fields}))
 
     def turned(self, angle, axis=(0, 0, 1)):
         there = place(HOME)

@@ -16,7 +16,8 @@ CODES: Dict[str, int] = {
     "solved": 1, "approximate": -1, "timeout": -6, "cancelled": -7, "invalid_group": -15, "invalid_start": -26,
     "start_in_collision": -10, "start_violates_path_constraints": -11, "no_goal": -16, "invalid_goal": -27,
     "goal_in_collision": -27, "goal_violates_path_constraints": -27, "no_ik": -27, "unknown_link": -16, "unknown_frame": -21,
-    "unknown_planner": -1, "invalid_plan": -2, "invalid_request": -16, "invalid_state": -17, "invalid_link": -18, "failed": -1, "no_ik_solution": -31}
+    "unknown_planner": -1, "invalid_plan": -2, "invalid_request": -16, "invalid_state": -17, "invalid_link": -18,
+    "failed": -1, "no_ik_solution": -31}
 
 
 @dataclass(frozen=True)

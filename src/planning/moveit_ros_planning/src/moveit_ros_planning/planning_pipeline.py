@@ -200,8 +200,8 @@ class Pipeline:
                  for name, given in (("trajectory_constraints", message.trajectory_constraints.constraints),
                                      ("reference_trajectories", message.reference_trajectories)) if given]
         if message.max_cartesian_speed > 0 and "LimitMaxCartesianLinkSpeed" not in self._adapters.adapters:
-            lines.append("the request has max_cartesian_speed, which is ignored: request_adapters of "
-                         f"{rospy.resolve_name(self.namespace.rstrip('/'))} has no default_planner_request_adapters/LimitMaxCartesianLinkSpeed")
+            lines.append("the request has max_cartesian_speed, which is ignored: there is no default_planner_request_adapters/"
+                         f"LimitMaxCartesianLinkSpeed in {rospy.resolve_name(self.namespace + 'request_adapters')}")
         return lines
 
     def _check_group(self, group: str) -> None:
