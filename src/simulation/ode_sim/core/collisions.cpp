@@ -109,12 +109,49 @@ std::pair<dGeomID, dGeomID> geoms_of(const Shape& a, const Shape& b) {
 
 constexpr int kMostFound = 250;
 
+// What Gazebo's broad phase sorts a model by: the power of two above its largest extent, m; links that collide with their own model alone.
+int size_class(const Link& link) {
+  constexpr int kLeast = -2, kMost = 8;  // of the levels of its hash space
+  double low[3] = {kInf, kInf, kInf}, high[3] = {-kInf, -kInf, -kInf};
+  for (auto& l : link.model->links) {
+    if (l->self_collide ? l.get() != &link : link.self_collide) continue;
+    for (auto& s : l->shapes) {
+      dReal box[6];
+      dGeomGetAABB(s->geom, box);
+      for (int i = 0; i < 3; ++i) low[i] = std::min(low[i], box[2 * i]), high[i] = std::max(high[i], box[2 * i + 1]);
+    }
+  }
+  const double side = std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
+  if (!std::isfinite(side)) return kMost + 1;
+  int exponent = 0;
+  std::frexp(side, &exponent);
+  return std::min(std::max(exponent, kLeast), kMost + 1);
+}
+
+// Of two shapes, that of the smaller model comes first in Gazebo, else what is static, else the newer one (the older one until something
+// has moved): contacts come in another order then, and with them the rows of the solver.
+bool second_is_first_in_gazebo(const Shape& a, const Shape& b, bool nothing_has_moved) {
+  const int of_a = size_class(*a.link), of_b = size_class(*b.link);
+  if (of_a != of_b) return of_b < of_a;
+  if (a.link->model->is_static != b.link->model->is_static) return b.link->model->is_static;
+  return nothing_has_moved ? b.id < a.id : b.id > a.id;
+}
+
+int collide_as_gazebo(const Scene& scene, const Shape& a, const Shape& b, dGeomID ga, dGeomID gb, dContactGeom* found) {
+  if (!second_is_first_in_gazebo(a, b, scene.iterations == 0)) return dCollide(ga, gb, kMostFound, found, sizeof found[0]);
+  const int n = std::min(dCollide(gb, ga, kMostFound, found, sizeof found[0]), kMostFound);
+  for (int i = 0; i < n; ++i)
+    for (dReal& x : found[i].normal) x = -x;
+  return n;
+}
+
 int find_contacts(Scene& scene, const Shape& a, const Shape& b, dContactGeom* found) {
   if (scene.separations.apart(a, b)) return 0;
   try {
     const auto [ga, gb] = geoms_of(a, b);
+    if (scene.settings.like_gazebo) return std::min(collide_as_gazebo(scene, a, b, ga, gb, found), kMostFound);
     const int n = std::min(dCollide(ga, gb, kMostFound, found, sizeof found[0]), kMostFound);
-    return n == 0 && !scene.settings.like_gazebo ? missed_contacts(ga, gb, found) : n;
+    return n == 0 ? missed_contacts(ga, gb, found) : n;
   } catch (const OdeFailure& failure) {
     const Model &ma = *a.link->model, &mb = *b.link->model;
     scene.messages.report(std::string(failure.what()) + "; they do not touch in this step",

@@ -239,13 +239,19 @@ class Rows {
     }
   }
 
+  // Gazebo's ODE takes a body's joints newest first, from the newest body on: the contacts of what was made last come first.
   void add_contacts() {
-    for (auto& c : state_.contacts) {
-      if (!c.joint || !take(c.joint, {}, {}, c.fastest)) continue;
-      const size_t from = rows.size();
-      add_contact_rows(rows, bodies_, pair_, state_.ode_contacts[c.row], set_);
-      owners.push_back({c.feedback >= 0 ? &state_.feedback[c.feedback] : nullptr, nullptr, from, rows.size()});
-    }
+    if (set_.like_gazebo)
+      for (auto c = state_.contacts.rbegin(); c != state_.contacts.rend(); ++c) add_contact(*c);
+    else
+      for (auto& c : state_.contacts) add_contact(c);
+  }
+
+  void add_contact(const Contact& c) {
+    if (!c.joint || !take(c.joint, {}, {}, c.fastest)) return;
+    const size_t from = rows.size();
+    add_contact_rows(rows, bodies_, pair_, state_.ode_contacts[c.row], set_);
+    owners.push_back({c.feedback >= 0 ? &state_.feedback[c.feedback] : nullptr, nullptr, from, rows.size()});
   }
 };
 

@@ -66,9 +66,13 @@ def test_a_robot_drives_and_its_contacts_carry_it():
             world.watch_contacts(collision)
     for joint in robot.joints.values():
         joint.set_motor(4.0, 5.0)
-    world.step(3000)
+    world.step(2800)
+    forces = []
+    for _ in range(200):  # from step to step they come and go between wheels and casters
+        world.step()
+        forces.append(-world.contacts()["force"][:, 2].sum())
     assert robot.twist().linear[0] == pytest.approx(0.2, rel=0.03)
-    assert -world.contacts()["force"][:, 2].sum() == pytest.approx(5.6 * G, rel=0.03)
+    assert np.mean(forces) == pytest.approx(5.6 * G, rel=0.03)
 
 
 def test_overlap_is_undone_at_once_and_leaves_no_speed():
@@ -147,3 +151,34 @@ def test_of_two_that_move_the_slower_and_less_tolerant_counts_and_the_last_colli
     assert comes_up(LOOSE, {}) == pytest.approx(0.01, abs=0.03) and comes_up({}, LOOSE) == pytest.approx(0.01, abs=0.03)
     assert comes_up(LOOSE, LOOSE, last={}) == pytest.approx(0.01, abs=0.03)
     assert comes_up({}, LOOSE, last=LOOSE) > 5.0
+
+
+def cubes(count, masses=None):
+    """Gazebo 11.1.0 was given the same: cubes of 0.2 m on each other, friction 1, on the stock ground plane."""
+    world = ode_sim.World()
+    world.physics.solver = "gazebo"
+    world.spawn(ground())
+    return world, [world.spawn(box(f"s{i}", at=(0, 0, round(0.2 * (i + 0.5), 9)), size=(0.2, 0.2, 0.2), mass=(masses or [1.0] * count)[i]))
+                   for i in range(count)]
+
+
+def test_a_stack_leans_as_it_does_in_gazebo():
+    """It should stand straight: which way the iterations move it follows from the order of bodies, pairs and contacts alone."""
+    world, stack = cubes(3)
+    world.step(4900)
+    assert np.hypot(*stack[2].pose.p[:2]) == pytest.approx(0.042, abs=0.01)  # the last bits decide about the rest
+    assert stack[2].pose.p[2] == pytest.approx(0.5, abs=1e-3)
+
+
+@pytest.mark.parametrize("count", [5, 7])
+def test_stacks_that_stand_in_gazebo_stand(count):
+    world, stack = cubes(count)
+    world.step(4900)
+    assert stack[-1].pose.p[2] == pytest.approx(0.2 * count - 0.1, abs=1e-3)
+
+
+def test_a_heavy_cube_falls_from_a_light_one_when_it_does_in_gazebo():
+    world, (_, heavy) = cubes(2, [1.0, 100.0])
+    while heavy.pose.p[2] > 0.2 and world.time < 1.0:
+        world.step()
+    assert world.time == pytest.approx(0.244, rel=0.02)
