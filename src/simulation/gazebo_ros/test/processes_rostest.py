@@ -212,7 +212,7 @@ class Masters(test_support.TestCase):
                 return subprocess.run(words, env=server.environment, text=True, capture_output=True, timeout=60)
 
             wait_until(lambda: "/gazebo/parameter_updates" in known()[0])
-            self.assertIn("success: True", command("rosservice", "call", "/gazebo/set_physics_properties", PHYSICS).stdout)
+            wait_until(lambda: "success: True" in command("rosservice", "call", "/gazebo/set_physics_properties", PHYSICS).stdout)
             before = known()
             self.assertEqual((before[3]["use_sim_time"], before[3]["gazebo"]["gravity_z"]), (True, -1.5))
             process.send_signal(signal.SIGSTOP)
