@@ -59,7 +59,8 @@ def test_a_script_that_is_not_executable(package):
 @pytest.mark.parametrize("name, told", [
     ("arm.launch", "That is a launch file: roslaunch my_arm arm.launch"), ("arm", "That is a launch file: roslaunch my_arm arm.launch"),
     ("arm.test", "That is a test: rostest my_arm arm.test"), ("room.world", "world_name:={path}"), ("arm.rviz", "rviz -d {path}"),
-    ("arm.urdf", "check_urdf {path}; into a simulation: rosrun gazebo_ros spawn_model -urdf -file {path}"), ("arm.urdf.xacro", "xacro {path}"),
+    ("arm.urdf", "check_urdf {path}; into a simulation: rosrun gazebo_ros spawn_model -urdf -file {path}"),
+    ("arm.urdf.xacro", "xacro {path}"),
     ("Move.srv", "rossrv show my_arm/Move"), ("Pose.msg", "rosmsg show my_arm/Pose"), ("Grip.action", "rosmsg show my_arm/GripGoal"),
     ("gains.yaml", "rosparam load {path}"), ("arm.launch.py", "a launch file of ROS 2; this is ROS 1"),
     ("move.py", "Such a file is there and is not executable: chmod +x {path}")])

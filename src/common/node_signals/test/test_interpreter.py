@@ -83,7 +83,8 @@ def test_a_first_line_that_names_what_is_not_there(tmp_path, debian, monkeypatch
     environment = {"PATH": f"{debian}:/usr/bin:/bin"}
     supply_python(environment)
     monkeypatch.setenv("PATH", environment["PATH"])
-    with pytest.raises(OSError) if b"env" not in first or first[:1] == b"\xef" else contextlib.nullcontext():  # as it stands it cannot be started
+    unknown = b"env" not in first or first[:1] == b"\xef"
+    with pytest.raises(OSError) if unknown else contextlib.nullcontext():  # as it stands it cannot be started
         assert subprocess.run([tmp_path / "node"], env=environment, capture_output=True).returncode == 127
     words, line = as_it_can_run(str(tmp_path / "node"))
     answer = subprocess.run([*words, "a b"], env=environment, capture_output=True, text=True, timeout=60)
@@ -92,8 +93,8 @@ def test_a_first_line_that_names_what_is_not_there(tmp_path, debian, monkeypatch
     assert told in said and (said.count("it runs") == 1 if told else said == "")
 
 
-@pytest.mark.parametrize("first", [b"#!/usr/bin/env python3\n", b"#!/bin/sh\n", b"#!/usr/bin/python3 -u\n", b"\x7fELF\r\n", b"import rospy\n",
-                                   b"#!/usr/bin/perl\n", b"#!\n", b""])
+@pytest.mark.parametrize("first", [b"#!/usr/bin/env python3\n", b"#!/bin/sh\n", b"#!/usr/bin/python3 -u\n", b"\x7fELF\r\n",
+                                   b"import rospy\n", b"#!/usr/bin/perl\n", b"#!\n", b""])
 def test_what_can_be_started_is_left_to_the_kernel(tmp_path, first):
     (tmp_path / "node").write_bytes(first)
     assert as_it_can_run(str(tmp_path / "node")) == ([str(tmp_path / "node")], "")

@@ -30,8 +30,8 @@ def told():
 def test_one_line_says_what_to_build(package, path, wrapped):
     text = LIBRARY.format(path=path)
     (package / "plugins.xml").write_text(f"<class_libraries>{text}</class_libraries>" if wrapped else text)
-    assert told() == ("rviz: my_displays/Arc, my::Pick of the package my_displays cannot be added, its library libmy_displays is not built: "
-                      "catkin build my_displays\n")
+    assert told() == ("rviz: my_displays/Arc, my::Pick of the package my_displays cannot be added, its library libmy_displays is not "
+                      "built: catkin build my_displays\n")
 
 
 @pytest.mark.parametrize("place", ["devel/lib", "libraries", "src/my_displays/lib"])

@@ -50,7 +50,8 @@ SCRIPTS = {
     "import numpy as np; a = np.array([[1, 2], [3]]); print(a.dtype, a.shape, np.asarray([[1], 2]).dtype)": "object (2,) object",
     "import numpy as np; print(np.linspace(0, 1, 3.0), np.mat([1]).shape, np.msort([[3, 1], [1, 2]]).tolist(), np.round_(1.4), np.NAN)":
         "[0.  0.5 1. ] (1, 1) [[1, 1], [3, 2]] 1.0 nan",
-    "import numpy as np; a = np.arange(3); a.itemset(0, 5); print(a.ptp(), np.cast['int32'](2.5), np.array(a, copy=False) is a)": "4 2 True",
+    "import numpy as np; a = np.arange(3); a.itemset(0, 5); print(a.ptp(), np.cast['int32'](2.5), np.array(a, copy=False) is a)":
+        "4 2 True",
     "import numpy as np; print(np.fromstring(b'ab', dtype=np.uint8), np.VisibleDeprecationWarning.__name__, np.float_ is np.float64)":
         "[97 98] VisibleDeprecationWarning True",
     "from numpy.core.umath_tests import inner1d; print(inner1d([[1, 2]], [[3, 4]]))": "[11]",
@@ -59,7 +60,8 @@ SCRIPTS = {
     " i.cumtrapz([1, 2]), i.trapz([1, 2]), round(i.romberg(lambda x: x, 0, 1), 9))": "21.166666667 16.895833333 [1.5] 1.5 0.5",
     "from scipy.signal import gaussian, hanning, ricker, cwt; print(len(gaussian(5, 1)), hanning(3).tolist(), round(ricker(5, 1.5)[1], 9),"
     " cwt([0, 1, 2, 3, 4, 5], ricker, [1])[0, 0].round(6))": "5 [0.0, 1.0, 0.0] 0.315031427 -0.752104",
-    "from scipy.spatial.transform import Rotation as R; print(R.from_dcm([[0, -1, 0], [1, 0, 0], [0, 0, 1]]).as_dcm()[1, 0].round(9))": "1.0",
+    "from scipy.spatial.transform import Rotation as R; print(R.from_dcm([[0, -1, 0], [1, 0, 0], [0, 0, 1]]).as_dcm()[1, 0].round(9))":
+        "1.0",
     "from scipy.interpolate import interp2d; f = interp2d([0, 1, 2], [0, 1], [[0, 1, 2], [1, 2, 3]]); print(f(0.5, 0.5).round(9),"
     " f([0, 1], [0, 1]).round(9).tolist())": "[1.] [[0.0, 1.0], [1.0, 2.0]]",
     "from scipy.misc import derivative; import math; print(round(derivative(math.exp, 1, dx=.1, n=2, order=5), 9))": "2.718278805",
@@ -72,7 +74,8 @@ SCRIPTS = {
     PLOT + "p.style.use('seaborn'); p.style.use('seaborn-whitegrid'); p.gca().xaxis.get_major_ticks()[0].label.set_fontsize(8);"
     "f = p.figure(figsize=(2, 1), dpi=50); f.canvas.draw(); print(len(f.canvas.tostring_rgb()), m.cm.get_cmap('jet').name)": "15000 jet",
     PLOT + "from mpl_toolkits.mplot3d import Axes3D, proj3d; from matplotlib.patches import FancyArrowPatch\n"
-    "class Arrow(FancyArrowPatch):\n  def draw(self, renderer):\n    print(len(proj3d.proj_transform([0, 1], [0, 1], [0, 1], renderer.M)))\n"
+    "class Arrow(FancyArrowPatch):\n  def draw(self, renderer):\n"
+    "    print(len(proj3d.proj_transform([0, 1], [0, 1], [0, 1], renderer.M)))\n"
     "f = p.figure(); a = Axes3D(f); print(f.axes == [a]); a.w_xaxis.set_pane_color((1, 1, 1, 1))\n"
     "a.add_artist(Arrow((0, 0), (0, 0), mutation_scale=20)); f.canvas.draw(); g = p.figure(); g.add_subplot(111, projection='3d');"
     "print(len(g.axes))": "True\n3\n1",
@@ -86,7 +89,8 @@ atexit.register(shutil.rmtree, CACHE)
 
 def run(script, *folders):
     ended = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=120,
-                           env={"PATH": "/usr/bin:/bin", "HOME": "/nonexistent", "MPLCONFIGDIR": CACHE, "PYTHONPATH": ":".join(map(str, folders))})
+                           env={"PATH": "/usr/bin:/bin", "HOME": "/nonexistent", "MPLCONFIGDIR": CACHE,
+                                "PYTHONPATH": ":".join(map(str, folders))})
     ended.stderr = "".join(line for line in ended.stderr.splitlines(True) if "font cache" not in line)
     return ended
 
@@ -126,7 +130,8 @@ def test_what_noetic_refuses_is_refused(script, refused):
 
 
 def test_a_module_that_is_gone_is_told_with_who_has_it():
-    script = "import sitecustomize; sitecustomize.GONE['gone'] = 'python3-gone'\ntry:\n  import gone\nexcept ImportError as error:\n  print(error)"
+    script = ("import sitecustomize; sitecustomize.GONE['gone'] = 'python3-gone'\n"
+              "try:\n  import gone\nexcept ImportError as error:\n  print(error)")
     assert run(script, FOLDER).stdout == "No module named 'gone': Python has dropped it; sudo apt install python3-gone\n"
 
 

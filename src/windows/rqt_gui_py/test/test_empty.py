@@ -22,8 +22,8 @@ def notice(gui):
 
 def watch(gui):
     """The part of the provider that looks at the time."""
-    found = [provider._clock for provider in gui.plugins._provider._plugin_providers for provider in getattr(provider, "_plugin_providers", [])
-             if getattr(provider, "_clock", None) is not None]
+    inner = [one for provider in gui.plugins._provider._plugin_providers for one in getattr(provider, "_plugin_providers", [])]
+    found = [provider._clock for provider in inner if getattr(provider, "_clock", None) is not None]
     assert len(found) == 1
     return found[0]
 

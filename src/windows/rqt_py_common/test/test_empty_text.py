@@ -29,14 +29,14 @@ def test_the_text_is_there_as_long_as_there_is_nothing_else(kind):
     assert text.label.isVisible()
     view.close()
     view.deleteLater()
-    del view
     process_events()
     assert errors == []
 
 
 @pytest.mark.parametrize("plugin, told", [
     ("rqt_console", "No message has come yet"), ("rqt_publisher", "Choose a topic above"), ("rqt_robot_monitor", "diagnostic_aggregator"),
-    ("rqt_rosmon", "mon launch"), ("rqt_controller_manager", "start a robot with a controller_manager"), ("rqt_logger_level", "Choose a node")])
+    ("rqt_rosmon", "mon launch"), ("rqt_controller_manager", "start a robot with a controller_manager"),
+    ("rqt_logger_level", "Choose a node")])
 def test_windows_that_are_empty_speak(plugin, told):
     rospy_without_master()
     from python_qt_binding.QtWidgets import QLabel

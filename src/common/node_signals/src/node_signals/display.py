@@ -103,7 +103,7 @@ def main() -> None:
         programs.run(words)
     try:
         if os.path.basename(words[0]) == "rviz":
-            rviz_displays.start()
+            rviz_displays.start(words)
             rviz_start.run([program, *words[1:]])
         os.execv(program, [program, *words[1:]])
     except OSError as error:

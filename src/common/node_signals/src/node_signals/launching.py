@@ -182,7 +182,8 @@ def _refuse_programs(words) -> None:
     if files and files[-1].endswith((".py", ".sh")):
         package = files[0] if len(files) == 2 else "PACKAGE"
         of_ros_2 = no_program(Path(files[-1]), package)
-        sys.exit(f"roslaunch: {files[-1]} is no launch file. {of_ros_2 or f'Programs are started by: rosrun {package} {os.path.basename(files[-1])}'}")
+        program = f"Programs are started by: rosrun {package} {os.path.basename(files[-1])}"
+        sys.exit(f"roslaunch: {files[-1]} is no launch file. {of_ros_2 or program}")
 
 
 def main() -> None:

@@ -78,7 +78,7 @@ def run(words: List[str]) -> None:
             print(f"rosrun: {difference}", file=sys.stderr, flush=True)
         line = [*asked.prefix.split(), *program, *asked.arguments]
         if asked[:3] == ("", "rviz", "rviz"):
-            rviz_displays.start()
+            rviz_displays.start(line)
             rviz_start.run(line)
         with contextlib.suppress(OSError):  # a script without its first line, a prefix that is no program: the shell's own way with them
             os.execvp(line[0], line)

@@ -13,20 +13,23 @@ from typing import Iterator, List
 from xml.etree import ElementTree
 
 
-def start() -> None:
-    """Look in a process of its own, which nobody has to wait for."""
+def start(words: List[str]) -> None:
+    """Look in a process of its own, which nobody has to wait for. :param words: rviz's; those that open no window want no look"""
+    if {"--help", "-h"} & set(words):
+        return
     subprocess.run(["sh", "-c", '"$0" -m node_signals.rviz_displays &', sys.executable], check=False)
 
 
 def unbuilt() -> List[str]:
     """A line for each library that is declared and is nowhere."""
-    found = subprocess.run(["rospack", "plugins", "--attrib=plugin", "rviz"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+    found = subprocess.run(["rospack", "plugins", "--attrib=plugin", "rviz"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
+                           text=True)
     lines = []
     for package, _, path in (line.partition(" ") for line in found.stdout.splitlines()):
         for library, names in _declared(Path(path)):
             if names and not any(place.exists() for place in _places(library, Path(path).parent)):
-                lines.append(f"rviz: {', '.join(names)} of the package {package} cannot be added, its library {os.path.basename(library)} is "
-                             f"not built: catkin build {package}")
+                lines.append(f"rviz: {', '.join(names)} of the package {package} cannot be added, its library "
+                             f"{os.path.basename(library)} is not built: catkin build {package}")
     return lines
 
 

@@ -32,9 +32,11 @@ def treeFromUrdfModel(robot_model: URDF, quiet: bool = False) -> Tuple[bool, PyK
     tree = PyKDL.Tree(root)
     waiting = list(robot_model.child_map.get(root, []))
     for joint, child in waiting:
-        segment = PyKDL.Segment(child, _joint(robot_model.joint_map[joint]), _frame(robot_model.joint_map[joint].origin),
-                                _inertia(robot_model.link_map[child].inertial) if child in robot_model.link_map else PyKDL.RigidBodyInertia(0))
-        if child not in robot_model.link_map or not tree.addSegment(segment, robot_model.joint_map[joint].parent):
+        described = robot_model.joint_map[joint]
+        if child not in robot_model.link_map:
+            return False, tree
+        segment = PyKDL.Segment(child, _joint(described), _frame(described.origin), _inertia(robot_model.link_map[child].inertial))
+        if not tree.addSegment(segment, described.parent):
             return False, tree
         waiting += robot_model.child_map.get(child, [])
     return True, tree

@@ -132,7 +132,8 @@ class _Handler(BaseHTTPRequestHandler):
         if kind in _PICTURES[wanted != asked.topic]:
             return asked
         if kind:
-            raise BadRequest(f"{wanted} has messages of {shown(kind)}, which are no pictures; wanted is {_PICTURES[wanted != asked.topic][0]}")
+            raise BadRequest(f"{wanted} has messages of {shown(kind)}, which are no pictures; wanted is "
+                             f"{_PICTURES[wanted != asked.topic][0]}")
         images = ", ".join(sorted(name for name, kind in kinds.items() if kind == "sensor_msgs/Image")) or "none"
         raise BadRequest(f"nobody publishes {wanted}; image topics: {images}")
 

@@ -5,8 +5,8 @@ from noetic_names import add, add_to_compiled, aliases, without
 
 #: Names of NumPy 1.17, by what they stood for; the second half went with NumPy 2.
 _NUMPY = {"cumproduct": "cumprod", "product": "prod", "sometrue": "any", "alltrue": "all", "float_": "float64", "complex_": "complex128",
-          "unicode_": "str_", "string_": "bytes_", "Inf": "inf", "Infinity": "inf", "PINF": "inf", "infty": "inf", "NaN": "nan", "NAN": "nan",
-          "in1d": "isin", "row_stack": "vstack", "trapz": "trapezoid", "mat": "asmatrix", "round_": "round", "bool8": "bool_",
+          "unicode_": "str_", "string_": "bytes_", "Inf": "inf", "Infinity": "inf", "PINF": "inf", "infty": "inf", "NaN": "nan",
+          "NAN": "nan", "in1d": "isin", "row_stack": "vstack", "trapz": "trapezoid", "mat": "asmatrix", "round_": "round", "bool8": "bool_",
           "int0": "intp", "uint0": "uintp", "str0": "str_", "bytes0": "bytes_", "object0": "object_", "void0": "void",
           "cfloat": "complex128", "singlecomplex": "complex64", "clongfloat": "clongdouble", "longcomplex": "clongdouble",
           "longfloat": "longdouble", "typeDict": "sctypeDict", "rank": "ndim"}
@@ -205,7 +205,7 @@ def _misc(module):
     def derivative(func, x0, dx=1.0, n=1, args=(), order=3):
         """The ``n``-th derivative of ``func`` at ``x0`` by central differences over ``order`` points."""
         if order < n + 1 or order % 2 == 0:
-            raise ValueError("'order' (the number of points used to compute the derivative) must be odd and at least the derivative's order + 1")
+            raise ValueError("'order', the number of points, must be odd and at least the derivative's order + 1")
         weights = central_diff_weights(order, n)
         return sum(w * func(x0 + (k - (order >> 1)) * dx, *args) for k, w in enumerate(weights)) / dx ** n
     add(module, central_diff_weights=central_diff_weights, derivative=derivative)

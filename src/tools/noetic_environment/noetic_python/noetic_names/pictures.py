@@ -35,8 +35,8 @@ def _cv2(module):
 
 
 def _aruco(cv2, aruco):
-    aliases(aruco, Dictionary_get="getPredefinedDictionary", drawMarker="generateImageMarker", DetectorParameters_create="DetectorParameters",
-            Dictionary_create="extendDictionary")
+    aliases(aruco, Dictionary_get="getPredefinedDictionary", drawMarker="generateImageMarker",
+            DetectorParameters_create="DetectorParameters", Dictionary_create="extendDictionary")
     add(aruco, drawAxis=lambda *arguments: cv2.drawFrameAxes(*arguments),
         CharucoBoard_create=lambda x, y, square, marker, dictionary: aruco.CharucoBoard((x, y), square, marker, dictionary),
         GridBoard_create=lambda x, y, length, separation, dictionary, first=0: aruco.GridBoard(

@@ -38,7 +38,7 @@ class ControllerManager(Plugin):
         self.manager_box.currentTextChanged.connect(self._manager_changed)
         self.table = QTableWidget(0, 2)
         self.table.setObjectName("table_view")
-        EmptyText(self.table, "No controllers: start a robot with a controller_manager, or load controllers by the menu of the right button.")
+        EmptyText(self.table, "No controllers: start a robot with a controller_manager, or load controllers by the right button.")
         self.table.setHorizontalHeaderLabels(("controller", "state"))
         self.table.horizontalHeader().setSectionResizeMode(0, QHeaderView.ResizeMode.Stretch)
         self.table.verticalHeader().setVisible(False)
