@@ -7,8 +7,8 @@ import multiprocessing
 import os
 from typing import Dict, List, Tuple
 
-from real_gazebo.compare import Result, compare, number, told
-from real_gazebo.records import path_of
+from real_gazebo.compare import Result, compare, measured, number, told
+from real_gazebo.records import Record, path_of
 from real_gazebo.scene import Scene
 from real_gazebo.scenes import SCENES
 
@@ -83,6 +83,12 @@ def section(scene: Scene, results: List[Result]) -> List[str]:
     return lines + [""] + [f"* {cause}" for cause in causes] + ([""] if causes else [])
 
 
+def real_section(scene: Scene) -> List[str]:
+    record = Record.read(path_of(scene.name))
+    values = "; ".join(f"{row.quantity} {number(measured(row, record))}" for row in scene.rows)
+    return [f"* `{scene.name}`: {scene.what}. {values}."]
+
+
 def values_of(name: str) -> List[Tuple[float, Dict[str, float]]]:
     """Of each row of a scene: real Gazebo's and ours."""
     return [(result.real, result.ours) for result in compare(next(scene for scene in SCENES if scene.name == name))]
@@ -93,9 +99,13 @@ def write(tell=print) -> str:
     families: Dict[str, List[str]] = {}
     counts = {solver: [0, 0] for solver in ("gazebo", "default")}
     scenes = [scene for scene in SCENES if os.path.exists(path_of(scene.name))]
+    alone: List[Scene] = []
     with multiprocessing.Pool() as pool:
         for scene, values in zip(scenes, pool.imap(values_of, [scene.name for scene in scenes])):
             results = [Result(scene, row, *of_row) for row, of_row in zip(scene.rows, values)]
+            if all(math.isnan(value) for result in results for value in result.ours.values()):
+                alone.append(scene)  # it could not be run here
+                continue
             for result in results:
                 tell(told(scene, result))
             for solver, count in counts.items():
@@ -106,9 +116,17 @@ def write(tell=print) -> str:
         f"| `{solver}` against {'real Gazebo' if solver == 'gazebo' else 'the laws'} | {rows} | {good} | {rows - good} |"
         for solver, (rows, good) in counts.items()
     )
-    lines = [HEAD.format(scenes=len(scenes), summary=summary)]
+    lines = [HEAD.format(scenes=len(scenes) - len(alone), summary=summary)]
     for family, text in families.items():
         lines += [f"## {TITLES.get(family, family)}", ""] + text
+    if alone:
+        lines += [
+            "## Recorded, and not run here",
+            "",
+            "What real Gazebo did; this simulator was not run beside it when the page was written.",
+            "",
+        ]
+        lines += [line for scene in alone for line in real_section(scene)]
     with open(PAGE, "w", encoding="utf-8") as file:
         file.write("\n".join(lines).rstrip() + "\n")
     return f"{os.path.relpath(PAGE, ROOT)}: {len(scenes)} scenes, {counts}"

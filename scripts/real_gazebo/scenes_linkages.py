@@ -243,8 +243,8 @@ def bears(name, kind, parts, *, tilt="0 0 0", law=""):
         Row(
             f"{what} {c} on body {b + 1} at 1 s",
             lambda r, i=6 * b + 3 * k + n: r.wrench("p::j1", i, 1.0),
-            gazebo=(2e-3, 5e-3),
-            default=(2e-3, 2e-2),
+            gazebo=(1e-2, 0.1),
+            default=(1e-2, 0.1),
         )
         for b in (0, 1)
         for k, what in enumerate(("force", "torque"))

