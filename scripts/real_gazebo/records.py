@@ -134,6 +134,11 @@ class Record:
             return float(rows[-1, 1 + component])
         return float(np.interp(time, rows[:, 1], rows[:, 1 + component]))
 
+    def last(self, beginning: str) -> List[float]:
+        """The last row of the first name that begins so, time first; also where rows are of different lengths."""
+        rows = next(rows for named in (self.series, self.words) for name, rows in named.items() if name.startswith(beginning))
+        return [float(value) for value in rows[-1]]
+
     def contacts_at(self, time: float):
         """[(pair of collisions, (position 3, normal 3, depth, force 3 and torque 3 on the first))] of one moment."""
         return [

@@ -322,13 +322,13 @@ sensors(
         ),
         Row(
             "force z of the first point on the first body, N",
-            lambda r: next(float(r.series[n][-1][11]) for n in r.series if n.startswith("sensor:m::l::s.")),
+            lambda r: r.last("sensor:m::l::s.")[11],
             gazebo=(2e-2, 0.05),
             default=(2e-2, 0.05),
         ),
         Row(
             "normal z of the first point",
-            lambda r: next(float(r.series[n][-1][7]) for n in r.series if n.startswith("sensor:m::l::s.")),
+            lambda r: r.last("sensor:m::l::s.")[7],
             gazebo=(1e-3, 0),
             default=(1e-3, 0),
         ),
@@ -364,7 +364,7 @@ sensors(
         ),
         Row(
             "force z of the first point on the first body, N",
-            lambda r: next(float(r.series[n][-1][11]) for n in r.series if n.startswith("sensor:m::l::s.")),
+            lambda r: r.last("sensor:m::l::s.")[11],
             gazebo=(0.5, 0.5),
             default=(0.5, 0.5),
         ),
