@@ -79,8 +79,9 @@ def test_a_launch_file_that_requires_it_survives_the_crash(tmp_path):
     (programs / "rviz").chmod(0o755)
     launch = tmp_path / "a.launch"
     launch.write_text('<launch><node pkg="rviz" type="rviz" name="rviz" required="true"/></launch>')
-    variables = {**os.environ, "QT_QPA_PLATFORM": "offscreen", "ROS_PACKAGE_PATH": str(tmp_path / "ws/share"), "CMAKE_PREFIX_PATH": str(tmp_path / "ws"),
-                 "ROS_HOME": str(tmp_path), "ROS_MASTER_URI": "http://localhost:11987", "PYTHONPATH": f"{SOURCES}:{os.environ.get('PYTHONPATH', '')}"}
+    variables = {**os.environ, "QT_QPA_PLATFORM": "offscreen", "ROS_PACKAGE_PATH": str(tmp_path / "ws/share"),
+                 "CMAKE_PREFIX_PATH": str(tmp_path / "ws"), "ROS_HOME": str(tmp_path), "ROS_MASTER_URI": "http://localhost:11987",
+                 "PYTHONPATH": f"{SOURCES}:{os.environ.get('PYTHONPATH', '')}"}
     with subprocess.Popen([sys.executable, BIN / "roslaunch", "--port", "11987", launch], env=variables, stdout=subprocess.PIPE,
                           stderr=subprocess.STDOUT, text=True) as running:
         deadline = time.monotonic() + 120

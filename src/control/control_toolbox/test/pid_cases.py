@@ -46,8 +46,8 @@ CASES = [
     Case("a derivative of the caller's", ALL, [(1.0, 3.0, 0.5, 2.0 + 2.0 + 24.0), (1.0, -1.0, 0.5, 2.0 + 4.0 - 8.0)]),
     Case("one that is no number: nothing", ALL, [(1.0, nan, 0.5, 0.0), (1.0, -inf, 0.5, 0.0), (1.0, 0.0, 0.5, 2.0 + 2.0)]),
     Case("after a reset as at first", ALL, [(1.0, 0.5, 20.0), "reset", (1.0, 0.5, 20.0)]),
-    Case("after a reset with a past that derivative, then quotients", ALL, [(1.0, 0.5, 20.0), ("past", 0.25, 1.0),
-                                                                            (1.0, 0.5, 2.0 + 4.0 * 1.5 + 2.0), (1.0, 0.5, 2.0 + 4.0 * 2.0)]),
+    Case("after a reset with a past that derivative, then quotients", ALL,
+         [(1.0, 0.5, 20.0), ("past", 0.25, 1.0), (1.0, 0.5, 2.0 + 4.0 * 1.5 + 2.0), (1.0, 0.5, 2.0 + 4.0 * 2.0)]),
     Case("a command that overflows is none", Gains(10.0), [(1e308, 1.0, 0.0), (1.0, 1.0, 10.0)]),
     Case("an integral that overflows begins at 0 again", Gains(0.0, 1.0, 0.0, inf, -inf), [(1e308, 10.0, 0.0), (1.0, 1.0, 1.0)]),
 ]

@@ -83,8 +83,9 @@ py::list violations(const RobotState& s, const std::optional<std::string>& group
       const VariableBounds& b = joint.bounds[k];
       const double value = s.joint(joint)[k];
       const bool heading = joint.type == JointType::Planar && k == 2;
-      if (!std::isfinite(value) || (heading ? std::abs(value) > M_PI + 1e-9 + margin
-                                            : b.has_position && (value < b.min_position - margin || value > b.max_position + margin)))
+      if (!std::isfinite(value) ||
+          (heading ? std::abs(value) > M_PI + 1e-9 + margin
+                   : b.has_position && (value < b.min_position - margin || value > b.max_position + margin)))
         out.append(py::make_tuple(joint.variables[k], value, b.min_position, b.max_position));
     }
   }

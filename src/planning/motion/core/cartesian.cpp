@@ -11,7 +11,7 @@ namespace motion
 namespace
 {
 constexpr int MIN_STEPS_FOR_JUMPS = 10;  // fewer say nothing of the mean
-constexpr double TURN_PER_METRE = 3.5;  // rad of a step for each metre of its longest way, as upstream: 2 degrees for 1 cm
+constexpr double TURN_PER_METRE = 3.5;   // rad of a step for each metre of its longest way, as upstream: 2 degrees for 1 cm
 constexpr std::size_t MOST_STEPS = 200000;
 constexpr int ATTEMPTS = 6;
 constexpr double BESIDE = 0.02, NEAR = 0.5;  // rad or m
@@ -67,8 +67,8 @@ private:
     const double wanted =
         std::floor(std::max(length, request_.position_only ? 0.0 : turn / TURN_PER_METRE) / request_.max_step) + 1;
     if (!(wanted < MOST_STEPS))
-      throw InvalidInput("a Cartesian path of " + std::to_string(length) + " m and " + std::to_string(turn) + " rad in steps of " +
-                         std::to_string(request_.max_step) + " m: that is too many steps");
+      throw InvalidInput("a Cartesian path of " + std::to_string(length) + " m and " + std::to_string(turn) +
+                         " rad in steps of " + std::to_string(request_.max_step) + " m: that is too many steps");
     const bool jumps = request_.jump_threshold > 0 || request_.prismatic_jump > 0 || request_.revolute_jump > 0;
     const int steps = std::max(static_cast<int>(wanted), jumps ? MIN_STEPS_FOR_JUMPS : 1);
     for (int i = 1; i <= steps; ++i)

@@ -372,8 +372,8 @@ void ModelBuilder::applyLimits()
       continue;
     }
     VariableBounds& b = joint->bounds[k];
-    const bool angle = joint->continuous || (joint->type == JointType::Planar && k == 2) ||
-                       (joint->type == JointType::Floating && k > 2);
+    const bool angle =
+        joint->continuous || (joint->type == JointType::Planar && k == 2) || (joint->type == JointType::Floating && k > 2);
     if ((limit.min_position || limit.max_position) && angle)
       warn("joint_limits: position limits of joint '" + name + "' are left out: it turns without end");
     else if (limit.min_position || limit.max_position)
@@ -394,7 +394,8 @@ void ModelBuilder::applyLimits()
     for (const VariableBounds& b : joint.bounds)
       if (b.has_position && !(b.min_position <= b.max_position))
         error("joint '" + joint.name + "': its lower limit " + std::to_string(b.min_position) + " is above its upper limit " +
-              std::to_string(b.max_position) + ": no position is within them, so nothing that moves it can be planned; exchange the two");
+              std::to_string(b.max_position) +
+              ": no position is within them, so nothing that moves it can be planned; exchange the two");
 }
 
 void ModelBuilder::finishVariables()

@@ -40,7 +40,10 @@ private:
   void finishVariables();
   void findDescendants();
   void warn(const std::string& text) { model_.warnings.push_back(text); }
-  void error(const std::string& text) { warn("error: " + text); }  // some of the robot cannot be planned for; who logs it tells by the mark
+  void error(const std::string& text)
+  {
+    warn("error: " + text);
+  }  // some of the robot cannot be planned for; who logs it tells by the mark
 
   // groups (groups.cpp)
   void buildGroups();

@@ -8,8 +8,8 @@ namespace motion
 namespace
 {
 constexpr double TOLERANCE = 0.01;     // of an acceleration, rad/s^2 or m/s^2, as upstream
-constexpr double SAME = 1e-8;           // rad or m: way points that are nearer to each other are one
-constexpr double SHORTEST = 1e-6;       // s, of a segment: times of messages are whole nanoseconds
+constexpr double SAME = 1e-8;          // rad or m: way points that are nearer to each other are one
+constexpr double SHORTEST = 1e-6;      // s, of a segment: times of messages are whole nanoseconds
 constexpr double MOST_STRETCH = 0.01;  // s, of a segment at one touch, as upstream
 
 TimedPath atRest(const Rows& points)

@@ -27,6 +27,44 @@ bool turnsOver(const RobotState& before, const RobotState& after, const JointMod
 }
 }  // namespace
 
+namespace
+{
+// How far each active joint may go in one step, in its unit; none where no threshold asks for it.
+std::vector<double> mostOfAStep(const JointModelGroup& group, const JumpThreshold& threshold)
+{
+  std::vector<double> most;
+  if (threshold.prismatic <= 0.0 && threshold.revolute <= 0.0)
+    return most;
+  for (const JointModel* joint : group.getActiveJointModels())
+  {
+    const double limit = joint->getType() == JointModel::REVOLUTE    ? threshold.revolute
+                         : joint->getType() == JointModel::PRISMATIC ? threshold.prismatic
+                                                                     : 0.0;
+    most.push_back(limit > 0.0 ? limit : joint->getMaximumExtent());
+  }
+  return most;
+}
+
+// Puts the link where it is wanted without a turn over; if that cannot be, the state stays as it is.
+bool stepTo(RobotState& state, const JointModelGroup& group, const Eigen::Isometry3d& of_link, const LinkModel& link,
+            const std::vector<double>& consistency, const GroupStateValidityCallbackFn& validCallback,
+            const kinematics::KinematicsQueryOptions& options)
+{
+  const RobotState before(state);
+  if (!state.setFromIK(&group, of_link, link.getName(), consistency, 0.0, validCallback, options))
+    return false;
+  if (!turnsOver(before, state, group))
+    return true;
+  state = before;  // arms with joints to spare may have another way
+  const std::vector<double> half_turn(group.getVariableCount(), 0.99 * M_PI);
+  if (state.setFromIK(&group, of_link, link.getName(), half_turn, 0.0, validCallback, options) &&
+      !turnsOver(before, state, group))
+    return true;
+  state = before;
+  return false;
+}
+}  // namespace
+
 double CartesianInterpolator::computeCartesianPath(RobotState* start_state, const JointModelGroup* group,
                                                    std::vector<RobotStatePtr>& traj, const LinkModel* link,
                                                    const Eigen::Vector3d& translation, bool global_reference_frame,
@@ -76,34 +114,14 @@ double CartesianInterpolator::computeCartesianPath(RobotState* start_state, cons
 
   traj.clear();
   traj.push_back(std::make_shared<RobotState>(*start_state));
-  std::vector<double> consistency;
-  if (jump_threshold.prismatic > 0.0 || jump_threshold.revolute > 0.0)
-    for (const JointModel* joint : group->getActiveJointModels())
-    {
-      const double limit = joint->getType() == JointModel::REVOLUTE    ? jump_threshold.revolute
-                           : joint->getType() == JointModel::PRISMATIC ? jump_threshold.prismatic
-                                                                       : 0.0;
-      consistency.push_back(limit > 0.0 ? limit : joint->getMaximumExtent());
-    }
+  const std::vector<double> consistency = mostOfAStep(*group, jump_threshold);
   double reached = 0.0;
   for (std::size_t i = 1; i <= steps; ++i)
   {
     const double share = static_cast<double>(i) / static_cast<double>(steps);
     Eigen::Isometry3d pose(start_turn.slerp(share, goal_turn));
     pose.translation() = share * goal.translation() + (1.0 - share) * start.translation();
-    const Eigen::Isometry3d of_link = pose * to_link;
-    const RobotState before(*start_state);
-    bool found = start_state->setFromIK(group, of_link, link->getName(), consistency, 0.0, validCallback, options);
-    if (found && turnsOver(before, *start_state, *group))
-    {
-      *start_state = before;  // arms with joints to spare may have another way
-      const std::vector<double> half_turn(group->getVariableCount(), 0.99 * M_PI);
-      found = start_state->setFromIK(group, of_link, link->getName(), half_turn, 0.0, validCallback, options) &&
-              !turnsOver(before, *start_state, *group);
-      if (!found)
-        *start_state = before;
-    }
-    if (!found)
+    if (!stepTo(*start_state, *group, pose * to_link, *link, consistency, validCallback, options))
       break;
     traj.push_back(std::make_shared<RobotState>(*start_state));
     reached = share;

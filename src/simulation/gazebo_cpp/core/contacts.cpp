@@ -329,7 +329,8 @@ struct ContactManager::Private
     return *pool[index];
   }
 
-  void add(const ode_sim::ContactRecord& r, std::map<std::pair<int, int>, Contact*>& pairs, PairOrder& order, const WorldPtr& world)
+  void add(const ode_sim::ContactRecord& r, std::map<std::pair<int, int>, Contact*>& pairs, PairOrder& order,
+           const WorldPtr& world)
   {
     Collision *one = collision_of(r.collision1), *two = collision_of(r.collision2);
     if (!one || !two)

@@ -224,12 +224,12 @@ class LimitsTest(test_support.TestCase):
             self.assertAlmostEqual(robot.joint().position(), 0.0, delta=1e-9)
 
     def test_gains_of_zero_of_a_safety_controller_are_pointed_out(self):
-        for interface, gains, said in ((EFFORT, 'k_position="5" k_velocity="0"', "k_velocity 0: no force can move it"),
-                                       (EFFORT, 'k_position="0" k_velocity="5"', "k_position 0: it cannot move"),
-                                       (POSITION, 'k_velocity="5"', "k_position 0: it cannot move"),
-                                       (VELOCITY, 'k_position="5" k_velocity="0"', ""), (EFFORT, 'k_position="5" k_velocity="5"', "")):
-            limit = LIMIT + f'<safety_controller soft_lower_limit="-1" soft_upper_limit="1" {gains}/>'
-            with self.subTest(interface=interface, gains=gains), Log.recorded() as log, \
+        for interface, soft, said in ((EFFORT, 'k_position="5" k_velocity="0"', "k_velocity 0: no force can move it"),
+                                      (EFFORT, 'k_position="0" k_velocity="5"', "k_position 0: it cannot move"),
+                                      (POSITION, 'k_velocity="5"', "k_position 0: it cannot move"),
+                                      (VELOCITY, 'k_position="5" k_velocity="0"', ""), (EFFORT, 'k_position="5" k_velocity="5"', "")):
+            limit = LIMIT + f'<safety_controller soft_lower_limit="-1" soft_upper_limit="1" {soft}/>'
+            with self.subTest(interface=interface, soft=soft), Log.recorded() as log, \
                     SimulatedRobot(one_joint(interface, limit=limit), parameters=FORWARD):
                 told = log.having("<safety_controller>", level="WARNING")
                 self.assertEqual(len(told), bool(said), told)
