@@ -73,8 +73,8 @@ class Bumper(SensorPlugin):
             pair = int(contact["collision1"]), int(contact["collision2"])
             if not self.collisions.isdisjoint(pair):
                 pairs.setdefault(pair, []).append(contact)
-        self.steps.append((self.server.now(), [self._state(*map(self.world.collision, pair), contacts)
-                                               for pair, contacts in pairs.items()]))
+        self.steps.append((self.server.now(), [self._state(self.world.collision(first), self.world.collision(second), contacts)
+                                               for (first, second), contacts in pairs.items()]))
 
     def _state(self, first: CollisionHandle, second: CollisionHandle, contacts) -> ContactState:
         sign = 1.0

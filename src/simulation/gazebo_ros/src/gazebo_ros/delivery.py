@@ -13,7 +13,7 @@ import struct
 import termios
 import threading
 import time
-from typing import Any, Dict, Iterator, Set, Tuple
+from typing import Any, Dict, List, Iterator, Set, Tuple
 
 import realtime_tools.prompt
 import rospy
@@ -43,7 +43,7 @@ class Delivery:
             return QueuedConnection(connection, queue_size) if connection.name in self._left_out else _Kept(self, connection)
 
         for module in (rospy.topics, realtime_tools.prompt):
-            module.QueuedConnection = connect  # type: ignore[attr-defined]
+            vars(module)["QueuedConnection"] = connect
 
     @property
     def pending(self) -> bool:
@@ -117,6 +117,8 @@ class Delivery:
 
 class _Kept(QueuedConnection):
     """A connection to a subscriber whose queue has no end; how much is in it, the :class:`Delivery` knows."""
+
+    _queue: List[bytes]  # of rospy's class
 
     def __init__(self, delivery: Delivery, connection: Any):
         self._delivery = delivery

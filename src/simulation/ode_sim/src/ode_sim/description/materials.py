@@ -113,7 +113,8 @@ def script_material(name: str, locations: Iterable[str]) -> Optional[Material]:
     files, folders = _scripts(locations)
     statements: List[List[str]] = []
     known: Optional[Material] = None
-    wanted, found_in = name, []
+    found_in: List[str] = []
+    wanted = name
     while wanted and len(found_in) < _MOST_PARENTS:
         found = _find(wanted, files)
         if found is None:

@@ -126,7 +126,8 @@ def inertial(element: ET.Element, problems: Callable[[DescriptionError], None]) 
 
     mass = read(lambda: number(part(element, "mass"), "value"), 0.0)
     pose = read(lambda: origin(element), math3.IDENTITY)
-    tensor = read(lambda: tuple(number(part(element, "inertia"), key) for key in TENSOR), (0.0,) * 6)
+    nothing: Tuple[float, ...] = (0.0,) * len(TENSOR)
+    tensor = read(lambda: tuple(number(part(element, "inertia"), key) for key in TENSOR), nothing)
     return mass, pose, tensor
 
 
