@@ -13,7 +13,7 @@ import struct
 import termios
 import threading
 import time
-from typing import Any, Dict, List, Iterator, Set, Tuple
+from typing import Any, Dict, Iterator, List, Set, Tuple
 
 import realtime_tools.prompt
 import rospy
