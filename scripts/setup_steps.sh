@@ -97,7 +97,9 @@ catkin_once() {  # LOG COUNT ARGUMENT...: catkin build with packages done of COU
       case "$line" in
         *"Found "*" packages"*) [ "$count" != 0 ] || { count=${line#*Found }; count=${count%% *}; } ;;
         "Finished"*"<<<"*) finished=$((finished + 1)) ;;
-        "Starting"*">>>"*) progress "building: $finished of $count packages done, now ${line##*>>> }" ;;
+        "Starting"*">>>"*)
+          name=${line##*>>> }
+          progress "building: $finished of $count packages done, now ${name%% *}" ;;
       esac
     done
     progress_ends
