@@ -86,11 +86,12 @@ apt_step() {  # LOG WHAT ARGUMENT...: apt-get, which waits for another process's
   done
 }
 
-catkin_once() {  # LOG COUNT ARGUMENT...: catkin build with packages done of COUNT (0: as many as catkin finds)
+catkin_once() {  # LOG COUNT ARGUMENT...: catkin build with packages done of COUNT (0: as many as catkin finds). Unbuffered, or the
+  # lines of a small build would come at its end.
   local log=$1 count=$2
   shift 2
   : > "$log"
-  catkin build --no-notify --no-status --no-color --summarize "$@" < /dev/null 2>&1 | {
+  PYTHONUNBUFFERED=1 catkin build --no-notify --no-status --no-color --summarize "$@" < /dev/null 2>&1 | {
     finished=0
     while IFS= read -r line; do
       printf '%s\n' "$line" >> "$log"
