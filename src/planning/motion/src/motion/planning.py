@@ -17,7 +17,7 @@ CODES: Dict[str, int] = {
     "start_in_collision": -10, "start_violates_path_constraints": -11, "no_goal": -16, "invalid_goal": -27,
     "goal_in_collision": -27, "goal_violates_path_constraints": -27, "no_ik": -27, "unknown_link": -16, "unknown_frame": -21,
     "unknown_planner": -1, "invalid_plan": -2, "invalid_request": -16, "invalid_state": -17, "invalid_link": -18,
-    "failed": -1, "no_ik_solution": -31}
+    "failed": -1, "no_ik_solution": -31, "failure": 99999}
 
 
 @dataclass(frozen=True)
