@@ -35,9 +35,9 @@ STATE = "real Gazebo 11.1 leaves models where their own <pose> says; here the <s
 HINGE2 = "ODE's hinge-2 needs two bodies: bolted to the world, real Gazebo's wheel neither steers nor turns; here it does"
 STATE_ROWS = ("x of link c::l", "z of link c::l", "qz of link c::l", "qw of link c::l", "c moved along x in 1 s, m", "c turned in 1 s, rad")
 TORSION_ROWS = tuple(f"spin at {t} s, rad/s" for t in (0.1, 0.3, 0.8))
-ORDER = (
-    "chaotic: which way it leans or slides follows from the order in which quickStep takes its rows; `solver: gazebo` takes them in another"
-)
+ORDER = "chaotic: which way it slides follows from the order in which quickStep takes its rows; the order here is not the same in all"
+FALLS = "worse since contacts are taken in Gazebo's order: the pile falls after 1.4 s here, and stands in real Gazebo; not traced"
+HEAVY = "worse since contacts are taken in Gazebo's order: it does not rest as in real Gazebo; not traced"
 BALL = "a body that swings about two axes on a ball joint gains energy here, 0.2 of 2.8 J in 1.8 s; not traced"
 BALL_ROWS = (
     *(f"{c} of the rod's frame at 0.5 s" for c in ("qx", "wx", "wy")),
@@ -73,15 +73,9 @@ CAUSES: Tuple[Cause, ...] = (
         ("revolute_spring_hard", "p::j1 at 0.02 s", "p::j1 at 0.1 s"),
     ),
     *of("default", BALL, ("ball_pendulum", *BALL_ROWS)),
-    *of(
-        "gazebo",
-        ORDER,
-        "stack_5",
-        "stack_7",
-        "skid_turn",
-        "card_house",
-        ("heavy_on_light", "heavy falls below 0.2 m after, s"),
-    ),
+    *of("gazebo", ORDER, "skid_turn"),
+    *of("gazebo", FALLS, "stack_10"),
+    *of("gazebo", HEAVY, "heavy_10_on_light"),
 )
 
 # Recorded, and not yet run beside real Gazebo: neither the tests nor a cause say anything of them.
