@@ -182,9 +182,9 @@ def _read_obj(path: str, data: bytes, groups: bool) -> List[MeshPart]:
     for (name, group, material), used in corners.items():
         unique, inverse = np.unique(np.array(used), axis=0, return_inverse=True)
         parts.append(MeshPart(
-            name, np.array(points)[unique[:, 0]], inverse.reshape(-1, 3),
-            np.array(normals)[unique[:, 2]] if normals and (unique[:, 2] >= 0).all() else None,
-            np.array([row[:2] for row in texture_points])[unique[:, 1]]
+            name, np.array(points, dtype=float)[unique[:, 0]], inverse.reshape(-1, 3),
+            np.array(normals, dtype=float)[unique[:, 2]] if normals and (unique[:, 2] >= 0).all() else None,
+            np.array([row[:2] for row in texture_points], dtype=float)[unique[:, 1]]
             if texture_points and (unique[:, 1] >= 0).all() else None,
             materials.get(material, Material(name=material)), group))
     return parts
