@@ -118,7 +118,9 @@ def test_the_commands_give_them_to_nodes(tmp_path, command, first):
         probe.bind(("localhost", 0))
         port = probe.getsockname()[1]
     environment = {**os.environ, "ROS_HOME": str(tmp_path), "ROS_MASTER_URI": f"http://localhost:{port}",
-                   "ROS_PACKAGE_PATH": f"{tmp_path}:{os.environ['ROS_PACKAGE_PATH']}"}
+                   "ROS_PACKAGE_PATH": f"{tmp_path}:{os.environ['ROS_PACKAGE_PATH']}",
+                   # a version manager's shim has the name of a Python that is not there
+                   "PATH": os.pathsep.join(one for one in os.environ["PATH"].split(os.pathsep) if "pyenv" not in one)}
     answer = subprocess.run(command.split(), env=environment, capture_output=True, text=True, timeout=120)
     assert "it talks" in answer.stdout, answer.stdout + answer.stderr
 
