@@ -269,8 +269,7 @@ def test_what_never_began_was_no_try(tmp_path):
 
 
 def test_what_was_killed_leaves_no_folder_for_long(tmp_path, monkeypatch):
-    monkeypatch.setattr(tempfile, "gettempdir", lambda: str(tmp_path))
-    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    monkeypatch.setattr(scratch, "top", lambda: tmp_path)
     (tmp_path / "lab_x.killed").mkdir()
     (tmp_path / "lab_x.killed" / "rest").write_text("x")
     with scratch.folder("lab_x.") as mine:
@@ -278,6 +277,21 @@ def test_what_was_killed_leaves_no_folder_for_long(tmp_path, monkeypatch):
         scratch.sweep("lab_x.", young=-1.0)
         assert mine.is_dir() and not (tmp_path / "lab_x.killed").exists()
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("closed", ["itself", "a folder above it"])
+def test_a_private_folder_of_temporary_files_is_not_used_by_root(tmp_path, monkeypatch, closed):
+    """As pam_tmpdir makes one for each user: the user that submissions run as could not enter it."""
+    if os.getuid() != 0:
+        pytest.skip("only root's submissions run as another user")
+    private = tmp_path / "private"
+    private.mkdir(mode=0o700 if closed == "itself" else 0o755)
+    place = private if closed == "itself" else private / "inner"
+    place.mkdir(exist_ok=True)
+    private.chmod(0o700)
+    monkeypatch.setattr(tempfile, "tempdir", str(place))
+    with scratch.folder("lab_x.") as mine:
+        assert tmp_path not in mine.parents and all(path.stat().st_mode & 0o001 for path in mine.parents)
 
 
 def test_gradebook(tmp_path):

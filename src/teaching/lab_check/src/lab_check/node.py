@@ -9,7 +9,6 @@ import shutil
 import signal
 import socket
 import sys
-import tempfile
 from typing import List, Tuple
 
 from . import parcel, sandbox, scratch
@@ -50,8 +49,8 @@ def faults(version: str, unsafe: bool, sent: bytes = b"") -> Tuple[str, List[str
             sandbox.check()
     except sandbox.SandboxError as error:
         said.append(str(error))
-    if shutil.disk_usage(tempfile.gettempdir()).free < 500e6:
-        said.append(f"less than 500 MB are free in {tempfile.gettempdir()}")
+    if shutil.disk_usage(scratch.top()).free < 500e6:
+        said.append(f"less than 500 MB are free in {scratch.top()}")
     return socket.gethostname(), said, sent
 
 

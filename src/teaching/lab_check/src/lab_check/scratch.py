@@ -6,6 +6,7 @@ import fcntl
 import os
 import pathlib
 import shutil
+import stat
 import tempfile
 import time
 from typing import Iterator
@@ -13,11 +14,25 @@ from typing import Iterator
 _YOUNG = 60.0  # s in which one may be made, but not locked yet
 
 
+def top() -> pathlib.Path:
+    """
+    Where they are made: the machine's folder of temporary files. A private one, as pam_tmpdir gives to root, does not do where
+    submissions run as a user of their own; then it is /tmp or /var/tmp.
+    """
+    first = pathlib.Path(tempfile.gettempdir())
+    places = [first, pathlib.Path("/tmp"), pathlib.Path("/var/tmp")] if os.getuid() == 0 else [first]
+    return next((place for place in places if place.is_dir() and os.access(place, os.W_OK) and _open_to_others(place)), first)
+
+
+def _open_to_others(place: pathlib.Path) -> bool:
+    return all(path.stat().st_mode & stat.S_IXOTH for path in (place, *place.parents))
+
+
 @contextlib.contextmanager
 def folder(prefix: str) -> Iterator[pathlib.Path]:
     """A new one among the machine's temporary files, which goes when the context is left."""
     sweep(prefix)
-    place = pathlib.Path(tempfile.mkdtemp(prefix=prefix))
+    place = pathlib.Path(tempfile.mkdtemp(prefix=prefix, dir=top()))
     lock = os.open(place, os.O_RDONLY)
     try:
         fcntl.flock(lock, fcntl.LOCK_EX)
@@ -32,7 +47,7 @@ def sweep(prefix: str, young: float = _YOUNG) -> None:
 
     :param young: s of age up to which one is left alone
     """
-    for place in pathlib.Path(tempfile.gettempdir()).glob(f"{prefix}*"):
+    for place in top().glob(f"{prefix}*"):
         try:
             information = place.lstat()
             if information.st_uid != os.getuid() or not place.is_dir() or place.is_symlink() or time.time() - information.st_mtime < young:

@@ -176,8 +176,8 @@ class Program:
         return self._wait(lambda: self.ask("rect", name), f"widget {name}")
 
     def text(self, name: str) -> str:
-        """What the widget of that ``objectName`` says."""
-        return self._wait(lambda: [self.ask("text", name)], f"widget {name}")[0]
+        """What the widget of that ``objectName`` says, as soon as it is seen."""
+        return self._wait(lambda: [text for text in [self.ask("text", name)] if text is not None], f"widget {name}")[0]
 
     def click(self, name: str, button: int = 1, times: int = 1, at: Optional[Tuple[float, float]] = None) -> None:
         """Click on the widget of that ``objectName``, in its middle or at a fraction of its width and height."""
