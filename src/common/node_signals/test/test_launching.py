@@ -3,6 +3,7 @@ import os
 import signal
 import socket
 import subprocess
+import sys
 import time
 
 import pytest
@@ -69,6 +70,24 @@ def test_ctrl_c_at_any_line_of_the_start(tmp_path, moment):
 @pytest.mark.parametrize("moment", ["logging to", "auto-starting new master", "process[master]", "started core service"])
 def test_ctrl_c_at_any_line_of_roscore(tmp_path, moment):
     ended_at(started(tmp_path, ["roscore"]), moment)
+
+
+@pytest.mark.parametrize("ending", [True, False])
+def test_a_master_that_ctrl_c_has_ended_breaks_off_in_silence(tmp_path, ending):
+    """It resets the connection if it goes in the midst of an answer; without a Ctrl-C that is a fault to be shown."""
+    (tmp_path / "empty.launch").write_text("<launch/>")
+    words = f"""
+from node_signals import launching
+launching._mend()
+import roslaunch.parent
+def start(parent):
+    roslaunch.pmon._shutting_down = {ending}
+    raise ConnectionResetError(104, "Connection reset by peer")
+roslaunch.parent.ROSLaunchParent.start = start
+roslaunch.main(["roslaunch", {str(tmp_path / "empty.launch")!r}])
+"""
+    done = subprocess.run([sys.executable, "-c", words], env={**os.environ, "ROS_HOME": str(tmp_path)}, capture_output=True, text=True)
+    assert done.returncode == 1 and ("Connection reset by peer" in done.stderr) is not ending, done.stderr
 
 
 def test_ctrl_c_while_files_are_read_is_silent(tmp_path):

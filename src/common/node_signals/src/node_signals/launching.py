@@ -15,6 +15,7 @@ import sys
 import tempfile
 import threading
 import time
+import traceback
 from pathlib import Path
 from typing import Optional, Set
 
@@ -66,6 +67,15 @@ def _silent_when_ending(report):
         if not pmon._shutting_down:
             report(*arguments)
     return checked
+
+
+class _Traceback:
+    """Nor does a connection to a master that Ctrl-C has ended."""
+    format_exc = staticmethod(traceback.format_exc)
+
+    @staticmethod
+    def print_exc() -> None:
+        _silent_when_ending(traceback.print_exc)()
 
 
 def _master_first_by_sigterm(stop):
@@ -174,6 +184,7 @@ def _mend() -> None:
     nodeprocess.create_local_process_args = arguments_of(nodeprocess.create_local_process_args)
     rospkg.ResourceNotFound.__str__ = in_one_line
     roslaunch.handle_exception = _silent_when_ending(roslaunch.handle_exception)
+    roslaunch.traceback = _Traceback
 
 
 def _refuse_programs(words) -> None:
