@@ -8,7 +8,7 @@ import pytest
 
 SCRIPTS = Path(__file__).resolve().parent
 SETUP = SCRIPTS / "setup"
-TOOLS = ("awk bash cat chmod comm cp cut df dirname env flock grep head id ls mkdir mktemp mv python3 realpath rm sed seq sleep sort tail "
+TOOLS = ("awk bash cat chmod comm cp cut df dirname env find flock grep head id ls mkdir mktemp mv python3 realpath rm sed seq sleep sort tail "
          "touch true uname wc").split()
 
 
@@ -89,6 +89,9 @@ class Machine:
         return subprocess.run([*before, self.setup, *arguments], capture_output=True, text=True, timeout=60, stdin=subprocess.DEVNULL,
                               env={"PATH": str(self.bin), "HOME": str(self.folder), **environment})
 
+    def builds(self):
+        return self.seen().count("build")
+
     def seen(self):
         return self.events.read_text().splitlines() if self.events.exists() else []
 
@@ -96,6 +99,47 @@ class Machine:
 @pytest.fixture
 def machine(tmp_path):
     return Machine(tmp_path)
+
+
+def changes(clone):
+    """What a user does that the next build has to see."""
+    return {"a file written": lambda: (clone / "src/arm/robot.cpp").write_text("int i;"),
+            "a file removed": lambda: (clone / "src/arm/more.cpp").unlink(),
+            "a package added": lambda: (clone / "src/hand").mkdir(),
+            "options of the build": lambda: (clone / ".catkin_tools/profiles/default/config.yaml").write_text("cmake_args: []\n"),
+            "catkin clean arm": lambda: (clone / "build/arm").rmdir(),
+            "catkin clean": lambda: [(clone / "build/arm").rmdir(), (clone / "build").rmdir()]}
+
+
+@pytest.mark.parametrize("what", ["nothing", "what Python compiles", *changes(Path())])
+def test_what_has_not_changed_is_not_built_again(machine, what):
+    clone = machine.folder / "clone"
+    (clone / "src/arm").mkdir(parents=True)
+    (clone / "src/arm/more.cpp").write_text("")
+    machine.play("catkin", f"echo build >> {machine.events}; mkdir -p {clone}/devel {clone}/build/arm")
+    assert machine.run().returncode == 0
+    assert machine.run().returncode == 0 and machine.builds() == 1
+    (clone / "src/arm/__pycache__").mkdir()  # its folder is looked at once more
+    assert machine.run().returncode == 0
+    before = machine.builds()
+    if what == "what Python compiles":
+        (clone / "src/arm/__pycache__/robot.pyc").write_text("")
+    changes(clone).get(what, lambda: None)()
+    ended = machine.run()
+    assert ended.returncode == 0, ended.stderr
+    assert machine.builds() == before + (what in changes(clone))
+    assert ("nothing has changed" in ended.stdout) == (what not in changes(clone))
+
+
+def test_a_build_that_failed_and_that_of_the_demo_are_no_whole_build(machine):
+    clone = machine.folder / "clone"
+    for folder in ("src", "build", "devel"):
+        (clone / folder).mkdir()
+    machine.play("catkin", f"echo build >> {machine.events}; exit 1")
+    assert [machine.run().returncode for _ in range(2)] == [1, 1] and machine.builds() == 2
+    machine.play("catkin", f"echo build >> {machine.events}")
+    machine.run("--demo")
+    assert machine.run().returncode == 0 and machine.builds() == 4
 
 
 @pytest.mark.parametrize("arguments", [["--demo"], []])
