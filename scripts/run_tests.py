@@ -28,7 +28,7 @@ import tempfile
 import threading
 import time
 import xml.etree.ElementTree as ET
-from collections import deque
+from collections import Counter
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Container, Dict, Iterator, List, Optional, Set, Tuple
@@ -99,7 +99,9 @@ def find_jobs(packages: Container[str], kind: str, scripts: bool, slow: bool) ->
             jobs.append(Job(package, "pytest", test, slow))
     if scripts and kind in ("pytest", "all"):
         jobs += [Job(ROOT, "pytest", path, slow) for path in sorted((ROOT / "scripts").glob("test_*.py"))]
-    return sorted(jobs, key=lambda job: -job.files)  # what takes long first: at the end all have something to do
+    # What takes long first, at the end all have something to do: folders of many files, packages of many rostests in a row.
+    in_a_row = Counter(job.package for job in jobs if job.kind == "rostest")
+    return sorted(jobs, key=lambda job: -(in_a_row[job.package] if job.kind == "rostest" else job.files))
 
 
 class UnknownPackage(Exception):
@@ -124,19 +126,38 @@ def chosen(named: List[str], since: Optional[str]) -> Set[str]:
 
 
 class Queue:
-    """Jobs for several workers. Every second worker prefers pytest, which computes, to rostests, which mostly wait."""
+    """
+    Jobs for several workers. Every second worker prefers pytest, which computes, to rostests, which mostly wait. Of one package
+    only one rostest is at work: those of windows each have a browser, for two of which two cores are too slow.
+    """
 
     def __init__(self, jobs: List[Job]) -> None:
-        self._lock = threading.Lock()
-        self._kinds = {"rostest": deque(), "pytest": deque()}
+        self._changed = threading.Condition()
+        self._at_work: Set[Path] = set()  # packages
+        self._kinds: Dict[str, List[Job]] = {"rostest": [], "pytest": []}
         for job in jobs:
             self._kinds[job.kind].append(job)
 
     def take(self, worker: int) -> Optional[Job]:
         """The next job of worker number ``worker``, None when all are taken."""
         order = ("pytest", "rostest") if worker % 2 else ("rostest", "pytest")
-        with self._lock:
-            return next((self._kinds[kind].popleft() for kind in order if self._kinds[kind]), None)
+        with self._changed:
+            while any(self._kinds.values()):
+                job = next((job for kind in order for job in self._kinds[kind] if kind == "pytest" or job.package not in self._at_work), None)
+                if job:
+                    self._kinds[job.kind].remove(job)
+                    if job.kind == "rostest":
+                        self._at_work.add(job.package)
+                    return job
+                self._changed.wait()
+            return None
+
+    def done(self, job: Job) -> None:
+        """It has ended."""
+        with self._changed:
+            if job.kind == "rostest":
+                self._at_work.discard(job.package)
+            self._changed.notify_all()
 
 
 def run_all(jobs: List[Job], workers: int, scratch: Path) -> Iterator[Result]:
@@ -149,6 +170,7 @@ def run_all(jobs: List[Job], workers: int, scratch: Path) -> Iterator[Result]:
                 results.put(run(job, scratch))
             except Exception as error:  # a fault of this runner is a failure of the job, not a silence
                 results.put(Result(job, 0, 1, 0, 0.0, f"{job.name}: the test runner failed: {error!r}"))
+            waiting.done(job)
 
     for worker in range(workers):
         threading.Thread(target=work, args=(worker,), daemon=True).start()

@@ -1,5 +1,6 @@
 """scripts/run_tests.py: what a file that fails once, or each time, makes of the whole run."""
 import sys
+import threading
 from pathlib import Path
 
 import pytest
@@ -115,3 +116,27 @@ def test_who_asks_for_all_or_for_a_package_gets_what_is_slow(monkeypatch, option
     monkeypatch.setattr(sys, "argv", ["run_tests.py", *options])
     run_tests.main()
     assert asked == [slow]
+
+
+def test_of_one_package_one_rostest_is_at_work(tmp_path, monkeypatch):
+    """The others go on with other packages; pytest runs beside it."""
+    jobs = [run_tests.Job(tmp_path / package, kind, tmp_path / package / f"{number}")
+            for package, kind, number in [("a", "rostest", 1), ("a", "rostest", 2), ("a", "pytest", 3), ("b", "rostest", 4)]]
+    waiting = run_tests.Queue(jobs)
+    first, second, third = waiting.take(0), waiting.take(0), waiting.take(0)
+    assert [first, second, third] == [jobs[0], jobs[3], jobs[2]]
+    waiting.done(first)
+    assert waiting.take(0) == jobs[1] and waiting.take(1) is None
+    at_work, most = [], []
+
+    def run_one(job, scratch):
+        at_work.append(job.package)
+        most.append(max(at_work.count(package) for package in at_work))
+        threading.Event().wait(0.01)
+        at_work.remove(job.package)
+        return run_tests.Result(job, 1, 0, 0, 0.0, "")
+
+    monkeypatch.setattr(run_tests, "run", run_one)
+    many = [run_tests.Job(tmp_path / f"{number % 4}", "rostest", tmp_path / f"{number}") for number in range(40)]
+    assert sorted(result.job.path for result in run_tests.run_all(many, 3, tmp_path)) == sorted(job.path for job in many)
+    assert set(most) == {1}
