@@ -143,7 +143,8 @@ class Queue:
         order = ("pytest", "rostest") if worker % 2 else ("rostest", "pytest")
         with self._changed:
             while any(self._kinds.values()):
-                job = next((job for kind in order for job in self._kinds[kind] if kind == "pytest" or job.package not in self._at_work), None)
+                ready = (job for kind in order for job in self._kinds[kind] if kind == "pytest" or job.package not in self._at_work)
+                job = next(ready, None)
                 if job:
                     self._kinds[job.kind].remove(job)
                     if job.kind == "rostest":

@@ -8,8 +8,8 @@ import pytest
 
 SCRIPTS = Path(__file__).resolve().parent
 SETUP = SCRIPTS / "setup"
-TOOLS = ("awk bash cat chmod comm cp cut df dirname env find flock grep head id ls mkdir mktemp mv python3 realpath rm sed seq sleep sort tail "
-         "touch true uname wc").split()
+TOOLS = ("awk bash cat chmod comm cp cut df dirname env find flock grep head id ls mkdir mktemp mv python3 realpath rm sed seq sleep sort "
+         "tail touch true uname wc").split()
 
 
 def copy_of_setup(folder: Path, packages: str = "# none\n") -> Path:
