@@ -44,7 +44,7 @@ def test_python_is_debians_where_there_is_none_or_another(tmp_path, debian, anot
 
 def test_an_environment_that_knows_python_stays(tmp_path, debian):
     (debian / "python").symlink_to("python3")
-    program(debian, "python2")
+    program(debian, "python2", "#!/bin/sh\nexit 0\n")
     for folder in (debian, tmp_path / "conda"):
         program(tmp_path / "conda", "python3")  # a python3 of its own, with or without rospy
         environment = {"PATH": str(folder)}
@@ -100,6 +100,51 @@ def test_what_can_be_started_is_left_to_the_kernel(tmp_path, first):
     assert as_it_can_run(str(tmp_path / "node")) == ([str(tmp_path / "node")], "")
 
 
+SHIMS = {  # of version managers, without such a version behind them: what they say, and how they end
+    "pyenv": "#!/bin/sh\necho \"pyenv: ${0##*/}: command not found\" >&2\nexit 127\n",
+    "asdf": "#!/bin/sh\necho \"No version is set for command ${0##*/}\" >&2\nexit 126\n",
+    "mise": None,  # a link to a program
+}
+
+
+def shims(folder, manager, name):
+    folder.mkdir()
+    if SHIMS[manager] is None:
+        (folder / name).symlink_to(shutil.which("false"))
+    else:
+        program(folder, name, SHIMS[manager])
+    return folder
+
+
+@pytest.mark.parametrize("manager", SHIMS)
+@pytest.mark.parametrize("asked, told", [("python2.7", "it runs with Python 3, where 1/2 is 0.5"), ("python3.8", "asks for python3.8"),
+                                         ("python", "")])
+def test_a_version_managers_shim_with_nothing_behind_it_is_not_there(tmp_path, debian, monkeypatch, manager, asked, told):
+    program(tmp_path, "node", f"#!/usr/bin/env {asked}\n{PLAIN}")
+    monkeypatch.setenv("PATH", f"{shims(tmp_path / 'shims', manager, asked)}:{debian}:/usr/bin:/bin")
+    assert subprocess.run([tmp_path / "node"], capture_output=True).returncode != 0
+    words, line = as_it_can_run(str(tmp_path / "node"))
+    answer = subprocess.run([*words, "a b"], capture_output=True, text=True, timeout=60)
+    assert (answer.returncode, answer.stdout) == (0, "3 ['a b']\n"), answer.stderr
+    assert told in line + answer.stderr and (told or line + answer.stderr == "")
+
+
+def test_what_lies_behind_a_shim_on_path_is_taken(tmp_path, debian, monkeypatch):
+    folder = shims(tmp_path / "shims", "pyenv", "python3.8")
+    (debian / "python3.8").symlink_to("/usr/bin/python3")
+    program(tmp_path, "node", "#!/usr/bin/env python3.8\n")
+    monkeypatch.setenv("PATH", f"{folder}:{debian}")
+    assert as_it_can_run(str(tmp_path / "node")) == ([str(debian / "python3.8"), str(tmp_path / "node")], "")
+
+
+def test_python2_is_supplied_where_there_is_a_shim_alone(tmp_path, debian):
+    environment = {"PATH": f"{shims(tmp_path / 'shims', 'pyenv', 'python2')}:{debian}:/usr/bin:/bin"}
+    supply_python(environment)
+    program(tmp_path, "node", f"#!/usr/bin/env python2\n{PLAIN}")
+    answer = subprocess.run([tmp_path / "node"], env=environment, capture_output=True, text=True, timeout=60)
+    assert answer.stdout == "3 []\n"
+
+
 def test_a_shell_script_with_windows_line_ends_is_told(tmp_path):
     (tmp_path / "node").write_bytes(b"#!/bin/bash\r\necho a\r\n")
     words, line = as_it_can_run(str(tmp_path / "node"))
@@ -119,8 +164,7 @@ def test_the_commands_give_them_to_nodes(tmp_path, command, first):
         port = probe.getsockname()[1]
     environment = {**os.environ, "ROS_HOME": str(tmp_path), "ROS_MASTER_URI": f"http://localhost:{port}",
                    "ROS_PACKAGE_PATH": f"{tmp_path}:{os.environ['ROS_PACKAGE_PATH']}",
-                   # a version manager's shim has the name of a Python that is not there
-                   "PATH": os.pathsep.join(one for one in os.environ["PATH"].split(os.pathsep) if "pyenv" not in one)}
+                   "PATH": f"{shims(tmp_path / 'shims', 'pyenv', first.rpartition('/')[2].split()[-1])}:{os.environ['PATH']}"}
     answer = subprocess.run(command.split(), env=environment, capture_output=True, text=True, timeout=120)
     assert "it talks" in answer.stdout, answer.stdout + answer.stderr
 

@@ -1,14 +1,16 @@
 """First lines of nodes that name an interpreter which is not there.
 
 ``python``: on Ubuntu a package (python-is-python3) gives it; ``python2``, by its name or its path; Noetic's ``python3.8``; and any of
-them with the line end of Windows, or with its mark of UTF-8 before the ``#!``.
+them with the line end of Windows, or with its mark of UTF-8 before the ``#!``. A name of which nothing but the shim of a version manager
+(pyenv, asdf, mise) is on PATH, without such a version behind it, is not there either.
 """
 from __future__ import annotations
 
 import os
 import re
 import shutil
-from typing import List, MutableMapping, Optional, Tuple
+import subprocess
+from typing import Iterator, List, MutableMapping, Optional, Tuple
 
 _DEBIANS = "/usr/bin/python3"
 _HERE = os.path.dirname(os.path.abspath(__file__))
@@ -24,7 +26,7 @@ def supply_python(environment: MutableMapping[str, str]) -> None:
     third, plain = shutil.which("python3", path=path), shutil.which("python", path=path)
     if third is None or os.path.realpath(third) != os.path.realpath(_DEBIANS):
         return
-    if shutil.which("python2", path=path) is None:
+    if next(_answering("python2", path), None) is None:
         _put_first("python2", environment)
     if plain is None or os.path.realpath(plain) != os.path.realpath(third):
         _put_first("python", environment)
@@ -49,20 +51,43 @@ def as_it_can_run(program: str) -> Tuple[List[str], str]:
     python = re.fullmatch(r"python(\d?)[.\d]*", os.path.basename(asked))
     if python is None:
         return [program], f"{program}: its lines end as on Windows, which no shell takes: dos2unix {program}" if ended else ""
-    if not marked and not ended and (shutil.which(asked) if from_path else os.access(asked, os.X_OK)):
+    path = os.environ.get("PATH", os.defpath)
+    there = shutil.which(asked, path=path) if from_path else asked if os.access(asked, os.X_OK) else None
+    if not marked and not ended and there and _answers(there):
         return [program], ""
+    behind = next(_answering(asked, path), None) if from_path else None
     why = "its lines end as on Windows (dos2unix mends them)" if ended else "it begins with Windows' mark of UTF-8" if marked else ""
-    if not why and "." in os.path.basename(asked) and python[1] == "3":
+    if not why and not behind and "." in os.path.basename(asked) and python[1] == "3":
         why = f"its first line asks for {os.path.basename(asked)}, which is not here"
-    interpreter = _second() if python[1] == "2" else _DEBIANS
+    interpreter = behind or (_second() if python[1] == "2" else _DEBIANS)
     runs = "" if python[1] == "2" else "; it runs with Python 3"  # what takes the place of python2 says so itself
     return [interpreter, *options, program], f"{program}: {why}{runs}" if why else ""
 
 
 def _second() -> str:
     """python2, or what takes its place and says so."""
-    found, folder = shutil.which("python2"), _folder("python2")
+    found, folder = next(_answering("python2", os.environ.get("PATH", os.defpath)), None), _folder("python2")
     return found or (os.path.join(folder, "python2") if folder else _DEBIANS)
+
+
+def _answering(name: str, path: str) -> Iterator[str]:
+    """Programs of that name on PATH, less shims with nothing behind them."""
+    found = (shutil.which(name, path=folder) for folder in path.split(os.pathsep) if folder)
+    return (program for program in found if program and _answers(program))
+
+
+def _answers(python: str) -> bool:
+    """Whether it is an interpreter, and no shim that only says that there is none. What is clearly a program is not asked."""
+    folder = os.path.dirname(python)
+    if folder in (_folder("python2"), _folder("python")):
+        return True
+    try:
+        with open(python, "rb") as file:
+            if file.read(4) == b"\x7fELF" and os.path.basename(folder) != "shims":
+                return True
+        return subprocess.run([python, "-c", ""], stdin=subprocess.DEVNULL, capture_output=True, timeout=20, check=False).returncode == 0
+    except (OSError, subprocess.SubprocessError):
+        return False
 
 
 def _put_first(name: str, environment: MutableMapping[str, str]) -> None:
