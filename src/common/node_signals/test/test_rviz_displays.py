@@ -1,4 +1,6 @@
 """Displays whose library nobody has built."""
+import os
+import shutil
 import subprocess
 import sys
 
@@ -32,6 +34,16 @@ def test_one_line_says_what_to_build(package, path, wrapped):
     (package / "plugins.xml").write_text(f"<class_libraries>{text}</class_libraries>" if wrapped else text)
     assert told() == ("rviz: my_displays/Arc, my::Pick of the package my_displays cannot be added, its library libmy_displays is not "
                       "built: catkin build my_displays\n")
+
+
+@pytest.mark.parametrize("start", [["-m", "node_signals.rviz_start"], ["-c", "from node_signals import programs as p; p.run("
+                                   "['rosrun', 'rviz', 'rviz', '-d', 'none.rviz'])"]])
+def test_whoever_starts_rviz_has_it_told(package, tmp_path, start):
+    (package / "plugins.xml").write_text(LIBRARY.format(path="lib/libmy_displays"))
+    words = [shutil.which("true")] if start[0] == "-m" else []
+    environment = {**os.environ, "DISPLAY": "nowhere:77"}  # RViz itself gets no further
+    answer = subprocess.run([sys.executable, *start, *words], env=environment, capture_output=True, text=True, timeout=120)
+    assert "catkin build my_displays" in answer.stderr
 
 
 @pytest.mark.parametrize("place", ["devel/lib", "libraries", "src/my_displays/lib"])

@@ -6,6 +6,7 @@ import signal
 import socket
 import subprocess
 import sys
+import tempfile
 import unittest
 import xmlrpc.client
 
@@ -179,6 +180,25 @@ class PlainTest(unittest.TestCase):
         with open(log) as file:
             self.assertRegex(file.read(), r"ERROR key: exited with status 2")
         os.remove(log)
+
+    def test_displays_that_rviz_offers_and_nobody_has_built_are_told(self):
+        with tempfile.TemporaryDirectory() as folder:
+            package = os.path.join(folder, "my_displays")
+            os.mkdir(package)
+            for name, text in (
+                ("package.xml", "<package format='2'><name>my_displays</name><version>0.0.1</version><description>d</description>"
+                 "<maintainer email='a@b.cd'>a</maintainer><license>BSD</license><depend>rviz</depend>"
+                 "<export><rviz plugin='${prefix}/plugins.xml'/></export></package>"),
+                ("plugins.xml", "<library path='lib/libmy_displays'><class name='my_displays/Arc' type='my::Arc' "
+                 "base_class_type='rviz::Display'/></library>"),
+                ("look.launch", "<launch><node name='look' pkg='rviz' type='rviz' required='true'/></launch>")):
+                with open(os.path.join(package, name), "w") as file:
+                    file.write(text)
+            environment = {**os.environ, "DISPLAY": "nowhere:77", "ROS_HOME": folder,  # RViz itself gets no further
+                           "ROS_PACKAGE_PATH": f"{folder}:{os.environ['ROS_PACKAGE_PATH']}"}
+            answer = subprocess.run([*ROSMON, "my_displays", "look.launch", "--stop-timeout", "20"], env=environment, cwd=folder, text=True,
+                                    stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, timeout=120)
+        self.assertIn("rviz: my_displays/Arc of the package my_displays cannot be added", answer.stdout)
 
     def test_terminate_stops_everything(self):
         process = subprocess.Popen([*ROSMON, "rosmon_core", "stubborn.launch", "--flush-stdout"],

@@ -46,7 +46,10 @@ def fromstring(text: str, tag: str = "robot") -> ElementTree.Element:
     """The first root of that tag, else the first root, as ``ElementTree.fromstring`` gives it.
 
     :raises ElementTree.ParseError: the text is no XML, for TinyXML neither
+    :raises TypeError: it is no text
     """
+    if not isinstance(text, str):
+        raise TypeError(f"XML is a text, not {type(text).__name__}")
     text = text.lstrip("\ufeff \t\r\n")
     try:
         return ElementTree.fromstring(text)

@@ -10,7 +10,7 @@ import os
 import sys
 from typing import List, MutableMapping, Optional
 
-from node_signals import programs, rviz_displays, rviz_start
+from node_signals import programs, rviz_start
 from node_signals.interpreter import supply_python
 
 #: Programs that open a window and do not look for a display themselves, by package. rqt's and turtlesim's do.
@@ -103,7 +103,6 @@ def main() -> None:
         programs.run(words)
     try:
         if os.path.basename(words[0]) == "rviz":
-            rviz_displays.start(words)
             rviz_start.run([program, *words[1:]])
         os.execv(program, [program, *words[1:]])
     except OSError as error:

@@ -10,7 +10,7 @@ import subprocess
 import sys
 from typing import List, NamedTuple, Optional
 
-from node_signals import rviz_displays, rviz_start
+from node_signals import rviz_start
 from node_signals.interpreter import as_it_can_run
 
 DEBIANS = "/usr/bin/rosrun"
@@ -78,7 +78,6 @@ def run(words: List[str]) -> None:
             print(f"rosrun: {difference}", file=sys.stderr, flush=True)
         line = [*asked.prefix.split(), *program, *asked.arguments]
         if asked[:3] == ("", "rviz", "rviz"):
-            rviz_displays.start(line)
             rviz_start.run(line)
         with contextlib.suppress(OSError):  # a script without its first line, a prefix that is no program: the shell's own way with them
             os.execvp(line[0], line)

@@ -1,6 +1,7 @@
 """Displays, tools and panels that RViz offers though nobody has built their library: one line each says what to build.
 
-RViz lists what packages declare, and finds the library only when one is added. ``rviz`` starts this beside RViz, which does not wait.
+RViz lists what packages declare, and finds the library only when one is added. ``rviz_start`` starts this beside RViz, which does not
+wait: from a shell, rosrun, roslaunch and rosmon.
 """
 from __future__ import annotations
 

@@ -13,6 +13,7 @@ import sys
 import time
 from typing import List
 
+from node_signals import rviz_displays
 from node_signals.children import end_with_parent
 
 #: s after its start in which a crash is one of starting
@@ -56,6 +57,7 @@ def run(command: List[str]) -> None:
 
     :raises OSError: there is no such program
     """
+    rviz_displays.start(command)
     ended = _Run(command).status()
     if ended < 0:
         with contextlib.suppress(OSError):  # SIGKILL cannot be handled, and so needs no reset

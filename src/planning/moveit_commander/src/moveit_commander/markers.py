@@ -1,9 +1,9 @@
 """A robot as markers, for RViz's MarkerArray display."""
 from __future__ import annotations
 
-import xml.etree.ElementTree as ET
 from typing import Dict, List, Optional, Sequence, Tuple
 
+import lenient_xml
 import motion
 from geometry_msgs.msg import Vector3
 from moveit_msgs.msg import RobotState
@@ -45,7 +45,7 @@ def robot_markers(description: RobotDescription, state: motion.RobotState, *args
 
 
 def _visuals(urdf: str, link: str) -> List[Tuple[motion.Pose, Marker]]:
-    root = ET.fromstring(urdf)
+    root = lenient_xml.fromstring(urdf)
     colours = {entry.get("name"): _colour(entry) for entry in root.findall("material")}
     found = []
     for visual in root.findall(f"./link[@name='{link}']/visual"):

@@ -21,6 +21,7 @@ from std_msgs.msg import Empty, String
 from tf.transformations import quaternion_from_euler, quaternion_matrix, quaternion_multiply
 from visualization_msgs.msg import InteractiveMarkerInit
 
+import lenient_xml
 import node_signals
 from moveit_ros_visualization import gamepads
 
@@ -42,7 +43,7 @@ def main() -> int:
 def groups_with_solver() -> List[str]:
     """Planning groups whose inverse kinematics is configured, as the SRDF orders them."""
     try:
-        root = ElementTree.fromstring(rospy.get_param("robot_description_semantic", "<robot/>"))
+        root = lenient_xml.fromstring(rospy.get_param("robot_description_semantic", "<robot/>"))
     except ElementTree.ParseError:
         return []
     solvers = rospy.get_param("robot_description_kinematics", {})

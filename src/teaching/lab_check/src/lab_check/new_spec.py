@@ -12,6 +12,8 @@ import xml.etree.ElementTree as ET
 from dataclasses import dataclass, field
 from typing import Dict, List, Optional
 
+import lenient_xml
+
 from .errors import LabError
 from .windows import is_window
 
@@ -98,7 +100,7 @@ def _own_packages(package: str, named: List[str]) -> List[str]:
 
 def _describe(found: Found, parameter: str, text: str) -> None:
     try:
-        robot = ET.fromstring(text)
+        robot = lenient_xml.fromstring(text)
     except (ET.ParseError, ValueError) as error:
         raise NewError(f"the parameter {parameter} is no XML: {error}") from error
     found.description, found.model = parameter, found.model or robot.get("name", "")

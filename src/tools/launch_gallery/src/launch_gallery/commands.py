@@ -2,8 +2,8 @@
 from __future__ import annotations
 
 from typing import Callable, Dict, List, Sequence, Tuple
-from xml.etree import ElementTree
 
+import lenient_xml
 import rospy
 from roslib.message import get_message_class
 
@@ -77,7 +77,7 @@ class Wheel:
 def joint_limits(description: str) -> Dict[str, Tuple[float, float]]:
     """Limits of the joints of a URDF that have some, rad or m."""
     found: Dict[str, Tuple[float, float]] = {}
-    for joint in ElementTree.fromstring(description).iter("joint"):
+    for joint in lenient_xml.fromstring(description).iter("joint"):
         limit = joint.find("limit")
         if joint.get("type") in ("revolute", "prismatic") and limit is not None:
             found[joint.get("name", "")] = float(limit.get("lower", 0)), float(limit.get("upper", 0))
@@ -86,7 +86,7 @@ def joint_limits(description: str) -> Dict[str, Tuple[float, float]]:
 
 def nominal_rates(description: str) -> List[Tuple[str, float]]:
     """(sensor, rate in Hz) of the sensors in a URDF that ask for one, on links that it has."""
-    robot = ElementTree.fromstring(description)
+    robot = lenient_xml.fromstring(description)
     links = {link.get("name") for link in robot.iter("link")}
     found = []
     for extension in robot.iter("gazebo"):

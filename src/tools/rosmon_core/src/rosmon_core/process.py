@@ -9,6 +9,7 @@ import select
 import shlex
 import signal
 import subprocess
+import sys
 import tty
 from dataclasses import dataclass
 from typing import Callable, Dict, List, Optional, Tuple
@@ -171,6 +172,8 @@ class NodeProcess:
         arguments, difference = with_what_is_there(arguments)
         if difference:
             self._event(self, difference, "warn")
+        if (node.package, node.type) == ("rviz", "rviz"):
+            arguments = [sys.executable, "-m", "node_signals.rviz_start", *arguments]
         environment = setup_env(node, None, self._master_uri)
         environment.setdefault("ROSCONSOLE_FORMAT", console_format(self.executable))
         directory = {"node": os.path.dirname(self.executable), "ROS_HOME": rospkg.get_ros_home()}.get(node.cwd or "")

@@ -6,6 +6,7 @@ import math
 import xml.etree.ElementTree as ET
 from typing import Dict, List, Optional, Tuple
 
+import lenient_xml
 import numpy as np
 import rosgraph
 import rospkg
@@ -56,7 +57,7 @@ def _bounds(geometry: ET.Element, packages: rospkg.RosPack) -> Tuple[np.ndarray,
 def _link_boxes(description: str) -> Dict[str, List[np.ndarray]]:
     """Link -> the corners (8,3) of each of its visuals, in the link's frame. What cannot be read is a point."""
     packages, boxes = rospkg.RosPack(), {}
-    for link in ET.fromstring(description).iterfind("link"):
+    for link in lenient_xml.fromstring(description).iterfind("link"):
         found = boxes[link.get("name", "")] = []
         for visual in link.iterfind("visual"):
             origin, geometry = visual.find("origin"), visual.find("geometry")

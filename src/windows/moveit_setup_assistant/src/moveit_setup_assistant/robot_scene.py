@@ -5,6 +5,7 @@ import xml.etree.ElementTree as ET
 from dataclasses import replace
 from typing import Dict, Iterable, List, Optional, Tuple
 
+import lenient_xml
 import numpy as np
 from motion.files import resolve
 from ode_sim.description import model as d
@@ -21,7 +22,7 @@ class RobotScene:
     """What :class:`ode_sim.rendering.Renderer` draws of a robot; links keep the order of ``links``."""
 
     def __init__(self, robot: Robot) -> None:
-        root = ET.fromstring(robot.urdf)
+        root = lenient_xml.fromstring(robot.urdf)
         colours = {m.get("name"): _colour(m) for m in root.findall("material")}
         self.links: Tuple[str, ...] = tuple(robot.model.links)
         self._visuals: List[SceneVisual] = []

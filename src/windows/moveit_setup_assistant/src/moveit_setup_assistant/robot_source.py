@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Callable, Dict, List, Optional
 
+import lenient_xml
 import motion
 import rospkg
 from motion.files import resolve
@@ -124,7 +125,7 @@ def _reason(error: Exception) -> str:
 def _xml_fault(text: str) -> str:
     """Where the XML ends to be XML, which urdf's parser does not say; '' if it is some."""
     try:
-        ET.fromstring(text)
+        lenient_xml.fromstring(text)
     except ET.ParseError as error:
         return f"its XML cannot be read: {error}"
     return ""
@@ -133,7 +134,7 @@ def _xml_fault(text: str) -> str:
 def _missing_visuals(urdf: str) -> List[str]:
     """One line for each mesh that cannot be drawn because there is no such file; the motion library looks at collisions alone."""
     lines: Dict[str, str] = {}
-    for link in ET.fromstring(urdf).findall("link"):
+    for link in lenient_xml.fromstring(urdf).findall("link"):
         for mesh in link.findall("visual/geometry/mesh"):
             uri = mesh.get("filename") or ""
             if not resolve(uri):

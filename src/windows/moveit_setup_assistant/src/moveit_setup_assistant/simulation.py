@@ -4,6 +4,8 @@ from __future__ import annotations
 import xml.etree.ElementTree as ET
 from typing import Dict, Iterable
 
+import lenient_xml
+
 from moveit_setup_assistant.configuration import Controller
 
 _INTERFACES = {"effort_controllers": "hardware_interface/EffortJointInterface",
@@ -17,7 +19,7 @@ def simulated_urdf(urdf: str, controllers: Iterable[Controller]) -> str:
     Links with a shape to collide and no inertia get 0.1 kg and 0.03 kg m2 about each axis, which is MoveIt's choice; joints
     without a transmission get one, of the interface that their controller commands (effort if none does).
     """
-    root = ET.fromstring(urdf)
+    root = lenient_xml.fromstring(urdf)
     interfaces = _interfaces_of(controllers)
     changed = [_add_inertia(link) for link in root.findall("link") if link.find("collision") is not None]
     moved = {joint.get("name") for t in root.findall("transmission") for joint in t.findall("joint")}

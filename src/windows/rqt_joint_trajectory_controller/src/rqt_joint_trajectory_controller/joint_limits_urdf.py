@@ -3,6 +3,7 @@ import math
 import xml.etree.ElementTree as ET
 from typing import Dict, NamedTuple
 
+import lenient_xml
 from qt_gui.errors import WindowError
 
 
@@ -26,7 +27,7 @@ def joint_limits(description: str) -> Dict[str, JointLimits]:
     :raises DescriptionError: if it is none
     """
     try:
-        root = ET.fromstring(description)
+        root = lenient_xml.fromstring(description)
     except (ET.ParseError, TypeError, ValueError) as error:
         raise DescriptionError(f"robot_description is no XML: {error}") from error
     found = {}

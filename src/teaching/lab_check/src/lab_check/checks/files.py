@@ -6,6 +6,8 @@ import pathlib
 import xml.etree.ElementTree as ET
 from typing import Any, Dict, List, Tuple
 
+import lenient_xml
+
 from ..inside import matching, read_regular
 from .base import Check, names, search
 
@@ -54,7 +56,7 @@ class UrdfCheck(Check):
         except rosgraph.MasterException:
             return False, f"the parameter {name} is not set: no robot description was loaded", {}
         try:
-            robot = ET.fromstring(text)
+            robot = lenient_xml.fromstring(text)
         except (ET.ParseError, TypeError, ValueError) as error:
             return False, f"the parameter {name} is no XML: {error}", {}
         complaints = complain(robot, self.wanted)

@@ -7,6 +7,7 @@ import xml.etree.ElementTree as ET
 from dataclasses import replace
 from typing import Callable, List, Optional, Tuple
 
+import lenient_xml
 import numpy as np
 from ode_sim.description import DescriptionError, ResourceFinder, model as d, read_sdf_model
 from ode_sim.description.sdf_writer import model_text
@@ -156,7 +157,7 @@ class Draft:
         if not name.strip() or not filename.strip():
             raise Refused("A plugin has a name and a file name, such as libgazebo_ros_p3d.so.")
         try:
-            element = ET.fromstring(f"<plugin>{parameters}</plugin>")
+            element = lenient_xml.fromstring(f"<plugin>{parameters}</plugin>")
         except ET.ParseError as error:
             raise Refused(f"The plugin's parameters are no XML: {error}") from error
         element.set("name", name.strip())
