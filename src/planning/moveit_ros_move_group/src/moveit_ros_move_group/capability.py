@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import functools
-from typing import Any, Callable
+from typing import Any, Callable, List
 
 import actionlib
 import motion
@@ -31,8 +31,8 @@ def serve(name: str, kind: type, handler: Callable[[Any, Any], None]) -> rospy.S
     """Offer a service: ``handler(request, response)`` fills the response.
 
     PlanningError puts its code into ``response.error_code`` (or that of ``motion_plan_response``), if there is one,
-    and is
-    logged as one line; so is any other exception, with FAILURE.
+    and is logged as one line; so is any other exception, with FAILURE. A response that has no place for a failure is none then: the
+    call fails, as where upstream's handler returns false.
     """
     @functools.wraps(handler)
     def answer(request):
@@ -48,15 +48,27 @@ def serve(name: str, kind: type, handler: Callable[[Any, Any], None]) -> rospy.S
         except Exception as error:  # whatever a request does to the planner, the node lives on
             rospy.logerr("%s failed: %s: %s", name, type(error).__name__, one_line(error))
             _set_code(response, MoveItErrorCodes.FAILURE)
+        else:
+            return response
+        if not _tells_failure(response):
+            raise rospy.ServiceException(f"{name}: it failed; move_group's output says why")
         return response
 
     return rospy.Service(name, kind, answer)
 
 
+def _tells_failure(response) -> bool:
+    return bool(_holders_of_code(response)) or hasattr(response, "success") or hasattr(response, "valid")
+
+
+def _holders_of_code(response) -> List[Any]:
+    holders = (response, getattr(response, "motion_plan_response", None), getattr(response, "response", None))
+    return [holder for holder in holders if hasattr(holder, "error_code")]
+
+
 def _set_code(response, code: int) -> None:
-    for holder in (response, getattr(response, "motion_plan_response", None), getattr(response, "response", None)):
-        if hasattr(holder, "error_code"):
-            holder.error_code.val = code
+    for holder in _holders_of_code(response):
+        holder.error_code.val = code
 
 
 class _Server(actionlib.SimpleActionServer):

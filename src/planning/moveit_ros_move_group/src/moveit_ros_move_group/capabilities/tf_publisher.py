@@ -13,18 +13,22 @@ from node_signals.parameters import number_or
 
 from ..capability import Capability
 
-_RATE = "~planning_scene_frame_publishing_rate"
+_RATE, _USUAL = "~planning_scene_frame_publishing_rate", 10.0  # Hz
 
 
 class TfPublisher(Capability):
-    """Publishes at ``~planning_scene_frame_publishing_rate`` (Hz), names prefixed by ``~planning_scene_tf_prefix``."""
+    """Publishes at ``~planning_scene_frame_publishing_rate`` (Hz), names prefixed by ``~planning_scene_tf_prefix``, which is
+    the node's own name unless it is given."""
 
     title = "TfPublisher"
 
     def __init__(self, context):
         super().__init__(context)
-        self._rate = number_or(_RATE, rospy.get_param(_RATE, 10.0), 10.0)
-        self._prefix = str(rospy.get_param("~planning_scene_tf_prefix", rospy.get_namespace())).strip("/")
+        self._rate = number_or(_RATE, rospy.get_param(_RATE, _USUAL), _USUAL)
+        if self._rate <= 0:
+            rospy.logerr("parameter %s is %g, where a rate above 0 is expected: %g is used", rospy.resolve_name(_RATE), self._rate, _USUAL)
+            self._rate = _USUAL
+        self._prefix = str(rospy.get_param("~planning_scene_tf_prefix", rospy.get_name())).strip("/")
         self._prefix += "/" if self._prefix else ""
         self._broadcaster = tf2_ros.TransformBroadcaster()
         self._end = threading.Event()
