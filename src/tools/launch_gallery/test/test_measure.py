@@ -114,3 +114,8 @@ def test_a_simulator_may_run_within_a_group():
     assert found.name("take_picture") == "/car/gazebo/take_picture"
     assert simulator.find([*services, "/gazebo/get_model_state"]).name("pause") == "/gazebo/pause"
     assert simulator.find(["/gazebo/spawn_urdf_model"]) is None
+
+
+def test_descriptions_are_read_as_tinyxml_reads_them():
+    text = "<robot><gazebo>a & b</gazebo><joint name='a' type='revolute'><limit lower='-1' upper='2'/></joint></robot>"
+    assert commands.joint_limits(text) == {"a": (-1.0, 2.0)} and commands.nominal_rates(text) == []

@@ -6,8 +6,10 @@ import pytest
 import yaml
 from moveit_setup_assistant import AssistantError, headless, package_writer
 from moveit_setup_assistant.configuration import Configuration, Controller, Kinematics
+from moveit_setup_assistant.robot_scene import RobotScene
 from moveit_setup_assistant.robot_source import RobotSource
 from moveit_setup_assistant.semantics import Semantics
+from moveit_setup_assistant.simulation import simulated_urdf
 from robots import FIVE
 from roslaunch import xmlloader
 from roslaunch.config import ROSLaunchConfig
@@ -244,6 +246,14 @@ def test_descriptions_that_cannot_be_used(described, tmp_path):
         Configuration.new(RobotSource.from_file(tmp_path / "broken.xacro", "hand=true"))
     with pytest.raises(AssistantError, match="package 'moved_away', which is not found"):
         RobotSource("moved_away", "urdf/robot.urdf").load()
+
+
+def test_a_robot_that_tinyxml_takes_is_read_drawn_and_simulated(tmp_path):
+    path = tmp_path / "odd.urdf"
+    path.write_text(FIVE.replace("</robot>", "<gazebo>a & b<topic>x?a=1&b=2</topic></gazebo></robot>"))
+    loaded = RobotSource.from_file(path).load()
+    assert len(RobotScene(loaded).links) == len(loaded.model.links)
+    assert "gazebo_ros_control" in simulated_urdf(loaded.urdf, [])
 
 
 def test_a_missing_mesh_is_a_warning(tmp_path):

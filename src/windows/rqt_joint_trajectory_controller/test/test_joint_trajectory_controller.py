@@ -27,6 +27,11 @@ def test_limits():
             joint_limits(text)
 
 
+def test_a_description_that_tinyxml_takes_is_read():
+    odd = URDF.replace("<joint name=\"a\"", "<link name='R&D'/><gazebo>a & b<topic>x?a=1&b=2</topic></gazebo><joint name='a'", 1)
+    assert joint_limits(odd) == joint_limits(URDF)
+
+
 def test_duration():
     assert duration([0, 0], [1, 1], [0.5, 2], 0.5) == 4.0
     assert duration([0], [0.01], [1], 0.01) == 50.0
