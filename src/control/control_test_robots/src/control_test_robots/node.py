@@ -31,6 +31,7 @@ class TestRobotNode:
         self._dt = 1.0 / rospy.get_param("~rate", 100.0)
         self._pause = self._dt / rospy.get_param("~speed", 1.0)
         self._granted = 0
+        self._resetting = False
         self._changed = threading.Condition()
         self._cycle = 0
         self._clock = make_prompt(rospy.Publisher("/clock", Clock, queue_size=10), 10)
@@ -43,7 +44,9 @@ class TestRobotNode:
         """Make cycles until the node is shut down."""
         while not rospy.is_shutdown():
             with self._changed:
-                self._changed.wait_for(lambda: self._granted > 0, self._pause)
+                self._changed.wait_for(lambda: self._granted > 0 or self._resetting, self._pause)
+                if self._resetting:  # between two cycles: no controller sees half of it
+                    self._begin_anew()
             self._make_cycle()
             with self._changed:
                 self._granted = max(0, self._granted - 1)
@@ -69,10 +72,18 @@ class TestRobotNode:
 
     def _reset(self, _request) -> EmptyResponse:
         """As when a simulation is reset: time begins anew, the joints are where they began."""
+        with self._changed:
+            self._resetting = True
+            self._changed.notify_all()
+            self._changed.wait_for(lambda: not self._resetting or rospy.is_shutdown(), 5.0)
+        return EmptyResponse()
+
+    def _begin_anew(self) -> None:
         self._cycle = 0
         for joint in self._robot.joints.values():
             joint.reset()
-        return EmptyResponse()
+        self._resetting = False
+        self._changed.notify_all()
 
     def _apply_faults(self, _request) -> EmptyResponse:
         self._robot.set_faults(rospy.get_param("~faults", {}))
