@@ -2,7 +2,7 @@
 import pytest
 from test_fuzzing import CORPUS, fuzz
 
-SHORT = {"yaml": 30, "launch": 8, "messages": 8}
+SHORT = {"yaml": 30, "launch": 8, "messages": 8, "planning": 6}
 
 
 @pytest.mark.slow

@@ -18,7 +18,6 @@ from fuzzing.findings import Found
 from fuzzing.worker import end_with_parent
 
 Target = Tuple[str, str, str]  # "service" or "topic", name, type
-_PATIENCE = 15.0  # wall s for an answer on a busy machine
 _CONTROLLERS = {"/arm": ["joint_state_controller", *(f"joint{i}_position_controller" for i in range(4))],
                 "": ["joint_state_controller", "arm_controller"]}
 _ROBOTS = {"arm": ("arm/arm_description/urdf/arm.urdf.xacro", "/arm", 0.0),
@@ -35,14 +34,129 @@ def robot_texts() -> Dict[str, str]:
     return {name: text.decode() for name, text in found.items() if text is not None}
 
 
-class Simulation:
-    """Start it in a worker process. Its server ends with the worker's process group."""
+class Server:
+    """A node that is started for this, with a master of its own: it is asked, and its output is read. ``program`` is what it is called in a
+    finding, ``node`` its name."""
+
+    program, node = "gzserver", "/gazebo"
+    patience = 15.0  # wall s for an answer on a busy machine
 
     def __init__(self, folder: Path, number: int):
-        self._folder, self._texts = folder, robot_texts()
+        self._folder = folder
         ros.start_master(folder, number)
         import rospy
         self._rospy = rospy
+        self._proxies: Dict[str, Any] = {}
+        self._publishers: Dict[str, Any] = {}
+        self._process: Optional[subprocess.Popen] = None
+
+    def start(self, *words: str) -> None:
+        """In the place of the one that runs."""
+        self.stop()
+        self._proxies.clear()
+        self._log_path = self._folder / f"{self.program}.log"
+        self._log = open(self._log_path, "wb")
+        self._read = 0
+        self._process = subprocess.Popen(words, stdout=self._log, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL,
+                                         env=dict(os.environ, PYTHONUNBUFFERED="1"), preexec_fn=end_with_parent)
+        for publisher in self._publishers.values():
+            publisher.unregister()
+        self._publishers.clear()
+
+    def stop(self) -> None:
+        if self._process is not None and self._process.poll() is None:
+            self._process.terminate()
+            try:
+                self._process.wait(5.0)
+            except subprocess.TimeoutExpired:
+                self._process.kill()
+                self._process.wait()
+
+    def wait(self, service: str) -> None:
+        self._rospy.wait_for_service(service, timeout=60.0)
+
+    def call(self, name: str, request: Any = None, /, again: bool = True, **fields: Any) -> Any:
+        """A service's answer. :raises Found: there is none in time"""
+        proxy = self._proxy(name)
+        request = proxy.request_class(**fields) if request is None else request
+        answer: List[Any] = []
+
+        def ask() -> None:
+            try:
+                answer.append(proxy(request))
+            except Exception as error:  # handed on below
+                answer.append(error)
+        asking = threading.Thread(target=ask, daemon=True)
+        asking.start()
+        asking.join(self.patience)
+        if asking.is_alive():
+            self.check_alive(name)
+            raise Found("no answer", name, f"for {self.patience:g} s")
+        if isinstance(answer[0], Exception):
+            self._proxies.pop(name, None)
+            self.check_alive(name)
+            if again and isinstance(answer[0], (self._rospy.ServiceException, rospy_closed())):  # the service is a new one now
+                return self.call(name, request, again=False)
+            raise answer[0]
+        return answer[0]
+
+    def _proxy(self, name: str) -> Any:
+        if name not in self._proxies:
+            import rosservice
+            self._proxies[name] = self._rospy.ServiceProxy(name, rosservice.get_service_class_by_name(name), persistent=True)
+        return self._proxies[name]
+
+    def publish(self, topic: str, message: Any) -> None:
+        publisher = self._publishers.get(topic)
+        if publisher is None:
+            publisher = self._publishers[topic] = self._rospy.Publisher(topic, type(message), queue_size=10)
+            end = time.monotonic() + 5.0
+            while not publisher.get_num_connections() and time.monotonic() < end:
+                time.sleep(0.01)
+        publisher.publish(message)
+
+    def check_alive(self, after: str) -> None:
+        try:
+            code = self._process.wait(0.0 if self._process.poll() is not None else 0.001)
+        except subprocess.TimeoutExpired:
+            return
+        tail = self._log_path.read_text(errors="replace")[-2000:]
+        frames = re.findall(r'File "[^"]*?([^/"]+/[^/"]+)", line (\d+),? in (\S+)', tail)
+        place = f"{frames[-1][0]}:{frames[-1][1]} {frames[-1][2]}" if frames else f"after {after}"
+        raise Found(f"{self.program} ended with code {code}", place, tail[-300:])
+
+    def check_log(self) -> None:
+        with open(self._log_path, "rb") as stream:
+            stream.seek(self._read)
+            text = stream.read()
+        whole = text.rfind(b"\n") + 1
+        self._read += whole
+        text = re.sub(r"\x1b\[[\d;]*m", "", text[:whole].decode("utf-8", "replace"))
+        if "Traceback (most recent call last)" in text:
+            from fuzzing import findings
+            raise Found.of(findings.of_output(text[text.index("Traceback (most"):]))
+        for line in text.splitlines():
+            if re.match(r"\[(ERROR|FATAL|WARN)\]", line):
+                ros.check_line(re.sub(r"^\[\w+\] \[[\d., -]+\]: ", "", line))
+
+    def targets(self) -> List[Target]:
+        """Services of the server and topics that it listens to."""
+        import rosservice
+        import rostopic
+        publishers, subscribers, services = self._rospy.get_master().getSystemState()[2]
+        found = [("service", name, rosservice.get_service_type(name)) for name, nodes in services if self.node in nodes]
+        found += [("topic", name, rostopic.get_topic_type(name)[0]) for name, nodes in subscribers
+                  if self.node in nodes and name != "/clock"]
+        return sorted(target for target in found if target[2])
+
+
+class Simulation(Server):
+    """Start it in a worker process. Its server ends with the worker's process group."""
+
+    def __init__(self, folder: Path, number: int):
+        super().__init__(folder, number)
+        import rospy
+        self._texts = robot_texts()
         rospy.set_param("/use_sim_time", True)
         for namespace, files in _PARAMETERS.items():
             for file in files:
@@ -58,9 +172,6 @@ class Simulation:
         rospy.Subscriber("/clock", Clock, self._tick)
         for topic, kind in (("/gazebo/link_states", LinkStates), ("/arm/joint_states", JointState), ("/joint_states", JointState)):
             rospy.Subscriber(topic, kind, lambda message, topic=topic: self._states.__setitem__(topic, message), queue_size=1)
-        self._proxies: Dict[str, Any] = {}
-        self._publishers: Dict[str, Any] = {}
-        self._process: Optional[subprocess.Popen] = None
         self._physics = SetPhysicsPropertiesRequest(time_step=0.001, max_update_rate=1000.0)
         self._physics.gravity.z = -9.8
         for field, value in _SOLVER.items():
@@ -79,17 +190,7 @@ class Simulation:
 
     def restart(self) -> None:
         """A new server, with the robots in it."""
-        self.stop()
-        self._proxies.clear()
-        self._log_path = self._folder / "gzserver.log"
-        self._log = open(self._log_path, "wb")
-        self._read = 0
-        self._process = subprocess.Popen(
-            ["rosrun", "gazebo_ros", "gzserver", "worlds/empty.world"], stdout=self._log, stderr=subprocess.STDOUT,
-            stdin=subprocess.DEVNULL, env=dict(os.environ, PYTHONUNBUFFERED="1"), preexec_fn=end_with_parent)
-        for publisher in self._publishers.values():
-            publisher.unregister()
-        self._publishers.clear()
+        self.start("rosrun", "gazebo_ros", "gzserver", "worlds/empty.world")
         self.wait("/gazebo/set_parameters")  # the last that a server offers
         for name, text in self._texts.items():
             self._spawn(name, text)
@@ -104,18 +205,6 @@ class Simulation:
         except Exception:  # whatever it is, a new server knows nothing of it
             self.restart()
         self._read = self._log_path.stat().st_size
-
-    def stop(self) -> None:
-        if self._process is not None and self._process.poll() is None:
-            self._process.terminate()
-            try:
-                self._process.wait(5.0)
-            except subprocess.TimeoutExpired:
-                self._process.kill()
-                self._process.wait()
-
-    def wait(self, service: str) -> None:
-        self._rospy.wait_for_service(service, timeout=60.0)
 
     def repair(self) -> None:
         """Physics, models and controllers as they were; what a case is allowed to change."""
@@ -164,48 +253,6 @@ class Simulation:
                 raise Found("controllers of the labs cannot be started again", f"{manager}switch_controller",
                             f"{states} {self._log_path.read_text(errors='replace')[-400:]}")
 
-    # ------------------------------------------------------------------------------------------ talking
-
-    def call(self, name: str, request: Any = None, /, again: bool = True, **fields: Any) -> Any:
-        """A service's answer. :raises Found: there is none in time"""
-        proxy = self._proxy(name)
-        request = proxy.request_class(**fields) if request is None else request
-        answer: List[Any] = []
-
-        def ask() -> None:
-            try:
-                answer.append(proxy(request))
-            except Exception as error:  # handed on below
-                answer.append(error)
-        asking = threading.Thread(target=ask, daemon=True)
-        asking.start()
-        asking.join(_PATIENCE)
-        if asking.is_alive():
-            self.check_alive(name)
-            raise Found("no answer", name, f"for {_PATIENCE:g} s")
-        if isinstance(answer[0], Exception):
-            self._proxies.pop(name, None)
-            self.check_alive(name)
-            if again and isinstance(answer[0], (self._rospy.ServiceException, rospy_closed())):  # the service is a new one now
-                return self.call(name, request, again=False)
-            raise answer[0]
-        return answer[0]
-
-    def _proxy(self, name: str) -> Any:
-        if name not in self._proxies:
-            import rosservice
-            self._proxies[name] = self._rospy.ServiceProxy(name, rosservice.get_service_class_by_name(name), persistent=True)
-        return self._proxies[name]
-
-    def publish(self, topic: str, message: Any) -> None:
-        publisher = self._publishers.get(topic)
-        if publisher is None:
-            publisher = self._publishers[topic] = self._rospy.Publisher(topic, type(message), queue_size=10)
-            end = time.monotonic() + 5.0
-            while not publisher.get_num_connections() and time.monotonic() < end:
-                time.sleep(0.01)
-        publisher.publish(message)
-
     # ------------------------------------------------------------------------------------------ is all well?
 
     def check(self) -> None:
@@ -220,18 +267,8 @@ class Simulation:
         self._check_numbers()
         self.check_log()
 
-    def check_alive(self, after: str) -> None:
-        try:
-            code = self._process.wait(0.0 if self._process.poll() is not None else 0.001)
-        except subprocess.TimeoutExpired:
-            return
-        tail = self._log_path.read_text(errors="replace")[-2000:]
-        frames = re.findall(r'File "[^"]*?([^/"]+/[^/"]+)", line (\d+),? in (\S+)', tail)
-        place = f"{frames[-1][0]}:{frames[-1][1]} {frames[-1][2]}" if frames else f"after {after}"
-        raise Found(f"gzserver ended with code {code}", place, tail[-300:])
-
     def _check_clock(self, where: str) -> None:
-        before, end = self._clocks, time.monotonic() + _PATIENCE
+        before, end = self._clocks, time.monotonic() + self.patience
         while self._clocks < before + 2:
             if time.monotonic() > end:
                 self.check_alive(where)
@@ -246,57 +283,31 @@ class Simulation:
             if not all(map(math.isfinite, numbers)):
                 raise Found("silent NaN", topic)
 
-    def check_log(self) -> None:
-        with open(self._log_path, "rb") as stream:
-            stream.seek(self._read)
-            text = stream.read()
-        whole = text.rfind(b"\n") + 1
-        self._read += whole
-        text = re.sub(r"\x1b\[[\d;]*m", "", text[:whole].decode("utf-8", "replace"))
-        if "Traceback (most recent call last)" in text:
-            from fuzzing import findings
-            raise Found.of(findings.of_output(text[text.index("Traceback (most"):]))
-        for line in text.splitlines():
-            if re.match(r"\[(ERROR|FATAL|WARN)\]", line):
-                ros.check_line(re.sub(r"^\[\w+\] \[[\d., -]+\]: ", "", line))
-
-    # ------------------------------------------------------------------------------------------ what there is
-
-    def targets(self) -> List[Target]:
-        """Services of the server and topics that it listens to."""
-        import rosservice
-        import rostopic
-        publishers, subscribers, services = self._rospy.get_master().getSystemState()[2]
-        found = [("service", name, rosservice.get_service_type(name)) for name, nodes in services if "/gazebo" in nodes]
-        found += [("topic", name, rostopic.get_topic_type(name)[0]) for name, nodes in subscribers
-                  if "/gazebo" in nodes and name != "/clock"]
-        return sorted(target for target in found if target[2])
-
-
 def rospy_closed() -> type:
     """What a connection that was kept raises when the other side has gone."""
     from rospy.exceptions import TransportException
     return TransportException
 
 
-def listed() -> List[Target]:
-    """The targets of a simulation that is started for this, in a process of its own."""
-    out = subprocess.run([sys.executable, "-m", "fuzzing.simulation"], capture_output=True, text=True, timeout=180, start_new_session=True)
+def listed(module: str = "fuzzing.simulation") -> List[Target]:
+    """The targets of a server that is started for this, in a process of its own."""
+    out = subprocess.run([sys.executable, "-m", module], capture_output=True, text=True, timeout=180, start_new_session=True)
     if out.returncode:
-        raise RuntimeError(f"the simulation cannot be started: {out.stderr.strip().splitlines()[-1:]}")
+        raise RuntimeError(f"{module} cannot be started: {out.stderr.strip().splitlines()[-1:]}")
     return [tuple(target) for target in json.loads(out.stdout.splitlines()[-1])]
 
 
-def _list() -> None:
+def print_targets(kind: type) -> None:
+    """And end the process."""
     with tempfile.TemporaryDirectory(prefix="noetic_labs_fuzz_list_") as folder:
-        simulation = Simulation(Path(folder), 30)
+        server = kind(Path(folder), 30)
         try:
-            print(json.dumps(simulation.targets()))
+            print(json.dumps(server.targets()))
         finally:
-            simulation.stop()
+            server.stop()
     sys.stdout.flush()
     os._exit(0)  # rospy's and the master's threads have nothing more to say
 
 
 if __name__ == "__main__":
-    _list()
+    print_targets(Simulation)

@@ -55,11 +55,11 @@ def all_kinds() -> Dict[str, Kind]:
     from fuzzing.kinds.descriptions import SdfKind, UrdfKind, WorldKind
     from fuzzing.kinds.launches import LaunchKind
     from fuzzing.kinds.meshes import MeshKind
-    from fuzzing.kinds.messages import MessageKind
+    from fuzzing.kinds.messages import MessageKind, PlanningKind
     from fuzzing.kinds.plans import PlanKind
     from fuzzing.kinds.xacros import XacroKind
     kinds: List[Kind] = [UrdfKind(), XacroKind(), SdfKind(), WorldKind(), PlanKind(), MeshKind(), ApiKind(), ControllerKind(),
-                         LaunchKind(), MessageKind()]
+                         LaunchKind(), MessageKind(), PlanningKind()]
     return {kind.name: kind for kind in kinds}
 
 
@@ -68,6 +68,8 @@ def kind_of_file(path: Path) -> Optional[str]:
     known = {".urdf": "urdf", ".xacro": "xacro", ".sdf": "sdf", ".world": "world", ".mesh": "mesh", ".launchargs": "launch"}
     if path.suffix in known:
         return known[path.suffix]
+    if path.name.endswith(".planning.json"):
+        return "planning"
     text = path.read_bytes()
     if path.suffix == ".json":
         return "messages" if b'"messages"' in text else "mesh" if b'"mesh"' in text else "launch" if b'"program"' in text \

@@ -16,7 +16,8 @@ _STEPS = 3  # after each call
 _SURFACE = ("mu", "mu2", "kp", "kd", "max_vel", "slip1", "slip2", "min_depth", "restitution", "bounce_threshold")
 _PHYSICS = ("max_step_size", "max_contacts", "iters", "sor", "cfm", "erp", "contact_max_correcting_vel", "contact_surface_layer",
             "real_time_update_rate")
-_PARAMETERS = ("fmax", "vel", "hi_stop", "lo_stop", "stop_erp", "stop_cfm", "friction", "damping", "no_such")
+_PARAMETERS = ("fmax", "vel", "hi_stop", "lo_stop", "stop_erp", "stop_cfm", "friction", "damping", "thread_pitch", "gearbox_ratio",
+               "no_such")
 _DECLARED = (ValueError, KeyError)  # DescriptionError is a ValueError; KeyError: no such model
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from random import Random
 from typing import Any, Dict, Iterator, List
 
-from fuzzing import ros, seeds, simulation, tree_cases, values, xml_cases
+from fuzzing import move_group, ros, seeds, simulation, tree_cases, values, xml_cases
 from fuzzing.findings import check_message
 from fuzzing.kinds import Kind
 
@@ -144,6 +144,45 @@ class MessageKind(Kind):
                     changed = json.loads(json.dumps(messages))
                     tree_cases.value_at(changed[i][3], path[:-1])[path[-1]] = plain
                     yield json.dumps({"messages": changed}).encode()
+
+
+class PlanningKind(MessageKind):
+    """Requests to move_group: its services, the goals of its actions, scenes and states, as JSON like the others."""
+
+    name, suffix = "planning", ".planning.json"
+    time_limit = 60.0
+
+    def prepare(self) -> None:
+        kept = ("/set_logger_level", "/save_map")  # the latter writes where it is told to
+        self._targets = [target for target in simulation.listed("fuzzing.move_group") if not target[1].endswith(kept)]
+        things = ["box", "ball", "<octomap>"]
+        links = ["hand", "base_link", "tool0"]
+        self._strings = {
+            "group_name": list(move_group.GROUPS), "group": list(move_group.GROUPS), "name": [*move_group.JOINTS, "finger_joint"],
+            "joint_name": move_group.JOINTS, "joint_names": move_group.JOINTS, "frame_id": ["", "world", "base_link", "hand", "box"],
+            "link_name": links, "ik_link_name": links, "fk_link_names": links,
+            "pipeline_id": ["", "ompl", "pilz_industrial_motion_planner"],
+            "planner_id": ["", "RRTConnect", "PTP", "LIN", "CIRC"], "planner_config": ["RRTConnect", "RRT"], "id": things,
+            "target_name": things, "attached_object_name": things, "support_surface_name": things, "touch_links": links,
+            "end_effector": ["hand", ""], "data": ["stop", ""], "filename": ["nowhere/map.bt"]}
+        self._xml = {}
+
+    def start(self, folder: Path, number: int) -> None:
+        self._simulation = move_group.MoveGroup(folder, number)
+        self._broken = False
+
+    def _value(self, random: Random, name: str, slot: str, extreme: float) -> Any:
+        if name == "allowed_planning_time":  # more is what was asked for, and no fault
+            return random.choice((0.0, 0.05, 0.2, -1.0, float("nan")))
+        if name == "allow_looking" or (name == "replan" and slot == "bool"):
+            return False
+        return super()._value(random, name, slot, extreme)
+
+    def _string(self, random: Random, name: str, extreme: float) -> str:
+        known = self._strings.get(name, [])
+        if known and random.random() > extreme:
+            return random.choice(known)
+        return random.choice(random.choice((values.NAMES, values.ODDITIES, known or ["x"])))
 
 
 def _message_class(what: str, kind: str) -> type:
