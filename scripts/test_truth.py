@@ -33,7 +33,8 @@ def cases(solver):
             cause = cause_of(solver, scene.name, row.quantity)
             marks = [pytest.mark.xfail(strict=True, reason=cause)] if cause else []
             marks += [pytest.mark.slow] if is_slow(scene) else []
-            marks += [pytest.mark.skip(reason="recorded, and not yet run beside real Gazebo")] if scene.name in NOT_COMPARED else []
+            marks += [pytest.mark.skip(reason="not yet run beside real Gazebo")] if scene.name in NOT_COMPARED else []
+            marks += [pytest.mark.skip(reason="scripts/truth compare runs it, on a server of its own")] if scene.server else []
             yield pytest.param(scene, row, id=f"{scene.name}-{row.quantity}", marks=marks)
 
 

@@ -247,25 +247,6 @@ contact(
     ),
     deeds=[Deed("twist", "ball", "3 0 0 0 0 0")],
 )
-TORSION = (
-    "<coefficient>{c}</coefficient><use_patch_radius>{use}</use_patch_radius><patch_radius>0.05</patch_radius>"
-    "<surface_radius>0.1</surface_radius><ode><slip>0</slip></ode>"
-)
-for radius in (1, 0):
-    contact(
-        f"torsional_{'patch' if radius else 'surface'}",
-        f"ball spinning at 20 rad/s about the vertical, torsional coefficient 0.5, "
-        f"{'patch_radius 0.05' if radius else 'surface_radius 0.1'}",
-        "moment 3 pi/16 c r N; Gazebo's r is the patch's radius, or sqrt(surface_radius depth)",
-        ball("ball", 0.1, 1, "0 0 0.1 0 0 0", surface(1.0, torsional=TORSION.format(c=0.5, use=radius))),
-        (
-            Row("spin at 0.1 s, rad/s", lambda r: r.at("model:ball", "wz", 0.1), gazebo=(5e-3, 1e-3), default=(2e-2, 1e-2)),
-            Row("spin at 0.3 s, rad/s", lambda r: r.at("model:ball", "wz", 0.3), gazebo=(5e-3, 1e-3), default=(2e-2, 1e-2)),
-            Row("spin at 0.8 s, rad/s", lambda r: r.at("model:ball", "wz", 0.8), gazebo=(5e-3, 1e-3), default=(2e-2, 1e-2)),
-        ),
-        1.0,
-        [Deed("twist", "ball", "0 0 0 0 0 20")],
-    )
 
 # ---------------------------------------------------------------------------------------------------- who touches whom
 

@@ -4,7 +4,7 @@ import struct
 import zlib
 
 from real_gazebo.scene import Deed, Row
-from real_gazebo.sdf import axis, ball, cube, ground, inertial, joint, link, model, surface, world
+from real_gazebo.sdf import axis, ball, box, collision, cube, ground, inertial, joint, link, model, surface, world
 from real_gazebo.scenes_worlds import FILES, scene
 
 
@@ -149,6 +149,28 @@ scene(
     + body_rows(("z", 0.48), ("z", 0.52), ("z", 0.8), ("vz", 0.52), default=(0, 5e-3)),
     deeds=[Deed("reset_poses", "", "", 0.5)],
 )
+ARM = (  # its base is bolted to the world, or stands free
+    link("base", inertial(5, 0.1), collision(box(0.3, 0.3, 0.2)), pose="0 0 0.1 0 0 0"),
+    link("upper", inertial(1, 0.02, "0 0 0.25 0 0 0"), pose="0 0 0.3 0 0 0"),
+    link("lower", inertial(0.5, 0.01, "0 0 0.2 0 0 0"), pose="0 0 0.8 0 0 0"),
+    joint("j1", "revolute", "base", "upper", axis("0 1 0", damping=0.2)),
+    joint("j2", "revolute", "upper", "lower", axis("1 0 0", damping=0.2)),
+)
+for named, bolt in (("bolted", (joint("bolt", "fixed", "world", "base"),)), ("standing", ())):
+    for kind, deed in (("poses", "reset_poses"), ("world", "reset")):
+        scene(
+            f"reset_{kind}_{named}_arm",
+            f"an arm of two joints, {named}, moved by efforts; {'the models are reset' if kind == 'poses' else 'world reset'} after 0.5 s",
+            "the base is back; and the joints?",
+            world(ground(), model("m", *ARM, *bolt, pose="0.2 0.1 0 0 0 0.3")),
+            tuple(
+                Row(f"m::{j} at {t:g} s", lambda r, j=j, t=t: r.angle(f"m::{j}", t), gazebo=(2e-3, 2e-4), default=(5e-3, 1e-3))
+                for t in (0.48, 0.52)
+                for j in ("j1", "j2")
+            ),
+            0.6,
+            [Deed("effort", "m::j1", "0.3", 0.0, 0.5), Deed("effort", "m::j2", "0.2", 0.0, 0.5), Deed(deed, "", "", 0.5)],
+        )
 scene(
     "pose_set",
     "SetWorldPose of a falling box after 0.5 s",

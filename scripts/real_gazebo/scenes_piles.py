@@ -184,7 +184,7 @@ pile(
 pile(
     "hundred_boxes",
     "100 cubes dropped as a loose block of 5 x 5 x 4",
-    "they come down to rest",
+    "each column of four comes straight down, and stands: 0.2 m",
     [
         cube(f"h{i}", 0.1, 1, f"{0.13 * (i % 5):.9g} {0.13 * (i // 5 % 5):.9g} {0.1 + 0.13 * (i // 25):.9g} 0 0 0.1", surface(0.6))
         for i in range(100)
@@ -193,6 +193,7 @@ pile(
         Row(
             "mean height at 2.9 s, m",
             lambda r: sum(r.at(f"model:h{i}", "z", 2.9) for i in range(100)) / 100,
+            law=0.2,
             gazebo=(0.1, 0),
             default=(0.2, 0),
         ),

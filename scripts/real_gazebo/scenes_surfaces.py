@@ -2,7 +2,7 @@
 
 import math
 
-from real_gazebo.scene import Row
+from real_gazebo.scene import Deed, Row
 from real_gazebo.sdf import ball, collision, cube, link, model, surface
 from real_gazebo.scenes_contacts import G, contact
 
@@ -181,3 +181,83 @@ sunk(
     default=(0, 1e-3),
 )
 sunk("inside_5mm_max_vel_01", "cube 5 mm deep, max_vel 0.1", "comes out at 0.1 m/s", {"max_vel": 0.1}, {}, 0.0, -0.005)
+
+
+# ---------------------------------------------------------------------------------------------------- torsional friction
+
+TORSION = (
+    "<coefficient>{c}</coefficient><use_patch_radius>{use}</use_patch_radius><patch_radius>0.05</patch_radius>"
+    "<surface_radius>0.1</surface_radius><ode><slip>0</slip></ode>"
+)
+for radius in (1, 0):
+    contact(
+        f"torsional_{'patch' if radius else 'surface'}",
+        f"ball spinning at 20 rad/s about the vertical, torsional coefficient 0.5, "
+        f"{'patch_radius 0.05' if radius else 'surface_radius 0.1'}",
+        "moment 3 pi/16 c r N; Gazebo's r is the patch's radius, or sqrt(surface_radius depth)",
+        ball("ball", 0.1, 1, "0 0 0.1 0 0 0", surface(1.0, torsional=TORSION.format(c=0.5, use=radius))),
+        (
+            Row("spin at 0.1 s, rad/s", lambda r: r.at("model:ball", "wz", 0.1), gazebo=(5e-3, 1e-3), default=(2e-2, 1e-2)),
+            Row("spin at 0.3 s, rad/s", lambda r: r.at("model:ball", "wz", 0.3), gazebo=(5e-3, 1e-3), default=(2e-2, 1e-2)),
+            Row("spin at 0.8 s, rad/s", lambda r: r.at("model:ball", "wz", 0.8), gazebo=(5e-3, 1e-3), default=(2e-2, 1e-2)),
+        ),
+        1.0,
+        [Deed("twist", "ball", "0 0 0 0 0 20")],
+    )
+
+
+def spins(law):
+    return tuple(
+        Row(f"spin at {t} s, rad/s", lambda r, t=t: r.at("model:b", "wz", t), law=law(t), gazebo=(2e-3, 1e-3), default=(1e-2, 1e-2))
+        for t in (0.1, 0.25)
+    )
+
+
+HERTZ = 3 * math.pi / 16
+
+
+PATCH = "<coefficient>{c}</coefficient><patch_radius>{r}</patch_radius><ode><slip>{slip}</slip></ode>"
+contact(
+    "torsional_slip",
+    "ball spinning at 20 rad/s, coefficient 0.5, patch_radius 0.05, slip 200 rad/s per N m",
+    "moment of w / slip, as it is less than the friction",
+    ball("b", 0.1, 1, "0 0 0.1 0 0 0", surface(1.0, torsional=PATCH.format(c=0.5, r=0.05, slip=200))),
+    spins(lambda t: 20 * math.exp(-t / (200 * 0.004))),
+    0.6,
+    [Deed("twist", "b", "0 0 0 0 0 20")],
+)
+contact(
+    "torsional_two_surfaces",
+    "ball (coefficient 0.5, patch_radius 0.02, slip 100) on a plate (0.3, 0.05, 50)",
+    "the smaller coefficient, the larger patch, the sum of the slips",
+    (
+        model(
+            "plate",
+            link("l", collision("<box><size>2 2 0.2</size></box>", surface(1.0, torsional=PATCH.format(c=0.3, r=0.05, slip=50)))),
+            pose="0 0 1 0 0 0",
+            static=True,
+        ),
+        ball("b", 0.1, 1, "0 0 1.2 0 0 0", surface(1.0, torsional=PATCH.format(c=0.5, r=0.02, slip=100))),
+    ),
+    spins(lambda t: 20 - HERTZ * 0.3 * 0.05 * 9.8 / 0.004 * t),
+    0.6,
+    [Deed("twist", "b", "0 0 0 0 0 20")],
+)
+contact(
+    "torsional_box",
+    "box on four corners without other friction, coefficient 0.5, patch_radius 0.05",
+    "moment 3 pi/16 c r N of the whole weight",
+    cube("b", 0.2, 1, "0 0 0.1 0 0 0", surface(0, torsional=PATCH.format(c=0.5, r=0.05, slip=0))),
+    spins(lambda t: 8 - HERTZ * 0.5 * 0.05 * 9.8 / (0.2**2 / 6) * t),
+    0.6,
+    [Deed("twist", "b", "0 0 0 0 0 8")],
+)
+contact(
+    "torsional_without_a_patch",
+    "ball with a coefficient of 2 and no radius",
+    "touches in a point: spins on",
+    ball("b", 0.1, 1, "0 0 0.1 0 0 0", surface(1.0, torsional="<coefficient>2</coefficient>")),
+    spins(lambda t: 20.0),
+    0.4,
+    [Deed("twist", "b", "0 0 0 0 0 20")],
+)

@@ -111,9 +111,9 @@ void add_joint_rows(std::vector<Row>& rows, std::vector<Body>& bodies, const Joi
   }
 }
 
-// Normal force and two of friction along fixed tangents (a pyramid).
+// Normal force, two of friction along fixed tangents (a pyramid), and a moment of friction about the normal.
 void add_contact_rows(std::vector<Row>& rows, const std::vector<Body>& bodies, const Pair& pair, const dContact& d,
-                      const Settings& set) {
+                      double spin_slip, const Settings& set) {
   const double dt = set.dt;
   const Vec3 at = vec(d.geom.pos), n = vec(d.geom.normal);
   Row r = gazebo_like::point_row(pair, at, n);
@@ -127,16 +127,16 @@ void add_contact_rows(std::vector<Row>& rows, const std::vector<Body>& bodies, c
   const int normal = static_cast<int>(rows.size());
   rows.push_back(r);
   const Vec3 t1 = vec(d.fdir1), t2 = cross(n, t1);
-  auto friction = [&](const Vec3& t, double mu, double slip, double motion) {
+  auto friction = [&](Row f, double mu, double slip, double motion) {
     if (mu <= 0) return;
-    Row f = gazebo_like::point_row(pair, at, t);
     f.c = motion, f.cfm = slip, f.hi = mu, f.fastest = set.contact_max_vel;  // overlap alone is undone slowly
     if (d.surface.mode & dContactApprox1) f.kind = normal;
     else f.lo = -mu;  // a force that is known
     rows.push_back(f);
   };
-  friction(t1, d.surface.mu, d.surface.slip1, d.surface.motion1);
-  friction(t2, d.surface.mu2, d.surface.slip2, d.surface.motion2);
+  friction(gazebo_like::point_row(pair, at, t1), d.surface.mu, d.surface.slip1, d.surface.motion1);
+  friction(gazebo_like::point_row(pair, at, t2), d.surface.mu2, d.surface.slip2, d.surface.motion2);
+  if (d.surface.mode & dContactRolling) friction(gazebo_like::along(pair, n, false), d.surface.rhoN, spin_slip, 0);
 }
 
 // A step of the body: the place by what the full correction makes of its velocity, which does not stay.
@@ -176,10 +176,11 @@ class Rows {
  public:
   Rows(Scene& scene, StepState& state, const Numbers& number, std::vector<Body>& bodies)
       : scene_(scene), set_(scene.settings), state_(state), number_(number), bodies_(bodies) {
-    add_joints();
+    const RowOrder all = order();
+    for (Joint* j : all.joints) add_joint(*j);
     add_welds();
     joints = owners.size();
-    add_contacts();
+    for (const Contact* c : all.contacts) add_contact(*c);
   }
   std::vector<Row> rows;
   std::vector<RowOwner> owners;
@@ -211,18 +212,25 @@ class Rows {
     return true;
   }
 
-  void add_joints() {
+  // As they were made, or as Gazebo has them.
+  RowOrder order() const {
+    if (set_.like_gazebo) return gazebo_order(scene_, state_);
+    RowOrder all;
     for (auto& m : scene_.models)
-      for (auto& j : m->joints) {
-        if (!j->joint) continue;
-        const Pose X_C = X_BL(*j->child) * j->X_CJ, X_P = j->parent ? X_BL(*j->parent) * j->X_PJ : j->X_PJ;
-        if (!take(j->joint, j->sign > 0 ? X_C : X_P, j->sign > 0 ? X_P : X_C, set_.contact_max_vel)) continue;
-        const size_t from = rows.size();
-        add_joint_rows(rows, bodies_, *j, pair_, set_.dt);
-        for (size_t i = from; i < rows.size(); ++i)
-          rows[i].lambda = j->borne[i - from], rows[i].lambda_fully = j->borne[6 + i - from];
-        owners.push_back({j->watched ? &j->ode_feedback : nullptr, j.get(), from, rows.size()});
-      }
+      for (auto& j : m->joints)
+        if (j->joint) all.joints.push_back(j.get());
+    for (auto& c : state_.contacts) all.contacts.push_back(&c);
+    return all;
+  }
+
+  void add_joint(Joint& j) {
+    const Pose X_C = X_BL(*j.child) * j.X_CJ, X_P = j.parent ? X_BL(*j.parent) * j.X_PJ : j.X_PJ;
+    if (!take(j.joint, j.sign > 0 ? X_C : X_P, j.sign > 0 ? X_P : X_C, set_.contact_max_vel)) return;
+    const size_t from = rows.size();
+    add_joint_rows(rows, bodies_, j, pair_, set_.dt);
+    for (size_t i = from; i < rows.size(); ++i)
+      rows[i].lambda = j.borne[i - from], rows[i].lambda_fully = j.borne[6 + i - from];
+    owners.push_back({j.watched ? &j.ode_feedback : nullptr, &j, from, rows.size()});
   }
 
   void add_welds() {
@@ -239,18 +247,10 @@ class Rows {
     }
   }
 
-  // Gazebo's ODE takes a body's joints newest first, from the newest body on: the contacts of what was made last come first.
-  void add_contacts() {
-    if (set_.like_gazebo)
-      for (auto c = state_.contacts.rbegin(); c != state_.contacts.rend(); ++c) add_contact(*c);
-    else
-      for (auto& c : state_.contacts) add_contact(c);
-  }
-
   void add_contact(const Contact& c) {
     if (!c.joint || !take(c.joint, {}, {}, c.fastest)) return;
     const size_t from = rows.size();
-    add_contact_rows(rows, bodies_, pair_, state_.ode_contacts[c.row], set_);
+    add_contact_rows(rows, bodies_, pair_, state_.ode_contacts[c.row], c.spin_slip, set_);
     owners.push_back({c.feedback >= 0 ? &state_.feedback[c.feedback] : nullptr, nullptr, from, rows.size()});
   }
 };

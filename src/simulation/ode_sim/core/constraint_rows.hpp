@@ -14,6 +14,14 @@ struct RowOwner {
   size_t from, to;
 };
 
+// All joints and contacts of the scene, as Gazebo's ODE walks through them: from the newest body on, of each body the newest joint first,
+// contacts before what the model was made with.
+struct RowOrder {
+  std::vector<Joint*> joints;
+  std::vector<const Contact*> contacts;
+};
+RowOrder gazebo_order(Scene& scene, const StepState& state);
+
 struct PassRows {
   PassRows(Scene& scene, StepState& state, const Pass& pass);
   std::vector<dBodyID> ids;

@@ -21,6 +21,7 @@ struct Contact {
   bool told = false;     // who asks for forces is told this one
   int row = -1;          // in StepState::ode_contacts
   double fastest = 0;    // m/s, of pushing apart
+  double spin_slip = 0;  // rad/s for one N m of torsional friction
 };
 
 // What a contact of the last step bore, from which the next one's greatest friction follows.

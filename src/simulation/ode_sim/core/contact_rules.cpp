@@ -95,8 +95,16 @@ Vec3 friction_direction(const Vec3& n, const Vec3& wanted) {
   return t * (1 / norm(t));
 }
 
-Roughness contact_roughness(const Surface& a, const Surface& b) {
-  return {std::max(std::min(a.mu, b.mu), 0.0), std::max(std::min(a.mu2, b.mu2), 0.0), a.slip1 + b.slip1, a.slip2 + b.slip2};
+Roughness contact_roughness(const Surface& a, const Surface& b, double depth) {
+  const bool by_patch = a.use_patch_radius && b.use_patch_radius;
+  const double curvature = 1 / a.surface_radius + 1 / b.surface_radius;  // infinite of a point
+  const double patch = by_patch ? std::max(a.patch_radius, b.patch_radius) : std::sqrt(std::max(depth, 0.0) / curvature);
+  return {std::max(std::min(a.mu, b.mu), 0.0),
+          std::max(std::min(a.mu2, b.mu2), 0.0),
+          a.slip1 + b.slip1,
+          a.slip2 + b.slip2,
+          3 * M_PI / 16 * std::max(std::min(a.torsional_mu, b.torsional_mu), 0.0) * patch,  // that of Hertz's pressure
+          a.torsional_slip + b.torsional_slip};
 }
 
 }  // namespace ode_sim

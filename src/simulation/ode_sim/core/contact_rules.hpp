@@ -44,11 +44,12 @@ const Surface* directed(const Surface& a, const Surface& b);
 // The first of two directions of friction, in the contact plane: along `wanted`; any tangent where that has no part in the plane.
 Vec3 friction_direction(const Vec3& normal, const Vec3& wanted);
 
-// Friction in the first and second direction, and the slip of a single contact in each.
+// Friction in the first and second direction, and the slip of a single contact in each. spin: the greatest moment about the normal for
+// each newton that presses, m.
 struct Roughness {
-  double mu = 0, mu2 = 0, slip1 = 0, slip2 = 0;
+  double mu = 0, mu2 = 0, slip1 = 0, slip2 = 0, spin = 0, spin_slip = 0;
   bool isotropic() const { return mu == mu2 && slip1 == slip2; }
 };
-Roughness contact_roughness(const Surface& a, const Surface& b);
+Roughness contact_roughness(const Surface& a, const Surface& b, double depth);
 
 }  // namespace ode_sim

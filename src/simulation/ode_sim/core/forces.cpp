@@ -15,6 +15,9 @@ constexpr double kNearStop = 1e-9;                // within the reach of the ski
 constexpr double kBackTurn = 10, kBackSlide = 1;  // rad/s, m/s: from beyond a stop
 constexpr double kStiffLaw = 1;   // share of a speed error that a controller makes good in one step; more swings
 constexpr double kSwings = 0.05;  // the same of a law of the position alone, where nothing else damps the joint
+// Square of the angle (rad) that a free spring swings in one step: softer ones act as they are at its beginning, which keeps their energy.
+// At the step's end, as harder ones do, each swing of theirs loses some; from 4 on the others would grow.
+constexpr double kStiffSpring = 0.25;
 
 void apply_axis_force(const Joint& j, int axis, double f) {
   if (f == 0) return;
@@ -85,7 +88,8 @@ MotorRow axis_row(const Axis& a, double dt, double inverse_inertia, bool like_ga
   double damping = a.damping;
   const double stiffness = a.spring_stiffness;
   const double pull = stiffness > 0 ? -stiffness * (a.q - a.spring_reference) : 0;
-  const double stiff = dt * (damping + dt * stiffness) * inverse_inertia;
+  const bool spring_in_row = always_implicit || (dt * dt * stiffness * inverse_inertia > kStiffSpring && !like_gazebo);
+  const double in_row = damping + (spring_in_row ? dt * stiffness : 0), stiff = dt * in_row * inverse_inertia;
   // At a stop ODE turns motors into torques of their greatest size.
   const bool off_stops = a.q - a.lower > kNearStop && a.upper - a.q > kNearStop;
   const bool stiff_law = dt * a.steepness() * inverse_inertia > (a.undamped() ? kSwings : kStiffLaw);
@@ -94,6 +98,7 @@ MotorRow axis_row(const Axis& a, double dt, double inverse_inertia, bool like_ga
   const double bound = a.effort >= 0 ? std::min(a.law_bound, a.effort) : a.law_bound;
   const double at_rest = std::min(std::max(a.law_at_rest(), -bound), bound);  // what the law gives when the step ends at rest
   MotorRow row;
+  bool by_row = false;  // springs and dampers are in it
   row.force = a.force;
   if (drive) {
     row.speed = drive->speed;
@@ -113,15 +118,15 @@ MotorRow axis_row(const Axis& a, double dt, double inverse_inertia, bool like_ga
     row.force -= a.lawful();
   } else if (a.friction > 0) {
     row.most = a.friction;
-  } else if (damping + stiffness > 0 && (always_implicit || (stiff > 0.05 && !like_gazebo)) && off_stops) {
+  } else if (in_row > 0 && (always_implicit || (stiff > 0.05 && !like_gazebo)) && off_stops) {
     // Implicit: a motor row whose softness is the damper, and whose speed is that at which the spring balances it.
-    const double d = damping + dt * stiffness;
-    row.speed = pull / d;
-    row.softness = 1 / d;
+    if (spring_in_row) row.speed = pull / in_row;
+    else row.force += pull;
+    row.softness = 1 / in_row;
     row.most = dInfinity;
-    damping = 0;
+    by_row = true;
   }
-  if (row.softness <= 1e-10 || by_law) {
+  if (!by_row) {
     if (stiff > 0.05 && !like_gazebo) damping /= 1 + stiff;
     row.force += pull - damping * a.qd;
   }

@@ -74,13 +74,17 @@ void forget_loads(Scene& scene, const Model& model) {
 }
 
 // Coefficients, slip and first direction. n: normal of the contact as ODE has it.
-void set_friction(const Scene& scene, const StepState& state, const Contact& c, const Vec3& n, dContact& d) {
+void set_friction(const Scene& scene, const StepState& state, Contact& c, const Vec3& n, dContact& d) {
   const Settings& set = scene.settings;
-  const Roughness rough = contact_roughness(c.a->surface, c.b->surface);
+  double load = borne_by_contact(scene, state, c);
+  // The contacts of the default solver are softer than their surfaces: what presses goes as deep as kp lets it.
+  const double depth = set.like_gazebo ? d.geom.depth : load * (1 / c.a->surface.kp + 1 / c.b->surface.kp);
+  const Roughness rough = contact_roughness(c.a->surface, c.b->surface, std::min(depth, c.depth));
   d.surface.mu = rough.mu, d.surface.mu2 = rough.mu2;
   d.surface.slip1 = rough.slip1 * c.count;
   d.surface.slip2 = rough.slip2 * c.count;
-  double load = borne_by_contact(scene, state, c);
+  if (rough.spin > 0) d.surface.mode |= dContactRolling, d.surface.rhoN = rough.spin;
+  c.spin_slip = rough.spin_slip * c.count;
   if (!set.like_gazebo) {
     double inverse_mass = 0;
     for (const Link* l : {c.a->link, c.b->link})
@@ -90,8 +94,13 @@ void set_friction(const Scene& scene, const StepState& state, const Contact& c, 
     const bool pushed = state.of(*c.a->link->model).touches_others || state.of(*c.b->link->model).touches_others;
     if (const Borne* before = pushed ? nullptr : borne_before(scene.borne, c)) {
       d.surface.mode &= ~dContactApprox1;
-      d.surface.mu *= before->normal, d.surface.mu2 *= before->normal;
+      d.surface.mu *= before->normal, d.surface.mu2 *= before->normal, d.surface.rhoN *= before->normal;
       load = std::max(before->normal, 1e-3 * load);
+    }
+    if (c.spin_slip > 0) {  // ODE knows no slip of it: no moment beyond that of the speed
+      const double moment = std::abs(dot(n, c.a->link->w - c.b->link->w)) / c.spin_slip;
+      const bool known = !(d.surface.mode & dContactApprox1);
+      if (known || load > 0) d.surface.rhoN = std::min(d.surface.rhoN, known ? moment : moment / load);
     }
   }
   Vec3 wanted;

@@ -65,6 +65,13 @@ Moving near_side(StepState& state, const Link* near, const Vec3& p, bool drives)
   return {w, alpha, a + cross(alpha, r) + cross(w, cross(w, r))};
 }
 
+// Of what hangs on a ball joint, in the middle of the step if it goes on to change as in the last one: at that of the step's beginning,
+// the forces of a spin about two axes feed energy to it. A jump is none that goes on.
+Vec3 middle_spin(const Joint& j, const Link& far) {
+  const Vec3 change = far.w - j.spin_before;
+  return norm(change) < 0.1 * norm(far.w) ? far.w + change * 0.5 : far.w;
+}
+
 // What the joint's own speed adds on its far side.
 void cross_joint(Moving& m, const Joint& j, bool outward, const Pose& X_WP, const Pose& X_WC) {
   const Vec3 first = rotate(X_WP.q, j.axes[0].xyz) * j.axes[0].qd;
@@ -81,7 +88,7 @@ void cross_joint(Moving& m, const Joint& j, bool outward, const Pose& X_WP, cons
     const Vec3 w_parent = outward ? m.w : m.w + turn;
     m.alpha += (cross(w_parent, first + second) + cross(first, second)) * sign;
   } else if (j.type == JointType::Ball) {
-    turn = (outward ? j.child->w - m.w : j.parent->w - m.w);
+    turn = middle_spin(j, outward ? *j.child : *j.parent) - m.w;
     m.alpha = {};
   }
   m.w += turn;
@@ -115,6 +122,15 @@ void inertial_force(Cluster& c, const Accelerations& of_com) {
   dBodyAddTorque(c.root->body, t.x, t.y, t.z);
 }
 
+// The turning of the cluster's own axes of inertia, which ODE has as at the beginning of the step.
+void turn_at_middle_spin(Joint& j, const Link& far, Cluster& c) {
+  const Quat& q = c.root->X_WL.q;
+  auto gyro = [&](const Vec3& w) { return cross(w, rotate(q, c.inertia * rotate(conjugate(q), w))); };
+  const Vec3 now = body_spin(c.root->body), t = gyro(now) - gyro(now + middle_spin(j, far) - far.w);
+  dBodyAddTorque(c.root->body, t.x, t.y, t.z);
+  j.spin_before = far.w;
+}
+
 }  // namespace
 
 // Centrifugal and Coriolis forces. project_joints carries the joint speeds over to where the links are after the step, which
@@ -124,7 +140,9 @@ void apply_inertial_forces(const Scene& scene, StepState& state, Model& model) {
   accelerations(state, model, false, scene.settings.dt);
   for (auto& t : model.tree) {
     Cluster& c = model.clusters[t.cluster];
-    if (!c.asleep && !c.root->kinematic) inertial_force(c, state.of(c).still);
+    if (c.asleep || c.root->kinematic) continue;
+    inertial_force(c, state.of(c).still);
+    if (t.joint->type == JointType::Ball) turn_at_middle_spin(*t.joint, t.outward ? *t.joint->child : *t.joint->parent, c);
   }
 }
 

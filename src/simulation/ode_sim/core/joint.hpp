@@ -92,6 +92,7 @@ struct Joint {
   double inverse_inertia[2] = {0, 0};  // about the axis, of the two bodies taken alone
   std::vector<Link*> beyond;           // what links_beyond has found
   double borne[12] = {};               // by each row in the last step, as `solver: gazebo` starts from it
+  Vec3 spin_before;                    // of a ball: of the link that it moves, at the beginning of the last step, world axes
 
   // The child's link is one body with the parent's for the time being.
   bool merged() const { return (type == JointType::Fixed && !watched) || drive == DriveMode::Locked; }

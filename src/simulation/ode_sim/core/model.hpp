@@ -28,6 +28,9 @@ struct Surface {
   Model* model = nullptr;  // that it is part of
   double mu = 1, mu2 = 1, slip1 = 0, slip2 = 0, kp = 1e12, kd = 1, max_vel = 0.01, min_depth = 0;
   double restitution = 0, bounce_threshold = 1e5;
+  // Torsional friction: of the patch on which it rests (radius, m), or of the curvature there (radius, m; very large: flat) and the depth.
+  double torsional_mu = 1, torsional_slip = 0, patch_radius = 0, surface_radius = 1e15;
+  bool use_patch_radius = true;
   Vec3 fdir1;  // in the collision frame, zero = none
   unsigned collide_bitmask = 0xFFFF;
   bool collide_without_contact = false;

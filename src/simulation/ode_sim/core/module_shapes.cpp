@@ -25,6 +25,10 @@ void bind_shapes(py::module_& m) {
   bounded<&Surface::mu2>(surface, "mu2", 0, kRoughest);
   bounded<&Surface::slip1>(surface, "slip1", 0, kRoughest);
   bounded<&Surface::slip2>(surface, "slip2", 0, kRoughest);
+  bounded<&Surface::torsional_mu>(surface, "torsional_mu", 0, kRoughest);
+  bounded<&Surface::torsional_slip>(surface, "torsional_slip", 0, kRoughest);
+  bounded<&Surface::patch_radius>(surface, "patch_radius", 0, kFarthest);
+  bounded<&Surface::surface_radius>(surface, "surface_radius", 0, kRoughest);
   bounded<&Surface::kp>(surface, "kp", 0, kStiffest);
   bounded<&Surface::kd>(surface, "kd", 0, kStiffest);
   bounded<&Surface::max_vel>(surface, "max_vel", -1, kFastestSet);
@@ -35,6 +39,9 @@ void bind_shapes(py::module_& m) {
       .def_property(
           "collide_bitmask", [](Surface& s) { return s.collide_bitmask; },
           [](Surface& s, unsigned v) { change(s, &Surface::collide_bitmask, v); })
+      .def_property(
+          "use_patch_radius", [](Surface& s) { return s.use_patch_radius; },
+          [](Surface& s, bool v) { change(s, &Surface::use_patch_radius, v); })
       .def_property(
           "collide_without_contact", [](Surface& s) { return s.collide_without_contact; },
           [](Surface& s, bool v) { change(s, &Surface::collide_without_contact, v); })

@@ -70,7 +70,7 @@ void look_for_changes(Scene& scene);  // of settings and of models since this wa
 // contacts.cpp: joints of contacts. friction.cpp: friction, and what contacts bore
 void make_contact_joints(Scene& scene, StepState& state);
 std::vector<ContactRecord> contact_records(const StepState& state);
-void set_friction(const Scene& scene, const StepState& state, const Contact& contact, const Vec3& n, dContact& d);
+void set_friction(const Scene& scene, const StepState& state, Contact& contact, const Vec3& n, dContact& d);
 double borne_by_contact(const Scene& scene, const StepState& state, const Contact& contact);
 void remember_loads(Scene& scene, const StepState& state);
 void forget_loads(Scene& scene, const Model& model);

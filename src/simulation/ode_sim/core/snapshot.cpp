@@ -12,7 +12,7 @@ namespace ode_sim {
 
 namespace {
 
-constexpr uint64_t kVersion = 0x376d69735f65646full;  // "ode_sim7"; counts up when what is written changes
+constexpr uint64_t kVersion = 0x386d69735f65646full;  // "ode_sim8"; counts up when what is written changes
 
 uint64_t digest(const char* data, size_t size) {  // FNV-1a
   uint64_t h = 0xcbf29ce484222325ull;
@@ -83,9 +83,10 @@ void visit(F& f, Sym3& m) {
 }
 template <class F>
 void visit(F& f, Surface& s) {
-  for (double* v :
-       {&s.mu, &s.mu2, &s.slip1, &s.slip2, &s.kp, &s.kd, &s.max_vel, &s.min_depth, &s.restitution, &s.bounce_threshold})
+  for (double* v : {&s.mu, &s.mu2, &s.slip1, &s.slip2, &s.kp, &s.kd, &s.max_vel, &s.min_depth, &s.restitution,
+                    &s.bounce_threshold, &s.torsional_mu, &s.torsional_slip, &s.patch_radius, &s.surface_radius})
     f.number(*v);
+  f.flag(s.use_patch_radius);
   visit(f, s.fdir1);
   f.number(s.collide_bitmask);
   f.flag(s.collide_without_contact);
@@ -125,6 +126,7 @@ void visit(F& f, Joint& j) {
   f.flag(j.catching_up);
   f.flag(j.watched);
   visit(f, j.feedback);
+  visit(f, j.spin_before);
   for (auto& a : j.axes) visit(f, a);
   for (double& v : j.borne) f.number(v);
 }

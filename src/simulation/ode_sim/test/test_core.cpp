@@ -191,13 +191,29 @@ TEST(Directed, OfTwoThatAskTheOneWithLessFrictionIsHeard) {
 TEST(ContactRoughness, IsThatOfTheSmootherSurfaceAndNeverNegative) {
   Surface a, b;
   a.mu = 0.3, a.mu2 = 2, b.mu = 0.7, b.mu2 = 0.1, a.slip1 = 0.1, b.slip1 = 0.2;
-  const Roughness rough = contact_roughness(a, b);
+  const Roughness rough = contact_roughness(a, b, 0.001);
   EXPECT_EQ(rough.mu, 0.3);
   EXPECT_EQ(rough.mu2, 0.1);
   EXPECT_NEAR(rough.slip1, 0.3, 1e-12);
   EXPECT_FALSE(rough.isotropic());
   b.mu = b.mu2 = -1;
-  EXPECT_EQ(contact_roughness(a, b).mu, 0);
+  EXPECT_EQ(contact_roughness(a, b, 0.001).mu, 0);
+}
+
+// M = 3 pi/16 c r N; of a curvature r is the root of R d, and curvatures add up.
+TEST(ContactRoughness, AboutTheNormalIsThatOfThePatch) {
+  Surface a, b;
+  EXPECT_EQ(contact_roughness(a, b, 0.001).spin, 0);
+  a.torsional_mu = 0.5, a.patch_radius = 0.05, b.patch_radius = 0.02, a.torsional_slip = 0.1, b.torsional_slip = 0.3;
+  EXPECT_NEAR(contact_roughness(a, b, 0.001).spin, 3 * M_PI / 16 * 0.5 * 0.05, 1e-15);
+  EXPECT_NEAR(contact_roughness(a, b, 0.001).spin_slip, 0.4, 1e-15);
+  a.use_patch_radius = false, a.surface_radius = 0.1;
+  EXPECT_NEAR(contact_roughness(a, b, 0.001).spin, 3 * M_PI / 16 * 0.5 * 0.01, 1e-12);  // b is flat
+  b.surface_radius = 0.1;
+  EXPECT_NEAR(contact_roughness(a, b, 0.008).spin, 3 * M_PI / 16 * 0.5 * 0.02, 1e-12);
+  EXPECT_EQ(contact_roughness(a, b, -0.001).spin, 0);
+  b.surface_radius = 0;
+  EXPECT_EQ(contact_roughness(a, b, 0.001).spin, 0);
 }
 
 // ------------------------------------------------------------------------------------------------ axes
@@ -226,7 +242,12 @@ TEST(AxisRow, SpringsAndDampersAreForcesUntilTheyWouldSwing) {
   MotorRow row = axis_row(axis, kDt, 1, false, false, nullptr);
   EXPECT_EQ(row.most, 0);
   EXPECT_NEAR(row.force, -10 * 0.4 - 2 * 3, 1e-12);
-  row = axis_row(axis, kDt, 1000, false, false, nullptr);  // a light link
+  row = axis_row(axis, kDt, 1000, false, false, nullptr);  // a light link: it would swing by the damper, but not by the spring
+  EXPECT_EQ(row.most, dInfinity);
+  EXPECT_NEAR(row.softness, 1 / 2.0, 1e-12);
+  EXPECT_EQ(row.speed, 0);
+  EXPECT_NEAR(row.force, -10 * 0.4, 1e-12);
+  row = axis_row(axis, kDt, 1e5, false, false, nullptr);
   const double d = 2 + kDt * 10;
   EXPECT_EQ(row.most, dInfinity);
   EXPECT_NEAR(row.softness, 1 / d, 1e-12);

@@ -142,3 +142,26 @@ def test_as_the_direct_solver_has_it():
     assert abs(load2) == pytest.approx((8 + 16 * 0.25) * 9.8, rel=2e-3) and abs(load) == pytest.approx(abs(load2), rel=2e-3)
     assert place2 == pytest.approx(place, abs=2e-4)
     assert joints2 == pytest.approx(joints, abs=1e-3)
+
+
+@pytest.mark.parametrize("kind, axes", [("revolute", 1), ("prismatic", 1), ("universal", 2)])
+def test_reset_poses_brings_back_what_hangs_on_the_world(kind, axes):
+    """As in Gazebo 11.1: a model is where its first link is; what hangs on that one keeps its angle."""
+    text = "".join(f"<axis{n}><xyz>{xyz}</xyz></axis{n}>" for n, xyz in (("", "0 1 0"), ("2", "1 0 0"))[:axes])
+    world = ode_sim.World()
+    pendulum = world.spawn_sdf(f"""<sdf version="1.7"><model name="p"><pose>1 2 3 0 0 0.4</pose><link name="a"/>
+        <joint name="top" type="{kind}"><parent>world</parent><child>a</child>{text}</joint>
+        <link name="b"><pose>0 0 -1 0 0 0</pose></link>
+        <joint name="low" type="revolute"><parent>a</parent><child>b</child><axis><xyz>0 1 0</xyz></axis></joint></model></sdf>""")
+    top, low = pendulum.joints["top"], pendulum.joints["low"]
+    for axis in range(axes):
+        top.set_position(0.3 + 0.1 * axis, axis)
+    low.set_position(0.5)
+    world.step(50)
+    angle, place = low.position(), top.anchor()
+    world.reset_poses()
+    assert [top.position(axis) for axis in range(axes)] == pytest.approx([0.0] * axes, abs=1e-9)
+    assert low.position() == pytest.approx(angle) and low.velocity() == 0.0
+    assert pendulum.pose.p == pytest.approx((1, 2, 3)) and pendulum.links["a"].pose.q == pytest.approx(pendulum.initial_pose.q)
+    if kind != "prismatic":  # the bolt is where it was
+        assert top.anchor() == pytest.approx(place, abs=1e-6)

@@ -17,6 +17,11 @@ class Surface:
     mu2: float
     slip1: float
     slip2: float
+    torsional_mu: float
+    torsional_slip: float
+    patch_radius: float
+    surface_radius: float
+    use_patch_radius: bool
     kp: float
     kd: float
     max_vel: float

@@ -16,7 +16,7 @@ from ode_sim.physics import BOUNDS
 JOINT_TYPES = {"revolute": "revolute", "continuous": "revolute", "prismatic": "prismatic", "fixed": "fixed", "ball": "ball",
                "universal": "universal", "revolute2": "universal"}
 SURFACE = ("mu", "mu2", "fdir1", "slip1", "slip2", "kp", "kd", "max_vel", "min_depth", "restitution", "bounce_threshold",
-           "collide_without_contact")
+           "torsional_mu", "torsional_slip", "patch_radius", "surface_radius", "use_patch_radius", "collide_without_contact")
 AXIS = ("lower", "upper", "effort", "velocity", "damping", "friction", "spring_reference", "spring_stiffness")
 
 

@@ -51,7 +51,7 @@ class CollisionHandle:
 
     @property
     def surface(self):
-        """Mutable: mu, mu2, slip1, slip2, kp, kd, max_vel, min_depth, restitution, bounce_threshold, fdir1 ...
+        """Mutable: mu, mu2, slip1, slip2, torsional_mu, patch_radius, kp, kd, max_vel, min_depth, restitution, bounce_threshold, fdir1 ...
 
         NaN is refused (ValueError); infinities and negative numbers are cut to the largest and least that can be simulated.
         """

@@ -37,6 +37,12 @@ class Snapshot:
         return b"".join((repr(self.models).encode(), self.state, self.generators))
 
 
+def _put_to_zero(joint) -> None:
+    """All axes of a joint at 0, or at the limit that is next to it."""
+    for axis in range(joint.axis_count):
+        joint.set_position(0.0, axis)
+
+
 class World:
     """:param description: what to start with; models of it are spawned in file order.
     :param seed: of every random number drawn in this world.
@@ -310,8 +316,7 @@ class World:
                 model.pose = model.initial_pose
                 model.put_together()
             for joint in model.joints.values():
-                for axis in range(joint.axis_count):
-                    joint.set_position(0.0, axis)
+                _put_to_zero(joint)
             model.put_together()
         self.core.time_ns = 0
         self.core.iterations = 0
@@ -325,9 +330,14 @@ class World:
         self.core.time_ns = 0
 
     def reset_poses(self) -> None:
-        """Models back to where they were spawned, at rest. Time goes on and joints stay at their angles."""
+        """Models back to where they were spawned, at rest. Time goes on and joints stay at their angles, but for those by which the first
+        link of a model hangs on the world: where it is, the model is."""
         self.core.detach_all()
         for model in self.models.values():
+            if not model.flown_apart:  # joints far off cannot be set
+                for joint in model.joints.values():
+                    if joint.parent is None and joint.child is model.canonical_link:
+                        _put_to_zero(joint)
             model.pose = model.initial_pose
             model.core.zero_velocities()
         for actor in self.actors.values():
