@@ -80,16 +80,37 @@ SurfaceParams::SurfaceParams(std::shared_ptr<ode_sim::Shape> core)
   , pyramid_(new class FrictionPyramid(std::move(core)))
 {
 }
+namespace
+{
+
+void set(ode_sim::Shape& shape, double ode_sim::Surface::*field, double value, double most)
+{
+  shape.surface.*field = value >= 0 ? std::min(value, most) : 0;
+  shape.link->model->changed = true;
+}
+
+}  // namespace
+
 double FrictionPyramid::MuPrimary() { return core_->surface.mu; }
 double FrictionPyramid::MuSecondary() { return core_->surface.mu2; }
-void FrictionPyramid::SetMuPrimary(double mu)
+double FrictionPyramid::MuTorsion() { return core_->surface.torsional_mu; }
+bool FrictionPyramid::UsePatchRadius() { return core_->surface.use_patch_radius; }
+double FrictionPyramid::PatchRadius() { return core_->surface.patch_radius; }
+double FrictionPyramid::SurfaceRadius() { return core_->surface.surface_radius; }
+void FrictionPyramid::SetMuPrimary(double mu) { set(*core_, &ode_sim::Surface::mu, mu, ode_sim::kRoughest); }
+void FrictionPyramid::SetMuSecondary(double mu) { set(*core_, &ode_sim::Surface::mu2, mu, ode_sim::kRoughest); }
+void FrictionPyramid::SetMuTorsion(double mu) { set(*core_, &ode_sim::Surface::torsional_mu, mu, ode_sim::kRoughest); }
+void FrictionPyramid::SetPatchRadius(double radius)
 {
-  core_->surface.mu = mu >= 0 ? std::min(mu, ode_sim::kRoughest) : 0;
-  core_->link->model->changed = true;
+  set(*core_, &ode_sim::Surface::patch_radius, radius, ode_sim::kFarthest);
 }
-void FrictionPyramid::SetMuSecondary(double mu)
+void FrictionPyramid::SetSurfaceRadius(double radius)
 {
-  core_->surface.mu2 = mu >= 0 ? std::min(mu, ode_sim::kRoughest) : 0;
+  set(*core_, &ode_sim::Surface::surface_radius, radius, ode_sim::kRoughest);
+}
+void FrictionPyramid::SetUsePatchRadius(bool use)
+{
+  core_->surface.use_patch_radius = use;
   core_->link->model->changed = true;
 }
 

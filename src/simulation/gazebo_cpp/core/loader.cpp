@@ -136,7 +136,7 @@ void LoadedPlugin::LoadSensor(const std::string& name, int index, const std::str
   const sensors::SensorPtr sensor = sensors::SensorManager::Instance()->GetSensor(name);
   if (!sensor)
     throw std::runtime_error(
-        "a sensor of this type is not there in C++ (force_torque, rfid, wireless ...), or cannot be as it is described; in Python it can be "
+        "a sensor of this type is not there in C++ (rfid, wireless ...), or cannot be as it is described; in Python it can be "
         "written (gazebo_ros.plugin)");
   const sdf::ElementPtr element = plugin_element(sensor->Element(), index, text);
   call("Load()", [&] { sensor_->Load(sensor, element); });

@@ -8,6 +8,8 @@
 #include <gazebo/physics/physics.hh>
 #include <gazebo/transport/transport.hh>
 
+#include "sdf_text.hpp"
+
 namespace gazebo
 {
 namespace sensors
@@ -82,6 +84,11 @@ std::string Sensor::topicOf(const std::string& end) const
 {
   if (sdf->HasElement("topic") && sdf->Get<std::string>("topic") != "__default__")
     return sdf->Get<std::string>("topic");
+  return ownTopic(end);
+}
+
+std::string Sensor::ownTopic(const std::string& end) const
+{
   return "~/" + with_slashes(parentName) + "/" + with_slashes(name_) + end;
 }
 
@@ -234,6 +241,8 @@ SensorPtr made(const std::string& type)
     return std::make_shared<ContactSensor>();
   if (type == "imu")
     return std::make_shared<ImuSensor>();
+  if (type == "force_torque")
+    return std::make_shared<ForceTorqueSensor>();
   if (type == "gps" || type == "navsat")
     return std::make_shared<GpsSensor>();
   if (type == "altimeter")
@@ -257,20 +266,15 @@ SensorPtr made(const std::string& type)
 
 }  // namespace
 
-void SensorManager::add(const physics::LinkPtr& link, const sdf::ElementPtr& sdf)
+void SensorManager::add(const SensorPtr& sensor, const sdf::ElementPtr& sdf)
 {
-  const SensorPtr sensor = made(sdf->Get<std::string>("type"));
-  if (!sensor)
-    return;
-  sensor->SetParent(link->GetScopedName(), link->GetId());
-  sensor->SetLink(link);
   try
   {
-    sensor->Load(link->GetWorld()->Name(), sdf);
+    sensor->Load(physics::get_world()->Name(), sdf);
   }
   catch (const std::exception& error)
   {
-    internal::Report(true, "sensor " + sdf->Get<std::string>("name") + " of " + link->GetScopedName() + ": " + error.what() +
+    internal::Report(true, "sensor " + sdf->Get<std::string>("name") + " of " + sensor->ParentName() + ": " + error.what() +
                                "; compiled plugins do not see it");
     return;
   }
@@ -281,19 +285,29 @@ void SensorManager::add(const physics::LinkPtr& link, const sdf::ElementPtr& sdf
   replace(more);
 }
 
+void SensorManager::addOf(const std::string& name, uint32_t id, const physics::LinkPtr& link, const sdf::ElementPtr& sdf)
+{
+  if (!sdf->HasElement("sensor"))
+    return;
+  for (auto each = sdf->GetElement("sensor"); each; each = each->GetNextElement("sensor"))
+    if (const SensorPtr sensor = made(each->Get<std::string>("type")))
+    {
+      sensor->SetParent(name, id);
+      sensor->SetLink(link);
+      add(sensor, each);
+    }
+}
+
 void SensorManager::addOf(const std::string& model)
 {
   const physics::ModelPtr found = physics::get_world()->ModelByName(model);
   const sdf::ElementPtr sdf = found ? found->GetSDF() : sdf::ElementPtr();
-  if (!sdf || !sdf->HasElement("link"))
-    return;
-  for (auto element = sdf->GetElement("link"); element; element = element->GetNextElement("link"))
-  {
-    const physics::LinkPtr link = found->GetLink(element->Get<std::string>("name"));
-    if (link && element->HasElement("sensor"))
-      for (auto sensor = element->GetElement("sensor"); sensor; sensor = sensor->GetNextElement("sensor"))
-        add(link, sensor);
-  }
+  for (auto element = inside(sdf, "link"); element; element = element->GetNextElement("link"))
+    if (const physics::LinkPtr link = found->GetLink(element->Get<std::string>("name")))
+      addOf(link->GetScopedName(), link->GetId(), link, element);
+  for (auto element = inside(sdf, "joint"); element; element = element->GetNextElement("joint"))
+    if (const physics::JointPtr joint = found->GetJoint(element->Get<std::string>("name")))
+      addOf(joint->GetScopedName(), joint->GetId(), joint->GetChild(), element);
 }
 
 void SensorManager::Start()

@@ -9,7 +9,7 @@ import numpy as np
 import rospy
 import rostest
 from dynamic_reconfigure.client import Client
-from geometry_msgs.msg import Twist, Vector3
+from geometry_msgs.msg import Twist, Vector3, WrenchStamped
 from listening import Ear, Mouth, until
 from models import box, elements, joint, link, plugin, sdf, wheel
 from nav_msgs.msg import Odometry
@@ -18,6 +18,11 @@ from rosgraph_msgs.msg import Log
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Header, String
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
+
+#: 2 kg aside; the frames of both links are turned.
+WEIGHT = """<link name="base"><pose>0 0 1 0.2 0 0</pose><inertial><mass>5</mass></inertial></link>
+<link name="w"><pose>0.3 0.2 1.2 0.4 0 0.3</pose><inertial><pose>0.1 0 0.05 0 0 0</pose><mass>2</mass>
+<inertia><ixx>0.01</ixx><iyy>0.01</iyy><izz>0.01</izz></inertia></inertial></link>"""
 
 
 class Moving(PluginWorld):
@@ -214,6 +219,58 @@ class Moving(PluginWorld):
         fast = self.pose("slippy").position.x - first.position.x
         self.assertGreater(fast, slow * 1.02)
         self.assertAlmostEqual(fast, 0.5, delta=0.01)
+
+    # ---------------------------------------------------------------------------------------------------- what joints bear
+
+    def scales(self, name, place, sensor, held="fixed", plugins=None):
+        """2 kg aside on a joint whose frames are all turned: the bench of the records of Gazebo 11.1.
+
+        :param sensor: what its <force_torque> says
+        """
+        plugins = plugins or plugin("gazebo_ros_ft_sensor", topicName=f"{name}_ft")
+        scale = f"""<pose>0.02 0 0 0 0 0.7</pose><sensor name="s" type="force_torque"><pose>0 0 0 0 0.5 0</pose>
+            <update_rate>50</update_rate><force_torque>{sensor}</force_torque>{plugins}</sensor>"""
+        self.spawn(name, sdf(WEIGHT, joint("hold", "fixed", "world", "base"),
+                             joint("j", held, "base", "w", lower=0, upper=0, extra=scale)), *place)
+        self.addCleanup(self._delete_model, name)
+        self.step(0.2)
+
+    def test_force_torque_sensor_in_a_joint(self):
+        """What Gazebo 11.1 measured of this bench, in the axes of the child, the parent and the sensor."""
+        measured = {"child": ((0.0, -7.6326, -18.0528), (0.38163, 1.44422, -0.61061)),
+                    "parent": ((0.0, -3.8939, -19.2093), (-0.09879, 1.57865, -0.32001)),
+                    "sensor": ((4.3398, -5.8377, -18.2002), (1.36539, 0.85875, 0.05013))}
+        names = {"child": "w", "parent": "base", "sensor": "s"}
+        for k, (frame, (force, torque)) in enumerate(measured.items()):
+            for sign, direction in ((1, "child_to_parent"), (-1, "parent_to_child")):
+                name = f"{frame}_{direction}"
+                self.scales(name, (46 + 2 * k, 2 * sign), elements(frame=frame, measure_direction=direction))
+                wrench = self.measure(f"/{name}_ft", WrenchStamped, 0.1, 5)
+                self.assertEqual(wrench.header.frame_id, names[frame])
+                np.testing.assert_allclose(xyz(wrench.wrench.force), sign * np.array(force), atol=2e-3, err_msg=name)
+                np.testing.assert_allclose(xyz(wrench.wrench.torque), sign * np.array(torque), atol=2e-3, err_msg=name)
+
+    def test_force_torque_sensor_in_a_revolute_joint(self):
+        """Held by its stops, the same weight; in the robot's namespace."""
+        self.scales("hinge", (54, 0), "", "revolute", plugin("gazebo_ros_ft_sensor", topicName="ft", robotNamespace="/left"))
+        wrench = self.measure("/left/ft", WrenchStamped, 0.1, 5).wrench
+        np.testing.assert_allclose(xyz(wrench.force), (0.0, -7.633, -18.053), atol=0.03)
+
+    def test_noise_of_a_force_torque_sensor_in_a_joint(self):
+        """Of one axis; 100 values: four sigmas of their mean and of their deviation."""
+        noise = '<noise type="gaussian"><mean>5</mean><stddev>0.5</stddev></noise>'
+        self.scales("noisy", (56, 0), f"<force><z>{noise}</z></force><torque><x>{noise}</x></torque>")
+        ear = Ear("/noisy_ft", WrenchStamped)
+        for count in range(1, 101):
+            self.step(0.02)
+            until(lambda: len(ear.messages) >= count, "a measurement")
+        ear.close()
+        wrenches = [message.wrench for message in ear.messages]
+        z, x = np.array([w.force.z for w in wrenches]), np.array([w.torque.x for w in wrenches])
+        for values, mean in ((z, -18.0528 + 5), (x, 0.38163 + 5)):
+            self.assertAlmostEqual(values.mean(), mean, delta=4 * 0.5 / 10)
+            self.assertAlmostEqual(values.std(), 0.5, delta=4 * 0.5 / math.sqrt(200))
+        self.assertLess(np.std([w.force.y for w in wrenches]), 1e-3)
 
 
 if __name__ == "__main__":

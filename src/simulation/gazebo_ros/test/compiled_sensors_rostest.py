@@ -20,6 +20,11 @@ TABLE = """<sdf version="1.6"><model name="post"><static>1</static><pose>0 0 0.5
 <collision name="top"><geometry><box><size>4 4 1</size></box></geometry></collision>{sensors}</link></model></sdf>"""
 WALL = """<sdf version="1.6"><model name="wall"><static>1</static><pose>3.5 0 1 0 0 0</pose><link name="l"><collision name="c">
 <laser_retro>70</laser_retro><geometry><box><size>1 10 4</size></box></geometry></collision></link></model></sdf>"""
+WEIGHT = """<sdf version="1.6"><model name="post">
+<link name="base"><pose>0 0 1 0.2 0 0</pose><inertial><mass>5</mass></inertial></link>
+<joint name="hold" type="fixed"><parent>world</parent><child>base</child></joint>
+<link name="w"><pose>0.3 0.2 1.2 0.4 0 0.3</pose><inertial><pose>0.1 0 0.05 0 0 0</pose><mass>2</mass></inertial></link>
+<joint name="j" type="fixed"><parent>base</parent><child>w</child><pose>0.02 0 0 0 0 0.7</pose>{sensors}</joint></model></sdf>"""
 RAY = """<sensor name="eye" type="{type}"><update_rate>50</update_rate><pose>0.5 0 0.4 0 0 0</pose><ray><scan>
 <horizontal><samples>3</samples><min_angle>-0.5</min_angle><max_angle>0.5</max_angle></horizontal>
 <vertical><samples>2</samples><min_angle>0</min_angle><max_angle>1.2</max_angle></vertical></scan>
@@ -131,8 +136,24 @@ class SensorsTest(HearingCase):
     def test_logical_camera_that_looks_away(self):
         self.near(self.logical_camera(math.pi), (0.05,), 1e-3)
 
+    def scale(self, frame, direction):
+        """2 kg aside on a joint whose frames are all turned."""
+        block = f"""<pose>0 0 0 0 0.5 0</pose><force_torque><frame>{frame}</frame><measure_direction>{direction}</measure_direction>
+            </force_torque>"""
+        return self.feel("force_torque", block=block, model=WEIGHT)
+
+    def test_force_torque_in_the_axes_of_the_child(self):
+        """These three are what Gazebo 11.1 measured."""
+        self.near(self.scale("child", "child_to_parent"), (0.05, 0, -7.6326, -18.0528, 0.3816, 1.4442, -0.6106, 1), 2e-3)
+
+    def test_force_torque_in_the_axes_of_the_parent(self):
+        self.near(self.scale("parent", "parent_to_child"), (0.05, 0, 3.8939, 19.2093, 0.0988, -1.5786, 0.3200, 1), 2e-3)
+
+    def test_force_torque_in_the_axes_of_the_sensor(self):
+        self.near(self.scale("sensor", "child_to_parent"), (0.05, 4.3398, -5.8377, -18.2002, 1.3654, 0.8588, 0.0501, 1), 2e-3)
+
     def test_a_sensor_that_is_not_there_in_cpp_is_one_line(self):
-        self.done(self.sim.spawn("post", MODEL.format(yaw=0, sensors=SENSOR.format(type="force_torque", rate=5, block=""))))
+        self.done(self.sim.spawn("post", MODEL.format(yaw=0, sensors=SENSOR.format(type="rfid", rate=5, block=""))))
         self.wait(lambda: any("plugin p" in line and "a sensor of this type is not there in C++" in line for line in self.log))
         self.assertIn("post", self.sim.world().model_names)
 

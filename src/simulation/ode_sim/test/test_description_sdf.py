@@ -2,8 +2,9 @@
 import pytest
 
 from ode_sim import math3
-from ode_sim.description import DescriptionError
+from ode_sim.description import DescriptionError, read_model
 from ode_sim.description.model import Box, Capsule, Cylinder, Heightmap, Inertial, Mesh, Plane, Polyline, Sphere
+from ode_sim.description.sdf_writer import model_text
 from sdf_texts import BOX, MODEL, finder, model, models, text, world
 
 
@@ -49,7 +50,8 @@ def test_link_defaults_and_surface(finder):
         <inertial><mass>2</mass><pose>1 0 0 0 0 0</pose><inertia><ixx>3</ixx><ixy>0.1</ixy></inertia></inertial>
         <collision name="c"><max_contacts>3</max_contacts><laser_retro>5</laser_retro>{BOX}<surface>
         <friction><ode><mu>0.1</mu><mu2>0.2</mu2><fdir1>0 1 0</fdir1><slip1>0.3</slip1></ode>
-        <torsional><coefficient>0.4</coefficient></torsional></friction>
+        <torsional><coefficient>0.4</coefficient><use_patch_radius>0</use_patch_radius><patch_radius>0.05</patch_radius>
+        <surface_radius>0.06</surface_radius><ode><slip>0.7</slip></ode></torsional></friction>
         <bounce><restitution_coefficient>0.5</restitution_coefficient><threshold>0.01</threshold></bounce>
         <contact><collide_bitmask>0x02</collide_bitmask><collide_without_contact>1</collide_without_contact>
         <ode><kp>6</kp><kd>7</kd><max_vel>8</max_vel><min_depth>9</min_depth></ode></contact>
@@ -57,11 +59,14 @@ def test_link_defaults_and_surface(finder):
     a, b = m.links
     plain = a.collisions[0]
     assert a.inertial == Inertial() and a.gravity and a.self_collide is None
-    assert (plain.surface.mu, plain.surface.kp, plain.max_contacts, plain.surface.torsional_mu) == (1.0, 1e12, 10, None)
+    assert (plain.surface.mu, plain.surface.kp, plain.max_contacts) == (1.0, 1e12, 10)
     assert (b.gravity, b.self_collide, b.kinematic, b.linear_decay, b.angular_decay) == (False, True, True, 0.1, 0.2)
     assert (b.inertial.mass, b.inertial.pose.p, b.inertial.ixx, b.inertial.ixy) == (2.0, (1.0, 0.0, 0.0), 3.0, 0.1)
     s = b.collisions[0].surface
-    assert (s.mu, s.mu2, s.fdir1, s.slip1, s.torsional_mu) == (0.1, 0.2, (0.0, 1.0, 0.0), 0.3, 0.4)
+    assert (s.mu, s.mu2, s.fdir1, s.slip1) == (0.1, 0.2, (0.0, 1.0, 0.0), 0.3)
+    assert (s.torsional_mu, s.use_patch_radius, s.patch_radius, s.surface_radius, s.torsional_slip) == (0.4, False, 0.05, 0.06, 0.7)
+    same, = read_model(model_text(m))[0].links[1].collisions
+    assert same.surface == s
     assert (s.restitution, s.bounce_threshold, s.collide_bitmask, s.collide_without_contact) == (0.5, 0.01, 2, True)
     assert (s.kp, s.kd, s.max_vel, s.min_depth) == (6.0, 7.0, 8.0, 9.0)
     assert (b.collisions[0].max_contacts, b.collisions[0].laser_retro) == (3, 5.0)
@@ -235,6 +240,52 @@ def test_a_joint_whose_child_is_the_world_is_one_of_the_link_the_other_way_round
     if j.axes:
         axis = math3.quat_rotate(x_mj.q, j.axes[0].xyz)
         assert axis == pytest.approx((0.0, 0.0, -1.0)) and (j.axes[0].lower, j.axes[0].upper) == (-1.0, 2.0)
+
+
+SCALE = """<sensor name="s" type="force_torque"><pose>0 0 1 0 0 0</pose><update_rate>5</update_rate><force_torque><frame>{frame}</frame>
+<measure_direction>{direction}</measure_direction></force_torque><plugin name="p" filename="libp.so"/></sensor>"""
+
+
+def test_a_joint_has_force_torque_sensors(finder):
+    scale = SCALE.format(frame="sensor", direction="parent_to_child")
+    m, problems = model(TWO_LINKS + hinge("<pose>0 0 2 0 0 0</pose>" + scale), finder)
+    j, = m.joints
+    s, = j.sensors
+    assert (s.name, s.type, s.pose.p, s.update_rate, s.plugins[0].filename) == ("s", "force_torque", (0.0, 0.0, 1.0), 5.0, "libp.so")
+    assert j.provide_feedback and not problems  # as Gazebo, which asks for it when the sensor begins
+
+
+def test_a_sensor_of_a_joint_may_stand_in_another_frame(finder):
+    scale = SCALE.format(frame="sensor", direction="parent_to_child").replace("<pose>", '<pose relative_to="a">')
+    m, problems = model(TWO_LINKS + hinge(scale), finder, "1.7")
+    s, = m.joints[0].sensors
+    assert s.pose.p == pytest.approx((0.0, 2.0, 1.0)) and not problems  # a as b, which is turned by half a circle, has it
+
+
+@pytest.mark.parametrize("of, kind, message", [("joint", "imu", "a sensor of type imu belongs into a <link>"),
+                                               ("joint", "", "a sensor of type (none) belongs into a <link>"),
+                                               ("link", "force_torque", "a sensor of type force_torque belongs into a <joint>")])
+def test_a_sensor_in_the_wrong_place_is_one_line(finder, of, kind, message):
+    sensor = f'<sensor name="s" type="{kind}"/>'
+    m, problems = model(f'{TWO_LINKS}<link name="c">{sensor}</link>' if of == "link" else TWO_LINKS + hinge(sensor), finder)
+    assert not any(part.sensors for part in (*m.links, *m.joints))
+    assert len(problems) == 1 and message in text(problems) and f"sensor 's' of {of}" in text(problems)
+
+
+def test_words_of_a_force_torque_sensor_that_nobody_knows_are_told(finder):
+    m, problems = model(TWO_LINKS + hinge(SCALE.format(frame="tool", direction="up")), finder)
+    assert "'tool' is none of child, parent, sensor; child is taken" in text(problems)
+    assert "'up' is none of child_to_parent, parent_to_child; child_to_parent is taken" in text(problems)
+
+
+@pytest.mark.parametrize("said, same", [(("child", "child_to_parent"), ("parent", "parent_to_child")),
+                                        (("parent", "parent_to_child"), ("child", "child_to_parent")),
+                                        (("sensor", "child_to_parent"), ("sensor", "parent_to_child"))])
+def test_the_sensor_of_a_joint_whose_child_is_the_world_measures_the_same(finder, said, same):
+    joint = hinge(SCALE.format(frame=said[0], direction=said[1])).replace("<parent>a</parent>", "<parent>b</parent>")
+    m, _ = model(TWO_LINKS + joint.replace("<child>b</child>", "<child>world</child>"), finder)
+    block = m.joints[0].sensors[0].element.find("force_torque")
+    assert (block.findtext("frame"), block.findtext("measure_direction")) == same  # what is the child there is the parent here
 
 
 def test_a_joint_of_a_nested_model_may_have_the_world_as_its_child(finder):

@@ -199,6 +199,24 @@ def test_preserve_fixed_joint():
     assert names(model.links) == ["base", "tip"] and model.joints[0].type == "fixed"
 
 
+SCALE = '<sensor name="ft" type="force_torque"><update_rate>50</update_rate></sensor>'
+
+
+@pytest.mark.parametrize("kind, opt", [("revolute", ""), ("fixed", "<preserveFixedJoint>true</preserveFixedJoint>"),
+                                       ("fixed", "<disableFixedJointLumping>true</disableFixedJointLumping>")])
+def test_a_joint_has_its_force_torque_sensor(kind, opt):
+    model, problems = convert(link("base"), link("tip"), joint("f", "base", "tip", kind, body=LIMIT),
+                              f'<gazebo reference="f">{opt}{SCALE}</gazebo>')
+    sensor, = model.joints[0].sensors
+    assert (sensor.name, sensor.type, sensor.update_rate) == ("ft", "force_torque", 50.0) and not problems
+
+
+def test_the_sensor_of_a_joint_that_is_lumped_is_one_line():
+    model, problems = convert(link("base"), link("tip"), joint("f", "base", "tip"), f'<gazebo reference="f">{SCALE}</gazebo>')
+    assert names(model.links) == ["base"] and not model.joints
+    assert "sensor 'ft' is left out: its joint 'f' is fixed" in messages(problems) and "preserveFixedJoint" in messages(problems)
+
+
 def test_disable_fixed_joint_lumping_makes_a_locked_hinge():
     model, _ = convert(link("base"), link("tip"), joint("f", "base", "tip"),
                        '<gazebo reference="f"><disableFixedJointLumping>true</disableFixedJointLumping></gazebo>')

@@ -241,6 +241,20 @@ sensor @name!=string:__default__ @type!=string:__default__
   force_torque
     frame string child
     measure_direction string child_to_parent
+    force
+      x
+        noise
+      y
+        noise
+      z
+        noise
+    torque
+      x
+        noise
+      y
+        noise
+      z
+        noise
   imu
     orientation_reference_frame
       localization! string CUSTOM

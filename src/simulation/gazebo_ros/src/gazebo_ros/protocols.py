@@ -5,7 +5,7 @@
 """
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Callable, Protocol, TypeVar
+from typing import TYPE_CHECKING, Any, Callable, Optional, Protocol, TypeVar
 
 if TYPE_CHECKING:
     import rospy
@@ -58,10 +58,11 @@ class Server(Protocol):
 
 
 class Sensor(Protocol):
-    """A sensor on a link of a simulated model."""
+    """A sensor on a link, or of a joint, of a simulated model."""
 
     description: d.Sensor
-    link: LinkHandle
+    link: LinkHandle  #: of a joint's sensor the joint's child
+    joint: Optional[JointHandle]  #: whose sensor it is; None of a link's
     model: ModelHandle
     measurement_ns: int  #: sim time of the newest update
 
@@ -70,7 +71,7 @@ class Sensor(Protocol):
 
     @property
     def scoped_name(self) -> str:
-        """``model::link::sensor``"""
+        """``model::link::sensor`` or ``model::joint::sensor``"""
 
     @property
     def type(self) -> str: ...

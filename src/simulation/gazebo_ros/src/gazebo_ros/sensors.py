@@ -20,6 +20,7 @@ from typing import Any, Callable, List, NamedTuple, Optional
 
 import rospy
 from node_signals.rates import LatenessKept
+from ode_sim.handles import JointHandle
 
 _NS = 1_000_000_000
 
@@ -44,20 +45,24 @@ class _Consumer:
 
 
 class Sensor:
-    """A sensor on a link of a simulated model.
+    """A sensor on a link, or of a joint, of a simulated model.
 
     ``description``
         ``ode_sim.description.model.Sensor``: name, type, pose X_LS, element (``<sensor>``), update_rate ...
     ``link``, ``model``
-        the handles it is mounted on
+        the handles it is mounted on; of a joint's sensor the joint's child
+    ``joint``
+        the handle of the joint whose sensor it is, or None
     ``measurement_time``, ``measurement_ns``
         sim time of the newest update (``rospy.Time``, int nanoseconds)
     """
 
-    def __init__(self, description, link, report: Callable[[Any, Exception], None]):
+    def __init__(self, description, part, report: Callable[[Any, Exception], None]):
         self.description = description
-        self.link = link
-        self.model = link.model
+        self.joint = part if isinstance(part, JointHandle) else None
+        self.link = part if self.joint is None else part.child
+        self.model = part.model
+        self._of = part.scoped_name
         self.update_rate = LatenessKept(description.update_rate)
         self.measurement_ns = 0
         self.updates = Count()
@@ -72,8 +77,8 @@ class Sensor:
 
     @property
     def scoped_name(self) -> str:
-        """``model::link::sensor``"""
-        return f"{self.link.scoped_name}::{self.description.name}"
+        """``model::link::sensor`` or ``model::joint::sensor``"""
+        return f"{self._of}::{self.description.name}"
 
     @property
     def type(self) -> str:

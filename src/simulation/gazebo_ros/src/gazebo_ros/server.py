@@ -54,8 +54,8 @@ class ResolvedModel:
     def __init__(self, model: d.Model, host: PluginHost):
         where = f"model {model.name}"
         self.plugins = [host.resolve(plugin, where) for plugin in model.plugins]
-        self.sensor_plugins = {(link.name, sensor.name): [host.resolve(plugin, where) for plugin in sensor.plugins]
-                               for link in model.links for sensor in link.sensors}
+        self.sensor_plugins = {(type(part), part.name, sensor.name): [host.resolve(plugin, where) for plugin in sensor.plugins]
+                               for part in (*model.links, *model.joints) for sensor in part.sensors}
 
 
 @dataclass
@@ -302,7 +302,7 @@ class Server:
             request.set_result(None)
 
     def reset_world(self) -> None:
-        """Model poses back to the initial ones, velocities zero; time and joint angles stay. Physics thread."""
+        """Model poses back to the initial ones, velocities zero; time and the angles within models stay. Physics thread."""
         self.world.reset_poses()
         self._reset_plugins([])
 
@@ -384,12 +384,12 @@ class Server:
             self._load_model_plugins(handle, plugins)
 
     def _load_model_plugins(self, handle: ModelHandle, resolved: ResolvedModel) -> None:
-        """Sensors first, in link order, then the model's own plugins in file order, as Gazebo."""
+        """Sensors first, those of links, then of joints, then the model's own plugins in file order, as Gazebo."""
         runtime = self._models[handle.name] = _ModelRuntime()
-        for link in handle.links.values():
-            for description in link.description.sensors:
-                plugins = resolved.sensor_plugins.get((link.name, description.name), [])
-                sensor = Sensor(description, link, PluginInstance.report)
+        for part in (*handle.links.values(), *handle.joints.values()):
+            for description in part.description.sensors:
+                plugins = resolved.sensor_plugins.get((type(part.description), part.name, description.name), [])
+                sensor = Sensor(description, part, PluginInstance.report)
                 for plugin in filter(None, plugins):
                     self._start(plugin, SensorPlugin, runtime.plugins, sensor)
                 if any(plugins):

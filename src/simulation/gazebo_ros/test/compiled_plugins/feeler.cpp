@@ -39,6 +39,8 @@ private:
       }
       values.insert(values.end(), { own, forces[0], forces[1] });
     }
+    else if (const auto scale = std::dynamic_pointer_cast<sensors::ForceTorqueSensor>(sensor_))
+      add(scale->Force()), add(scale->Torque()), values.push_back(scale->Joint()->GetName() == "j");
     else if (const auto gps = std::dynamic_pointer_cast<sensors::GpsSensor>(sensor_))
       values.insert(values.end(), { gps->Latitude().Degree(), gps->Longitude().Degree(), gps->Altitude() });
     else if (const auto altimeter = std::dynamic_pointer_cast<sensors::AltimeterSensor>(sensor_))

@@ -16,6 +16,15 @@ public:
   double MuSecondary();
   void SetMuPrimary(double mu);
   void SetMuSecondary(double mu);
+  // Torsional friction, about the normal of a contact.
+  double MuTorsion();
+  bool UsePatchRadius();
+  double PatchRadius();    // m
+  double SurfaceRadius();  // m
+  void SetMuTorsion(double mu);
+  void SetUsePatchRadius(bool use);
+  void SetPatchRadius(double radius);
+  void SetSurfaceRadius(double radius);
 
 private:
   std::shared_ptr<ode_sim::Shape> core_;

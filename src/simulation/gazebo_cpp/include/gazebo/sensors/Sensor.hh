@@ -24,7 +24,7 @@ namespace gazebo
 namespace sensors
 {
 
-/// A sensor of a link. It measures after a step, at <update_rate> of sim time, while somebody wants it: who has asked for it, while it
+/// A sensor of a link, or of a joint (force_torque). It measures after a step, at <update_rate> of sim time, while somebody wants it: who has asked for it, while it
 /// is active (<always_on> makes it so) or somebody is connected to it, or who listens to its topic. Whoever has a pointer to one removed may go on to ask it.
 class GAZEBO_VISIBLE Sensor : public std::enable_shared_from_this<Sensor>
 {
@@ -42,7 +42,7 @@ public:
   virtual void Restart();  // time has gone back
 
   std::string Name() const { return name_; }
-  std::string ScopedName() const;                        // world::model::link::sensor
+  std::string ScopedName() const;                        // world::model::link::sensor, or ...::joint::sensor
   std::string ParentName() const { return parentName; }  // model::link
   uint32_t ParentId() const { return parentId; }
   uint32_t Id() const { return id_; }
@@ -69,9 +69,10 @@ protected:
   virtual void Measure() { Update(true); }
   virtual bool UpdateImpl(bool force) = 0;  // measure
   bool awaited() const { return updated_.ConnectionCount(); }
-  void tell() { updated_(); }  // that it has measured
-  bool listened() const;       // to its topic
-  std::string topicOf(const std::string& end) const;
+  void tell() { updated_(); }                          // that it has measured
+  bool listened() const;                               // to its topic
+  std::string topicOf(const std::string& end) const;   // what <topic> says, or
+  std::string ownTopic(const std::string& end) const;  // what is made of its names
   ignition::math::Pose3d worldPose() const;
   ignition::math::Vector3d velocity() const;  // of the sensor's origin, world axes, m/s
   NoisePtr noiseFrom(const sdf::ElementPtr& parent, SensorNoiseType type);

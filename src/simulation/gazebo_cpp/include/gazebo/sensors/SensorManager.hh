@@ -18,7 +18,7 @@ namespace sensors
 class GAZEBO_VISIBLE SensorManager : public SingletonT<SensorManager>
 {
 public:
-  /// \param name world::model::link::sensor, or the sensor's own name where only one has it
+  /// \param name world::model::link::sensor (of a force_torque sensor ...::joint::sensor), or the sensor's own name where only one has it
   SensorPtr GetSensor(const std::string& name) const;
   Sensor_V GetSensors() const;
   bool SensorsInitialized() { return true; }
@@ -31,7 +31,9 @@ public:
 private:
   friend class SingletonT<SensorManager>;
   SensorManager() = default;
-  void add(const physics::LinkPtr& link, const sdf::ElementPtr& sdf);  // sdf: <sensor>; of a kind that is not here: nothing
+  /// Those of a <link> or <joint> ``sdf``, called ``name``; of a kind that is not here: nothing.
+  void addOf(const std::string& name, uint32_t id, const physics::LinkPtr& link, const sdf::ElementPtr& sdf);
+  void add(const SensorPtr& sensor, const sdf::ElementPtr& sdf);
   void addOf(const std::string& model);
   void removeOf(const std::string& model);
   void step();

@@ -99,7 +99,7 @@ class SpawnServices:
 
 def plugins_of(model: Model) -> List[Plugin]:
     """Those of the model and of its sensors."""
-    return list(model.plugins) + [plugin for link in model.links for sensor in link.sensors
+    return list(model.plugins) + [plugin for part in (*model.links, *model.joints) for sensor in part.sensors
                                   for plugin in sensor.plugins]
 
 

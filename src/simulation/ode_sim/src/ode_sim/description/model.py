@@ -7,6 +7,7 @@ line and element. Defaults are those of sdformat 1.7 and Gazebo Classic's ODE en
 """
 from __future__ import annotations
 
+import math
 import xml.etree.ElementTree as ET
 from dataclasses import dataclass, field
 from typing import Optional, Tuple, Union
@@ -148,7 +149,11 @@ class Surface:
     fdir1: Vec3 = (0.0, 0.0, 0.0)
     slip1: float = 0.0
     slip2: float = 0.0
-    torsional_mu: Optional[float] = None
+    torsional_mu: float = 1.0  # of friction against turning about the normal
+    torsional_slip: float = 0.0  # rad/s for one N m
+    use_patch_radius: bool = True  # else the radius of the patch follows from surface_radius and the depth; where both surfaces say so
+    patch_radius: float = 0.0  # m; 0: touches in a point, and turns freely
+    surface_radius: float = math.inf  # m, of the curvature where it touches; infinite: flat
     kp: float = 1e12
     kd: float = 1.0
     max_vel: float = 0.01
@@ -194,6 +199,9 @@ class Plugin:
     source: Source = Source()
 
 
+FORCE_TORQUE = "force_torque"  # the one type of sensor that a joint has, and no link
+
+
 @dataclass(frozen=True)
 class Sensor:
     """``type`` as in SDF (camera, depth, multicamera, ray, gpu_ray, imu, contact, force_torque ...). ``element`` is the
@@ -201,7 +209,7 @@ class Sensor:
 
     name: str
     type: str
-    pose: Pose  # X_LS, in the link frame
+    pose: Pose  # X_LS, in the link frame; of a joint's sensor X_JS, in the joint frame
     element: ET.Element = field(compare=False)
     update_rate: float = 0.0  # Hz of sim time, 0 = every step
     always_on: bool = False
@@ -283,6 +291,7 @@ class Joint:
     fudge_factor: float = 1.0
     mimic: Optional[Mimic] = None  # from URDF; Gazebo drops it, a plugin may ask for it
     urdf_type: str = ""  # 'continuous' is told from 'revolute' by this; '' when the source was SDF
+    sensors: Tuple[Sensor, ...] = ()  # force_torque alone
     source: Source = Source()
 
 

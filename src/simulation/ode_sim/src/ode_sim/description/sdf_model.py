@@ -10,7 +10,7 @@ from typing import Dict, Iterator, List, Optional, Set, Tuple
 
 from ode_sim import math3
 from ode_sim.description.model import (
-    FARTHEST, Axis, Collision, DescriptionError, Inertial, Joint, Link, Model, Plugin, Pose, Sensor, Surface, Vec3, Visual,
+    FARTHEST, FORCE_TORQUE, Axis, Collision, DescriptionError, Inertial, Joint, Link, Model, Plugin, Pose, Sensor, Surface, Vec3, Visual,
     quoted)
 from ode_sim.description.sdf_document import first_entity, parse_sdf
 from ode_sim.description.sdf_frames import model_frames, relative_to
@@ -42,6 +42,19 @@ class _Parts:
     plugins: List[Plugin] = field(default_factory=list)
     frames: Dict[str, Pose] = field(default_factory=dict)  # X_M of links, joints, frames, for relative_to
     still: Set[str] = field(default_factory=set)  # links of nested models that are static
+
+
+def _turn_round(sensor: ET.Element) -> None:
+    """A force-torque sensor of a joint whose parent and child are exchanged goes on to measure the same."""
+    block = sensor.find(FORCE_TORQUE)
+    if block is None:
+        block = ET.SubElement(sensor, FORCE_TORQUE)
+    for tag, usual, other in (("frame", "child", "parent"), ("measure_direction", "child_to_parent", "parent_to_child")):
+        element = block.find(tag)
+        if element is None:
+            element = ET.SubElement(block, tag)
+        said = text_of(element, usual)
+        element.text = {usual: other, other: usual}.get(said, said)
 
 
 def _told_anew(sub: _Parts) -> _Parts:
@@ -173,15 +186,7 @@ class SdfModels(SdfShapes):
         x_ml = frames[name]
 
         def in_link(child: ET.Element) -> Pose:
-            pose = child.find("pose")
-            x = self.pose(pose)
-            frame = relative_to(pose)
-            if not frame or frame == name:
-                return x
-            if frame not in frames:
-                self.warn(pose, f"there is no frame '{quoted(frame)}'; using that of link '{quoted(name)}'")
-                return x
-            return math3.compose(math3.relative(x_ml, frames[frame]), x)
+            return self._pose_in(element, x_ml, child, frames)
 
         for plugin in self.plugins(element):
             self.warn(plugin.element, f"{quoted(plugin.filename)}: a plugin inside a link is never started; write it into the "
@@ -191,7 +196,7 @@ class SdfModels(SdfShapes):
             name=name, pose=x_ml, inertial=self._inertial(element.find("inertial"), in_link),
             collisions=tuple(self._unique(element, "collision", lambda e: self._collision(e, in_link(e)))),
             visuals=tuple(self._unique(element, "visual", lambda e: self._visual(e, in_link(e)))),
-            sensors=tuple(self._unique(element, "sensor", lambda e: self._sensor(e, in_link(e)))),
+            sensors=tuple(self._unique(element, "sensor", lambda e: self._sensor(e, in_link(e), of_joint=False))),
             lights=tuple(self._unique(element, "light", lambda e: replace(self.light(e), pose=in_link(e)))),
             gravity=self.boolean(element, "gravity", True),
             self_collide=is_true(text_of(collide)) if collide is not None else None,
@@ -200,6 +205,18 @@ class SdfModels(SdfShapes):
             angular_decay=self.number(element, "velocity_decay/angular", 0.0, most=_STIFFEST),
             source=source_of(element))
 
+    def _pose_in(self, owner: ET.Element, x_mo: Pose, child: ET.Element, frames: Dict[str, Pose]) -> Pose:
+        """X_OC of what a link or joint O has, which may be written relative to another frame."""
+        pose = child.find("pose")
+        x = self.pose(pose)
+        frame = relative_to(pose)
+        if not frame or frame == owner.get("name"):
+            return x
+        if frame not in frames:
+            self.warn(pose, f"there is no frame '{quoted(frame)}'; using that of {owner.tag} '{quoted(owner.get('name'))}'")
+            return x
+        return math3.compose(math3.relative(x_mo, frames[frame]), x)
+
     def _unique(self, parent: ET.Element, tag: str, read) -> Iterator:
         """Children of one kind, with names made unique: Gazebo would drop the second of a name."""
         items = []
@@ -207,8 +224,8 @@ class SdfModels(SdfShapes):
             try:
                 items.append((element, read(element)))
             except DescriptionError as error:  # the link is there without it, as in Gazebo
-                self.warn(error.source, f"{error.message}; {tag} '{quoted(element.get('name'))}' of link '{quoted(parent.get('name'))}' is "
-                                        "left out")
+                self.warn(error.source, f"{error.message}; {tag} '{quoted(element.get('name'))}' of {parent.tag} "
+                                        f"'{quoted(parent.get('name'))}' is left out")
         given = {item.name for _, item in items}
         seen: Dict[str, int] = {}
         for element, item in items:
@@ -216,7 +233,7 @@ class SdfModels(SdfShapes):
             if count:
                 while f"{item.name}_{count}" in given:  # so is one that somebody else has
                     count += 1
-                self.warn(element, f"the name is used twice in this link; renamed '{quoted(item.name)}_{count}'", "note")
+                self.warn(element, f"the name is used twice in this {parent.tag}; renamed '{quoted(item.name)}_{count}'", "note")
             seen[item.name] = count + 1
             yield replace(item, name=f"{item.name}_{count}") if count else item
 
@@ -249,8 +266,18 @@ class SdfModels(SdfShapes):
                       cast_shadows=self.boolean(element, "cast_shadows", True),
                       laser_retro=self.number(element, "laser_retro", 0.0, most=1e30), source=source_of(element))
 
-    def _sensor(self, element: ET.Element, pose: Pose) -> Sensor:
-        return Sensor(name=element.get("name") or "", type=(element.get("type") or "").strip(), pose=pose,
+    def _sensor(self, element: ET.Element, pose: Pose, of_joint: bool) -> Sensor:
+        kind = (element.get("type") or "").strip()
+        if (kind == FORCE_TORQUE) != of_joint:
+            raise fault(element, f"a sensor of type {quoted(kind) or '(none)'} belongs into a "
+                                 + (f"<link>; a joint takes {FORCE_TORQUE} alone" if of_joint else
+                                    "<joint> (in a URDF: <gazebo reference=\"the joint's name\">)"))
+        for path, words in (("frame", ("child", "parent", "sensor")), ("measure_direction", ("child_to_parent", "parent_to_child"))):
+            said = element.find(f"{FORCE_TORQUE}/{path}")
+            if said is not None and text_of(said) not in words:
+                self.warn(said, f"'{quoted(text_of(said))}' is none of {', '.join(words)}; {words[0]} is taken")
+                said.text = words[0]
+        return Sensor(name=element.get("name") or "", type=kind, pose=pose,
                       element=element, update_rate=self.number(element, "update_rate", 0.0),
                       always_on=self.boolean(element, "always_on", False), plugins=tuple(self.plugins(element)),
                       source=source_of(element))
@@ -261,7 +288,7 @@ class SdfModels(SdfShapes):
         default = Surface()
         ode = element.find("friction/ode")
         contact = element.find("contact/ode")
-        torsion = element.find("friction/torsional/coefficient")
+        torsion = element.find("friction/torsional")
         bitmask = text_of(element.find("contact/collide_bitmask"))
         try:
             collide_bitmask = int(bitmask, 0) if bitmask else default.collide_bitmask
@@ -272,7 +299,11 @@ class SdfModels(SdfShapes):
             mu=self.number(ode, "mu", default.mu), mu2=self.number(ode, "mu2", default.mu2),
             fdir1=self.vector(ode, "fdir1", default.fdir1, most=LONGEST),
             slip1=self.number(ode, "slip1", 0.0), slip2=self.number(ode, "slip2", 0.0),
-            torsional_mu=self.numbers(torsion, (1.0,))[0] if torsion is not None else None,
+            torsional_mu=self.number(torsion, "coefficient", default.torsional_mu),
+            torsional_slip=self.number(torsion, "ode/slip", 0.0),
+            use_patch_radius=self.boolean(torsion, "use_patch_radius", True) if torsion is not None else True,
+            patch_radius=self.number(torsion, "patch_radius", 0.0),
+            surface_radius=self.number(torsion, "surface_radius", 0.0) if torsion is not None else default.surface_radius,
             kp=self.number(contact, "kp", default.kp), kd=self.number(contact, "kd", default.kd),
             max_vel=self.number(contact, "max_vel", default.max_vel),
             min_depth=self.number(contact, "min_depth", default.min_depth),
@@ -308,16 +339,20 @@ class SdfModels(SdfShapes):
             axes = tuple(replace(axis, lower=-1e16, upper=1e16) for axis in axes)
         if child == "world":  # told the other way round: the link moves, its axes are the opposite ones in the opposite order
             parent, child = child, parent
+            for sensor in element.findall("sensor"):
+                _turn_round(sensor)
             axes = tuple(replace(axis, xyz=math3.scale(axis.xyz, -1.0)) for axis in reversed(axes))
+        sensors = tuple(self._unique(element, "sensor", lambda e: self._sensor(
+            e, self._pose_in(element, x_mj, e, parts.frames), of_joint=True)))
         return [Joint(
             name=name, type=kind, parent=parent, child=child, pose=math3.relative(parts.frames[child], x_mj), axes=axes,
             limit_erp=self.number(element, "physics/ode/limit/erp", 0.2),
             limit_cfm=self.number(element, "physics/ode/limit/cfm", 0.0),
-            provide_feedback=self.boolean(element, "physics/provide_feedback",
-                                          self.boolean(element, "physics/ode/provide_feedback", False)),
+            provide_feedback=bool(sensors) or self.boolean(element, "physics/provide_feedback",
+                                                           self.boolean(element, "physics/ode/provide_feedback", False)),
             implicit_spring_damper=self.boolean(element, "physics/ode/implicit_spring_damper",
                                                 self.boolean(element, "physics/ode/cfm_damping", False)),
-            fudge_factor=self.number(element, "physics/ode/fudge_factor", 1.0), source=source_of(element))]
+            fudge_factor=self.number(element, "physics/ode/fudge_factor", 1.0), sensors=sensors, source=source_of(element))]
 
     def _joint_pose(self, pose: Optional[ET.Element], child: str, parts: _Parts) -> Pose:
         """X_MJ; without a frame of its own in that of the child, and in the world's where the world is the child."""

@@ -1,6 +1,7 @@
 """Descriptions as SDF 1.6 text that Gazebo Classic opens: saved worlds, copied models."""
 from __future__ import annotations
 
+import math
 import os
 import xml.etree.ElementTree as ET
 from typing import Any, Iterable, Optional, Union
@@ -162,16 +163,20 @@ def _link(parent: ET.Element, link: d.Link) -> None:
         _collision(element, collision)
     for visual in link.visuals:
         _visual(element, visual)
-    for sensor in link.sensors:
+    _sensors(element, link.sensors)
+    for light in link.lights:
+        _light(element, light)
+
+
+def _sensors(parent: ET.Element, sensors: Iterable[d.Sensor]) -> None:
+    for sensor in sensors:
         made = _plain(sensor.element)
         for pose in made.findall("pose"):
             made.remove(pose)
         made.set("name", sensor.name)
         made.set("type", sensor.type)
         _pose(made, sensor.pose)
-        element.append(made)
-    for light in link.lights:
-        _light(element, light)
+        parent.append(made)
 
 
 def _collision(parent: ET.Element, collision: d.Collision) -> None:
@@ -190,7 +195,10 @@ def _collision(parent: ET.Element, collision: d.Collision) -> None:
                        ("contact/ode/", "max_vel"), ("contact/ode/", "min_depth"), ("contact/", "collide_bitmask"),
                        ("contact/", "collide_without_contact")):
         _leaf(made, path + name, getattr(surface, name), getattr(usual, name))
-    _leaf(made, "friction/torsional/coefficient", surface.torsional_mu)
+    if math.isfinite(surface.surface_radius):  # there was a <torsional>
+        for path, name in (("coefficient", "torsional_mu"), ("use_patch_radius", "use_patch_radius"), ("patch_radius", "patch_radius"),
+                           ("surface_radius", "surface_radius"), ("ode/slip", "torsional_slip")):
+            _leaf(made, "friction/torsional/" + path, getattr(surface, name))
     _leaf(made, "bounce/restitution_coefficient", surface.restitution, usual.restitution)
     _leaf(made, "bounce/threshold", surface.bounce_threshold, usual.bounce_threshold)
 
@@ -293,6 +301,7 @@ def _joint(parent: ET.Element, joint: d.Joint) -> None:
                        ("physics/ode/implicit_spring_damper", "implicit_spring_damper"),
                        ("physics/ode/fudge_factor", "fudge_factor")):
         _leaf(element, path, getattr(joint, name), getattr(usual, name))
+    _sensors(element, joint.sensors)
 
 
 def _physics(parent: ET.Element, physics: d.Physics) -> None:

@@ -236,6 +236,10 @@ class _Conversion:
             joint = link.parent_joint
             if joint is None or not self._lumps(joint):
                 continue
+            for sensor in self.extensions.sensors_of(joint.name):
+                self.reader.warn(sensor, f"sensor '{quoted(sensor.get('name'))}' is left out: its joint '{quoted(joint.name)}' is fixed, "
+                                         "and Gazebo makes one link of such a joint's two; to keep the joint, write <gazebo reference="
+                                         f"\"{quoted(joint.name)}\"><preserveFixedJoint>true</preserveFixedJoint></gazebo>")
             self._lump(link, joint.parent, joint.pose)
             joint.parent.fixed_below = max(joint.parent.fixed_below, link.fixed_below + 1)
             if link.fixed_below > _MOST_FIXED:

@@ -172,6 +172,9 @@ class Extensions:
             self._set(element, "material/script/name", "Gazebo/White")
             self._set(element, "material/script/uri", _MATERIAL_SCRIPT)
 
+    def sensors_of(self, joint: str) -> List[Element]:
+        return [element for block in self._blocks.get(joint, ()) for element in block.others if element.tag == "sensor"]
+
     def insert_in_joint(self, element: Element, joint: str) -> None:
         for block in self._blocks.get(joint, ()):
             self._insert(element, block, _JOINT_TAGS)
