@@ -24,7 +24,6 @@ def of(solver: str, why: str, *rows) -> Tuple[Cause, ...]:
     return tuple(Cause(solver, row, why) if isinstance(row, str) else Cause(solver, row[0], why, tuple(row[1:])) for row in rows)
 
 
-SCREW = "screw and gearbox joints are left out here, in a line of World.problems: their links are free"
 FINITE = "ODE turns a body by 2 atan(w h/2) in a step, here it turns by w h: real Gazebo lags by (w h)^3/12 in each"
 WORLD_AXIS = (
     "of a joint on the world, real Gazebo takes an axis `in the model's frame` in the frame of the world; here it is turned with the model"
@@ -64,7 +63,6 @@ BOTH = (
         "real Gazebo tells the second axis of a revolute2 with the other sign, and wraps it at pi",
         ("revolute2_on_base", *(f"w::j1, axis 1, at {t} s" for t in ("0.5", "1", "2"))),
     ),
-    (SCREW, "screw_falls", "screw_driven", "gearbox"),
     (HINGE2, "revolute2_wheel"),
     (WORLD_AXIS, *((scene, *AXIS_ROWS) for scene in ("sdf_13", "sdf_14", "sdf_16_parent_model_frame"))),
     (STATE, ("state", *STATE_ROWS)),

@@ -108,6 +108,14 @@ void Joint::FillMsg(msgs::Joint& message)
     // Deprecated, and required.
     axis.GetReflection()->SetBool(&axis, axis.GetDescriptor()->FindFieldByName("use_parent_model_frame"), false);
   }
+  if (HasType(Base::SCREW_JOINT))
+    message.mutable_screw()->set_thread_pitch(GetParam("thread_pitch", 0));
+  if (HasType(Base::GEARBOX_JOINT))
+  {
+    message.mutable_gearbox()->set_gearbox_ratio(GetParam("gearbox_ratio", 0));
+    message.mutable_gearbox()->set_gearbox_reference_body(
+        GetSDF() && GetSDF()->HasElement("gearbox_reference_body") ? GetSDF()->Get<std::string>("gearbox_reference_body") : "");
+  }
 }
 
 void Model::FillMsg(msgs::Model& message)

@@ -220,7 +220,7 @@ bool Joint::SetPosition(unsigned int index, double position, bool preserve_veloc
 // As the original: the child alone gets the velocity that the joint then has.
 void Joint::SetVelocity(unsigned int index, double velocity)
 {
-  if (!axis_of(core_, index) || core_->type == ode_sim::JointType::Ball)
+  if (!axis_of(core_, index) || core_->type == ode_sim::JointType::Ball || !core_->holds())
     return;
   Vector3d v, w;
   const Vector3d at = Anchor(0);
@@ -232,6 +232,12 @@ void Joint::SetVelocity(unsigned int index, double velocity)
   if (core_->type == ode_sim::JointType::Prismatic)
   {
     v += velocity * GlobalAxis(index);
+  }
+  else if (core_->type == ode_sim::JointType::Screw)
+  {
+    const double turn = index == 0 ? velocity : velocity / core_->slides();
+    v += turn * core_->slides() * GlobalAxis(0);
+    w += turn * GlobalAxis(0);
   }
   else
   {
@@ -301,6 +307,13 @@ bool Joint::SetParam(const std::string& key, unsigned int index, const boost::an
     core_->stop_erp = std::min(std::max(*number, 0.0), 10.0), core_->model->dirty = true;
   else if (key == "stop_cfm")
     core_->stop_cfm = std::min(std::max(*number, 0.0), ode_sim::kStiffest), core_->model->dirty = true;
+  else if (key == "thread_pitch" || key == "gearbox_ratio")
+  {
+    const auto set = key == "thread_pitch" ? ode_sim::set_thread_pitch : ode_sim::set_gear_ratio;
+    bool done = false;
+    change(GetScopedName(), [&] { set(*core_, *number), done = true; });
+    return done;
+  }
   else if (auto* axis = axis_of(core_, index))
   {
     if (key == "fmax")
@@ -332,6 +345,10 @@ double Joint::GetParam(const std::string& key, unsigned int index)
     return core_->stop_erp;
   if (core_ && key == "stop_cfm")
     return core_->stop_cfm;
+  if (core_ && key == "thread_pitch")
+    return core_->thread_pitch;
+  if (core_ && key == "gearbox_ratio")
+    return core_->gear_ratio;
   if (const auto* axis = axis_of(core_, index))
   {
     if (key == "fmax")

@@ -168,7 +168,9 @@ Base::EntityType type_of(const std::string& type)
                                                                  { "fixed", Base::FIXED_JOINT },
                                                                  { "ball", Base::BALL_JOINT },
                                                                  { "universal", Base::UNIVERSAL_JOINT },
-                                                                 { "revolute2", Base::HINGE2_JOINT } };
+                                                                 { "revolute2", Base::HINGE2_JOINT },
+                                                                 { "screw", Base::SCREW_JOINT },
+                                                                 { "gearbox", Base::GEARBOX_JOINT } };
   const auto found = types.find(type);
   return found == types.end() ? Base::HINGE_JOINT : found->second;
 }

@@ -247,6 +247,25 @@ class Joints(Case):
         self.assertAlmostEqual(hinge.position[0], 0.25, 9)
         self.refused(self.sim.joint("knee"), "GetJointProperties: ", "knee")
 
+    def test_a_screw_turns_and_goes(self):
+        """0.1 N m on 1 kg, J = 0.01, at 100 rad/m, left-handed: (J + m/p^2) a = tau."""
+        link = "<link name='nut'><inertial><mass>1</mass><inertia><ixx>.01</ixx><iyy>.01</iyy><izz>.01</izz></inertia></inertial></link>"
+        thread = "<thread_pitch>100</thread_pitch><axis><xyz>0 0 1</xyz></axis>"
+        self.done(self.sim.spawn("press", f"<sdf version='1.6'><model name='press'>{link}<joint name='thread' type='screw'><parent>world"
+                                 f"</parent><child>nut</child>{thread}</joint></model></sdf>", pose(5, 0, 2)))
+        self.addCleanup(self.sim.delete, "press")
+        self.done(self.sim.drive("thread", 0.1, 0.2))
+        self.sim.step(200)
+        rate = 0.1 / (0.01 + 1.0 / 100.0 ** 2) * 0.2
+        thread = self.done(self.sim.joint("press::thread"))
+        self.assertEqual((len(thread.position), len(thread.rate)), (1, 1))
+        self.assertAlmostEqual(thread.rate[0], rate, delta=1e-3 * rate)
+        nut = self.done(self.sim.link("press::nut")).link_state
+        self.assertAlmostEqual(nut.twist.linear.z, -rate / 100, delta=1e-5)
+        self.assertAlmostEqual(nut.pose.position.z, 2 - thread.position[0] / 100, 6)
+        self.done(self.sim.set_joints("press", ["thread"], [-30.0]))
+        self.assertAlmostEqual(self.done(self.sim.link("press::nut")).link_state.pose.position.z, 2.3, 6)
+
     def test_a_motor_drives_and_stops(self):
         self.done(self.sim.set_joint("hinge", fmax=[100.0], vel=[0.5]))
         self.sim.step(1000)

@@ -227,12 +227,11 @@ void spread_twists(Cluster& c, bool drives) {
       const Joint& j = *l->up;
       const Pose X_WJ = j.frame_W();
       const Vec3 rate = rotate(X_WJ.q, j.axes[0].xyz) * (l == j.child ? j.rate : -j.rate);
-      if (j.type == JointType::Revolute) {
+      if (j.turns() != 0) {
         w += rate;
         v += cross(rate, l->X_WL.p - X_WJ.p);
-      } else {
-        v += rate;
       }
+      if (j.slides() != 0) v += rate * j.slides();
     }
     l->v = v;
     l->w = w;

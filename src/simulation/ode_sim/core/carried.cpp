@@ -58,7 +58,7 @@ class CarryPlan {
   void find_edges() {
     for (auto& m : scene_.models)
       for (auto& j : m->joints)
-        if (j->joint && j->parent) add(j->parent, j->child);
+        if (j->joint && j->parent && j->holds()) add(j->parent, j->child);
     for (auto& t : scene_.welds)
       if (t.parent) add(t.parent.get(), t.child.get());
   }

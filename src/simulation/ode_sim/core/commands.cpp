@@ -62,6 +62,8 @@ void World::set_model_pose(Model& model, const Pose& old, const Pose& wanted) {
   }
   for (size_t i = 0; i < bolts.size(); ++i)
     if (!model.joints[i]->parent) model.joints[i]->X_PJ = bolts[i];
+  for (auto& j : model.joints)
+    if (!j->holds() && !j->reference) j->q_RJ = normalized(X.q * j->q_RJ);
   model.dirty = true;
   refresh();
   read_back(scene_);
@@ -190,7 +192,8 @@ void World::zero_velocities(Model& model) {
 
 bool World::set_joint_position(Joint& j, int axis, double q) {
   const OdeScope scope;
-  if (j.axis_count == 0) return false;
+  if (j.axis_count == 0 || !j.holds()) return false;
+  if (j.type == JointType::Screw && axis == 1) return set_joint_position(j, 0, q / j.slides());
   bool loop = false;
   refresh();
   const auto& beyond = links_beyond(j, &loop);
@@ -219,7 +222,7 @@ bool World::set_joint_position(Joint& j, int axis, double q) {
 }
 
 void World::set_drive(Joint& j, double target) {
-  if (j.type != JointType::Revolute && j.type != JointType::Prismatic) return;
+  if (j.turns() == 0 && j.slides() == 0) return;
   const Axis& a = j.axes[0];
   j.target = limited(std::min(std::max(target, a.lower), a.upper), kFarthest, "a position command");
   if (j.drive != DriveMode::Off) return;

@@ -44,11 +44,13 @@ Limot limot_of(const Joint& j, int axis) {
     switch (j.type) {
       case JointType::Revolute: return dJointGetHingeParam(j.joint, parameter);
       case JointType::Prismatic: return dJointGetSliderParam(j.joint, parameter);
+      case JointType::Screw: return dJointGetPistonParam(j.joint, parameter + dParamGroup2);
       default: return dJointGetUniversalParam(j.joint, axis ? parameter + dParamGroup2 : parameter);
     }
   };
   const double q = j.type == JointType::Revolute    ? dJointGetHingeAngle(j.joint)
                    : j.type == JointType::Prismatic ? dJointGetSliderPosition(j.joint)
+                   : j.type == JointType::Screw     ? j.sign * j.axes[0].q
                    : axis                           ? dJointGetUniversalAngle2(j.joint)
                                                     : dJointGetUniversalAngle1(j.joint);
   return {read(dParamFMax),   read(dParamVel),     read(dParamCFM),     read(dParamLoStop),
@@ -79,7 +81,25 @@ void add_limot(std::vector<Row>& rows, std::vector<Body>& bodies, const Pair& pa
   rows.push_back(r);
 }
 
-void add_joint_rows(std::vector<Row>& rows, std::vector<Body>& bodies, const Joint& j, const Pair& pair, double dt) {
+constexpr double kFastestMesh = 10;  // rad/s: teeth that are out of step come back
+
+// The child turns at -gear_ratio times the rate of the parent. Gazebo's ODE takes rates in the world, not those against the reference, and so
+// holds gears back whose box turns.
+Row gear_row(const Joint& j, const Pair& pair, const Settings& set) {
+  const Vec3 child = rotate(j.child_frame_W().q, j.axes[0].xyz), parent = rotate(j.frame_W().q, j.axes[1].xyz) * j.gear_ratio;
+  Row r;
+  r.first = pair.first, r.second = pair.second, r.cfm = pair.cfm, r.fastest = pair.fastest;
+  r.a1 = j.sign > 0 ? child : parent;
+  if (r.second >= 0) r.a2 = j.sign > 0 ? parent : child;
+  r.c = -pair.erp_rate * std::remainder(j.axes[0].q + j.gear_ratio * j.axes[1].q, 2 * kPi);
+  if (set.like_gazebo) return r;
+  r.c = std::min(std::max(r.c, -kFastestMesh), kFastestMesh);
+  if (j.reference) r.c += dot(child + parent, j.reference->w);
+  return r;
+}
+
+void add_joint_rows(std::vector<Row>& rows, std::vector<Body>& bodies, const Joint& j, const Pair& pair, const Settings& set) {
+  const double dt = set.dt;
   const Vec3 a0 = j.axes[0].xyz;
   const Vec3 axis1 = rotate(pair.X_W1.q, a0), axis2 = rotate(pair.X_W2.q, a0);
   switch (j.type) {
@@ -103,6 +123,12 @@ void add_joint_rows(std::vector<Row>& rows, std::vector<Body>& bodies, const Joi
       add_limot(rows, bodies, pair, limot_of(j, 1), second, false, dt);
       break;
     }
+    case JointType::Screw:
+      gazebo_like::add_thread(rows, pair, axis1, j.thread_pitch, j.sign * (j.axes[1].q + j.axes[0].q / j.thread_pitch));
+      gazebo_like::add_hinge(rows, pair, axis1, axis2);
+      add_limot(rows, bodies, pair, limot_of(j, 0), axis1, false, dt);
+      break;
+    case JointType::Gearbox: rows.push_back(gear_row(j, pair, set)); break;
     case JointType::Ball: gazebo_like::add_point(rows, pair); break;
     case JointType::Fixed:
       gazebo_like::add_point(rows, pair);
@@ -227,7 +253,7 @@ class Rows {
     const Pose X_C = X_BL(*j.child) * j.X_CJ, X_P = j.parent ? X_BL(*j.parent) * j.X_PJ : j.X_PJ;
     if (!take(j.joint, j.sign > 0 ? X_C : X_P, j.sign > 0 ? X_P : X_C, set_.contact_max_vel)) return;
     const size_t from = rows.size();
-    add_joint_rows(rows, bodies_, j, pair_, set_.dt);
+    add_joint_rows(rows, bodies_, j, pair_, set_);
     for (size_t i = from; i < rows.size(); ++i)
       rows[i].lambda = j.borne[i - from], rows[i].lambda_fully = j.borne[6 + i - from];
     owners.push_back({j.watched ? &j.ode_feedback : nullptr, &j, from, rows.size()});

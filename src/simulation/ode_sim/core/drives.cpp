@@ -50,12 +50,11 @@ void feed_forward(Joint& j, double dt) {
     if (!c.root || !done.insert(c.root->body).second) continue;
     dBodyID b = c.root->body;
     Vec3 v = body_velocity(b), w = body_spin(b);
-    if (j.type == JointType::Revolute) {
+    if (j.turns() != 0) {
       w += delta;
       v += cross(delta, vec(dBodyGetPosition(b)) - X_WJ.p);
-    } else {
-      v += delta;
     }
+    if (j.slides() != 0) v += delta * j.slides();
     set_body_twist(b, v, w);
   }
 }
@@ -174,13 +173,14 @@ double motor_load(const Scene& scene, Joint& j) {
   double load = 0, mass = 0, reach = 0;
   for (Link* l : links_beyond(j)) {
     const Vec3 f = l->gravity ? gravity * l->mass : Vec3{};
-    load += j.type == JointType::Revolute ? dot(axis, cross(l->com_W() - X_WJ.p, f)) : dot(axis, f);
+    if (j.turns() != 0) load += dot(axis, cross(l->com_W() - X_WJ.p, f));
+    if (j.slides() != 0) load += dot(axis, f) * j.slides();
     mass += l->mass;
     reach = std::max(reach, norm(l->com_W() - X_WJ.p) + l->size);
   }
   double effort = j.axes[0].effort;
   if (effort <= 0 || effort > kUnlimited) {  // none given: enough to carry itself twice over
-    effort = 2 * mass * std::max(norm(gravity), 1.0) * (j.type == JointType::Revolute ? reach : 1.0) + 1.0;
+    effort = 2 * mass * std::max(norm(gravity), 1.0) * (j.turns() != 0 ? reach : 1.0) + 1.0;
   }
   return std::abs(load) + effort;
 }

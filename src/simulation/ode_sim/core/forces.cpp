@@ -24,7 +24,7 @@ void apply_axis_force(const Joint& j, int axis, double f) {
   const dBodyID child = body_of(j.child), parent = body_of(j.parent);
   const Pose X_WJ = axis == 0 ? j.frame_W() : j.child_frame_W();
   const Vec3 v = rotate(X_WJ.q, j.axes[axis].xyz) * f;
-  if (j.type == JointType::Prismatic) {
+  if (j.type == JointType::Prismatic || (j.type == JointType::Screw && axis == 1)) {
     const Vec3 p = j.child_frame_W().p;
     if (child) dBodyAddForceAtPos(child, v.x, v.y, v.z, p.x, p.y, p.z);
     if (parent) dBodyAddForceAtPos(parent, -v.x, -v.y, -v.z, p.x, p.y, p.z);
@@ -188,8 +188,10 @@ void apply_forces(Scene& scene, StepState& state) {
     apply_link_forces(*m);
     apply_uneven_gravity(*m, set.gravity);
     for (auto& j : m->joints)
-      if (j->joint)
-        for (int i = 0; i < j->axis_count; ++i) update_axis(scene, state, *j, i);
+      if (j->joint) {
+        for (int i = 0; i < j->driven_axes(); ++i) update_axis(scene, state, *j, i);
+        if (j->type == JointType::Screw) apply_axis_force(*j, 1, j->axes[1].force);
+      }
     if (!set.like_gazebo || m->has_drives) apply_inertial_forces(scene, state, *m);
   }
 }

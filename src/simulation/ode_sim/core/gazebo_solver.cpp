@@ -167,6 +167,23 @@ void add_slide(std::vector<Row>& rows, const Pair& pair, const Vec3& axis_W) {
   }
 }
 
+// Two rows keep the origin of the first body on the axis, the third turns it as it goes. off: m, how far it is beyond where its angle has it.
+void add_thread(std::vector<Row>& rows, const Pair& pair, const Vec3& axis_W, double pitch, double off) {
+  Vec3 p, q;
+  across(axis_W, p, q);
+  const Vec3 apart = pair.X_W2.p - pair.X_W1.p;
+  for (const Vec3& e : {p, q}) {
+    Row r = point_row(pair, pair.X_W1.p, e);
+    r.c = pair.erp_rate * dot(apart, e);
+    rows.push_back(r);
+  }
+  Row thread = point_row(pair, pair.X_W1.p, axis_W);
+  thread.a1 += axis_W * (1 / pitch);
+  if (pair.second >= 0) thread.a2 += axis_W * (-1 / pitch);
+  thread.c = -pair.erp_rate * off;
+  rows.push_back(thread);
+}
+
 // Forces along a line act halfway between the bodies, so that they make no couple.
 Row along(const Pair& pair, const Vec3& axis_W, bool linear) {
   Row r;

@@ -55,6 +55,7 @@ void add_turn(std::vector<Row>& rows, const Pair& pair, const Vec3& axis_W, doub
 void add_alignment(std::vector<Row>& rows, const Pair& pair);                               // three rows: no rotation
 void add_hinge(std::vector<Row>& rows, const Pair& pair, const Vec3& axis1_W, const Vec3& axis2_W);  // two rows
 void add_slide(std::vector<Row>& rows, const Pair& pair, const Vec3& axis_W);                        // two rows across the axis
+void add_thread(std::vector<Row>& rows, const Pair& pair, const Vec3& axis_W, double pitch, double off);  // three rows
 Row along(const Pair& pair, const Vec3& axis_W, bool linear);            // a limit or motor of an axis
 Row point_row(const Pair& pair, const Vec3& at, const Vec3& direction);  // of contacts
 

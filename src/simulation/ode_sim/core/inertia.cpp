@@ -36,8 +36,8 @@ void member_accelerations(StepState& state, Cluster& c, bool drives, double dt) 
     if (j.drive == DriveMode::Locked) {
       const Vec3 axis = rotate(X_WJ.q, j.axes[0].xyz) * (l == j.child ? 1.0 : -1.0);
       const Vec3 rate = axis * j.rate, change = axis * (drives ? (j.rate - j.previous_rate) / dt : 0.0);
-      if (j.type == JointType::Revolute) alpha += cross(w, rate) + change;
-      else a += cross(w, rate) * 2 + change;
+      if (j.slides() != 0) a += (cross(w, rate) * 2 + change) * j.slides();
+      if (j.turns() != 0) alpha += cross(w, rate) + change;
     }
     r = p - X_WJ.p;
     own.alpha = alpha;
@@ -77,11 +77,10 @@ void cross_joint(Moving& m, const Joint& j, bool outward, const Pose& X_WP, cons
   const Vec3 first = rotate(X_WP.q, j.axes[0].xyz) * j.axes[0].qd;
   const double sign = outward ? 1 : -1;
   Vec3 turn;
-  if (j.type == JointType::Revolute) {
-    turn = first * sign;
+  if (j.turns() != 0 || j.slides() != 0) {
+    if (j.slides() != 0) m.a += cross(m.w, first) * (2 * sign * j.slides());
+    if (j.turns() != 0) turn = first * sign;
     m.alpha += cross(m.w, turn);
-  } else if (j.type == JointType::Prismatic) {
-    m.a += cross(m.w, first) * (2 * sign);
   } else if (j.type == JointType::Universal) {
     const Vec3 second = rotate(X_WC.q, j.axes[1].xyz) * j.axes[1].qd;
     turn = (first + second) * sign;
@@ -249,7 +248,7 @@ class CarryPass {
     for (Model* m : models_)
       for (auto& j : m->joints)
         if (j->joint)
-          for (int i = 0; i < j->axis_count; ++i)
+          for (int i = 0; i < j->driven_axes(); ++i)
             set_limot(*j, i, dParamVel, hold ? j->axes[i].qd * j->sign : state.of(*j).speed[i]);
   }
 

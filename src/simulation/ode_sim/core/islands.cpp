@@ -105,6 +105,10 @@ class IslandSearch {
       island(groups, i).joints = true;
       island(groups, i).rows += 6;
     });
+    for (auto& m : scene_.models)
+      for (auto& j : m->joints)
+        if (j->joint && j->unknown_to_ode())
+          if (const int i = std::max(node(j->parent), node(j->child)); i >= 0) island(groups, i).geared = true;
     for (auto& c : state_.contacts) {
       if (!c.joint) continue;
       const int a = node_of_contact(*c.a->link), b = node_of_contact(*c.b->link);

@@ -17,7 +17,9 @@ struct Joint;
 constexpr double kInf = std::numeric_limits<double>::infinity();
 constexpr double kUnlimited = 1e8;  // limits of this size and more (1e9, 1e16) mean none
 
-enum class JointType { Revolute, Prismatic, Fixed, Universal, Ball };
+// A screw's axes are its angle and the way that goes with it. A gearbox holds nothing together: it makes two links turn at a ratio, each about
+// its axis of the joint, the child about the first.
+enum class JointType { Revolute, Prismatic, Fixed, Universal, Ball, Screw, Gearbox };
 
 // What a position drive is at the moment: Locked moves its links exactly as told, Motor pushes with limited force.
 enum class DriveMode { Off, Locked, Motor };
@@ -69,6 +71,10 @@ struct Joint {
   Link* child = nullptr;
   Pose X_PJ, X_CJ;  // joint frame in the parent (or the world) at zero, and in the child
   int axis_count = 1;
+  double thread_pitch = 1;    // of a screw, rad/m: the child goes by -angle / thread_pitch along the axis
+  double gear_ratio = 1;      // of a gearbox: the child turns at -gear_ratio times the rate of the parent
+  Link* reference = nullptr;  // of a gearbox: angles are seen from it; null = from the world
+  Quat q_RJ;                  // of a gearbox: the joint frame in the reference, with both angles at zero
   Axis axes[2];
   double stop_erp = 0.2, stop_cfm = 0;
   bool implicit_spring_damper = false;
@@ -94,12 +100,25 @@ struct Joint {
   double borne[12] = {};               // by each row in the last step, as `solver: gazebo` starts from it
   Vec3 spin_before;                    // of a ball: of the link that it moves, at the beginning of the last step, world axes
 
+  // What one unit of the first axis is: radians about it, and metres along it.
+  double turns() const { return type == JointType::Revolute || type == JointType::Screw ? 1 : 0; }
+  double slides() const { return type == JointType::Prismatic ? 1 : type == JointType::Screw ? -1 / thread_pitch : 0; }
+  bool holds() const { return type != JointType::Gearbox; }
+  bool unknown_to_ode() const { return type == JointType::Screw || type == JointType::Gearbox; }
+  // Axes on which motors, stops and forces act; a force along a screw acts on the second.
+  int driven_axes() const { return type == JointType::Screw ? 1 : holds() ? axis_count : 0; }
+
   // The child's link is one body with the parent's for the time being.
   bool merged() const { return (type == JointType::Fixed && !watched) || drive == DriveMode::Locked; }
   Pose motion(double q) const;  // child's joint frame in the parent's
-  Pose motion() const;          // the same at the present position, for every type but Ball
+  Pose motion() const;          // the same at the present position, for every type but Ball and Gearbox
   Pose frame_W() const;         // of the parent's side
   Pose child_frame_W() const;
+  Quat reference_W() const;  // of a gearbox: the frame that its angles are seen from
 };
+
+// Of a screw and of a gearbox, for the next step; of a joint of another type they mean nothing. They refuse what no joint can have.
+void set_thread_pitch(Joint& joint, double pitch);  // rad/m; the nut stays where it is
+void set_gear_ratio(Joint& joint, double ratio);
 
 }  // namespace ode_sim

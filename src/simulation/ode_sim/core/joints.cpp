@@ -10,6 +10,7 @@ Pose Joint::motion(double q) const {
   switch (type) {
     case JointType::Revolute: return {{}, axis_angle(axes[0].xyz, q)};
     case JointType::Prismatic: return {axes[0].xyz * q, {}};
+    case JointType::Screw: return {axes[0].xyz * (q * slides()), axis_angle(axes[0].xyz, q)};
     default: return {};
   }
 }
@@ -22,6 +23,8 @@ Pose Joint::motion() const {
 Pose Joint::frame_W() const { return parent ? parent->X_WL * X_PJ : X_PJ; }
 
 Pose Joint::child_frame_W() const { return child->X_WL * X_CJ; }
+
+Quat Joint::reference_W() const { return reference ? reference->X_WL.q * q_RJ : q_RJ; }
 
 void add_force(Axis& a, double force) {
   a.force += a.admitted(limited(force, kStrongest, "a force"));
@@ -42,6 +45,23 @@ void set_motor(Axis& a, double velocity, double most_force) {
   a.motor_force = f;
 }
 
+void set_thread_pitch(Joint& j, double pitch) {
+  pitch = limited(pitch, kFarthest, "thread_pitch");
+  if (std::abs(pitch) < 1 / kFarthest) throw std::invalid_argument("thread_pitch must not be 0");
+  const double before = j.slides();
+  j.thread_pitch = pitch;
+  if (j.type == JointType::Screw) {
+    j.X_PJ.p += rotate(j.X_PJ.q, j.axes[0].xyz * (j.axes[0].q * (before - j.slides())));
+    j.axes[1].q = j.axes[0].q * j.slides();
+  }
+  j.model->dirty = true;
+}
+
+void set_gear_ratio(Joint& j, double ratio) {
+  j.gear_ratio = limited(ratio, kFarthest, "gearbox_ratio");
+  j.model->dirty = true;
+}
+
 void set_limot(const Joint& j, int axis, int parameter, double value) {
   switch (j.type) {
     case JointType::Revolute: dJointSetHingeParam(j.joint, parameter, value); break;
@@ -51,18 +71,22 @@ void set_limot(const Joint& j, int axis, int parameter, double value) {
       if ((axis == 0) == (j.sign > 0)) parameter += dParamGroup2;
       dJointSetUniversalParam(j.joint, parameter, value);
       break;
+    case JointType::Screw: dJointSetPistonParam(j.joint, parameter + dParamGroup2, value); break;
     default: break;
   }
 }
 
 namespace {
 
+// ODE has no screws and no gearboxes: what it lacks of them is in constraint_rows.cpp alone, which find_islands knows.
 dJointID make_joint(dWorldID world, JointType type) {
   switch (type) {
     case JointType::Revolute: return dJointCreateHinge(world, nullptr);
     case JointType::Prismatic: return dJointCreateSlider(world, nullptr);
     case JointType::Universal: return dJointCreateUniversal(world, nullptr);
     case JointType::Ball: return dJointCreateBall(world, nullptr);
+    case JointType::Screw: return dJointCreatePiston(world, nullptr);
+    case JointType::Gearbox: return dJointCreateNull(world, nullptr);
     case JointType::Fixed: break;
   }
   return dJointCreateFixed(world, nullptr);
@@ -86,23 +110,36 @@ void set_geometry(const Joint& j, const Pose& X_WJ) {
     }
     case JointType::Ball: dJointSetBallAnchor(j.joint, at.x, at.y, at.z); break;
     case JointType::Fixed: dJointSetFixed(j.joint); break;
+    case JointType::Screw:
+      dJointSetPistonAnchor(j.joint, at.x, at.y, at.z);
+      dJointSetPistonAxis(j.joint, a0.x, a0.y, a0.z);
+      break;
+    case JointType::Gearbox: break;
   }
 }
 
-double axis_inverse_inertia(const Joint& j, int axis) {
+// 1/kg or 1/(kg m^2): how much the two bodies, taken alone, give way along an axis, or about it.
+double mobility(const Joint& j, const Vec3& axis, bool along) {
   double sum = 0;
   for (Link* l : {j.child, j.parent}) {
     if (!l || l->carrier) continue;
     const Cluster& c = cluster_of(*l);
     if (!c.root || c.root->kinematic) continue;
-    if (j.type == JointType::Prismatic) {
+    if (along) {
       sum += 1 / c.mass;
     } else {
       const Quat q = l == j.child ? l->X_RL.q * j.X_CJ.q : l->X_RL.q * j.X_PJ.q;
-      sum += inverse_along(c.inertia, rotate(q, j.axes[axis].xyz));
+      sum += inverse_along(c.inertia, rotate(q, axis));
     }
   }
   return sum;
+}
+
+double axis_inverse_inertia(const Joint& j, int axis) {
+  const Vec3& xyz = j.axes[axis].xyz;
+  if (j.type != JointType::Screw) return mobility(j, xyz, j.type == JointType::Prismatic);
+  const double turn = mobility(j, xyz, false), slide = mobility(j, xyz, true) * j.thread_pitch * j.thread_pitch;
+  return turn > 0 && slide > 0 ? 1 / (1 / turn + 1 / slide) : 0;
 }
 
 }  // namespace
@@ -127,7 +164,7 @@ void install(Scene& scene, Joint& j) {
   }
   const Posed posed(first, second, X_1J, X_2J);
   set_geometry(j, X_2J);
-  for (int i = 0; i < j.axis_count; ++i) {
+  for (int i = 0; i < j.driven_axes(); ++i) {
     j.inverse_inertia[i] = axis_inverse_inertia(j, i);
     set_limot(j, i, dParamStopERP, j.stop_erp);
     set_limot(j, i, dParamStopCFM, std::max(j.stop_cfm, 1e-10));
@@ -140,6 +177,9 @@ namespace {
 // The angle next to the one before, of all that differ by whole turns.
 void turn(Axis& a, double angle) { a.q = angle + 2 * kPi * std::round((a.q - angle) / (2 * kPi)); }
 
+// About the axis, of a rotation.
+double angle_about(const Vec3& axis, const Quat& q) { return 2 * std::atan2(dot({q.x, q.y, q.z}, axis), q.w); }
+
 }  // namespace
 
 void read_joint(Joint& j) {
@@ -151,7 +191,7 @@ void read_joint(Joint& j) {
     case JointType::Revolute: {
       Axis& a = j.axes[0];
       a.qd = dot(w, rotate(X_WJ.q, a.xyz));
-      turn(a, 2 * std::atan2(dot({X_J.q.x, X_J.q.y, X_J.q.z}, a.xyz), X_J.q.w));
+      turn(a, angle_about(a.xyz, X_J.q));
       break;
     }
     case JointType::Prismatic: {
@@ -168,6 +208,26 @@ void read_joint(Joint& j) {
       j.axes[1].qd = dot(w, a1);
       turn(j.axes[0], std::atan2(dot(z, cy), dot(y, cy)));
       turn(j.axes[1], std::atan2(dot(x, cz), dot(x, cx)));
+      break;
+    }
+    case JointType::Screw: {
+      Axis &a = j.axes[0], &way = j.axes[1];
+      const Vec3 axis_W = rotate(X_WJ.q, a.xyz);
+      way.q = dot(X_J.p, a.xyz);
+      way.qd = dot(j.child->velocity_at(j.child_frame_W().p) - vp, axis_W);
+      a.q = way.q / j.slides();  // the turn of the thread that it is on, wherever somebody has put it
+      a.qd = dot(w, axis_W);
+      turn(a, angle_about(a.xyz, X_J.q));
+      break;
+    }
+    case JointType::Gearbox: {
+      const Quat q_W = j.reference_W(), seen = conjugate(q_W);
+      const Vec3 spin = j.reference ? j.reference->w : Vec3{};
+      Axis &a = j.axes[0], &b = j.axes[1];
+      a.qd = dot(j.child->w - spin, rotate(j.child_frame_W().q, a.xyz));
+      b.qd = dot(wp - spin, rotate(X_WJ.q, b.xyz));
+      turn(a, angle_about(a.xyz, seen * j.child_frame_W().q));
+      turn(b, angle_about(b.xyz, seen * X_WJ.q));
       break;
     }
     default: break;

@@ -36,7 +36,7 @@ void judge_masses(Model& model) {
   bool tree = true;
   for (auto& j : model.joints) {
     j->sane = true;
-    tree &= j->child->parent_joint == j.get();
+    tree &= !j->holds() || j->child->parent_joint == j.get();
   }
   if (odd.empty()) return;
   if (tree) {

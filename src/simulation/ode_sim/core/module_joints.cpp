@@ -36,6 +36,14 @@ T8 get_axis(Joint& j, int i) {
   return {a.lower, a.upper, a.effort, a.velocity, a.damping, a.friction, a.spring_reference, a.spring_stiffness};
 }
 
+// The angles of a gearbox are zero as its links are now.
+void see_from(Joint& j, Link* reference) {
+  if (reference && reference->model != j.model)
+    throw std::invalid_argument("the reference of a gearbox is a link of its model");
+  j.reference = reference;
+  j.q_RJ = reference ? conjugate(reference->X_WL.q) * j.child_frame_W().q : j.child_frame_W().q;
+}
+
 // Position drives, and where the joint is.
 void bind_drive(py::class_<Joint, std::shared_ptr<Joint>>& joint) {
   joint.def("drive_to", [](Joint& j, double q) { world_of(j.model).set_drive(j, q); })
@@ -87,6 +95,11 @@ void bind_joints(py::module_& m) {
           [](Joint& j, double v) { j.stop_cfm = std::max(limited(v, kStiffest, "stop_cfm"), 0.0); })
       .def_readwrite("implicit_spring_damper", &Joint::implicit_spring_damper)
       .def("changed", [](Joint& j) { j.model->dirty = true; })
+      .def_property(
+          "thread_pitch", [](Joint& j) { return j.thread_pitch; }, &set_thread_pitch)
+      .def_property(
+          "gear_ratio", [](Joint& j) { return j.gear_ratio; }, &set_gear_ratio)
+      .def("see_from", &see_from, py::arg("reference").none(true))
       .def("set_axis", &set_axis)
       .def("get", &get_axis)
       .def(

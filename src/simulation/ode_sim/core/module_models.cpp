@@ -22,11 +22,10 @@ std::shared_ptr<Shape> add_shape(Model& model, Link& link, const T7& X, Make mak
 }
 
 std::shared_ptr<Joint> add_joint(Model& model, const std::string& type, Link* parent, Link& child, T7 X_CJ) {
-  static const std::map<std::string, JointType> types = {{"revolute", JointType::Revolute},
-                                                         {"prismatic", JointType::Prismatic},
-                                                         {"fixed", JointType::Fixed},
-                                                         {"universal", JointType::Universal},
-                                                         {"ball", JointType::Ball}};
+  static const std::map<std::string, JointType> types = {{"revolute", JointType::Revolute}, {"prismatic", JointType::Prismatic},
+                                                         {"fixed", JointType::Fixed},       {"universal", JointType::Universal},
+                                                         {"ball", JointType::Ball},         {"screw", JointType::Screw},
+                                                         {"gearbox", JointType::Gearbox}};
   if (&child == parent || child.model != &model || (parent && parent->model != &model))
     throw std::invalid_argument("a joint takes two links of its model");
   return world_of(&model).add_joint(model, types.at(type), parent, child, in(X_CJ));

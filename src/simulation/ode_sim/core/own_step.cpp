@@ -47,7 +47,8 @@ void run_pile(Scene& scene, StepState& state, const Island& island) {
 bool run_trees(Scene& scene, StepState& state, const Island& island) {
   PassRows all = rows_of(scene, state, island);
   std::vector<trees::Branch> joints;
-  for (size_t i = 0; i < all.joints; ++i) joints.push_back({all.owners[i].from, all.owners[i].to});
+  for (size_t i = 0; i < all.joints; ++i)
+    if (!all.owners[i].joint || all.owners[i].joint->holds()) joints.push_back({all.owners[i].from, all.owners[i].to});
   trees::Settings settings;
   settings.dt = scene.settings.dt, settings.iterations = scene.settings.iters;
   if (!trees::solve(all.rows, all.bodies, joints, settings)) return false;

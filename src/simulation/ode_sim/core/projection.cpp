@@ -38,9 +38,9 @@ void move_branch(const Branch& t, Cluster& c) {
   const Pose X_WP = j.frame_W(), X_WC = j.child_frame_W();
   const Vec3 first = rotate(X_WP.q, j.axes[0].xyz) * j.axes[0].qd;
   Vec3 turn, slide;
-  if (j.type == JointType::Revolute) turn = first;
-  else if (j.type == JointType::Prismatic) slide = first;
-  else if (j.type == JointType::Universal) turn = first + rotate(X_WC.q, j.axes[1].xyz) * j.axes[1].qd;
+  if (j.turns() != 0) turn = first;
+  if (j.slides() != 0) slide = first * j.slides();
+  if (j.type == JointType::Universal) turn = first + rotate(X_WC.q, j.axes[1].xyz) * j.axes[1].qd;
   Vec3 w, v;  // of the moved link, at the joint origin
   if (t.outward) {
     w = (j.parent ? j.parent->w : Vec3{}) + turn;
@@ -114,7 +114,7 @@ class TreePlan {
     for (size_t i = 0; i < model_.clusters.size(); ++i)
       if (!model_.clusters[i].root) visit(static_cast<int>(i));
     for (auto& j : model_.joints)
-      if (j->joint && !j->parent && !seen_[j->child->cluster]) {
+      if (j->joint && !j->parent && j->holds() && !seen_[j->child->cluster]) {
         model_.tree.push_back({j.get(), j->child->cluster, -1, true});
         visit(j->child->cluster);
       }

@@ -12,7 +12,7 @@ namespace ode_sim {
 
 namespace {
 
-constexpr uint64_t kVersion = 0x386d69735f65646full;  // "ode_sim8"; counts up when what is written changes
+constexpr uint64_t kVersion = 0x396d69735f65646full;  // "ode_sim9"; counts up when what is written changes
 
 uint64_t digest(const char* data, size_t size) {  // FNV-1a
   uint64_t h = 0xcbf29ce484222325ull;
@@ -120,8 +120,11 @@ void visit(F& f, Joint& j) {
   f.same(j.id, kOtherModels);
   f.same(j.axis_count, kOtherModels);
   visit(f, j.X_PJ);
+  f.number(j.q_RJ.x), f.number(j.q_RJ.y), f.number(j.q_RJ.z), f.number(j.q_RJ.w);
   visit(f, j.drive);
-  for (double* v : {&j.stop_erp, &j.stop_cfm, &j.target, &j.previous_target, &j.rate, &j.multiplier, &j.offset}) f.number(*v);
+  for (double* v : {&j.thread_pitch, &j.gear_ratio, &j.stop_erp, &j.stop_cfm, &j.target, &j.previous_target, &j.rate,
+                    &j.multiplier, &j.offset})
+    f.number(*v);
   f.number(j.released);
   f.flag(j.catching_up);
   f.flag(j.watched);

@@ -116,10 +116,10 @@ void choose_solvers(const Settings& set, StepState& state) {
     const bool alone = island.contact_rows == 0 && island.rows <= kMostExactRows;
     const bool small = island.rows + island.contact_rows <= (island.joints ? set.direct_rows : set.heap_rows);
     Pass& pass = set.like_gazebo ? state.iterative : alone ? state.exact : small ? state.touching : state.iterative;
-    const bool own = &pass == &state.iterative && !set.like_gazebo;
+    const bool own = (island.geared || &pass == &state.iterative) && !set.like_gazebo;
     if (own) (island.joints ? state.trees : state.piles).push_back(&island);
     else pass.add(island);
-    for (Cluster* c : island.clusters) state.of(*c).iterative = &pass == &state.iterative;
+    for (Cluster* c : island.clusters) state.of(*c).iterative = own || &pass == &state.iterative;
   }
 }
 
@@ -174,7 +174,12 @@ void solve(Scene& scene, StepState& state) {
   run_touching(scene, state, said);
   for (const Island* island : state.piles) run_pile(scene, state, *island);
   for (const Island* island : state.trees)
-    if (!run_trees(scene, state, *island)) state.iterative.add(*island);
+    if (!run_trees(scene, state, *island)) {
+      Pass all;
+      all.add(*island);
+      if (island->geared) run_like_gazebo(scene, state, all);
+      else state.iterative.add(*island);
+    }
   if (scene.settings.like_gazebo) run_like_gazebo(scene, state, state.iterative);
   else run_iterative(scene, state.iterative, scene.settings.iters, said);
   for (auto& start : kinematic)

@@ -57,6 +57,7 @@ struct Island {
   int rows = 0, contact_rows = 0;
   bool joints = false, awake = false;
   bool driven = false;  // something that no force moves moves it
+  bool geared = false;  // with joints that ODE does not know
 };
 
 // Bodies that a pass of a solver moves together.

@@ -95,6 +95,16 @@ std::shared_ptr<Link> World::add_link(Model& model, const Pose& X_WL, double mas
   return link;
 }
 
+static int axes_of(JointType type) {
+  switch (type) {
+    case JointType::Fixed:
+    case JointType::Ball: return 0;
+    case JointType::Revolute:
+    case JointType::Prismatic: return 1;
+    default: return 2;
+  }
+}
+
 std::shared_ptr<Joint> World::add_joint(Model& model, JointType type, Link* parent, Link& child, const Pose& X_CJ) {
   auto joint = std::make_shared<Joint>();
   joint->id = next_joint_++;
@@ -104,14 +114,16 @@ std::shared_ptr<Joint> World::add_joint(Model& model, JointType type, Link* pare
   joint->child = &child;
   joint->X_CJ = normalized(X_CJ);
   joint->X_PJ = normalized(parent ? inverse(parent->X_WL) * child.X_WL * X_CJ : child.X_WL * X_CJ);
-  joint->axis_count = type == JointType::Universal ? 2 : type == JointType::Fixed || type == JointType::Ball ? 0 : 1;
-  if (!child.parent_joint) child.parent_joint = joint.get();
+  joint->axis_count = axes_of(type);
+  joint->q_RJ = (child.X_WL * joint->X_CJ).q;
   if (parent) model.jointed.insert(std::minmax(parent->id, child.id));
   joint->index = static_cast<int>(model.joints.size());
   model.joints.push_back(joint);
+  model.dirty = true;
+  if (!joint->holds()) return joint;
+  if (!child.parent_joint) child.parent_joint = joint.get();
   child.joints.push_back(joint.get());
   if (parent && parent != &child) parent->joints.push_back(joint.get());
-  model.dirty = true;
   return joint;
 }
 

@@ -83,6 +83,8 @@ class Link:
 
 class Joint:
     stop_erp: float
+    thread_pitch: float
+    gear_ratio: float
     stop_cfm: float
     implicit_spring_damper: bool
     @property
@@ -99,6 +101,7 @@ class Joint:
     @property
     def drive_target(self) -> float: ...
     def changed(self) -> None: ...
+    def see_from(self, reference: Optional[Link]) -> None: ...
     def set_axis(self, axis: int, xyz: _Vector, lower: float, upper: float, effort: float, velocity: float, damping: float,
                  friction: float, reference: float, stiffness: float) -> None: ...
     def get(self, axis: int) -> Tuple[float, float, float, float, float, float, float, float]: ...

@@ -14,7 +14,7 @@ from ode_sim.math3 import compose, cross, dot, norm, unit
 from ode_sim.physics import BOUNDS
 
 JOINT_TYPES = {"revolute": "revolute", "continuous": "revolute", "prismatic": "prismatic", "fixed": "fixed", "ball": "ball",
-               "universal": "universal", "revolute2": "universal"}
+               "universal": "universal", "revolute2": "universal", "screw": "screw", "gearbox": "gearbox"}
 SURFACE = ("mu", "mu2", "fdir1", "slip1", "slip2", "kp", "kd", "max_vel", "min_depth", "restitution", "bounce_threshold",
            "torsional_mu", "torsional_slip", "patch_radius", "surface_radius", "use_patch_radius", "collide_without_contact")
 AXIS = ("lower", "upper", "effort", "velocity", "damping", "friction", "spring_reference", "spring_stiffness")
@@ -173,6 +173,10 @@ class Builder:
         core.stop_erp = self._number(joint.limit_erp, d.Joint.limit_erp, f"{where}: limit erp", joint.source)
         core.stop_cfm = self._number(joint.limit_cfm, d.Joint.limit_cfm, f"{where}: limit cfm", joint.source)
         core.implicit_spring_damper = joint.implicit_spring_damper
+        if kind == "screw":
+            core.thread_pitch = self._pitch(joint, where)
+        if kind == "gearbox":
+            self._gear(model, joint, core, where)
         for i, axis in enumerate(axes):
             axis = self._numbers_of(axis, where, joint)
             lower, upper = unlimited(axis.lower), unlimited(axis.upper)
@@ -193,6 +197,29 @@ class Builder:
         written = joint if tuple(axes) == joint.axes else replace(joint, axes=tuple(axes))
         model.joints[joint.name] = JointHandle(model, written, parent, child, core)
 
+    def _pitch(self, joint: d.Joint, where: str) -> float:
+        """rad/m"""
+        if 1e-6 <= abs(joint.thread_pitch) <= 1e6:
+            return joint.thread_pitch
+        self._problem("warning", f"{where}: thread_pitch is {joint.thread_pitch:g} rad/m; 1 is used", joint.source)
+        return 1.0
+
+    def _gear(self, model: ModelHandle, joint: d.Joint, core, where: str) -> None:
+        reference = model.links.get(joint.gearbox_reference_body)
+        if reference is None:
+            self._problem(
+                "warning",
+                f"{where}: its gearbox_reference_body '{joint.gearbox_reference_body}' is no link of the model; "
+                "angles are seen from the world",
+                joint.source,
+            )
+        core.see_from(reference.core if reference else None)
+        ratio = self._number(joint.gearbox_ratio, 1.0, f"{where}: gearbox_ratio", joint.source)
+        if abs(ratio) > 1e6:
+            self._problem("warning", f"{where}: gearbox_ratio is {ratio:g}; 1 is used", joint.source)
+            ratio = 1.0
+        core.gear_ratio = ratio
+
     def _numbers_of(self, axis: d.Axis, where: str, joint: d.Joint) -> d.Axis:
         """The axis without a NaN."""
         wrong = [name for name in AXIS if math.isnan(getattr(axis, name))]
@@ -201,9 +228,11 @@ class Builder:
         return replace(axis, **{name: getattr(d.Axis, name) for name in wrong}) if wrong else axis
 
     def _axes(self, joint: d.Joint, kind: str, where: str) -> List[d.Axis]:
-        count = {"revolute": 1, "prismatic": 1, "universal": 2}.get(kind, 0)
+        count = {"revolute": 1, "prismatic": 1, "universal": 2, "screw": 1, "gearbox": 2}.get(kind, 0)
         axes = [self._unit_axis(axis, where, joint) for axis in (joint.axes + (d.Axis(),) * count)[:count]]
-        if count == 2 and abs(dot(axes[0].xyz, axes[1].xyz)) > 1e-6:
+        if kind == "screw":  # the second one is the way along the first
+            axes.append(d.Axis(axes[0].xyz))
+        if kind == "universal" and abs(dot(axes[0].xyz, axes[1].xyz)) > 1e-6:
             first, second = axes[0].xyz, axes[1].xyz
             square = unit(cross(cross(first, second), first))
             if norm(square) == 0.0:

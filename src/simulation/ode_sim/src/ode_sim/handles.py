@@ -199,7 +199,11 @@ class LinkHandle:
 
 
 class JointHandle:
-    """A joint. ``axis`` is 0, or 1 for the second axis of universal and revolute2."""
+    """A joint. ``axis`` is 0, or 1 for the second axis of universal and revolute2.
+
+    Of a screw, axis 0 is the angle, rad, and axis 1 the way along it, m; a force on the latter pulls. Those of a gearbox are the
+    angles of child and parent, as its reference body sees them; nothing drives them but what drives these links.
+    """
 
     def __init__(self, model: "ModelHandle", joint: description.Joint, parent: Optional[LinkHandle], child: LinkHandle,
                  core) -> None:
@@ -363,7 +367,7 @@ class JointHandle:
         return compose(Pose(q=from_parent.q), Pose(p=self.description.axes[axis].xyz)).p
 
     def set_param(self, name: str, value: float) -> None:
-        """By ODE's and Gazebo's name: fmax, vel, hi_stop, lo_stop, stop_erp, stop_cfm, friction, damping.
+        """By ODE's and Gazebo's name: fmax, vel, hi_stop, lo_stop, stop_erp, stop_cfm, friction, damping, thread_pitch, gearbox_ratio.
 
         :raises ValueError: there is no such parameter, or the value is none for it.
         """
@@ -377,6 +381,8 @@ class JointHandle:
             "stop_cfm": lambda: self._set_stop("stop_cfm", value),
             "friction": lambda: setattr(self, "friction", value),
             "damping": lambda: setattr(self, "damping", value),
+            "thread_pitch": lambda: setattr(self.core, "thread_pitch", value),  # rad/m
+            "gearbox_ratio": lambda: setattr(self.core, "gear_ratio", value),
         }
         if name not in setters:
             raise ValueError(f"joint {self.scoped_name} has no parameter '{name}'; there are {', '.join(setters)}")

@@ -289,6 +289,9 @@ class Joint:
     provide_feedback: bool = False
     implicit_spring_damper: bool = False
     fudge_factor: float = 1.0
+    thread_pitch: float = 1.0  # of a screw, rad/m: by an angle the child goes -angle / thread_pitch along the axis
+    gearbox_ratio: float = 1.0  # the child turns at -gearbox_ratio times the rate of the parent, each about its own axis
+    gearbox_reference_body: str = ""  # link that both turn in
     mimic: Optional[Mimic] = None  # from URDF; Gazebo drops it, a plugin may ask for it
     urdf_type: str = ""  # 'continuous' is told from 'revolute' by this; '' when the source was SDF
     sensors: Tuple[Sensor, ...] = ()  # force_torque alone

@@ -20,7 +20,7 @@ from ode_sim.description.xmlsource import clone, fault, is_true, joint_end, read
 
 _JOINT_AXES = {"revolute": 1, "prismatic": 1, "fixed": 0, "ball": 0, "universal": 2, "revolute2": 2, "screw": 1,
                 "gearbox": 2, "piston": 1}
-_NOT_SIMULATED = ("screw", "gearbox", "piston")  # the builder says so
+_NOT_SIMULATED = ("piston",)  # the builder says so
 _OLD_JOINT_TYPES = {"hinge": "revolute", "slider": "prismatic", "hinge2": "revolute2", "continuous": "revolute"}
 #: kg or kg m^2. Homework has inertias of 1e8; far beyond, the solver's products overflow and what touches it is lost too
 _HEAVIEST = 1e30
@@ -165,14 +165,15 @@ class SdfModels(SdfShapes):
         x_ms = parts.frames[sub.name]
 
         def scoped(name: str) -> str:
-            return name if name == "world" else f"{sub.name}::{name}"
+            return name if name in ("", "world") else f"{sub.name}::{name}"
 
         for link in sub.links:
             parts.links.append(replace(link, name=scoped(link.name), pose=math3.compose(x_ms, link.pose)))
         parts.still |= {scoped(name) for name in sub.still}
         for joint in sub.joints:
             parts.joints.append(replace(joint, name=scoped(joint.name), parent=scoped(joint.parent),
-                                        child=scoped(joint.child)))
+                                        child=scoped(joint.child),
+                                        gearbox_reference_body=scoped(joint.gearbox_reference_body)))
         parts.plugins += sub.plugins
 
     def plugins(self, parent: ET.Element) -> List[Plugin]:
@@ -352,7 +353,30 @@ class SdfModels(SdfShapes):
                                                            self.boolean(element, "physics/ode/provide_feedback", False)),
             implicit_spring_damper=self.boolean(element, "physics/ode/implicit_spring_damper",
                                                 self.boolean(element, "physics/ode/cfm_damping", False)),
-            fudge_factor=self.number(element, "physics/ode/fudge_factor", 1.0), sensors=sensors, source=source_of(element))]
+            fudge_factor=self.number(element, "physics/ode/fudge_factor", 1.0), thread_pitch=self._thread_pitch(element, kind),
+            gearbox_ratio=self.number(element, "gearbox_ratio", 1.0),
+            gearbox_reference_body=self._link_of(text_of(element.find("gearbox_reference_body")), parts, known),
+            sensors=sensors, source=source_of(element))]
+
+    def _thread_pitch(self, element: ET.Element, kind: str) -> float:
+        """rad/m, as ``<thread_pitch>`` has it; ``<screw_thread_pitch>`` of SDF 1.10 is in metres a turn, positive of a right-handed
+        thread."""
+        pitch, lead = (element.find(tag) for tag in ("thread_pitch", "screw_thread_pitch"))
+        if kind != "screw":
+            return 1.0
+        if pitch is None and lead is not None:
+            metres = self.number(element, "screw_thread_pitch", 0.0)
+            if metres != 0.0:
+                return -2.0 * math.pi / metres
+        elif pitch is not None:
+            radians = self.number(element, "thread_pitch", 1.0)
+            if radians != 0.0:
+                return radians
+        else:
+            self.warn(element, "a screw needs a <thread_pitch>, rad/m; using 1")
+            return 1.0
+        self.warn(lead if pitch is None else pitch, "a thread's pitch cannot be 0; using 1 rad/m")
+        return 1.0
 
     def _joint_pose(self, pose: Optional[ET.Element], child: str, parts: _Parts) -> Pose:
         """X_MJ; without a frame of its own in that of the child, and in the world's where the world is the child."""
@@ -381,6 +405,9 @@ class SdfModels(SdfShapes):
         tags = ("axis", "axis2")[:_JOINT_AXES[kind]]
         if kind == "revolute2" and element.find("axis2") is None:
             self.warn(element, "a revolute2 joint needs an <axis2>; using the z axis")
+        if kind == "gearbox" and element.find("axis2") is None:
+            self.warn(element, "a gearbox needs an <axis2>, that of its parent; using that of its child")
+            tags = ("axis", "axis")
         for tag in tags:
             axis = element.find(tag)
             if axis is None:

@@ -288,7 +288,7 @@ def _joint(parent: ET.Element, joint: d.Joint) -> None:
     _pose(element, joint.pose)
     _leaf(element, "parent", joint.parent)
     _leaf(element, "child", joint.child)
-    for tag, axis in zip(("axis", "axis2"), joint.axes):
+    for tag, axis in zip(("axis",) if joint.type == "screw" else ("axis", "axis2"), joint.axes):
         made = ET.SubElement(element, tag)
         _leaf(made, "xyz", axis.xyz)
         for name, path in (("lower", "limit/"), ("upper", "limit/"), ("effort", "limit/"), ("velocity", "limit/"),
@@ -301,6 +301,8 @@ def _joint(parent: ET.Element, joint: d.Joint) -> None:
                        ("physics/ode/implicit_spring_damper", "implicit_spring_damper"),
                        ("physics/ode/fudge_factor", "fudge_factor")):
         _leaf(element, path, getattr(joint, name), getattr(usual, name))
+    for name in {"screw": ("thread_pitch",), "gearbox": ("gearbox_ratio", "gearbox_reference_body")}.get(joint.type, ()):
+        _leaf(element, name, getattr(joint, name))
     _sensors(element, joint.sensors)
 
 

@@ -17,6 +17,7 @@ from ode_sim.description.sdf_values import Numbers
 from ode_sim.description.xmlsource import fault
 
 JOINT_TYPES = ("revolute", "continuous", "prismatic", "fixed", "floating", "planar")
+SDF_JOINT_TYPES = ("screw", "gearbox", "universal", "ball", "revolute2")  # which URDF has not
 TENSOR = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 _NUMBER = re.compile(r"\s*[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?", re.ASCII)  # to the end: what a C++ stream reads as a whole
 _XACRO = "; this is xacro text, run it through 'rosrun xacro xacro FILE' first"
@@ -187,7 +188,8 @@ def joint(element: ET.Element, name: str, problems: Callable[[ET.Element, str], 
     """
     kind = name_of(element, "type")
     if kind not in JOINT_TYPES:
-        raise fault(element, f"unknown type '{quoted(kind)}'; use one of {', '.join(JOINT_TYPES)}")
+        also = f" ('{kind}' is of SDF alone)" if kind in SDF_JOINT_TYPES else ""
+        raise fault(element, f"unknown type '{quoted(kind)}'{also}; use one of {', '.join(JOINT_TYPES)}")
     limits, axis = element.find("limit"), element.find("axis")
     if kind in ("revolute", "prismatic") and limits is None:
         raise fault(element, f"a {kind} joint needs <limit lower upper effort velocity/>"
