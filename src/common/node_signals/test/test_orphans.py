@@ -168,5 +168,5 @@ def test_roslaunch_itself(tmp_path):
         process.wait()
         until(lambda: orphans._started(int(pid)) is None)
     finally:
-        for number in subprocess.run(["pgrep", "-f", f"--port {port}|-p {port}"], capture_output=True, text=True).stdout.split():
-            os.kill(int(number), signal.SIGKILL)  # the master of that port
+        for number in subprocess.run(["pgrep", "-f", "--", str(tmp_path)], capture_output=True, text=True).stdout.split():
+            os.kill(int(number), signal.SIGKILL)  # master and rosout, which do not end by themselves
