@@ -164,13 +164,11 @@ ShapePtr make_shape(const CollisionPtr& collision, const CollisionRecord& r)
 
 Base::EntityType type_of(const std::string& type)
 {
-  static const std::map<std::string, Base::EntityType> types = { { "prismatic", Base::SLIDER_JOINT },
-                                                                 { "fixed", Base::FIXED_JOINT },
-                                                                 { "ball", Base::BALL_JOINT },
-                                                                 { "universal", Base::UNIVERSAL_JOINT },
-                                                                 { "revolute2", Base::HINGE2_JOINT },
-                                                                 { "screw", Base::SCREW_JOINT },
-                                                                 { "gearbox", Base::GEARBOX_JOINT } };
+  static const std::map<std::string, Base::EntityType> types = {
+    { "prismatic", Base::SLIDER_JOINT },    { "fixed", Base::FIXED_JOINT },      { "ball", Base::BALL_JOINT },
+    { "universal", Base::UNIVERSAL_JOINT }, { "revolute2", Base::HINGE2_JOINT }, { "screw", Base::SCREW_JOINT },
+    { "gearbox", Base::GEARBOX_JOINT }
+  };
   const auto found = types.find(type);
   return found == types.end() ? Base::HINGE_JOINT : found->second;
 }

@@ -55,7 +55,7 @@ class ResolvedModel:
         where = f"model {model.name}"
         self.plugins = [host.resolve(plugin, where) for plugin in model.plugins]
         self.sensor_plugins = {(type(part), part.name, sensor.name): [host.resolve(plugin, where) for plugin in sensor.plugins]
-                               for part in (*model.links, *model.joints) for sensor in part.sensors}
+                               for part in model.parts for sensor in part.sensors}
 
 
 @dataclass
@@ -386,7 +386,7 @@ class Server:
     def _load_model_plugins(self, handle: ModelHandle, resolved: ResolvedModel) -> None:
         """Sensors first, those of links, then of joints, then the model's own plugins in file order, as Gazebo."""
         runtime = self._models[handle.name] = _ModelRuntime()
-        for part in (*handle.links.values(), *handle.joints.values()):
+        for part in handle.parts:
             for description in part.description.sensors:
                 plugins = resolved.sensor_plugins.get((type(part.description), part.name, description.name), [])
                 sensor = Sensor(description, part, PluginInstance.report)

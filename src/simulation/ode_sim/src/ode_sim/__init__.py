@@ -13,16 +13,17 @@ from typing import TYPE_CHECKING, Any
 __path__ = extend_path(__path__, __name__)  # the compiled core lies in the devel space, whichever path comes first
 
 if TYPE_CHECKING:
+    from ode_sim.attachment import Attachment
     from ode_sim.collision_meshes import prepare
     from ode_sim.description.model import DescriptionError, Pose, Problem
-    from ode_sim.handles import Attachment, CollisionHandle, JointFeedback, JointHandle, LinkHandle, ModelHandle, Twist
+    from ode_sim.handles import CollisionHandle, JointFeedback, JointHandle, LinkHandle, ModelHandle, Twist
     from ode_sim.world import Snapshot, World
 
 __all__ = ["Attachment", "CollisionHandle", "DescriptionError", "JointFeedback", "JointHandle", "LinkHandle", "ModelHandle", "Pose",
            "Problem", "Snapshot", "Twist", "World", "prepare"]
 
-_PLACES = {"collision_meshes": ("prepare",), "description.model": ("DescriptionError", "Pose", "Problem"),
-           "handles": ("Attachment", "CollisionHandle", "JointFeedback", "JointHandle", "LinkHandle", "ModelHandle", "Twist"),
+_PLACES = {"attachment": ("Attachment",), "collision_meshes": ("prepare",), "description.model": ("DescriptionError", "Pose", "Problem"),
+           "handles": ("CollisionHandle", "JointFeedback", "JointHandle", "LinkHandle", "ModelHandle", "Twist"),
            "world": ("Snapshot", "World")}
 _WHERE = {name: module for module, names in _PLACES.items() for name in names}
 

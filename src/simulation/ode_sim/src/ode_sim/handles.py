@@ -6,7 +6,7 @@ A handle of a removed model raises ``RuntimeError`` when it would have to act.
 from __future__ import annotations
 
 import math
-from typing import Dict, NamedTuple, Optional, Tuple
+from typing import Dict, NamedTuple, Optional, Tuple, Union
 
 import numpy as np
 
@@ -393,36 +393,6 @@ class JointHandle:
         self.core.changed()
 
 
-class Attachment:
-    """Two links held together by :meth:`ode_sim.World.attach`. Part of snapshots."""
-
-    def __init__(self, core, parent: Optional[LinkHandle], child: LinkHandle) -> None:
-        self.parent = parent  # None: the world
-        self.child = child
-        self._core = core
-        self._id = core.attach(parent.core if parent else None, child.core)  # no other attachment ever has this number
-
-    @property
-    def active(self) -> bool:
-        return self._core.attached(self._id)
-
-    @property
-    def pose(self) -> Pose:
-        """X_PC, where the child is held; may be changed a little in every step, to move it along a path.
-
-        :raises RuntimeError: it has let go.
-        """
-        return pose_of(self._core.weld_pose(self._id))
-
-    @pose.setter
-    def pose(self, pose: Pose) -> None:
-        self._core.set_weld_pose(self._id, flat(pose, f"pose of attached link {self.child.scoped_name}"))
-
-    def detach(self) -> None:
-        """Let go; nothing happens if it has let go already."""
-        self._core.detach(self._id)
-
-
 class ModelHandle:
     """A model in the world. ``links`` and ``joints`` are in file order."""
 
@@ -435,6 +405,11 @@ class ModelHandle:
         self.links: Dict[str, LinkHandle] = {}
         self.joints: Dict[str, JointHandle] = {}
         self._X_LM = Pose()  # model frame in the first link's frame
+
+    @property
+    def parts(self) -> Tuple[Union[LinkHandle, JointHandle], ...]:
+        """Links and joints: what may have sensors."""
+        return (*self.links.values(), *self.joints.values())
 
     @property
     def static(self) -> bool:

@@ -12,7 +12,8 @@ from ode_sim import _core
 from ode_sim.builder import Builder
 from ode_sim.core_numbers import flat, unit_pose
 from ode_sim.description import model as d
-from ode_sim.handles import Attachment, CollisionHandle, JointHandle, LinkHandle, ModelHandle
+from ode_sim.attachment import Attachment
+from ode_sim.handles import CollisionHandle, JointHandle, LinkHandle, ModelHandle
 from ode_sim.math3 import compose
 from ode_sim.physics import PhysicsSettings, check_gravity, check_physics, usable_physics
 

@@ -99,8 +99,7 @@ class SpawnServices:
 
 def plugins_of(model: Model) -> List[Plugin]:
     """Those of the model and of its sensors."""
-    return list(model.plugins) + [plugin for part in (*model.links, *model.joints) for sensor in part.sensors
-                                  for plugin in sensor.plugins]
+    return list(model.plugins) + [plugin for part in model.parts for sensor in part.sensors for plugin in sensor.plugins]
 
 
 def set_robot_namespace(model: Model, namespace: str) -> None:

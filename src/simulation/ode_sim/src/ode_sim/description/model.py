@@ -357,6 +357,11 @@ class Model:
     actor: Optional[Actor] = None  # its first link is the model's frame, then the bones of its skin
     source: Source = Source()
 
+    @property
+    def parts(self) -> Tuple[Union[Link, Joint], ...]:
+        """Links and joints: what may have sensors."""
+        return (*self.links, *self.joints)
+
 
 @dataclass(frozen=True)
 class Physics:
