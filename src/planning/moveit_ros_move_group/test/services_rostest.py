@@ -8,16 +8,19 @@ import rospy
 import rostest
 import tf2_ros
 from client import HOME, JOINTS, LEFT, PATIENCE, Goal, apply, box, call, clear, move, pose, wait_until
+from geometry_msgs.msg import Transform, Vector3
 from moveit_msgs.msg import (
     AttachedCollisionObject, CollisionObject, Constraints, ExecuteTrajectoryAction, ExecuteTrajectoryGoal, MoveItErrorCodes,
-    OrientationConstraint, PlannerParams, PlanningScene, PlanningSceneComponents, RobotState)
+    OrientationConstraint, PlannerParams, PlanningScene, PlanningSceneComponents, RobotState, RobotTrajectory)
 from moveit_msgs.srv import (
     GetCartesianPath, GetCartesianPathRequest, GetPlannerParams, GetPlanningScene, GetPositionFK, GetStateValidity, SetPlannerParams)
 from octomap_msgs.msg import Octomap
+from rosgraph_msgs.msg import Log
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Header
 from std_srvs.srv import Empty
 from tf.transformations import quaternion_matrix
+from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint, MultiDOFJointTrajectory, MultiDOFJointTrajectoryPoint
 
 Codes = MoveItErrorCodes
 Parts = PlanningSceneComponents
@@ -171,6 +174,32 @@ class Motion(unittest.TestCase):
         """As by upstream's manager, to which an empty trajectory is one that has ended."""
         code = Goal("execute_trajectory", ExecuteTrajectoryAction, ExecuteTrajectoryGoal()).result()[1].error_code.val
         self.assertEqual(code, Codes.SUCCESS)
+
+    def test_points_that_do_not_fit_their_joints_are_refused(self):
+        """A message may hold any number of values; whoever takes it for another has to be told, and the next goal is taken."""
+        second = rospy.Duration(1.0)
+        wrong = {"too few positions": [JointTrajectoryPoint(positions=HOME[1:], time_from_start=second)],
+                 "too few velocities": [JointTrajectoryPoint(positions=HOME, velocities=[0.0], time_from_start=second)],
+                 "too many accelerations": [JointTrajectoryPoint(positions=HOME, accelerations=[0.0] * 7, time_from_start=second)],
+                 "no number": [JointTrajectoryPoint(positions=HOME, effort=[float("nan")] * len(HOME), time_from_start=second)],
+                 "the same time": [JointTrajectoryPoint(positions=HOME, time_from_start=second)] * 2}
+        multi = {"no transforms": [MultiDOFJointTrajectoryPoint(time_from_start=second)],
+                 "no number": [MultiDOFJointTrajectoryPoint(transforms=[Transform(translation=Vector3(float("inf"), 0.0, 0.0))],
+                                                            time_from_start=second)],
+                 "the same time": [MultiDOFJointTrajectoryPoint(transforms=[Transform()], time_from_start=second)] * 2}
+        cases = {what: RobotTrajectory(joint_trajectory=JointTrajectory(Header(), JOINTS, points)) for what, points in wrong.items()}
+        for what, points in multi.items():
+            path = MultiDOFJointTrajectory(Header(), JOINTS[:1], points)
+            cases[f"{what}, transforms"] = RobotTrajectory(multi_dof_joint_trajectory=path)
+        lines = []
+        heard = rospy.Subscriber("/rosout", Log, lambda line: lines.append(line.msg))
+        self.addCleanup(heard.unregister)
+        for what, trajectory in cases.items():
+            lines.clear()
+            code = Goal("execute_trajectory", ExecuteTrajectoryAction, ExecuteTrajectoryGoal(trajectory)).result()[1].error_code.val
+            self.assertLess(code, 0, what)
+            wait_until(lambda: any("Wrong trajectory: point" in line for line in lines), f"a line that says why: {what}")
+        self.test_nothing_to_execute_is_executed()
 
 
 class AllTests(unittest.TestSuite):

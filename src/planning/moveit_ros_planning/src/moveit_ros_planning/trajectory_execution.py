@@ -179,22 +179,35 @@ class TrajectoryExecution:
         return _Step(chosen, parts, [point.time_from_start.to_sec() for point in points])
 
     def _check_points(self, trajectory: RobotTrajectory) -> None:
-        joints = trajectory.joint_trajectory
-        for name in (*joints.joint_names, *trajectory.multi_dof_joint_trajectory.joint_names):
+        joints, multi = trajectory.joint_trajectory, trajectory.multi_dof_joint_trajectory
+        for name in (*joints.joint_names, *multi.joint_names):
             if not self.model.has_joint(name):
                 raise ExecutionError(f"the trajectory moves joint '{name}', which the robot '{self.model.name}' does "
                                      f"not have")
-        before = -1.0
         for number, point in enumerate(joints.points):
-            now = point.time_from_start.to_sec()
-            if len(point.positions) != len(joints.joint_names):
-                raise ExecutionError(f"Wrong trajectory: point {number} has {len(point.positions)} positions for "
-                                     f"{len(joints.joint_names)} joints")
-            if not all(math.isfinite(value) for value in (*point.positions, *point.velocities, *point.accelerations)):
-                raise ExecutionError(f"Wrong trajectory: point {number} holds a number that is not finite")
+            self._check_numbers(number, joints.joint_names, "positions", point.positions)
+            for what in ("velocities", "accelerations", "effort"):
+                if getattr(point, what):
+                    self._check_numbers(number, joints.joint_names, what, getattr(point, what))
+        for number, point in enumerate(multi.points):
+            places = [value for place in point.transforms for vector in (place.translation, place.rotation)
+                      for value in (getattr(vector, axis) for axis in vector.__slots__)]
+            self._check_numbers(number, multi.joint_names, "transforms", point.transforms, places)
+        for points in (joints.points, multi.points):
+            self._check_times([point.time_from_start.to_sec() for point in points])
+
+    @staticmethod
+    def _check_numbers(number: int, names: Sequence[str], what: str, values: Sequence, numbers: Optional[Sequence[float]] = None) -> None:
+        if len(values) != len(names):
+            raise ExecutionError(f"Wrong trajectory: point {number} has {len(values)} {what} for {len(names)} joints")
+        if not all(map(math.isfinite, values if numbers is None else numbers)):
+            raise ExecutionError(f"Wrong trajectory: point {number} holds a number that is not finite")
+
+    @staticmethod
+    def _check_times(times: Sequence[float]) -> None:
+        for number, (before, now) in enumerate(zip([-1.0, *times], times)):
             if now <= before:
                 raise ExecutionError(f"Wrong trajectory: point {number} comes at {now:g} s, not after the one before")
-            before = now
 
     @staticmethod
     def _takes_no_time(trajectory: RobotTrajectory) -> bool:
