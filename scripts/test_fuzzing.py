@@ -146,7 +146,7 @@ def fuzz(*arguments, timeout=280):
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", sorted(SHORT))
 def test_a_short_run_finds_nothing(kind, tmp_path):
-    code, output = fuzz("--kind", kind, "--cases", SHORT[kind], "--seed", 1, "--output", tmp_path, "--patience", 12)
+    code, output = fuzz("--kind", kind, "--cases", SHORT[kind], "--seed", 1, "--output", tmp_path, "--patience", 8)
     assert code == 0, output
     assert f"{kind}: {SHORT[kind]} cases in" in output
 
