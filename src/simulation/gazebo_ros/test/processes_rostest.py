@@ -279,9 +279,13 @@ class Alone(test_support.TestCase):
         process = subprocess.Popen(["gazebo", "--lockstep"], env={**os.environ, "ROS_MASTER_URI": uri}, text=True,
                                    stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True)
         try:
+            said = ""
             for line in process.stdout:
+                said += line
                 if "Physics dynamic reconfigure ready" in line:
                     break
+            else:
+                self.fail(f"it ended before it was ready: {said}")
             master = rosgraph.Master("/test", uri)
             self.assertEqual(xmlrpc.client.ServerProxy(master.lookupNode("/gazebo")).getPid("/test")[2], process.pid)
             os.killpg(process.pid, signal.SIGINT)
