@@ -213,6 +213,9 @@ class _Server:
     def call(self, f):
         return f()
 
+    def drives(self, *joints) -> None:
+        """There is no second plugin to be warned of."""
+
 
 def _mapping(value: Any) -> Dict[str, Any]:
     return value if isinstance(value, dict) else {}

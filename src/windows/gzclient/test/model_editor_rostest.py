@@ -89,8 +89,13 @@ class Editor(Session):
         """The model as it is saved now."""
         if self.page.value("Model name") != "swing":
             self.page.fill("Model name", "swing")
-        self.page.click("Save model")
-        self.page.see("saved in")
+
+        def there():
+            """A name that was typed comes to the program a little later than a click on the button may."""
+            self.page.click("Save model")
+            self.page.see("saved in")
+            return os.path.exists(self.folder("swing", "model.sdf"))
+        wait(there, "swing saved")
         return ET.parse(self.folder("swing", "model.sdf")).getroot().find("model")
 
     def test_2_a_link_is_moved_by_the_gizmo_and_back(self):

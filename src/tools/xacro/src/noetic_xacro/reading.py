@@ -13,7 +13,7 @@ from noetic_xacro.expressions import MOST_ITEMS, bound_symbols, safe_eval
 from noetic_xacro.reserved import RESERVED
 from noetic_xacro.substitution import substituted
 
-MOST_ELEMENTS = 200_000  # that macros and blocks expand to, one beside the other and one in the other
+MOST_ELEMENTS = 100_000  # that macros and blocks expand to, one beside the other and one in the other: some 20 s of work
 
 PLACE = "xacro_place"  # attribute set on DOM elements: "file:line"
 xacro: Any = None  # the module ``xacro`` whose functions are replaced; it imports this one

@@ -42,6 +42,10 @@ class _Parts:
     plugins: List[Plugin] = field(default_factory=list)
     frames: Dict[str, Pose] = field(default_factory=dict)  # X_M of links, joints, frames, for relative_to
     still: Set[str] = field(default_factory=set)  # links of nested models that are static
+    attached_to: Dict[str, str] = field(init=False)  # of each <frame>, by name
+
+    def __post_init__(self) -> None:
+        self.attached_to = {frame.get("name") or "": (frame.get("attached_to") or "").strip() for frame in self.element.findall("frame")}
 
 
 def _turn_round(sensor: ET.Element) -> None:
@@ -393,12 +397,11 @@ class SdfModels(SdfShapes):
     @staticmethod
     def _link_of(name: str, parts: _Parts, known: Set[str]) -> str:
         """The link that a joint names, or that the frame it names is attached to; ``name`` where there is none."""
-        frames = {frame.get("name"): (frame.get("attached_to") or "").strip() for frame in parts.element.findall("frame")}
         link = name
-        for _ in range(len(frames)):
-            if link in known or link not in frames:
+        for _ in parts.attached_to:
+            if link in known or link not in parts.attached_to:
                 break
-            link = frames[link]
+            link = parts.attached_to[link]
         return link if link in known else name
 
     def _axes(self, element: ET.Element, kind: str, frames: Dict[str, Pose], x_mj: Pose) -> Iterator[Axis]:
