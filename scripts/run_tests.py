@@ -4,8 +4,8 @@ Every ``test/test_*.py`` below src/ is pytest's, every ``test/*.test`` is rostes
 one line ``N passed, M failed``, before it the cases that failed, each with its reason; the output of what failed is printed
 in full, and kept with the rest in --logs.
 
-With --again up to five files that failed run once more, up to twice, one after the other, when all others have ended. What passes
-then counts as passed, but a line ``unsteady: ...`` says what had failed: a fault of the test or of what it tests, to be found.
+With --again up to five files that failed run once more, up to twice, one after the other, when all others have ended; of pytest's
+only the tests that failed. What passes then counts as passed, but a line ``unsteady: ...`` says what had failed: a fault of the test or of what it tests, to be found.
 What takes long is marked as slow, a test of pytest by ``@pytest.mark.slow``, a file of rostest by the comment ``<!-- slow -->``. It is
 left out, unless packages are named, or --all or --since is given.
 With --since COMMIT only what a change since that commit can break is tested: the packages with a file that differs, what needs them,
@@ -29,7 +29,7 @@ import threading
 import time
 import xml.etree.ElementTree as ET
 from collections import Counter
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Container, Dict, Iterator, List, Optional, Set, Tuple
 
@@ -55,6 +55,7 @@ class Job:
     kind: str
     path: Path
     slow: bool = True  # pytest: the slow tests too
+    failed_only: bool = False  # pytest: only the tests that failed when it ran last, with the same logs
 
     @property
     def name(self) -> str:
@@ -259,8 +260,9 @@ def _run_in(job: Job, scratch: Path, temporary: str) -> Result:
     if ROOT / "docs" in job.package.parents:  # an example to copy, which is not built here
         environment["ROS_PACKAGE_PATH"] = f"{job.package}:{environment.get('ROS_PACKAGE_PATH', '')}"
     if job.kind == "pytest":
-        command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "--durations=5", "--durations-min=2",
-                   f"--junitxml={home / 'report.xml'}", *([] if job.slow else ["-m", "not slow"]), str(job.path)]
+        command = [sys.executable, "-m", "pytest", "-q", "-o", f"cache_dir={scratch / 'pytest' / job.name}", "--durations=5",
+                   "--durations-min=2", f"--junitxml={home / 'report.xml'}", *([] if job.slow else ["-m", "not slow"]),
+                   *(["--last-failed"] if job.failed_only else []), str(job.path)]
     else:
         command = ["rostest", str(job.path)]
     start = time.monotonic()
@@ -314,9 +316,13 @@ def second_tries(results: Dict[Path, Result], scratch: Path, quiet: bool) -> Lis
     unsteady: List[str] = []
     broken = [result for result in results.values() if result.failed]
     for first in broken if len(broken) <= SECOND_TRIES else []:
+        last = first
         for _ in range(AGAIN):
             print(f"once more: {first.job.name}", flush=True)
-            another = results[first.job.path] = run(first.job, scratch)
+            another = run(replace(first.job, failed_only=True), scratch)
+            if first.job.kind == "pytest":  # what did not fail before has not run once more
+                another = replace(another, passed=last.passed + another.passed, skipped=last.skipped + another.skipped)
+            last = results[first.job.path] = another
             tell(another, quiet)
             if not another.failed:
                 unsteady += faults(first)

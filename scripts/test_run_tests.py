@@ -15,10 +15,13 @@ def whole_run(monkeypatch, tmp_path, capsys):
     def run(results, *options):
         jobs = [run_tests.Job(tmp_path, "pytest", tmp_path / name) for name in results]
         tries = {name: list(failures) for name, failures in results.items()}
+        last = {}
 
         def run_one(job, scratch):
             failed = tries[job.path.name].pop(0)
-            return run_tests.Result(job, 2 - failed, failed, 0, 0.1, "output", [f"case: reason {failed}"] * failed)
+            of = last[job.path.name] if job.failed_only else 2
+            last[job.path.name] = failed
+            return run_tests.Result(job, of - failed, failed, 0, 0.1, "output", [f"case: reason {failed}"] * failed)
 
         monkeypatch.setattr(run_tests, "find_jobs", lambda packages, kind, scripts, slow: jobs)
         monkeypatch.setattr(run_tests, "run", run_one)
@@ -43,10 +46,24 @@ def test_what_passes_the_second_time_is_told(whole_run):
 
 
 def test_what_fails_three_times_fails_the_run(whole_run):
-    code, lines = whole_run({"a": [1, 1, 2], "b": [1, 1, 0]}, "--again")
+    code, lines = whole_run({"a": [2, 2, 1], "b": [1, 1, 0]}, "--again")
     assert code == 1
-    assert lines[-1] == "2 passed, 2 failed, 0 skipped"
-    assert [line.split(":")[0] for line in lines[-4:-1]] == ["unsteady", "failed", "failed"]
+    assert lines[-1] == "3 passed, 1 failed, 0 skipped"
+    assert [line.split(":")[0] for line in lines[-3:-1]] == ["unsteady", "failed"]
+
+
+def test_what_passed_does_not_run_once_more(package, tmp_path):
+    """One test fails the first time, another always."""
+    package({"test_a.py": "import pathlib\nran = pathlib.Path(__file__).parent / 'ran'\n"
+                          "def test_good():\n    assert not ran.exists()\n"
+                          "def test_unsteady():\n    before = ran.exists()\n    ran.touch()\n    assert before\n"
+                          "def test_bad():\n    assert False\n"})
+    job, = run_tests.find_jobs({"box"}, "all", scripts=False, slow=True)
+    first = run_tests.run(job, tmp_path)
+    assert (first.passed, first.failed) == (1, 2), first.output
+    results = {job.path: first}
+    assert len(run_tests.second_tries(results, tmp_path, quiet=True)) == 0  # told only when the whole file passes
+    assert (results[job.path].passed, results[job.path].failed) == (2, 1)
 
 
 def test_many_failures_are_no_accident(whole_run):

@@ -59,7 +59,7 @@ class Browser:
         options = Options()
         for word in ("--headless=new", "--no-first-run", "--disable-background-networking",
                      "--disable-component-update", "--disable-sync", "--disable-dev-shm-usage", "--use-angle=swiftshader", "--disable-quic",
-                     "--enable-unsafe-swiftshader", f"--window-size={size[0]},{size[1]}",
+                     "--enable-unsafe-swiftshader", "--webgl-antialiasing-mode=none", f"--window-size={size[0]},{size[1]}",
                      f"--user-data-dir={self._folder.name}", *(["--no-sandbox"] if os.geteuid() == 0 else [])):
             options.add_argument(word)
         options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
