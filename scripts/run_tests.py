@@ -5,7 +5,8 @@ one line ``N passed, M failed``, before it the cases that failed, each with its 
 in full, and kept with the rest in --logs.
 
 With --again up to five files that failed run once more, up to twice, one after the other, when all others have ended; of pytest's
-only the tests that failed. What passes then counts as passed, but a line ``unsteady: ...`` says what had failed: a fault of the test or of what it tests, to be found.
+only the tests that failed. What passes then counts as passed, but a line ``unsteady: ...`` says what had failed: a fault of the
+test or of what it tests, to be found.
 What takes long is marked as slow, a test of pytest by ``@pytest.mark.slow``, a file of rostest by the comment ``<!-- slow -->``. It is
 left out, unless packages are named, or --all or --since is given.
 With --since COMMIT only what a change since that commit can break is tested: the packages with a file that differs, what needs them,
