@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "geometry.hpp"
 #include "model.hpp"
 
 namespace ode_sim {
@@ -22,7 +23,7 @@ void BroadPhase::remove(const Shape* shape) {
 void BroadPhase::refresh(std::vector<Box>& boxes) {
   for (Box& b : boxes) {
     dReal aabb[6];
-    dGeomGetAABB(b.shape->geom, aabb);
+    bounds(*b.shape, aabb);
     for (int i = 0; i < 3; ++i) b.low[i] = aabb[2 * i], b.high[i] = aabb[2 * i + 1];
   }
   for (size_t i = 1; i < boxes.size(); ++i) {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry.hpp"
 #include "phases.hpp"
 
 namespace ode_sim {
@@ -117,7 +118,7 @@ int size_class(const Link& link) {
     if (l->self_collide ? l.get() != &link : link.self_collide) continue;
     for (auto& s : l->shapes) {
       dReal box[6];
-      dGeomGetAABB(s->geom, box);
+      bounds(*s, box);
       for (int i = 0; i < 3; ++i) low[i] = std::min(low[i], box[2 * i]), high[i] = std::max(high[i], box[2 * i + 1]);
     }
   }
@@ -253,7 +254,7 @@ void add_contacts(const Settings& set, Shape& a, Shape& b, dContactGeom* found, 
 bool touching(Scene& scene, const Shape& a, const Shape& b) {
   if (a.out_of_reach || b.out_of_reach) return false;
   dReal p[6], q[6];
-  dGeomGetAABB(a.geom, p), dGeomGetAABB(b.geom, q);
+  bounds(a, p), bounds(b, q);
   for (int i = 0; i < 6; i += 2)
     if (p[i] > q[i + 1] || p[i + 1] < q[i]) return false;
   dContactGeom found[kMostFound];

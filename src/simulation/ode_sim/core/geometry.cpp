@@ -95,6 +95,8 @@ OwnedGeom make_cylinder(Shape& shape, double radius, double length) {
   return OwnedGeom(dCreateCylinder(nullptr, radius, length));
 }
 
+constexpr double kGround = 1;  // m below the lowest height that is solid as well
+
 OwnedGeom make_heightmap(Shape& shape, std::vector<double> heights, int columns, int rows, double size_x, double size_y) {
   if (columns < 2 || rows < 2) throw std::invalid_argument("a height map needs at least two rows and two columns");
   checked_size(size_x, "the width of a height map");
@@ -103,13 +105,31 @@ OwnedGeom make_heightmap(Shape& shape, std::vector<double> heights, int columns,
     if (!(std::abs(h) <= kFarthest))
       throw std::invalid_argument("a height of the map is not a number within " + shown(kFarthest) + " m");
   // `heights`: row-major, first row at +y. ODE wants depth samples along its z, which the y-up turn makes our -y.
-  shape.heights = std::move(heights);
+  const auto [low, high] = std::minmax_element(heights.begin(), heights.end());
+  const double lowest = *low, highest = *high;
+  shape.grid = {std::move(heights), columns, rows, size_x, size_y, lowest, highest};
   shape.field.reset(dGeomHeightfieldDataCreate());
-  dGeomHeightfieldDataBuildDouble(shape.field, shape.heights.data(), 1, size_x, size_y, columns, rows, 1, 0, 1, 0);
-  double low = shape.heights[0], high = low;
-  for (double h : shape.heights) low = std::min(low, h), high = std::max(high, h);
-  dGeomHeightfieldDataSetBounds(shape.field, low, high);
+  dGeomHeightfieldDataBuildDouble(shape.field, shape.grid.heights.data(), 1, size_x, size_y, columns, rows, 1, 0, kGround, 0);
+  dGeomHeightfieldDataSetBounds(shape.field, lowest, highest);
   return OwnedGeom(dCreateHeightfield(nullptr, shape.field, 1));
+}
+
+void bounds(const Shape& shape, double* box) {
+  if (!shape.field) {
+    dGeomGetAABB(shape.geom, box);
+    return;
+  }
+  const HeightGrid& grid = shape.grid;
+  const double low[3] = {-0.5 * grid.size_x, grid.low - kGround, -0.5 * grid.size_z};
+  const double high[3] = {0.5 * grid.size_x, grid.high, 0.5 * grid.size_z};
+  const dReal *p = dGeomGetPosition(shape.geom), *R = dGeomGetRotation(shape.geom);
+  for (int i = 0; i < 3; ++i) {
+    box[2 * i] = box[2 * i + 1] = p[i];
+    for (int k = 0; k < 3; ++k) {
+      const double a = R[4 * i + k] * low[k], b = R[4 * i + k] * high[k];
+      box[2 * i] += std::min(a, b), box[2 * i + 1] += std::max(a, b);
+    }
+  }
 }
 
 }  // namespace ode_sim

@@ -9,4 +9,8 @@ OwnedGeom make_cylinder(Shape& shape, double radius, double length);
 // `heights` (m): rows x columns, first row at +y; `size_x`, `size_y` in metres, centred on the origin.
 OwnedGeom make_heightmap(Shape& shape, std::vector<double> heights, int columns, int rows, double size_x, double size_y);
 
+// Box around the shape in world axes: lowest and highest x, y, z, m. It is ODE's, except for a height map that is turned, of which ODE
+// leaves out the corners.
+void bounds(const Shape& shape, double* box);
+
 }  // namespace ode_sim

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "cluster.hpp"
+#include "height_grid.hpp"
 #include "joint.hpp"
 #include "limits.hpp"
 #include "math.hpp"
@@ -58,7 +59,7 @@ struct Shape {
   Link* link = nullptr;
   // What the geoms point into comes before them, and so ends after them.
   std::shared_ptr<MeshData> mesh, faceted_mesh;
-  std::vector<double> heights;
+  HeightGrid grid;
   OwnedField field;
   OwnedGeom geom;
   OwnedGeom faceted;          // a cylinder's stand-in against shapes that ODE cannot collide with it

@@ -1,6 +1,7 @@
 #include <array>
 
 #include "bindings.hpp"
+#include "geometry.hpp"
 
 namespace ode_sim {
 
@@ -72,7 +73,7 @@ void bind_shapes(py::module_& m) {
         const OdeScope scope;
         if (!s.geom) throw std::runtime_error("this collision is no longer in the world");
         std::array<double, 6> box;
-        dGeomGetAABB(s.geom, box.data());
+        bounds(s, box.data());
         return box;
       });
 }

@@ -1,7 +1,9 @@
-// Batched ray casts: a slab test against the bounding boxes of all shapes, then ODE's exact test, nearest box first.
+// Batched ray casts: a slab test against the bounding boxes of all shapes, then the exact test, nearest box first: ODE's, but for height
+// maps, of which ODE looks at every cell below the ray, and takes a ray that is below all of them for one that meets them.
 #include <algorithm>
 #include <cmath>
 
+#include "geometry.hpp"
 #include "ode.hpp"
 #include "world.hpp"
 
@@ -31,7 +33,7 @@ std::vector<Candidate> candidates(const Scene& scene, const std::vector<int>& ig
   for (auto& [id, shape] : scene.shapes) {
     if (shape->out_of_reach || std::find(ignore.begin(), ignore.end(), id) != ignore.end()) continue;
     Candidate c{shape, {-kInf, kInf, -kInf, kInf, -kInf, kInf}};
-    if (!shape->infinite) dGeomGetAABB(shape->geom, c.box);
+    if (!shape->infinite) bounds(*shape, c.box);
     all.push_back(c);
   }
   return all;
@@ -48,6 +50,15 @@ struct Hit {
   double range = kInf;
   int shape = -1;
 };
+
+double distance_to_ground(dGeomID geom, const HeightGrid& grid, const Vec3& origin, const Vec3& direction, double most) {
+  const dReal *p = dGeomGetPosition(geom), *R = dGeomGetRotation(geom);
+  const auto in_grid = [R](const Vec3& v) {
+    return Vec3{R[0] * v.x + R[4] * v.y + R[8] * v.z, R[1] * v.x + R[5] * v.y + R[9] * v.z,
+                R[2] * v.x + R[6] * v.y + R[10] * v.z};
+  };
+  return grid.distance(in_grid(origin - Vec3{p[0], p[1], p[2]}), in_grid(direction), most);
+}
 
 // Takes the hit on the shape if it is nearer.
 void look_at(dGeomID ray, const Shape& shape, Hit& hit) {
@@ -94,7 +105,12 @@ int cast_rays(const Scene& scene, const double* origins, const double* direction
     Hit hit;
     for (auto& [at, shape] : near) {
       if (at >= hit.range) break;
-      look_at(ray, *shape, hit);
+      if (!shape->field) {
+        look_at(ray, *shape, hit);
+        continue;
+      }
+      const double range = distance_to_ground(shape->geom, shape->grid, {o[0], o[1], o[2]}, d, max_range);
+      if (range < hit.range) hit = {range, shape->id};
     }
     ranges[i] = hit.range;
     hits[i] = hit.shape;

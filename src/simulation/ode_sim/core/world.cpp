@@ -1,3 +1,4 @@
+#include "geometry.hpp"
 #include "world.hpp"
 
 #include <algorithm>
@@ -145,7 +146,7 @@ static void measure(Link& link) {
   for (auto& shape : link.shapes) {
     if (shape->infinite) continue;
     dReal box[6];
-    dGeomGetAABB(shape->geom, box);
+    bounds(*shape, box);
     for (int i = 0; i < 8; ++i) {
       const Vec3 corner{box[i & 1], box[2 + (i >> 1 & 1)], box[4 + (i >> 2 & 1)]};
       link.size = std::max(link.size, norm(corner - link.X_WL.p));
