@@ -2,10 +2,8 @@ import math
 
 import pytest
 from controller_interface import ParameterError
-from hypothesis import given
-from hypothesis import strategies as st
 
-from diff_drive_controller.speed_limiter import Bounds, SpeedLimiter, load_limiter
+from diff_drive_controller.speed_limiter import load_limiter
 
 
 class Parameters(dict):
@@ -16,50 +14,6 @@ class Parameters(dict):
 
     def resolve(self, name):
         return f"/base/{name}"
-
-
-def test_without_bounds_nothing_changes():
-    assert SpeedLimiter().limit(123.0, 0.01) == 123.0
-
-
-def test_velocity():
-    limiter = SpeedLimiter(Bounds(-0.5, 1.0))
-    assert [limiter.limit(v, 0.01) for v in (2.0, 0.3, -2.0)] == [1.0, 0.3, -0.5]
-
-
-def test_acceleration_counts_from_the_last_output():
-    limiter = SpeedLimiter(acceleration=Bounds(-2.0, 1.0))
-    assert limiter.limit(10.0, 0.1) == pytest.approx(0.1)
-    assert limiter.limit(10.0, 0.1) == pytest.approx(0.2)
-    assert limiter.limit(-10.0, 0.1) == pytest.approx(0.0)
-    assert limiter.last == pytest.approx(0.0)
-
-
-def test_jerk_bounds_the_change_of_the_change():
-    limiter = SpeedLimiter(jerk=Bounds(-5.0, 5.0))
-    step = 2.0 * 5.0 * 0.1 ** 2
-    assert [limiter.limit(10.0, 0.1) for _ in range(3)] == pytest.approx([step, 3 * step, 6 * step])
-
-
-def test_jerk_then_acceleration_then_velocity():
-    limiter = SpeedLimiter(Bounds(-0.15, 0.15), Bounds(-1.0, 1.0), Bounds(-100.0, 100.0))
-    assert [limiter.limit(10.0, 0.1) for _ in range(2)] == pytest.approx([0.1, 0.15])
-
-
-def test_reset_forgets_the_motion():
-    limiter = SpeedLimiter(acceleration=Bounds(-1.0, 1.0))
-    limiter.limit(10.0, 1.0)
-    limiter.reset()
-    assert limiter.limit(10.0, 0.1) == pytest.approx(0.1)
-
-
-@given(st.lists(st.floats(-10.0, 10.0), min_size=1, max_size=50))
-def test_output_stays_inside_velocity_and_acceleration_bounds(commands):
-    limiter, last = SpeedLimiter(Bounds(-1.0, 2.0), Bounds(-3.0, 1.5)), 0.0
-    for command in commands:
-        velocity = limiter.limit(command, 0.01)
-        assert -1.0 <= velocity <= 2.0 and -0.03 - 1e-12 <= velocity - last <= 0.015 + 1e-12
-        last = velocity
 
 
 def test_parameters_have_symmetric_minima_unless_given():

@@ -5,7 +5,7 @@ import math
 from typing import Optional, Tuple
 
 from controller_interface import MultiInterfaceController, NodeHandle
-from diff_drive_controller.odometry import WheelTravel
+from diff_drive_controller.laws import WheelTravel, bicycle
 from diff_drive_controller.wheeled_base import WheeledBase, length, multiplier
 from hardware_interface import PositionJointInterface, VelocityJointInterface
 from urdf_geometry_parser import robot_geometry
@@ -47,7 +47,7 @@ class AckermannSteeringController(WheeledBase, MultiInterfaceController):
         if not (math.isfinite(wheel) and math.isfinite(steer)):
             return None
         distance = self._travel[0](wheel) * self._odometry_radius
-        return distance, math.tan(steer * self._steer_multiplier) / self._odometry_base * distance
+        return bicycle(distance, steer * self._steer_multiplier, self._odometry_base)
 
     def update(self, time: float, period: float) -> None:
         if self.update_odometry(time):

@@ -12,7 +12,7 @@ from geometry_msgs.msg import TwistStamped
 from hardware_interface import VelocityJointInterface
 from urdf_geometry_parser import robot_geometry
 
-from .odometry import WheelTravel, differential
+from .laws import WheelTravel, differential
 from .wheeled_base import WheeledBase, length, multiplier
 
 _TABLE = [

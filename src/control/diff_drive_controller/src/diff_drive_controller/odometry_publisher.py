@@ -10,7 +10,7 @@ from geometry_msgs.msg import TransformStamped
 from nav_msgs.msg import Odometry
 from tf2_msgs.msg import TFMessage
 
-from .odometry import PlanarOdometry
+from .laws import PlanarOdometry
 
 
 class OdometryPublisher:

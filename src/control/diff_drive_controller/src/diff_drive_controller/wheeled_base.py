@@ -7,7 +7,7 @@ from typing import Callable, Optional, Tuple
 from controller_interface import ControllerBase, NodeHandle, ParameterError
 
 from .command_topic import VelocityCommand
-from .odometry import PlanarOdometry, WheelTravel
+from .laws import PlanarOdometry, WheelTravel
 from .odometry_publisher import OdometryPublisher
 from .speed_limiter import load_limiter
 

@@ -6,7 +6,7 @@ from typing import Any, List, Tuple
 
 from controller_interface import MultiInterfaceController, NodeHandle, ParameterError, RealtimePublisher, to_stamp
 from diff_drive_controller.command_topic import CommandTopic
-from diff_drive_controller.odometry import MIN_INTERVAL, RollingMean
+from diff_drive_controller.laws import MIN_INTERVAL, RollingMean
 from diff_drive_controller.wheeled_base import WheeledBase, length
 from four_wheel_steering_msgs.msg import FourWheelSteering, FourWheelSteeringStamped
 from hardware_interface import PositionJointInterface, VelocityJointInterface
