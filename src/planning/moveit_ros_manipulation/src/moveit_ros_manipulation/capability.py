@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import sys
-from typing import List, Tuple
+from typing import Callable, List, Sequence, Tuple
 
 import motion
 import rospy
@@ -18,7 +18,7 @@ from moveit_ros_move_group.capability import ActionCapability, Capability, resul
 from moveit_ros_planning.plan_execution import Plan
 from moveit_ros_planning.robot_model import scaling_factors
 
-from .planner import Manipulation, Outcome, Settings, Task, allowing, hand_pose
+from .planner import (Manipulation, Outcome, Settings, Task, allowing, check_motion, check_posture, hand_pose)
 
 
 _PARAMETERS = [
@@ -88,15 +88,20 @@ class _Manipulate(ActionCapability):
         :raises PlanningError: there is none, or several.
         """
         model = self.context.model
+        if group:
+            self.context.group(group)
         found = [eef for eef in model.end_effectors if (name and name in (eef.name, eef.group)) or (
             not name
             and group and (eef.parent_group == group or eef.name in model.group(group).attached_end_effectors))]
-        if len(found) != 1:
-            known = ", ".join(f"{eef.name} (on {eef.parent_group})" for eef in model.end_effectors) or "none"
+        if not found or not (group or found[0].parent_group):
+            known = ", ".join(f"{eef.name} (on {eef.parent_group or 'no group'})" for eef in model.end_effectors) or "none"
             raise PlanningError(MoveItErrorCodes.INVALID_GROUP_NAME, f"which hand is meant by end effector '{name}' "
                                 f"and group '{group}' is not "
                                 f"clear; the SRDF has the end effectors: {known}")
         eef = found[0]
+        if len(found) > 1:
+            rospy.logwarn("group '%s' has the end effectors %s: '%s' is taken; name another in end_effector", group,
+                          ", ".join(each.name for each in found), eef.name)
         return (group or eef.parent_group), eef.group, eef.parent_link
 
     def manipulation(self, goal) -> Manipulation:
@@ -116,20 +121,44 @@ class _Manipulate(ActionCapability):
                                                                    for name, value in zip(names, values)])]
         return self.context.pipelines.find("").generate(scene, request, self.stop.token)
 
-    def first_that_works(self, scene, goal, tasks, result, field: str) -> Plan:
-        """Try tasks (entry, Task) in order; the entry that works goes into ``field`` of the result."""
+    def first_that_works(self, scene, goal, entries: Sequence, make: Callable, result, field: str) -> Plan:
+        """Try entries (grasps, places) in order; that which works goes into ``field`` of the result.
+
+        :param make: the Task of an entry; an entry that it refuses by PlanningError is left out.
+        """
         planner, last = self.manipulation(goal), Outcome(message="no way to do it was given")
         started = planner.left
-        for entry, task in tasks:
-            last = planner.plan(scene, task)
+        for entry in entries:
+            last = self._try(planner, scene, make, entry)
             if last.segments:
                 setattr(result, field, entry)
+                self.context.display.trajectories([segment.trajectory for segment in last.segments])
                 return Plan(MoveItErrorCodes.SUCCESS, "", last.segments, started - planner.left)
             rospy.loginfo("%s: %s", entry.id or "one way", last.message)
             if planner.left <= 0 or self.stop.is_set():
+                last.code = planner.ended().code
                 break
-        return Plan(last.code, f"none of the {len(tasks)} ways can be planned; the last one: {last.message}", [],
+        return Plan(last.code, f"none of the {len(entries)} ways can be planned; the last one: {last.message}", [],
                     started - planner.left)
+
+    @staticmethod
+    def _try(planner: Manipulation, scene, make: Callable, entry) -> Outcome:
+        try:
+            return planner.plan(scene, make(entry))
+        except PlanningError as error:
+            return Outcome(code=error.code, message=str(error))
+        except motion.UnknownNameError as error:  # the frame of a direction
+            return Outcome(code=MoveItErrorCodes.FRAME_TRANSFORM_FAILURE, message=str(error))
+
+    def check(self, motions: Sequence, postures: Sequence) -> None:
+        """Of a grasp or a place: pairs (GripperTranslation or posture, what it is).
+
+        :raises PlanningError: one holds what cannot be.
+        """
+        for move, what in motions:
+            check_motion(move, what)
+        for posture, what in postures:
+            check_posture(self.context.model, posture, what)
 
 
 class Pickup(_Manipulate):
@@ -139,36 +168,44 @@ class Pickup(_Manipulate):
     action = PickupAction
 
     def plan(self, scene, goal, result) -> Plan:
-        if goal.target_name not in scene.objects:
+        if goal.target_name and goal.target_name not in scene.objects:
             raise PlanningError(MoveItErrorCodes.INVALID_OBJECT_NAME, f"the scene has no object '{goal.target_name}' "
                                 f"to pick; it has: "
                                 + (", ".join(scene.objects) or "none"))
         arm, hand, link = self.effector(goal.end_effector, goal.group_name)
+        closer = goal.minimize_object_distance or not goal.possible_grasps
         grasps = sorted(goal.possible_grasps or [self._default(scene, goal.target_name, hand)],
                         key=lambda grasp: -grasp.grasp_quality)
-        tasks = [(grasp, self._task(scene, goal, grasp, arm, hand, link)) for grasp in grasps]
-        return self.first_that_works(scene, goal, tasks, result, "grasp")
+        return self.first_that_works(scene, goal, grasps,
+                                     lambda grasp: self._task(scene, goal, grasp, (arm, hand, link), closer), result, "grasp")
 
-    def _task(self, scene, goal, grasp: Grasp, arm: str, hand: str, link: str) -> Task:
+    def _task(self, scene, goal, grasp: Grasp, effector: Tuple[str, str, str], closer: bool) -> Task:
+        arm, hand, link = effector
+        target = goal.target_name
+        self.check([(grasp.pre_grasp_approach, "pre_grasp_approach"), (grasp.post_grasp_retreat, "post_grasp_retreat")],
+                   [(grasp.pre_grasp_posture, "pre_grasp_posture"), (grasp.grasp_posture, "grasp_posture")])
         links = sorted({*self.context.model.group(hand).links, link})
-        touch = sorted({*goal.attached_object_touch_links, *links})
-        free = [goal.target_name, *goal.allowed_touch_objects, *grasp.allowed_touch_objects]
+        touch = sorted({*goal.attached_object_touch_links}) or links
         support = [goal.support_surface_name] if goal.support_surface_name else []
-        gripper = allowing(links, free + (support if goal.allow_gripper_support_collision else []))
-        lifting = allowing([goal.target_name], support)
+        others = allowing(links, [*goal.allowed_touch_objects, *grasp.allowed_touch_objects,
+                                  *(support if goal.allow_gripper_support_collision else [])])
+        gripping = allowing([target], [*touch, *support]) if target else allowing([], [])
 
-        def approach(matrix) -> None:
-            gripper(matrix)
+        def both(matrix) -> None:
+            others(matrix)
+            gripping(matrix)
 
-        def retreat(matrix) -> None:
-            gripper(matrix)
-            lifting(matrix)
+        # With no target named the hand goes through the motions and nothing is attached, as upstream has it.
+        def change(other) -> None:
+            if target:
+                other.attach_object(target, link, touch)
 
-        return Task(arm, link, hand, hand_pose(scene, grasp.grasp_pose), grasp.pre_grasp_approach,
-                    grasp.post_grasp_retreat,
-                    grasp.pre_grasp_posture, grasp.grasp_posture, approach, retreat,
-                    lambda other: other.attach_object(goal.target_name, link, touch),
-                    lambda: self._attach(goal.target_name, link, touch, grasp), ("pre_grasp", "grasp"))
+        def effect() -> bool:
+            return not target or self._attach(target, link, touch, grasp)
+
+        return Task(arm, link, hand, hand_pose(scene, grasp.grasp_pose, target), grasp.pre_grasp_approach,
+                    grasp.post_grasp_retreat, grasp.pre_grasp_posture, grasp.grasp_posture, both, both, change, effect,
+                    others if closer else None)
 
     def _attach(self, name: str, link: str, touch: List[str], grasp: Grasp) -> bool:
         message = AttachedCollisionObject(link_name=link, touch_links=touch, detach_posture=grasp.pre_grasp_posture)
@@ -198,32 +235,55 @@ class Place(_Manipulate):
     action = PlaceAction
 
     def plan(self, scene, goal, result) -> Plan:
-        held = {body.id: body for body in scene.state.attached}
-        name = goal.attached_object_name or (next(iter(held)) if len(held) == 1 else "")
-        if name not in held:
-            raise PlanningError(MoveItErrorCodes.INVALID_OBJECT_NAME, f"no object '{name}' is held; held are: "
-                                f"{', '.join(held) or 'none'}")
-        body = held[name]
+        body = self._body(scene, goal)
         if not goal.place_locations:
-            raise PlanningError(MoveItErrorCodes.INVALID_GOAL_CONSTRAINTS, f"no place for '{name}' was given")
-        arm, hand, link = self._hand(goal, body)
+            raise PlanningError(MoveItErrorCodes.INVALID_GOAL_CONSTRAINTS, f"no place for '{body.id}' was given")
+        effector = self._hand(goal, body)
         locations = sorted(goal.place_locations, key=lambda location: -location.quality)
-        tasks = [(location, self._task(scene, goal, location, body, arm, hand, link)) for location in locations]
-        return self.first_that_works(scene, goal, tasks, result, "place_location")
+        return self.first_that_works(scene, goal, locations,
+                                     lambda location: self._task(scene, goal, location, body, effector), result,
+                                     "place_location")
+
+    def _body(self, scene, goal):
+        """The held object that the goal names; without a name, the only one that its group holds.
+
+        :raises PlanningError: there is none, or several.
+        """
+        held = {body.id: body for body in scene.state.attached}
+        named = goal.attached_object_name
+        if named:
+            found = [held[named]] if named in held else []
+        else:
+            hands = {body.id: self._holder(body) for body in held.values()}
+            found = [body for body in held.values() if hands[body.id] is not None and goal.group_name in (
+                hands[body.id].name, hands[body.id].group, hands[body.id].parent_group)] or list(held.values())
+        if len(found) != 1:
+            what = f"no object '{named}' is held" if named else "which object is to be placed is not clear"
+            raise PlanningError(MoveItErrorCodes.INVALID_OBJECT_NAME, f"{what}; held are: {', '.join(held) or 'none'}")
+        return found[0]
+
+    def _holder(self, body):
+        """The end effector that holds a body; None if none does."""
+        model = self.context.model
+        return next((eef for eef in model.end_effectors
+                     if body.link == eef.parent_link or body.link in model.group(eef.group).links), None)
 
     def _hand(self, goal, body) -> Tuple[str, str, str]:
         """The hand that holds the body."""
         model, group = self.context.model, goal.group_name
-        for eef in model.end_effectors:
-            if body.link == eef.parent_link or body.link in model.group(eef.group).links:
-                arm = group if model.has_group(group) and group != eef.group else eef.parent_group
-                return arm, eef.group, eef.parent_link
+        eef = self._holder(body)
+        if eef is not None:
+            arm = group if model.has_group(group) and group not in (eef.name, eef.group) else eef.parent_group
+            return arm, eef.group, eef.parent_link
         if not model.has_group(group):
             raise PlanningError(MoveItErrorCodes.INVALID_GROUP_NAME, f"no end effector holds '{body.id}' (it hangs on "
                                 f"'{body.link}')")
         return group, "", body.link
 
-    def _task(self, scene, goal, location: PlaceLocation, body, arm: str, hand: str, link: str) -> Task:
+    def _task(self, scene, goal, location: PlaceLocation, body, effector: Tuple[str, str, str]) -> Task:
+        arm, hand, link = effector
+        self.check([(location.pre_place_approach, "pre_place_approach"), (location.post_place_retreat, "post_place_retreat")],
+                   [(location.post_place_posture, "post_place_posture")])
         state = scene.state
         target = hand_pose(scene, location.place_pose)
         if not goal.place_eef:  # the pose is where the object goes; the hand is where it holds it
@@ -232,7 +292,7 @@ class Place(_Manipulate):
         support = [goal.support_surface_name] if goal.support_surface_name else []
         others = [*goal.allowed_touch_objects, *location.allowed_touch_objects]
         gripper = allowing(links, [body.id, *others, *(support if goal.allow_gripper_support_collision else [])])
-        standing = allowing([body.id], support + others)
+        standing = allowing([body.id], [*support, *others, *body.touch_links])
 
         def both(matrix) -> None:
             gripper(matrix)
@@ -243,8 +303,7 @@ class Place(_Manipulate):
             posture = body.detach_posture
         return Task(arm, link, hand, target, location.pre_place_approach, location.post_place_retreat, type(posture)(),
                     posture, both, both,
-                    lambda other: other.detach_object(body.id), lambda: self._detach(body.id, body.link), ("approach",
-                                                                                                           "release"))
+                    lambda other: other.detach_object(body.id), lambda: self._detach(body.id, body.link))
 
     def _detach(self, name: str, link: str) -> bool:
         message = AttachedCollisionObject(link_name=link)

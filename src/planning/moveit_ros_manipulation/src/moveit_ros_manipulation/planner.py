@@ -16,6 +16,7 @@ from moveit_core.errors import PlanningError
 from moveit_ros_planning.plan_execution import Segment
 
 _GRIPPER_TIME = 1.0  # s that a gripper gets when its posture has no times
+_CLOSER = 1.0  # m that a hand may come closer to what it is to grip
 Allow = Callable[[motion.AllowedCollisionMatrix], None]
 
 
@@ -41,7 +42,8 @@ class Task:
     #: changes a scene as gripping (or letting go) does
     change: Callable[[motion.PlanningScene], None]
     effect: Callable[[], bool]
-    names: Tuple[str, str] = ("pre_grasp", "grasp")
+    #: what may touch while the hand comes as close to the target as it can; None: it stays at ``target``
+    allow_closer: Optional[Allow] = None
 
 
 @dataclass
@@ -87,14 +89,19 @@ class Manipulation:
         outcome = Outcome(message=f"'{task.link}' cannot get to where the object is to be gripped or put")
         for values in self._configurations(scene, task):
             if self.left <= 0 or self._cancelled():
-                outcome.message = "the time for planning is over" if not self._cancelled() else "stopped"
-                return outcome
+                return outcome if outcome.reached >= 0 else self.ended()
             found = self._with_configuration(scene, task, values)
             if found.segments:
                 return found
             if found.reached > outcome.reached:  # what stopped the most promising one is what is told
                 outcome = found
         return outcome
+
+    def ended(self) -> Outcome:
+        """Why no more is tried: somebody said stop, or the time is over."""
+        if self._cancelled():
+            return Outcome(code=MoveItErrorCodes.PREEMPTED, message="stopped")
+        return Outcome(code=MoveItErrorCodes.TIMED_OUT, message="the time for planning is over")
 
     def _configurations(self, scene, task: Task) -> Sequence[np.ndarray]:
         loose = self._loosened(scene, task.allow_approach)
@@ -123,60 +130,110 @@ class Manipulation:
         self._set_posture(near, task.open)
         state = near.state
         state.set_group(task.group, values)
+        if task.allow_closer is not None:
+            state.set_group(task.group, self._closer(scene, task, state))
+            values = state.get_group(task.group)
         approach = self._straight(near, task, state, task.approach, -1.0)
         if approach is None:
             return Outcome(message=f"the straight approach cannot be made for {task.approach.min_distance:.3f} m", reached=0)
         approach = approach.reversed()
-        after = self._loosened(scene, task.allow_retreat)
-        after.set_state(state)
-        task.change(after)
-        self._set_posture(after, task.close)
-        held = after.state
-        held.set_group(task.group, values)
-        retreat = self._straight(after, task, held, task.retreat, 1.0)
-        if retreat is None:
-            return Outcome(message=f"the straight retreat cannot be made for {task.retreat.min_distance:.3f} m", reached=1)
+        retreat = None
+        if moves(task.retreat):
+            retreat = self._retreat(scene, task, state)
+            if retreat is None:
+                return Outcome(message=f"the straight retreat cannot be made for {task.retreat.min_distance:.3f} m", reached=1)
         free = self._free_motion(scene, task.group, approach.positions[0], max(0.1, self.left))
         if not free:
             return Outcome(code=free.code, message=free.message, reached=2)
         return Outcome(self._segments(scene, task, free.trajectory, approach, retreat), MoveItErrorCodes.SUCCESS)
 
+    def _retreat(self, scene, task: Task, state) -> Optional[motion.Trajectory]:
+        after = self._loosened(scene, task.allow_retreat)
+        after.set_state(state)
+        task.change(after)
+        self._set_posture(after, task.close)
+        held = after.state
+        held.set_group(task.group, state.get_group(task.group))
+        return self._straight(after, task, held, task.retreat, 1.0)
+
+    def _closer(self, scene, task: Task, state) -> np.ndarray:
+        """Joint values of the hand moved along the approach, to a step before it meets something."""
+        near = self._loosened(scene, task.allow_closer)
+        self._set_posture(near, task.open)
+        rows = self._line(near, task, state, task.approach, _CLOSER)[0]
+        return rows.positions[-2] if rows is not None and len(rows) > 1 else state.get_group(task.group)
+
     def _straight(self, scene, task: Task, state, move: GripperTranslation, sign: float) -> Optional[motion.Trajectory]:
         """A straight motion of the hand from ``state``; None if not even the least distance can be gone."""
+        distance = max(move.desired_distance, move.min_distance)
+        if not moves(move) and distance <= 0:
+            return motion.Trajectory(scene.model, task.group, state, np.array([state.get_group(task.group)]))
+        trajectory, gone = self._line(scene, task, state, move, sign * distance)
+        return trajectory if trajectory is not None and gone >= move.min_distance - 1e-6 else None
+
+    def _line(self, scene, task: Task, state, move: GripperTranslation,
+              distance: float) -> Tuple[Optional[motion.Trajectory], float]:
+        """The hand's motion along the direction of ``move`` (against it below zero), and the metres that it gets."""
         direction = move.direction.vector
         vector = np.array((direction.x, direction.y, direction.z), dtype=float)
-        length, distance = np.linalg.norm(vector), max(move.desired_distance, move.min_distance)
-        if not np.isfinite(length) or length < 1e-9 or distance <= 0:
-            return motion.Trajectory(scene.model, task.group, state, np.array([state.get_group(task.group)]))
+        length = np.linalg.norm(vector)
+        if length < 1e-9:
+            return None, 0.0
         here = state.pose(task.link)
         frame = convert.strip(move.direction.header.frame_id)
         rotation = here if frame == task.link else scene.frame_pose(frame,
                                                                     state) if frame else motion.Pose(*convert.IDENTITY)
-        step = motion.Pose(np.zeros(3), rotation.quaternion) * motion.Pose(vector / length * distance * sign,
+        step = motion.Pose(np.zeros(3), rotation.quaternion) * motion.Pose(vector / length * distance,
                                                                            convert.IDENTITY[1])
         goal = motion.Pose(np.asarray(here.position) + np.asarray(step.position), here.quaternion)
         found = motion.cartesian_path(scene, task.group, [goal], link=task.link, start=state, max_step=self._settings.step,
                                       jump_threshold=self._settings.jump,
                                       avoid_collisions=True)
-        if found.trajectory is None or found.fraction * distance < move.min_distance - 1e-6:
-            return None
-        return found.trajectory
+        return found.trajectory, found.fraction * abs(distance)
 
     @staticmethod
     def _segments(scene, task: Task, free, approach, retreat) -> List[Segment]:
-        first, second = task.names
         segments = [Segment(free, "plan")]
-        opening = gripper_motion(scene, task.hand, task.open)
+        opening = gripper_motion(scene, scene.state, task.hand, task.open)
         if opening is not None:
-            segments.append(Segment(opening, first, monitor=False))
+            segments.append(Segment(opening, "pre_grasp", monitor=False))
         segments.append(Segment(timed(scene.model, approach), "approach", allowed=task.allow_approach))
-        closing = gripper_motion(scene, task.hand, task.close)
+        before = scene.state
+        if task.open.points:
+            before.set(clamped(scene.model, task.open, -1))
+        closing = gripper_motion(scene, before, task.hand, task.close)
         if closing is not None:
-            segments.append(Segment(closing, second, monitor=False, effect=task.effect))
+            segments.append(Segment(closing, "grasp", monitor=False, effect=task.effect))
         else:
             segments[-1].effect = task.effect
-        segments.append(Segment(timed(scene.model, retreat), "retreat", allowed=task.allow_retreat))
+        if retreat is not None:
+            segments.append(Segment(timed(scene.model, retreat), "retreat", allowed=task.allow_retreat))
         return segments
+
+
+def moves(move: GripperTranslation) -> bool:
+    """Whether a distance and a direction were given."""
+    direction = move.direction.vector
+    return move.desired_distance > 0 and np.linalg.norm((direction.x, direction.y, direction.z)) > 1e-9
+
+
+def check_motion(move: GripperTranslation, what: str) -> None:
+    """:raises PlanningError: a number is not finite."""
+    direction = move.direction.vector
+    if not np.isfinite((direction.x, direction.y, direction.z, move.desired_distance, move.min_distance)).all():
+        raise PlanningError(MoveItErrorCodes.INVALID_GOAL_CONSTRAINTS, f"{what} holds a number that is not finite")
+
+
+def check_posture(model, posture: JointTrajectory, what: str) -> None:
+    """:raises PlanningError: a joint is unknown, or a point's positions do not fit the joints."""
+    unknown = [name for name in posture.joint_names if not model.has_joint(name)]
+    if unknown:
+        raise PlanningError(MoveItErrorCodes.INVALID_GOAL_CONSTRAINTS, f"{what} names joint '{unknown[0]}', which the "
+                            f"robot '{model.name}' does not have")
+    for point in posture.points:
+        if len(point.positions) != len(posture.joint_names) or np.isnan(point.positions).any():
+            raise PlanningError(MoveItErrorCodes.INVALID_GOAL_CONSTRAINTS, f"a point of {what} needs one number for each of "
+                                f"its {len(posture.joint_names)} joints; it has: {list(point.positions)}")
 
 
 def timed(model, trajectory: motion.Trajectory) -> motion.Trajectory:
@@ -198,32 +255,34 @@ def clamped(model, posture: JointTrajectory, point: int) -> Dict[str, float]:
     return values
 
 
-def gripper_motion(scene, hand: str, posture: JointTrajectory) -> Optional[motion.Trajectory]:
-    """The trajectory of a posture; None when it moves nothing."""
+def gripper_motion(scene, before, hand: str, posture: JointTrajectory) -> Optional[motion.Trajectory]:
+    """The trajectory of a posture, from the state ``before`` it; None when it moves nothing."""
     if not posture.points or not hand:
         return None
     model, group = scene.model, scene.model.group(hand)
     variables = list(group.variables)
-    rows, times, state = [], [], scene.state
-    for number, point in enumerate(posture.points):
-        state.set({name: value for name, value in clamped(model, posture, number).items() if name in variables})
-        rows.append(state.get_group(hand))
-        times.append(point.time_from_start.to_sec())
-    if times[-1] <= 0.0:
-        times = [_GRIPPER_TIME * (number + 1) / len(rows) for number in range(len(rows))]
     if not any(name in variables for name in posture.joint_names):
         return None
-    return motion.Trajectory(model, hand, scene.state, np.array(rows), times=np.array(times))
+    state = before.copy()
+    rows, times = [], [point.time_from_start.to_sec() for point in posture.points]
+    if times[-1] <= 0.0:
+        times = [_GRIPPER_TIME * (number + 1) / len(times) for number in range(len(times))]
+    if times[0] > 0.0:
+        rows, times = [state.get_group(hand)], [0.0, *times]
+    for number in range(len(posture.points)):
+        state.set({name: value for name, value in clamped(model, posture, number).items() if name in variables})
+        rows.append(state.get_group(hand))
+    return motion.Trajectory(model, hand, before, np.array(rows), times=np.array(times))
 
 
-def hand_pose(scene, stamped: PoseStamped) -> motion.Pose:
-    """A stamped pose in the model frame.
+def hand_pose(scene, stamped: PoseStamped, default: str = "") -> motion.Pose:
+    """A stamped pose in the model frame; ``default``: its frame where the header has none.
 
     :raises PlanningError: unknown frame or no orientation.
     """
     try:
         pose = convert.pose(stamped.pose, "a grasp or place", empty_is_identity=False)
-        return convert.in_model_frame(scene, stamped.header.frame_id, pose)
+        return convert.in_model_frame(scene, stamped.header.frame_id or default, pose)
     except motion.UnknownNameError as error:
         raise PlanningError(MoveItErrorCodes.FRAME_TRANSFORM_FAILURE,
                             f"frame '{stamped.header.frame_id}': {error}") from error
