@@ -8,7 +8,6 @@ import motion
 from geometry_msgs.msg import TransformStamped
 from moveit_msgs.msg import (AllowedCollisionEntry, AllowedCollisionMatrix, AttachedCollisionObject, CollisionObject,
                              LinkPadding, LinkScale, ObjectColor, PlanningScene, PlanningSceneComponents)
-from object_recognition_msgs.msg import ObjectType
 from octomap_msgs.msg import Octomap, OctomapWithPose
 from std_msgs.msg import ColorRGBA
 
@@ -44,9 +43,7 @@ class SceneEditor:
             return False
 
     def _collision_object(self, message: CollisionObject) -> bool:
-        if message.id == OCTOMAP:
-            raise ValueError(f"the name {OCTOMAP} is kept for the octomap, which comes through the octomap of a "
-                             f"planning scene")
+        _refuse_octomap(message.id)
         if message.operation == CollisionObject.REMOVE:
             return self._remove(message.id)
         if message.operation == CollisionObject.MOVE:
@@ -58,8 +55,7 @@ class SceneEditor:
             raise ValueError("an object needs a name (id)")
         where = convert.in_model_frame(self._scene, message.header.frame_id, pose)
         if message.operation == CollisionObject.ADD or message.id not in self._scene.objects:
-            kind = "\t".join((message.type.key, message.type.db)) if message.type.key or message.type.db else None
-            self._scene.add_object(message.id, shapes, poses, pose=where, subframes=subframes, type=kind)
+            self._scene.add_object(message.id, shapes, poses, pose=where, subframes=subframes, type=_type(message) or None)
         else:
             inverse = self._scene.object(message.id).pose.inverse() * where
             self._scene.append_shapes(message.id, shapes, [inverse * one for one in poses])
@@ -130,6 +126,7 @@ class SceneEditor:
             raise ValueError(f"the robot '{model.name}' has no link '{message.link_name}' to attach it to")
         if not name:
             raise ValueError("an attached object needs a name (id)")
+        _refuse_octomap(name)
         state = self._scene.state
         present = {body.id: body for body in state.attached}
         if message.object.operation == CollisionObject.ADD and not _has_shapes(message.object):
@@ -154,7 +151,7 @@ class SceneEditor:
             item.id, message.link_name, item.shapes, item.shape_poses,
             pose=state.pose(message.link_name).inverse() * item.pose,
             touch_links=_touch(message), subframes={**item.subframes}, detach_posture=_posture(message),
-            weight=message.weight)
+            weight=message.weight, type=_type(message.object) or item.type or "")
         if any(present.id == item.id for present in state.attached):
             state.detach(item.id)
         state.attach(body)
@@ -163,6 +160,8 @@ class SceneEditor:
 
     def _detach(self, message: AttachedCollisionObject) -> None:
         name, link = message.object.id, message.link_name
+        if link and not self._scene.model.has_link(link):
+            raise ValueError(f"the robot '{self._scene.model.name}' has no link '{link}' to detach it from")
         bodies = [body for body in self._scene.state.attached
                   if (not link or body.link == link) and (not name or body.id == name)]
         if name and not bodies:
@@ -241,10 +240,13 @@ class SceneEditor:
         except (ValueError, motion.MotionError) as error:
             self._warn(f"robot state: {error}")
             return False
+        held = [body.id for body in self._scene.state.attached]
         self._scene.set_state(state)
         good = True
         for body in message.attached_collision_objects:
             good = self.attached_object(body) and good
+        for name in held:
+            self._scene.forget(name)
         return good
 
     def octomap(self, message: OctomapWithPose) -> bool:
@@ -284,8 +286,8 @@ def attached_body(scene, state, message: AttachedCollisionObject) -> motion.Atta
                                                                                           state) * motion.Pose(*pose)
         in_link = state.pose(message.link_name).inverse() * in_model
     return motion.AttachedBody(message.object.id, message.link_name, shapes, poses, pose=in_link,
-                               touch_links=_touch(message),
-                               subframes=subframes, detach_posture=_posture(message), weight=message.weight)
+                               touch_links=_touch(message), subframes=subframes, detach_posture=_posture(message),
+                               weight=message.weight, type=_type(message.object))
 
 
 def attach_to_state(scene) -> Callable:
@@ -300,6 +302,7 @@ def attach_to_state(scene) -> Callable:
             return
         if not scene.model.has_link(message.link_name):
             raise ValueError(f"attached object '{message.object.id}': the robot has no link '{message.link_name}'")
+        _refuse_octomap(message.object.id)
         if message.object.id in present:
             state.detach(message.object.id)
         state.attach(attached_body(scene, state, message))
@@ -313,7 +316,17 @@ def _joined(old: motion.AttachedBody, new: motion.AttachedBody) -> motion.Attach
         old.id, old.link, [*old.shapes, *new.shapes], [*old.shape_poses, *(shift * pose for pose in new.shape_poses)],
         pose=old.pose, touch_links=sorted({*old.touch_links, *new.touch_links}), subframes={**old.subframes,
                                                                                             **new.subframes},
-        detach_posture=new.detach_posture or old.detach_posture, weight=new.weight)
+        detach_posture=new.detach_posture or old.detach_posture, weight=new.weight, type=new.type or old.type)
+
+
+def _refuse_octomap(name: str) -> None:
+    if name == OCTOMAP:
+        raise ValueError(f"the name {OCTOMAP} is kept for the octomap, which comes through the octomap of a planning scene")
+
+
+def _type(message: CollisionObject) -> str:
+    """The type of an object as the scene keeps it; "" if it has none."""
+    return "\t".join((message.type.key, message.type.db)) if message.type.key or message.type.db else ""
 
 
 def _touch(message: AttachedCollisionObject) -> List[str]:
@@ -371,8 +384,7 @@ def object_message(scene, name: str, geometry: bool = True) -> CollisionObject:
     item = scene.object(name)
     message = CollisionObject(id=name, operation=CollisionObject.ADD)
     message.header.frame_id = scene.frame
-    if item.type:
-        message.type = ObjectType(*item.type.split("\t", 1))
+    states.fill_type(message, item.type)
     if geometry:
         message.pose = convert.pose_message(item.pose)
         convert.fill_shapes(message, item.shapes, item.shape_poses)

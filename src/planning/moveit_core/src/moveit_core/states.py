@@ -7,6 +7,7 @@ import motion
 import numpy as np
 import rospy
 from moveit_msgs.msg import AttachedCollisionObject, CollisionObject, RobotState, RobotTrajectory
+from object_recognition_msgs.msg import ObjectType
 from trajectory_msgs.msg import JointTrajectoryPoint, MultiDOFJointTrajectoryPoint
 
 from . import convert
@@ -106,7 +107,14 @@ def attached_message(body: motion.AttachedBody) -> AttachedCollisionObject:
     item.pose = convert.pose_message(body.pose)
     convert.fill_shapes(item, body.shapes, body.shape_poses)
     fill_subframes(item, body.subframes)
+    fill_type(item, body.type)
     return message
+
+
+def fill_type(item: CollisionObject, kind: Optional[str]) -> None:
+    """Write the type that a scene keeps of an object into a CollisionObject."""
+    if kind:
+        item.type = ObjectType(*kind.split("\t", 1))
 
 
 def fill_subframes(item: CollisionObject, subframes) -> None:

@@ -230,11 +230,14 @@ class SceneMonitor:
     def _on_world(self, message: PlanningSceneWorld) -> None:
         """A world message replaces all objects and the octomap."""
         def change(editor) -> bool:
+            before = list(self._scene.objects)
             self._scene.clear_objects()
             self._scene.set_octomap(None)
             good = True
             for item in message.collision_objects:
                 good = editor.collision_object(item) and good
+            for name in set(before) - {scene_messages.OCTOMAP}:
+                self._scene.forget(name)
             return editor.octomap(message.octomap) and good
         if not message.octomap.octomap.data:
             self._octomap_gone()
