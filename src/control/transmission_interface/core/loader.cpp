@@ -14,77 +14,54 @@ namespace
 
 namespace hwi = hardware_interface;
 
-struct Loader : TransmissionLoader
+/// What makes a transmission of this package.
+typedef TransmissionSharedPtr (*Make)(const TransmissionLaw& law);
+
+template <class T>
+TransmissionSharedPtr made(const TransmissionLaw& law)
 {
-  /// The three types of this package; in the order of the roles.
-  TransmissionSharedPtr load(const TransmissionInfo& info) override
-  {
-    if (info.type_ == "transmission_interface/SimpleTransmission")
-      return simple(info);
-    return checkActuatorDimension(info, 2) && checkJointDimension(info, 2) ? of_two(info) : nullptr;
-  }
-
-  static TransmissionSharedPtr simple(const TransmissionInfo& info)
-  {
-    double reduction = 1.0, offset = 0.0;
-    if (!checkActuatorDimension(info, 1) || !checkJointDimension(info, 1) ||
-        getActuatorReduction(loadXmlElement(info.actuators_[0].xml_element_), info.actuators_[0].name_, info.name_, true,
-                             reduction) != SUCCESS ||
-        getJointOffset(loadXmlElement(info.joints_[0].xml_element_), info.joints_[0].name_, info.name_, false, offset) ==
-            BAD_TYPE)
-      return nullptr;
-    return std::make_shared<SimpleTransmission>(reduction, offset);
-  }
-
-  static TransmissionSharedPtr of_two(const TransmissionInfo& info)
-  {
-    std::vector<double> actuators(2), joints(2, 1.0), offsets(2, 0.0);
-    bool ignore = false;
-    for (const ActuatorInfo& actuator : info.actuators_)
-    {
-      const TiXmlElement element = loadXmlElement(actuator.xml_element_);
-      std::string role;
-      double value = 0.0;
-      if (getActuatorRole(element, actuator.name_, info.name_, true, role) != SUCCESS ||
-          getActuatorReduction(element, actuator.name_, info.name_, true, value) != SUCCESS)
-        return nullptr;
-      actuators[role == "actuator2"] = value;
-    }
-    for (const JointInfo& joint : info.joints_)
-    {
-      const TiXmlElement element = loadXmlElement(joint.xml_element_);
-      const bool second = joint.role_ == "joint2";
-      if (getJointReduction(element, joint.name_, info.name_, false, joints[second]) == BAD_TYPE ||
-          getJointOffset(element, joint.name_, info.name_, false, offsets[second]) == BAD_TYPE)
-        return nullptr;
-      ignore = ignore || element.FirstChildElement("ignoreTransmissionAbsoluteEncoder");
-    }
-    if (info.type_ == "transmission_interface/DifferentialTransmission")
-      return std::make_shared<DifferentialTransmission>(actuators, joints, offsets, ignore);
-    return std::make_shared<FourBarLinkageTransmission>(actuators, joints, offsets);
-  }
-};
-
-bool is_ours(const std::string& type)
-{
-  return type == "transmission_interface/SimpleTransmission" || type == "transmission_interface/DifferentialTransmission" ||
-         type == "transmission_interface/FourBarLinkageTransmission";
+  return std::make_shared<T>(law);
 }
 
-/// Actuators and joints in the order of their roles.
-template <class Infos, class Role>
-Infos ordered(Infos infos, Role role)
+/// \return whether the type is one of this package
+bool ours(const std::string& type, Coupling& coupling, Make& make)
 {
-  std::stable_sort(infos.begin(), infos.end(),
-                   [&](const typename Infos::value_type& a, const typename Infos::value_type& b) { return role(a) < role(b); });
-  return infos;
+  if (type == "transmission_interface/SimpleTransmission")
+    coupling = Coupling::Simple, make = made<SimpleTransmission>;
+  else if (type == "transmission_interface/DifferentialTransmission")
+    coupling = Coupling::Differential, make = made<DifferentialTransmission>;
+  else if (type == "transmission_interface/FourBarLinkageTransmission")
+    coupling = Coupling::FourBar, make = made<FourBarLinkageTransmission>;
+  else
+    return false;
+  return true;
 }
 
-std::string role_of(const ActuatorInfo& actuator)
+template <class Infos>
+std::vector<Part> parts(const Infos& infos)
 {
-  const std::string& xml = actuator.xml_element_;
-  const std::size_t at = xml.find("<role>");
-  return at == std::string::npos ? "" : xml.substr(at + 6, xml.find("</role>") - at - 6);
+  std::vector<Part> result;
+  for (const auto& info : infos)
+  {
+    TiXmlElement element("");
+    std::stringstream(info.xml_element_) >> element;
+    const auto text = [&element](const char* tag) {
+      const TiXmlElement* child = element.FirstChildElement(tag);
+      return Text{ child != nullptr, child && child->GetText() ? child->GetText() : "" };
+    };
+    result.push_back(Part{ info.name_, text("role").text, text("mechanicalReduction"), text("offset"),
+                           element.FirstChildElement("ignoreTransmissionAbsoluteEncoder") != nullptr });
+  }
+  return result;
+}
+
+template <class Infos>
+Infos ordered(const Infos& infos, const std::vector<std::size_t>& order)
+{
+  Infos result;
+  for (std::size_t i : order)
+    result.push_back(infos[i]);
+  return result;
 }
 
 double* mutable_address(const double* number)
@@ -175,16 +152,8 @@ ActuatorData measurements(hwi::RobotHW& robot, const TransmissionInfo& info, con
   return measured;
 }
 
-/// The transmission is asked for as `written` in the joint's <hardwareInterface>.
-bool asks_for(const std::string& written, const char* kind)
-{
-  return written.find(std::string(kind) + "JointInterface") != std::string::npos;
-}
-
-/// \param both: commands also go from actuators to joints
-void offer_commands(TransmissionLoaderData& data, const TransmissionInfo& info, Transmission& transmission,
-                    const std::string& written, const std::vector<ActuatorInfo>& actuators,
-                    const std::vector<JointInfo>& joints, bool both)
+void offer_commands(TransmissionLoaderData& data, const TransmissionInfo& info, Transmission& transmission, const Asked& asked,
+                    const std::vector<ActuatorInfo>& actuators, const std::vector<JointInfo>& joints)
 {
   ForwardTransmissionInterfaces& forward = data.transmission_interfaces;
   InverseTransmissionInterfaces& inverse = data.inverse_transmission_interfaces;
@@ -192,20 +161,30 @@ void offer_commands(TransmissionLoaderData& data, const TransmissionInfo& info, 
   const Command velocity = { &RawJointData::velocity_cmd, &JointData::velocity, &ActuatorData::velocity };
   const Command effort = { &RawJointData::effort_cmd, &JointData::effort, &ActuatorData::effort };
   JointInterfaces& interfaces = data.joint_interfaces;
-  if (asks_for(written, "Position"))
+  if (asked.kind == "position")
     connect<hwi::PositionActuatorInterface>(data, info, transmission, position, actuators, joints,
                                             interfaces.position_joint_interface, forward.jnt_to_act_pos_cmd,
-                                            inverse.act_to_jnt_pos_cmd, both);
-  else if (asks_for(written, "Velocity"))
+                                            inverse.act_to_jnt_pos_cmd, asked.both_ways);
+  else if (asked.kind == "velocity")
     connect<hwi::VelocityActuatorInterface>(data, info, transmission, velocity, actuators, joints,
                                             interfaces.velocity_joint_interface, forward.jnt_to_act_vel_cmd,
-                                            inverse.act_to_jnt_vel_cmd, both);
-  else if (asks_for(written, "Effort"))
+                                            inverse.act_to_jnt_vel_cmd, asked.both_ways);
+  else if (asked.kind == "effort")
     connect<hwi::EffortActuatorInterface>(data, info, transmission, effort, actuators, joints,
                                           interfaces.effort_joint_interface, forward.jnt_to_act_eff_cmd,
-                                          inverse.act_to_jnt_eff_cmd, both);
-  else if (!asks_for(written, "State"))
-    ROS_WARN("transmission '%s': hardware interface '%s' is unknown and left out", info.name_.c_str(), written.c_str());
+                                          inverse.act_to_jnt_eff_cmd, asked.both_ways);
+}
+
+/// Interfaces of all joints that are known; the log names the others.
+std::vector<std::string> usable(const TransmissionInfo& info)
+{
+  std::vector<std::vector<std::string>> listed;
+  for (const JointInfo& joint : info.joints_)
+    listed.push_back(joint.hardware_interfaces_);
+  for (const std::string& written : listed.at(0))
+    if (asked_for(written).kind.empty())
+      ROS_WARN("transmission '%s': hardware interface '%s' is unknown and left out", info.name_.c_str(), written.c_str());
+  return known_interfaces(info.name_, listed);
 }
 
 }  // namespace
@@ -221,7 +200,7 @@ TransmissionInterfaceLoader::TransmissionInterfaceLoader(hwi::RobotHW* robot_hw,
 bool TransmissionInterfaceLoader::load(const std::string& urdf)
 {
   std::vector<TransmissionInfo> infos;
-  if (!TransmissionParser::parse(urdf, infos))
+  if (!TransmissionParser::parse(urdf, infos) || infos.empty())
   {
     ROS_ERROR("Loading transmissions: the robot description has no usable <transmission>");
     return false;
@@ -234,10 +213,20 @@ bool TransmissionInterfaceLoader::load(const std::vector<TransmissionInfo>& info
   return std::all_of(infos.begin(), infos.end(), [this](const TransmissionInfo& info) { return load(info); });
 }
 
-TransmissionSharedPtr TransmissionInterfaceLoader::make(const TransmissionInfo& info)
+TransmissionSharedPtr TransmissionInterfaceLoader::make(const TransmissionInfo& info, std::vector<ActuatorInfo>& actuators,
+                                                        std::vector<JointInfo>& joints)
 {
-  if (is_ours(info.type_))
-    return Loader().load(info);
+  Coupling coupling;
+  Make make;
+  if (ours(info.type_, coupling, make))
+  {
+    const Plan plan = plan_transmission(coupling, info.name_, info.type_, parts(info.actuators_), parts(info.joints_));
+    actuators = ordered(info.actuators_, plan.actuators);
+    joints = ordered(info.joints_, plan.joints);
+    return make(plan.law);
+  }
+  actuators = info.actuators_;
+  joints = info.joints_;
   if (!types_)
     types_ = std::make_shared<pluginlib::ClassLoader<TransmissionLoader>>("transmission_interface",
                                                                           "transmission_interface::TransmissionLoader");
@@ -249,49 +238,67 @@ bool TransmissionInterfaceLoader::load(const TransmissionInfo& info)
   TransmissionLoaderData& data = loader_data_;
   try
   {
-    const TransmissionSharedPtr transmission = make(info);
+    std::vector<ActuatorInfo> actuators;
+    std::vector<JointInfo> joints;
+    const TransmissionSharedPtr transmission = make(info, actuators, joints);
     if (!transmission)
       return false;
-    const auto actuators = is_ours(info.type_) ? ordered(info.actuators_, role_of) : info.actuators_;
-    const auto joints =
-        is_ours(info.type_) ? ordered(info.joints_, [](const JointInfo& joint) { return joint.role_; }) : info.joints_;
+    const std::vector<std::string> interfaces = usable(info);
     const ActuatorData measured = measurements(*data.robot_hw, info, actuators);
-    JointData states;
-    for (const JointInfo& one : joints)
-    {
-      RawJointData& raw = joint(one.name_, measured);
-      states.position.push_back(&raw.position);
-      states.velocity.push_back(&raw.velocity);
-      states.effort.push_back(&raw.effort);
-      if (!measured.absolute_position.empty())
-        states.absolute_position.push_back(&raw.absolute_position);
-      if (!measured.torque_sensor.empty())
-        states.torque_sensor.push_back(&raw.torque_sensor);
-    }
+    const JointData states = this->states(joints, measured);
     ForwardTransmissionInterfaces& forward = data.transmission_interfaces;
     InverseTransmissionInterfaces& inverse = data.inverse_transmission_interfaces;
     offer(*data.robot_hw, data.joint_interfaces.joint_state_interface);
     forward.act_to_jnt_state.registerHandle(ActuatorToJointStateHandle(info.name_, transmission.get(), measured, states));
     offer(*data.robot_transmissions, forward.act_to_jnt_state);
 
-    for (const std::string& written : joints.front().hardware_interfaces_)
+    data.transmission_data.push_back(transmission);  // once more for each interface, as upstream's
+
+    std::size_t failed = 0;
+    for (const std::string& written : interfaces)
     {
-      const bool both = written.find("BiDirectional") != std::string::npos;
-      if (both)
+      const Asked asked = asked_for(written);
+      try
       {
-        inverse.jnt_to_act_state.registerHandle(JointToActuatorStateHandle(info.name_, transmission.get(), measured, states));
-        offer(*data.robot_transmissions, inverse.jnt_to_act_state);
+        offer_commands(data, info, *transmission, asked, actuators, joints);
       }
-      offer_commands(data, info, *transmission, written, actuators, joints, both);
+      catch (const std::exception& error)
+      {
+        ROS_ERROR("Loading transmission '%s': %s", info.name_.c_str(), error.what());
+        ++failed;
+        continue;
+      }
+      if (!asked.both_ways)
+        continue;
+      inverse.jnt_to_act_state.registerHandle(JointToActuatorStateHandle(info.name_, transmission.get(), measured, states));
+      offer(*data.robot_transmissions, inverse.jnt_to_act_state);
     }
-    data.transmission_data.push_back(transmission);
-    return true;
+    data.transmission_data.resize(data.transmission_data.size() + interfaces.size() - failed - (failed < interfaces.size()),
+                                  transmission);
+    return failed < interfaces.size();
   }
   catch (const std::exception& error)
   {
     ROS_ERROR("Loading transmission '%s': %s", info.name_.c_str(), error.what());
     return false;
   }
+}
+
+JointData TransmissionInterfaceLoader::states(const std::vector<JointInfo>& joints, const ActuatorData& measured)
+{
+  JointData states;
+  for (const JointInfo& one : joints)
+  {
+    RawJointData& raw = joint(one.name_, measured);
+    states.position.push_back(&raw.position);
+    states.velocity.push_back(&raw.velocity);
+    states.effort.push_back(&raw.effort);
+    if (!measured.absolute_position.empty())
+      states.absolute_position.push_back(&raw.absolute_position);
+    if (!measured.torque_sensor.empty())
+      states.torque_sensor.push_back(&raw.torque_sensor);
+  }
+  return states;
 }
 
 RawJointData& TransmissionInterfaceLoader::joint(const std::string& name, const ActuatorData& actuators)

@@ -20,7 +20,11 @@ std::string text_of(TiXmlElement* parent, const char* tag)
   return element ? trimmed(element->GetText()) : "";
 }
 
-std::string name_of(TiXmlElement* element) { return trimmed(element->Attribute("name")); }
+std::string name_of(TiXmlElement* element)
+{
+  const char* name = element->Attribute("name");
+  return name ? name : "";
+}
 
 std::vector<std::string> interfaces_of(TiXmlElement* element)
 {
@@ -73,9 +77,7 @@ bool TransmissionParser::parse(const std::string& urdf, std::vector<Transmission
     else
       transmissions.push_back(info);
   }
-  if (transmissions.empty())
-    ROS_DEBUG("No valid transmissions found.");
-  return !transmissions.empty();
+  return root;
 }
 
 bool TransmissionParser::parseJoints(TiXmlElement* transmission, std::vector<JointInfo>& joints)
@@ -83,6 +85,11 @@ bool TransmissionParser::parseJoints(TiXmlElement* transmission, std::vector<Joi
   for (TiXmlElement* element = transmission->FirstChildElement("joint"); element;
        element = element->NextSiblingElement("joint"))
   {
+    if (!element->Attribute("name"))
+    {
+      ROS_ERROR("a <joint> of a transmission has no name attribute");
+      return false;
+    }
     JointInfo joint;
     joint.name_ = name_of(element);
     joint.hardware_interfaces_ = interfaces_of(element);
@@ -107,9 +114,15 @@ bool TransmissionParser::parseActuators(TiXmlElement* transmission, std::vector<
     actuator.name_ = name_of(element);
     actuator.hardware_interfaces_ = interfaces_of(element);
     actuator.xml_element_ = written(element);
-    if (actuator.name_.empty())
+    if (!element->Attribute("name"))
+    {
+      ROS_ERROR("an <actuator> of a transmission has no name attribute");
       return false;
-    actuators.push_back(actuator);
+    }
+    if (actuator.name_.empty())
+      ROS_ERROR("an <actuator> of a transmission is left out: its name is empty");
+    else
+      actuators.push_back(actuator);
   }
   return !actuators.empty();
 }

@@ -92,8 +92,10 @@ public:
   TransmissionLoaderData* getData() { return &loader_data_; }
 
 private:
-  TransmissionSharedPtr make(const TransmissionInfo& info);
+  TransmissionSharedPtr make(const TransmissionInfo& info, std::vector<ActuatorInfo>& actuators,
+                             std::vector<JointInfo>& joints);
   RawJointData& joint(const std::string& name, const ActuatorData& actuators);
+  JointData states(const std::vector<JointInfo>& joints, const ActuatorData& measured);
 
   std::shared_ptr<pluginlib::ClassLoader<TransmissionLoader>> types_;
   TransmissionLoaderData loader_data_;

@@ -10,6 +10,7 @@
 #include <transmission_interface/robot_transmissions.h>
 #include <transmission_interface/transmission.h>
 #include <transmission_interface/transmission_info.h>
+#include <transmission_interface/transmission_law.h>
 
 namespace transmission_interface
 {
@@ -24,13 +25,6 @@ public:
   virtual TransmissionSharedPtr load(const TransmissionInfo& transmission_info) = 0;
 
 protected:
-  enum ParseStatus
-  {
-    SUCCESS,
-    NO_DATA,
-    BAD_TYPE
-  };
-
   static bool checkActuatorDimension(const TransmissionInfo& info, const unsigned int expected)
   {
     return hasCount(info, "actuators", info.actuators_.size(), expected);
@@ -47,30 +41,30 @@ protected:
     return element;
   }
 
-  // Numbers and words of an <actuator> or <joint>.
+  // Numbers and words of an <actuator> or <joint>; false: it is required and missing, or it is no number.
 
-  static ParseStatus getActuatorReduction(const TiXmlElement& parent, const std::string& actuator,
-                                          const std::string& transmission, bool required, double& reduction)
+  static bool getActuatorReduction(const TiXmlElement& parent, const std::string& actuator, const std::string& transmission,
+                                   bool required, double& reduction)
   {
     return number(parent, "mechanicalReduction", "actuator '" + actuator, transmission, required, reduction);
   }
-  static ParseStatus getJointReduction(const TiXmlElement& parent, const std::string& joint, const std::string& transmission,
-                                       bool required, double& reduction)
+  static bool getJointReduction(const TiXmlElement& parent, const std::string& joint, const std::string& transmission,
+                                bool required, double& reduction)
   {
     return number(parent, "mechanicalReduction", "joint '" + joint, transmission, required, reduction);
   }
-  static ParseStatus getJointOffset(const TiXmlElement& parent, const std::string& joint, const std::string& transmission,
-                                    bool required, double& offset)
+  static bool getJointOffset(const TiXmlElement& parent, const std::string& joint, const std::string& transmission,
+                             bool required, double& offset)
   {
     return number(parent, "offset", "joint '" + joint, transmission, required, offset);
   }
-  static ParseStatus getActuatorRole(const TiXmlElement& parent, const std::string& actuator, const std::string& transmission,
-                                     bool required, std::string& role)
+  static bool getActuatorRole(const TiXmlElement& parent, const std::string& actuator, const std::string& transmission,
+                              bool required, std::string& role)
   {
     return text(parent, "role", "actuator '" + actuator, transmission, required, role);
   }
-  static ParseStatus getJointRole(const TiXmlElement& parent, const std::string& joint, const std::string& transmission,
-                                  bool required, std::string& role)
+  static bool getJointRole(const TiXmlElement& parent, const std::string& joint, const std::string& transmission, bool required,
+                           std::string& role)
   {
     return text(parent, "role", "joint '" + joint, transmission, required, role);
   }
@@ -84,37 +78,28 @@ private:
     return has == expected;
   }
 
-  static ParseStatus text(const TiXmlElement& parent, const char* tag, const std::string& whose,
-                          const std::string& transmission, bool required, std::string& result)
+  static bool text(const TiXmlElement& parent, const char* tag, const std::string& whose, const std::string& transmission,
+                   bool required, std::string& result)
   {
     const TiXmlElement* element = parent.FirstChildElement(tag);
-    if (!element || !element->GetText())
-    {
-      if (required)
-        ROS_ERROR_STREAM("transmission '" << transmission << "', " << whose << "': it needs <" << tag << ">");
-      return NO_DATA;
-    }
-    result = element->GetText();
-    return SUCCESS;
+    if (element && element->GetText())
+      result = element->GetText();
+    else if (required)
+      ROS_ERROR_STREAM("transmission '" << transmission << "', " << whose << "': it needs <" << tag << ">");
+    return !required || (element && element->GetText());
   }
 
-  static ParseStatus number(const TiXmlElement& parent, const char* tag, const std::string& whose,
-                            const std::string& transmission, bool required, double& result)
+  static bool number(const TiXmlElement& parent, const char* tag, const std::string& whose, const std::string& transmission,
+                     bool required, double& result)
   {
     std::string written;
-    const ParseStatus status = text(parent, tag, whose, transmission, required, written);
-    if (status != SUCCESS)
-      return status;
-    std::istringstream stream(written);
-    double value;
-    if (!(stream >> value))
-    {
-      ROS_ERROR_STREAM("transmission '" << transmission << "', " << whose << "': <" << tag << ">" << written << "</" << tag
-                                        << "> is no number");
-      return BAD_TYPE;
-    }
-    result = value;
-    return SUCCESS;
+    if (!text(parent, tag, whose, transmission, required, written))
+      return false;
+    if (!parent.FirstChildElement(tag) || internal::number_of(written, result))
+      return true;
+    ROS_ERROR_STREAM("transmission '" << transmission << "', " << whose << "': <" << tag << ">" << written << "</" << tag
+                                      << "> is no number");
+    return false;
   }
 };
 

@@ -15,7 +15,7 @@ namespace transmission_interface
 class TransmissionParser
 {
 public:
-  /// \param[out] transmissions are added to it \return false: the text is no XML, or it has no usable transmission
+  /// \param[out] transmissions are added to it \return false: the text is no XML
   static bool parse(const std::string& urdf_string, std::vector<TransmissionInfo>& transmissions);
 
 protected:

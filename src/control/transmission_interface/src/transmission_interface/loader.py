@@ -12,6 +12,7 @@ from hardware_interface import (ActuatorStateInterface, EffortActuatorInterface,
                                 VelocityActuatorInterface, VelocityJointInterface)
 from plugin_loader import PluginClass, PluginError, find_plugins
 
+from ._law import asked_for, known_interfaces
 from .parser import TransmissionInfo, parse_transmissions
 from .pipelines import TransmissionPipeline
 from .transmissions import Transmission, TransmissionError
@@ -21,8 +22,6 @@ _KINDS: Dict[str, Tuple[Type[HardwareInterface], Type[HardwareInterface]]] = {
     "velocity": (VelocityJointInterface, VelocityActuatorInterface),
     "effort": (EffortJointInterface, EffortActuatorInterface),
 }
-
-_STATE = "hardware_interface/JointStateInterface"
 
 
 @lru_cache(maxsize=None)
@@ -46,17 +45,6 @@ class RobotTransmissions:
         self.actuator_to_joint_position = TransmissionPipeline.of_commands("joint", "position")
         self.actuator_to_joint_velocity = TransmissionPipeline.of_commands("joint", "velocity")
         self.actuator_to_joint_effort = TransmissionPipeline.of_commands("joint", "effort")
-
-
-def _split(interface: str) -> Tuple[str, bool]:
-    """(kind of command, bidirectional) of an interface as written in a URDF; the kind is "" if it has none."""
-    for kind, (joint_interface, _) in _KINDS.items():
-        name = joint_interface.type_name.partition("::")[2]
-        if interface == f"hardware_interface/{name}":
-            return kind, False
-        if interface == f"hardware_interface/BiDirectional{name}":
-            return kind, True
-    return "", False
 
 
 class TransmissionInterfaceLoader:
@@ -99,19 +87,31 @@ class TransmissionInterfaceLoader:
             transmission, actuator_order, joint_order = plugin.load().from_info(info)
         except PluginError as error:
             raise TransmissionError(f"transmission '{info.name}': {error}") from error
-        interfaces = self._interfaces(info)
+        listed = [joint.hardware_interfaces for joint in info.joints]
+        interfaces = known_interfaces(info.name, listed)
+        for name in sorted(set(listed[0]) - set(interfaces)):
+            rospy.logwarn("transmission '%s': hardware interface '%s' is unknown and left out", info.name, name)
         actuators = [info.actuators[i].name for i in actuator_order]
         joints = [info.joints[i].name for i in joint_order]
         states = [self._joint_state(name) for name in joints]
         actuator_states = self._actuators(ActuatorStateInterface, actuators, info)
         pipelines = self._transmissions
         pipelines.actuator_to_joint_state.register(info.name, transmission, actuator_states, states)
-        for interface in interfaces:
-            kind, bidirectional = _split(interface)
-            if kind:
-                self._connect(kind, bidirectional, info, transmission, actuators, states)
-                if bidirectional:
-                    pipelines.joint_to_actuator_state.register(info.name, transmission, actuator_states, states)
+        works, problems = False, []
+        for kind, bidirectional in map(asked_for, interfaces):
+            try:
+                if kind != "state":
+                    self._connect(kind, bidirectional, info, transmission, actuators, states)
+            except TransmissionError as error:
+                problems.append(error)
+                continue
+            works = True
+            if bidirectional:
+                pipelines.joint_to_actuator_state.register(info.name, transmission, actuator_states, states)
+        if not works:
+            raise problems[0]
+        for problem in problems:
+            rospy.logerr("%s", problem)
 
     def _connect(self, kind: str, bidirectional: bool, info: TransmissionInfo, transmission: Transmission,
                  actuators: Sequence[str], states: Sequence[JointStateHandle]) -> None:
@@ -127,20 +127,6 @@ class TransmissionInterfaceLoader:
         pipelines[f"joint_to_actuator_{kind}"].register(info.name, transmission, actuator_handles, handles)
         if bidirectional:
             pipelines[f"actuator_to_joint_{kind}"].register(info.name, transmission, actuator_handles, handles)
-
-    def _interfaces(self, info: TransmissionInfo) -> List[str]:
-        """The interfaces that all joints share. :raises TransmissionError: they differ, or none is known."""
-        wanted = set(info.joints[0].hardware_interfaces)
-        if any(set(joint.hardware_interfaces) != wanted for joint in info.joints[1:]):
-            raise TransmissionError(f"transmission '{info.name}': all joints must list the same hardware interfaces")
-        usable = [name for name in info.joints[0].hardware_interfaces if name == _STATE or _split(name)[0]]
-        for name in sorted(wanted - set(usable)):
-            rospy.logwarn("transmission '%s': hardware interface '%s' is unknown and left out", info.name, name)
-        if not usable:
-            raise TransmissionError(f"transmission '{info.name}' has no hardware interface that can be used; known are "
-                                    f"hardware_interface/EffortJointInterface, ...VelocityJointInterface, "
-                                    f"...PositionJointInterface, ...JointStateInterface")
-        return usable
 
     def _interface(self, interface: Type[HardwareInterface]) -> HardwareInterface:
         found = self._hw.get(interface)

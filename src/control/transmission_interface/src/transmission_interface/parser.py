@@ -7,7 +7,7 @@ from xml.etree import ElementTree
 
 from hardware_interface import description_root
 
-from .transmissions import TransmissionError
+from .errors import TransmissionError
 
 
 @dataclass(frozen=True)
@@ -75,8 +75,11 @@ def _parse_one(element: ElementTree.Element, name: str, problems: List[str]) -> 
     actuators = []
     for entry in element.iterfind("actuator"):
         actuator = entry.get("name")
-        if not actuator:
+        if actuator is None:
             raise _Skip("an <actuator> in it has no name attribute")
+        if not actuator:
+            problems.append(f"transmission '{name}': an <actuator> is left out: its name is empty")
+            continue
         actuators.append(ActuatorInfo(actuator, _interfaces(entry), _text(entry, "role"), entry))
     if not actuators:
         raise _Skip("it has no <actuator name=\"...\">")

@@ -8,15 +8,15 @@ from .transmissions import Transmission
 Convert = Callable[[Sequence[float]], Sequence[float]]
 
 #: attribute of a state handle -> the kind of quantity that it is to a transmission
-_STATE = {"position": "position", "velocity": "velocity", "effort": "effort", "absolute_position": "position",
-          "torque_sensor": "effort"}
+_STATE = {"position": "position", "velocity": "velocity", "effort": "effort"}
+_SENSORS = {"absolute_position": "absolute", "torque_sensor": "effort"}
 
 
 class TransmissionPipeline:
     """Values of one kind in one direction, through all registered transmissions.
 
     :param target: "joint" or "actuator", where the values go.
-    :param fields: attributes of the handles that are moved -> position, velocity or effort.
+    :param fields: attributes of the handles that are moved -> position, velocity, effort or absolute.
     """
 
     def __init__(self, target: str, fields: Dict[str, str]):
@@ -26,8 +26,8 @@ class TransmissionPipeline:
 
     @classmethod
     def of_states(cls, target: str) -> "TransmissionPipeline":
-        """Everything that is measured; absolute encoders and torque sensors where all have them."""
-        return cls(target, _STATE)
+        """Everything that is measured; to joints also absolute encoders and torque sensors where all have them."""
+        return cls(target, {**_STATE, **_SENSORS} if target == "joint" else _STATE)
 
     @classmethod
     def of_commands(cls, target: str, kind: str) -> "TransmissionPipeline":
@@ -39,13 +39,8 @@ class TransmissionPipeline:
         :param actuators, joints: handles in the transmission's order (state handles for states, else command handles).
         """
         sources, targets = (actuators, joints) if self._target == "joint" else (joints, actuators)
-        self._entries[name] = [(field, self._convert(transmission, field, kind), list(sources), list(targets))
+        self._entries[name] = [(field, getattr(transmission, f"{kind}_to_{self._target}"), list(sources), list(targets))
                                for field, kind in self._fields.items()]
-
-    def _convert(self, transmission: Transmission, field: str, kind: str) -> Convert:
-        if field == "absolute_position" and transmission.direct_absolute_encoders:
-            return _crosswise
-        return getattr(transmission, f"{kind}_to_{self._target}")
 
     def names(self) -> List[str]:
         """Of the transmissions, in the order of their registration."""
@@ -59,7 +54,3 @@ class TransmissionPipeline:
                 if None not in values:
                     for handle, value in zip(targets, convert(values)):
                         setattr(handle, field, value)
-
-
-def _crosswise(values: Sequence[float]) -> Sequence[float]:
-    return values[::-1]
