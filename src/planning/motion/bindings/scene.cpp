@@ -1,4 +1,4 @@
-#include "motion/planning_scene.hpp"
+#include "motion/cost_sources.hpp"
 
 #include "casters.hpp"
 
@@ -95,6 +95,10 @@ void bindResults(py::module_& m)
       .def_readonly("normal", &Contact::normal)
       .def_readonly("depth", &Contact::depth)
       .def("__repr__", [](const Contact& c) { return "<contact of '" + c.body_1 + "' and '" + c.body_2 + "'>"; });
+  py::class_<CostSource>(m, "CostSource", "A box of the model frame: its corners `low` and `high` (3,) m, its `density`.")
+      .def_readonly("low", &CostSource::low)
+      .def_readonly("high", &CostSource::high)
+      .def_readonly("density", &CostSource::density);
   py::class_<CollisionResult>(m, "CollisionResult", "True in a condition if there is a collision.")
       .def_readonly("collision", &CollisionResult::collision)
       .def_readonly("contacts", &CollisionResult::contacts)
@@ -197,6 +201,20 @@ CollisionRequest request(const std::string& group, std::size_t contacts, std::si
   return out;
 }
 
+void bindCosts(py::class_<Scene, std::shared_ptr<Scene>>& c)
+{
+  c.def(
+      "cost_sources",
+      [](const Scene& s, const RobotState* state, const std::string& group, std::size_t most) {
+        const RobotState at = state ? *state : s.state();
+        const CollisionRequest wanted = request(group, 0, 1, true, true, true, false);
+        py::gil_scoped_release release;
+        return costSources(s, at, wanted, most);
+      },
+      py::arg("state") = py::none(), py::arg("group") = "", py::arg("most") = 100,
+      "Where shapes that collide share room, the most costly first.");
+}
+
 void bindChecks(py::class_<Scene, std::shared_ptr<Scene>>& c)
 {
   c.def_property(
@@ -290,5 +308,6 @@ void bindScene(py::module_& m)
       .def("remove_color", [](Scene& s, const std::string& id) { s.colors.erase(id); });
   bindObjects(c);
   bindChecks(c);
+  bindCosts(c);
 }
 }  // namespace motion

@@ -12,7 +12,23 @@ struct CollisionChecker::Search
   const CollisionRequest* request = nullptr;  // null: only yes or no
   CollisionResult* result = nullptr;
   std::map<std::pair<int, int>, std::size_t> found;
+  std::vector<CostSource>* costs = nullptr;  // where only these are asked for
+  std::size_t most_costs = 0;
 };
+
+namespace
+{
+void addCosts(const CollisionShape& a, const Transform& pose_a, const CollisionShape& b, const Transform& pose_b,
+              std::size_t most, std::vector<CostSource>& costs)
+{
+  fcl::CollisionResultd result;
+  fcl::collide(a.geometry.get(), pose_a, b.geometry.get(), pose_b, fcl::CollisionRequestd(1, true, most, true), result);
+  std::vector<fcl::CostSourced> found;
+  result.getCostSources(found);
+  for (const fcl::CostSourced& source : found)
+    costs.push_back({source.aabb_min, source.aabb_max, source.cost_density});
+}
+}  // namespace
 
 CollisionChecker::CollisionChecker(Inputs inputs) : inputs_(std::move(inputs))
 {
@@ -134,6 +150,11 @@ void CollisionChecker::place(const RobotState& state, Scratch& scratch) const
 bool CollisionChecker::test(const CollisionShape& a, const Transform& pose_a, int body_a, const CollisionShape& b,
                             const Transform& pose_b, int body_b, Search& search) const
 {
+  if (search.costs)
+  {
+    addCosts(a, pose_a, b, pose_b, search.most_costs, *search.costs);
+    return false;
+  }
   std::size_t want = 0;
   std::size_t* have = nullptr;
   if (search.request && search.request->contacts > search.result->contacts.size())
@@ -214,6 +235,22 @@ CollisionResult CollisionChecker::check(const RobotState& state, const Collision
   if (request.distance)
     result.distance = distance(state, std::numeric_limits<double>::infinity()).distance;
   return result;
+}
+
+std::vector<CostSource> CollisionChecker::costs(const RobotState& state, const CollisionRequest& request,
+                                                std::size_t most) const
+{
+  Scratch scratch;
+  place(state, scratch);
+  std::vector<CostSource> found;
+  Search search;
+  search.costs = &found;
+  search.most_costs = most;
+  if (request.world)
+    searchWorld(scratch, search);
+  if (request.self)
+    searchSelf(scratch, search);
+  return found;
 }
 
 DistanceResult CollisionChecker::distance(const RobotState& state, double max_distance) const

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "collision_shape.hpp"
+#include "motion/cost_sources.hpp"
 #include "motion/planning_scene.hpp"
 
 namespace motion
@@ -65,6 +66,8 @@ public:
   // The state must carry what the checker was made for.
   bool collides(const RobotState& state) const;
   CollisionResult check(const RobotState& state, const CollisionRequest& request) const;
+  // At most `most` of each pair of shapes.
+  std::vector<CostSource> costs(const RobotState& state, const CollisionRequest& request, std::size_t most) const;
   DistanceResult distance(const RobotState& state, double max_distance) const;
   std::size_t selfPairs() const { return self_pairs_.size(); }
 

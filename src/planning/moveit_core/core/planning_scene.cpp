@@ -5,7 +5,7 @@
 
 #include <moveit/robot_state/conversions.h>
 
-#include "motion/planning_scene.hpp"
+#include "costs.hpp"
 #include "shapes.hpp"
 
 namespace planning_scene
@@ -194,12 +194,6 @@ moveit::core::RobotStatePtr PlanningScene::getCurrentStateUpdated(const moveit_m
   return state;
 }
 
-void PlanningScene::setCurrentState(const moveit_msgs::RobotState& state)
-{
-  // Bodies of a message that is no difference are all there are.
-  moveit::core::robotStateMsgToRobotState(*transforms_, state, *robot_state_);
-}
-
 void PlanningScene::setCurrentState(const RobotState& state) { *robot_state_ = state; }
 
 const Eigen::Isometry3d& PlanningScene::getFrameTransform(const RobotState& state, const std::string& id) const
@@ -307,6 +301,9 @@ void PlanningScene::check(int parts, bool padded, const CollisionRequest& req, C
   res.collision = res.collision || collision;
   if (req.distance)
     res.distance = std::min(res.distance, found.distance);
+  if (req.cost)
+    addCosts(motion::costSources(scene, state.core(), request, req.max_cost_sources, own ? nullptr : &acm.core()),
+             req.max_cost_sources, res.cost_sources);
 }
 
 void PlanningScene::checkCollision(const CollisionRequest& req, CollisionResult& res, const RobotState& state,

@@ -33,6 +33,55 @@ void putDown(const moveit::core::AttachedBody& body, World& world)
   world.addToObject(name, body.getGlobalPose(), body.getShapes(), body.getShapePoses());
   world.setSubframesOfObject(name, body.getSubframes());
 }
+
+// The bodies that a message detaches; false, with a line, where it names what is not there.
+bool bodiesToDetach(const moveit_msgs::AttachedCollisionObject& object, const moveit::core::RobotState& state,
+                    std::vector<const moveit::core::AttachedBody*>& bodies)
+{
+  const std::string &id = object.object.id, &link = object.link_name;
+  if (!link.empty() && !state.getRobotModel()->hasLinkModel(link))
+  {
+    ROS_ERROR_NAMED(LOGNAME, "The robot has no link '%s' to detach '%s' from", link.c_str(), id.c_str());
+    return false;
+  }
+  if (id.empty() && link.empty())
+    state.getAttachedBodies(bodies);
+  else if (id.empty())
+    state.getAttachedBodies(bodies, state.getRobotModel()->getLinkModel(link));
+  if (id.empty())
+    return true;
+  if (!state.hasAttachedBody(id))
+  {
+    ROS_WARN_NAMED(LOGNAME, "Cannot remove attached body '%s': there is none", id.c_str());
+    return false;
+  }
+  bodies.push_back(state.getAttachedBody(id));
+  const std::string& held_by = bodies[0]->getAttachedLinkName();
+  if (link.empty() || link == held_by)
+    return true;
+  ROS_ERROR_NAMED(LOGNAME, "'%s' is attached to link '%s', not to '%s'", id.c_str(), held_by.c_str(), link.c_str());
+  return false;
+}
+
+// The shapes, subframes and touch links that a body had before, added to what it has now.
+void addTo(moveit::core::RobotState& state, const moveit::core::AttachedBody& before)
+{
+  const moveit::core::AttachedBody& now = *state.getAttachedBody(before.getName());
+  const Eigen::Isometry3d moved = now.getGlobalPose().inverse() * before.getGlobalPose();
+  auto shapes = now.getShapes();
+  auto poses = now.getShapePoses();
+  auto subframes = now.getSubframes();
+  auto touch_links = now.getTouchLinks();
+  shapes.insert(shapes.end(), before.getShapes().begin(), before.getShapes().end());
+  for (const Eigen::Isometry3d& pose : before.getShapePoses())
+    poses.push_back(moved * pose);
+  for (const auto& [name, pose] : before.getSubframes())
+    subframes.emplace(name, moved * pose);
+  touch_links.insert(before.getTouchLinks().begin(), before.getTouchLinks().end());
+  const auto& posture = now.getDetachPosture().joint_names.empty() ? before.getDetachPosture() : now.getDetachPosture();
+  state.attachBody(now.getName(), Eigen::Isometry3d(now.getPose()), shapes, poses, touch_links, now.getAttachedLinkName(),
+                   trajectory_msgs::JointTrajectory(posture), subframes);
+}
 }  // namespace
 
 // ---------------------------------------------------------------- objects
@@ -136,23 +185,28 @@ bool PlanningScene::moveObject(const CollisionObject& object)
   return world_->setObjectPose(object.id, getFrameTransform(object.header.frame_id) * pose);
 }
 
+void PlanningScene::setCurrentState(const moveit_msgs::RobotState& state)
+{
+  // Bodies of a message that is no difference are all there are.
+  std::vector<const moveit::core::AttachedBody*> held;
+  robot_state_->getAttachedBodies(held);
+  std::vector<std::string> names;
+  for (const moveit::core::AttachedBody* body : held)
+    names.push_back(body->getName());
+  moveit::core::robotStateMsgToRobotState(*transforms_, state, *robot_state_);
+  for (const std::string& name : names)
+    if (!world_->hasObject(name))
+      forget(name);
+}
+
 bool PlanningScene::processAttachedCollisionObjectMsg(const moveit_msgs::AttachedCollisionObject& object)
 {
   const std::string& id = object.object.id;
   if (object.object.operation == CollisionObject::REMOVE)
   {
     std::vector<const moveit::core::AttachedBody*> bodies;
-    if (!id.empty() && robot_state_->hasAttachedBody(id))
-      bodies.push_back(robot_state_->getAttachedBody(id));
-    else if (id.empty() && object.link_name.empty())
-      robot_state_->getAttachedBodies(bodies);
-    else if (id.empty() && robot_model_->hasLinkModel(object.link_name))
-      robot_state_->getAttachedBodies(bodies, robot_model_->getLinkModel(object.link_name));
-    if (bodies.empty() && !id.empty())
-    {
-      ROS_WARN_NAMED(LOGNAME, "Cannot remove attached body '%s': there is none", id.c_str());
+    if (!bodiesToDetach(object, *robot_state_, bodies))
       return false;
-    }
     for (const moveit::core::AttachedBody* body : bodies)
     {
       const std::string name = body->getName();
@@ -160,6 +214,11 @@ bool PlanningScene::processAttachedCollisionObjectMsg(const moveit_msgs::Attache
       robot_state_->clearAttachedBody(name);
     }
     return true;
+  }
+  if (id == OCTOMAP_NS)
+  {
+    ROS_ERROR_NAMED(LOGNAME, "The ID '%s' cannot be used for collision objects (name reserved)", OCTOMAP_NS.c_str());
+    return false;
   }
   moveit_msgs::AttachedCollisionObject whole = object;
   if (!robot_model_->hasLinkModel(object.link_name))
@@ -185,12 +244,16 @@ bool PlanningScene::processAttachedCollisionObjectMsg(const moveit_msgs::Attache
   whole.object.operation = CollisionObject::ADD;
   if (whole.touch_links.empty())
     whole.touch_links.push_back(object.link_name);
+  const bool more = object.object.operation == CollisionObject::APPEND && robot_state_->hasAttachedBody(id);
+  const moveit::core::RobotState before(*robot_state_);
   moveit_msgs::RobotState change;
   change.is_diff = true;
   change.attached_collision_objects.push_back(whole);
   moveit::core::robotStateMsgToRobotState(*transforms_, change, *robot_state_);
   if (!robot_state_->hasAttachedBody(id))
     return false;
+  if (more)
+    addTo(*robot_state_, *before.getAttachedBody(id));
   if (from_world)
     world_->removeObject(id);
   return true;

@@ -5,6 +5,7 @@
 
 #include <moveit/kinematic_constraints/utils.h>
 #include <moveit/planning_scene/planning_scene.h>
+#include <moveit/robot_state/conversions.h>
 #include <moveit/trajectory_processing/iterative_time_parameterization.h>
 #include <moveit/trajectory_processing/time_optimal_trajectory_generation.h>
 
@@ -108,6 +109,90 @@ TEST(Scene, permissionsAndColoursEndWithTheirObject)
     EXPECT_FALSE(scene->getAllowedCollisionMatrix().getEntry("post", "lower", type));
     EXPECT_TRUE(scene->getAllowedCollisionMatrix().getEntry("lower", "upper", type));
   }
+}
+
+TEST(Scene, attachedObjectsAreChangedAndLetGoAsTheMessageSays)
+{
+  const PlanningScenePtr scene = readyScene();
+  moveit_msgs::AttachedCollisionObject held;
+  held.link_name = "hand";
+  held.touch_links = { "hand", "left" };
+  held.object = box("post", 0, 0, 0.1, 0.02);
+  held.object.header.frame_id = "hand";
+  ASSERT_TRUE(scene->processAttachedCollisionObjectMsg(held));
+  held.object.operation = moveit_msgs::CollisionObject::APPEND;
+  held.touch_links = { "right" };
+  ASSERT_TRUE(scene->processAttachedCollisionObjectMsg(held));
+  const auto* body = scene->getCurrentState().getAttachedBody("post");
+  EXPECT_EQ(body->getShapes().size(), 2u);
+  EXPECT_EQ(body->getTouchLinks().count("left") + body->getTouchLinks().count("right"), 2u);
+  for (const Eigen::Isometry3d& pose : body->getShapePosesInLinkFrame())
+    EXPECT_TRUE(pose.translation().isApprox(Eigen::Vector3d(0, 0, 0.1), 1e-9));
+
+  moveit_msgs::AttachedCollisionObject map = held;
+  map.object.operation = moveit_msgs::CollisionObject::ADD;
+  map.object.id = PlanningScene::OCTOMAP_NS;
+  EXPECT_FALSE(scene->processAttachedCollisionObjectMsg(map));
+
+  moveit_msgs::AttachedCollisionObject away;
+  away.object.operation = moveit_msgs::CollisionObject::REMOVE;
+  for (const auto& [link, id] : { std::pair<std::string, std::string>("upper", "post"), { "claw", "" }, { "", "ghost" } })
+  {
+    away.link_name = link;
+    away.object.id = id;
+    EXPECT_FALSE(scene->processAttachedCollisionObjectMsg(away)) << link << " " << id;
+    EXPECT_TRUE(scene->getCurrentState().hasAttachedBody("post"));
+  }
+  away.link_name = away.object.id = "";
+  EXPECT_TRUE(scene->processAttachedCollisionObjectMsg(away));
+  EXPECT_TRUE(scene->getWorld()->hasObject("post"));
+}
+
+TEST(Scene, whatVanishesWithAWholeStateIsForgotten)
+{
+  const PlanningScenePtr scene = readyScene();
+  moveit_msgs::AttachedCollisionObject held;
+  held.link_name = "hand";
+  held.object = box("post", 0, 0, 0.1, 0.02);
+  held.object.header.frame_id = "hand";
+  ASSERT_TRUE(scene->processAttachedCollisionObjectMsg(held));
+  scene->setObjectColor("post", std_msgs::ColorRGBA());
+  moveit_msgs::RobotState whole;
+  moveit::core::robotStateToRobotStateMsg(scene->getCurrentState(), whole, false);
+  whole.is_diff = false;
+  scene->setCurrentState(whole);
+  EXPECT_FALSE(scene->getCurrentState().hasAttachedBody("post"));
+  EXPECT_FALSE(scene->hasObjectColor("post"));
+}
+
+// The column's bounds are 0.1 m wide about the origin and reach from 0.05 to 0.35 m: those of the posts share known boxes with it.
+TEST(Scene, costsAreTheBoxesThatShapesShare)
+{
+  const auto scene = std::make_shared<PlanningScene>(makeArm());
+  ASSERT_TRUE(scene->processCollisionObjectMsg(box("near", 0.08, 0, 0.2, 0.1)));
+  ASSERT_TRUE(scene->processCollisionObjectMsg(box("nearer", -0.06, 0, 0.2, 0.06)));
+  collision_detection::CollisionRequest request;
+  request.cost = true;
+  request.max_cost_sources = 10;
+  collision_detection::CollisionResult result;
+  scene->checkCollision(request, result);
+  ASSERT_TRUE(result.collision);
+  ASSERT_EQ(result.cost_sources.size(), 2u);
+  const auto &first = *result.cost_sources.begin(), &second = *std::next(result.cost_sources.begin());
+  EXPECT_NEAR(first.getVolume(), 0.02 * 0.1 * 0.1, 1e-9);
+  EXPECT_NEAR(first.aabb_min[0], 0.03, 1e-9);
+  EXPECT_NEAR(first.aabb_max[0], 0.05, 1e-9);
+  EXPECT_NEAR(second.getVolume(), 0.02 * 0.06 * 0.06, 1e-9);
+  EXPECT_EQ(first.cost, 1.0);
+  request.max_cost_sources = 1;
+  collision_detection::CollisionResult one;
+  scene->checkCollision(request, one);
+  ASSERT_EQ(one.cost_sources.size(), 1u);
+  EXPECT_NEAR(one.cost_sources.begin()->getVolume(), first.getVolume(), 1e-12);
+  request.cost = false;
+  collision_detection::CollisionResult none;
+  scene->checkCollision(request, none);
+  EXPECT_TRUE(none.cost_sources.empty());
 }
 
 TEST(Scene, aFunctionMayDecideAboutContacts)

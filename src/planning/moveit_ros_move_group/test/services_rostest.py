@@ -10,7 +10,8 @@ import tf2_ros
 from client import HOME, JOINTS, LEFT, PATIENCE, Goal, apply, box, call, clear, move, pose, wait_until
 from geometry_msgs.msg import Transform, Vector3
 from moveit_msgs.msg import (
-    AttachedCollisionObject, CollisionObject, Constraints, ExecuteTrajectoryAction, ExecuteTrajectoryGoal, MoveItErrorCodes,
+    AttachedCollisionObject, CollisionObject, Constraints, ExecuteTrajectoryAction, ExecuteTrajectoryGoal, LinkPadding,
+    MoveItErrorCodes,
     OrientationConstraint, PlannerParams, PlanningScene, PlanningSceneComponents, RobotState, RobotTrajectory)
 from moveit_msgs.srv import (
     GetCartesianPath, GetCartesianPathRequest, GetPlannerParams, GetPlanningScene, GetPositionFK, GetStateValidity, SetPlannerParams)
@@ -142,6 +143,32 @@ class Validity(unittest.TestCase):
         self.assertIn({"beam", "wall"}, [{c.contact_body_1, c.contact_body_2} for c in answer.contacts])
         self.assertEqual({c.header.frame_id for c in answer.contacts}, {"world"})
         self.assertTrue(valid(state_of(HOME)).valid, "the scene holds nothing")
+
+    def test_what_a_collision_costs_is_the_box_that_shapes_share(self):
+        """The base is a cylinder 0.08 m about the origin, up to 0.1 m; the boxes' corners are those of their intersections."""
+        bare = [LinkPadding("base_link", 0.0)]
+        self.assertTrue(apply(box("small", -0.10, 0, 0.05, (0.06, 0.06, 0.06)), box("large", 0.1, 0, 0.05, (0.1, 0.1, 0.1)),
+                              box("far", 2, 2, 2), link_padding=bare))
+        answer = valid(state_of(HOME), "")
+        self.assertFalse(answer.valid)
+        seen = [(c.cost_density, c.aabb_min.x, c.aabb_max.x, c.aabb_min.y, c.aabb_max.y, c.aabb_min.z, c.aabb_max.z)
+                for c in answer.cost_sources]
+        np.testing.assert_allclose(seen, [(1, 0.05, 0.08, -0.05, 0.05, 0.0, 0.1), (1, -0.08, -0.07, -0.03, 0.03, 0.02, 0.08)],
+                                   atol=1e-6)
+        self.assertFalse(valid(state_of(HOME), "hand").cost_sources)  # what does not move is not looked at
+        clear()
+        self.assertFalse(valid(state_of(HOME), "").cost_sources)
+
+    def test_what_is_held_costs_as_well(self):
+        """A beam of 2 cm along the hand's axis in a wall: no less than the part of it that is inside."""
+        hold = AttachedCollisionObject(link_name="hand", object=box("beam", 0, 0, 0.5, (0.02, 0.02, 0.8)), touch_links=["hand"])
+        hold.object.header.frame_id = "hand"
+        self.assertTrue(apply(box("wall", *self.in_front(0.75), (0.1, 0.1, 0.1))))
+        costs = valid(state_of(HOME, attached_collision_objects=[hold])).cost_sources
+        self.assertEqual(len(costs), 1)
+        sides = [getattr(costs[0].aabb_max, axis) - getattr(costs[0].aabb_min, axis) for axis in "xyz"]
+        self.assertLessEqual(max(sides), 0.1 + 1e-6)
+        self.assertGreaterEqual(np.prod(sides), 0.02 * 0.02 * 0.1 - 1e-9)
 
     def in_front(self, distance):
         at = call("compute_fk", GetPositionFK, Header(frame_id="world"), ["hand"], state_of(HOME)).pose_stamped[0].pose

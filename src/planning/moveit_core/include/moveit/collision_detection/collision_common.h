@@ -43,7 +43,7 @@ struct Contact
   Eigen::Vector3d nearest_points[2];
 };
 
-// Never filled in: costs are not computed here.
+// Room that two colliding shapes share: a box in the planning frame, m.
 struct CostSource
 {
   boost::array<double, 3> aabb_min, aabb_max;

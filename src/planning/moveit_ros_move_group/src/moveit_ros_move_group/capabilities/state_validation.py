@@ -3,7 +3,8 @@ from __future__ import annotations
 
 import motion
 import rospy
-from moveit_msgs.msg import ConstraintEvalResult, ContactInformation
+from geometry_msgs.msg import Vector3
+from moveit_msgs.msg import ConstraintEvalResult, ContactInformation, CostSource
 from moveit_msgs.srv import GetStateValidity
 
 from moveit_core import convert
@@ -34,6 +35,8 @@ class StateValidation(Capability):
         found = scene.check(state, request.group_name, contacts=_MOST, per_pair=1)
         response.valid = not found.collision
         response.contacts = [contact_message(contact, scene.frame) for contact in found.contacts]
+        most = len(scene.objects) + len(self.context.model.links)
+        response.cost_sources = [cost_message(source) for source in scene.cost_sources(state, request.group_name, most)]
         limits = convert.constraints(request.constraints, scene)
         if not limits.empty():
             for judged in motion.evaluate(scene, state, limits):
@@ -50,3 +53,8 @@ def contact_message(contact, frame: str) -> ContactInformation:
     message.position.x, message.position.y, message.position.z = (float(v) for v in contact.position)
     message.normal.x, message.normal.y, message.normal.z = (float(v) for v in contact.normal)
     return message
+
+
+def cost_message(source) -> CostSource:
+    """A cost source as a message; its box is in the planning frame."""
+    return CostSource(float(source.density), Vector3(*map(float, source.low)), Vector3(*map(float, source.high)))
