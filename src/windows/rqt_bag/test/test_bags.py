@@ -107,3 +107,17 @@ def test_cache_keeps_what_is_used():
     cache.stop()
     cache.join(10)
     assert not cache.is_alive()
+
+
+def test_an_mcap_file_is_opened_as_a_bag(tmp_path):
+    from bag_tools.convert import convert
+    name = write(tmp_path / "a.bag", "/f", [100.0, 101.0, 104.0])
+    convert(tmp_path / "a.bag", tmp_path / "a.mcap")
+    bags, same = Bags(), Bags()
+    bags.add(open_bag(str(tmp_path / "a.mcap")))
+    same.add(open_bag(str(name)))
+    both = [[opened.read(bag, entry.position) for bag, entry in opened.entries("/f", t(0), t(999))] for opened in (bags, same)]
+    assert both[0] == both[1] and [message.data for _, message, _ in both[0]] == [100.0, 101.0, 104.0]
+    (tmp_path / "cut.mcap").write_bytes((tmp_path / "a.mcap").read_bytes()[:200])
+    with pytest.raises(BagError, match="cut.mcap is no MCAP file, or cut off"):
+        open_bag(str(tmp_path / "cut.mcap"))

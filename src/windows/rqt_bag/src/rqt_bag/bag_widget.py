@@ -167,7 +167,7 @@ class BagWidget(QWidget):
         self._timeline.load_bag(name)
 
     def ask_load(self) -> None:
-        names, _ = QFileDialog.getOpenFileNames(self, "Load from Files", "", "Bag files (*.bag);;All files (*)")
+        names, _ = QFileDialog.getOpenFileNames(self, "Load from Files", "", "Bag files (*.bag *.mcap);;All files (*)")
         for name in names:
             self.load_bag(name)
 

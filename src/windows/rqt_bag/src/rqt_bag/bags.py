@@ -2,7 +2,9 @@
 from __future__ import annotations
 
 import os
+import tempfile
 import threading
+from pathlib import Path
 from typing import Dict, Iterator, List, NamedTuple, Optional, Sequence, Tuple, Union
 
 import genpy
@@ -29,7 +31,12 @@ _EMPTY = _Index(np.empty(0), np.empty(0, np.int64), [])
 
 
 def open_bag(name: str) -> rosbag.Bag:
-    """:raises BagError: a file that is no bag, cut short, or of a version that rosbag does not read."""
+    """An MCAP file of ROS 1 messages becomes a bag that is gone when it is closed.
+
+    :raises BagError: a file that is no bag, cut short, or of a version that rosbag does not read
+    """
+    if name.endswith(".mcap"):
+        return _open_mcap(name)
     try:
         return rosbag.Bag(name)
     except rosbag.ROSBagUnindexedException:
@@ -38,6 +45,17 @@ def open_bag(name: str) -> rosbag.Bag:
         raise BagError(f"{name} cannot be read: {getattr(error, 'strerror', None) or error}") from None
     except Exception as error:  # a header that is damaged raises whatever its bytes lead to
         raise BagError(f"{name} is no bag, or damaged: {type(error).__name__}; 'rosbag check' tells more") from None
+
+
+def _open_mcap(name: str) -> rosbag.Bag:
+    from bag_tools import files
+    from bag_tools.convert import convert
+    with tempfile.TemporaryDirectory(prefix="rqt_bag_") as folder:
+        try:
+            convert(Path(name), Path(folder, "whole.bag"))
+        except files.BagError as error:
+            raise BagError(str(error)) from None
+        return rosbag.Bag(str(Path(folder, "whole.bag")))  # it stays open when the folder goes
 
 
 class Bags:
