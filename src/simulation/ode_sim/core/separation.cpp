@@ -11,6 +11,8 @@ constexpr double kGap = 1e-4;         // m, left aside: ODE searches through tri
 constexpr int kTurns = 12;            // of Gilbert's iteration
 constexpr double kGoodEnough = 0.8;   // of the distance, for a bound
 constexpr size_t kCornersAStep = 50;  // looked at, on the average, for each pair
+constexpr double kBeside = 0.1;       // of the reach of the smaller mesh: how far beside it a ball round it looks
+constexpr int kPlaneWait = 4;         // steps, after a plane was found to touch
 
 // The corner that lies furthest along d.
 Vec3 furthest(const MeshData& mesh, const Vec3& d) {
@@ -54,18 +56,59 @@ double most_moved(const Pose& X, const Pose& Y, const Vec3& middle, double reach
   return norm(Y * middle - X * middle) + chord * reach;
 }
 
+bool outside_ball(dGeomID triangles, dGeomID ball, const Vec3& middle, double radius) {
+  dGeomSphereSetRadius(ball, radius);
+  dGeomSetPosition(ball, middle.x, middle.y, middle.z);
+  dContactGeom first;
+  return dCollide(triangles, ball, 1 | CONTACTS_UNIMPORTANT, &first, sizeof first) == 0;
+}
+
 bool Separations::apart(const Shape& a, const Shape& b) {
-  if (!a.mesh || !b.mesh) return false;
+  if (!(a.mesh || a.infinite) || !(b.mesh || b.infinite) || !(a.mesh || b.mesh)) return false;
   Known& known = known_[static_cast<uint64_t>(a.id) << 32 | static_cast<uint32_t>(b.id)];
-  const Pose X_AB = inverse(a.link->X_WL * a.X_LC) * (b.link->X_WL * b.X_LC);
+  if (a.infinite) return apart_from_plane(known, b, a);
+  if (b.infinite) return apart_from_plane(known, a, b);
+  return meshes_apart(known, a, b);
+}
+
+bool Separations::apart_from_plane(Known& known, const Shape& mesh, const Shape& plane) {
+  const Pose X_WM = mesh.link->X_WL * mesh.X_LC;
+  if (known.distance > most_moved(known.X_AB, X_WM, mesh.mesh->middle, mesh.mesh->reach)) return true;
+  known.distance = 0;
+  if (known.wait > 0) {
+    --known.wait;
+    return false;
+  }
+  const Vec3 lowest = X_WM * furthest(*mesh.mesh, rotate(conjugate(X_WM.q), -plane.plane_normal));
+  known.X_AB = X_WM;
+  known.distance = -dGeomPlanePointDepth(plane.geom, lowest.x, lowest.y, lowest.z) - kGap;
+  if (known.distance > 0) return true;
+  known.wait = kPlaneWait;
+  return false;
+}
+
+bool Separations::meshes_apart(Known& known, const Shape& a, const Shape& b) {
+  const Pose X_WA = a.link->X_WL * a.X_LC, X_WB = b.link->X_WL * b.X_LC, X_AB = inverse(X_WA) * X_WB;
   if (known.wait > 0) --known.wait;
   if (known.distance > most_moved(known.X_AB, X_AB, b.mesh->middle, b.mesh->reach)) return true;
   known.distance = 0;
-  if (known.wait > 0) return false;
-  known.wait = static_cast<int>((a.mesh->vertices.size() + b.mesh->vertices.size()) / 3 / kCornersAStep);
+  if (known.wait == 0) {
+    known.wait = static_cast<int>((a.mesh->vertices.size() + b.mesh->vertices.size()) / 3 / kCornersAStep);
+    known.X_AB = X_AB;
+    known.distance = hulls_apart(*a.mesh, *b.mesh, X_AB, known.n) - kGap;
+    if (known.distance > 0) return true;
+    known.distance = 0;
+  }
+  const bool a_is_smaller = a.mesh->reach < b.mesh->reach;
+  const MeshData& small = a_is_smaller ? *a.mesh : *b.mesh;
+  const double beside = kBeside * small.reach;
+  if (beside < kGap) return false;
+  if (!ball_) ball_ = OwnedGeom(dCreateSphere(nullptr, 1));
+  if (!outside_ball(a_is_smaller ? b.geom : a.geom, ball_, (a_is_smaller ? X_WA : X_WB) * small.middle, small.reach + beside))
+    return false;
   known.X_AB = X_AB;
-  known.distance = hulls_apart(*a.mesh, *b.mesh, X_AB, known.n) - kGap;
-  return known.distance > 0;
+  known.distance = beside - kGap;
+  return true;
 }
 
 void Separations::forget() { known_.clear(); }

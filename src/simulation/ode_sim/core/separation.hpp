@@ -1,4 +1,5 @@
-// Pairs of meshes that are known to be apart: nobody looks for contacts between them until they have moved by as much.
+// Meshes that are known to be apart from another mesh or from a plane: nobody looks for contacts between the two until they have moved by
+// as much.
 //
 // It spares work and decides nothing: what it says is apart has no contacts, so that a step comes out the same without it.
 #pragma once
@@ -14,12 +15,15 @@ namespace ode_sim {
 // Procedure for Computing the Minimum of a Quadratic Form on a Convex Set, SIAM J. Control 1966), whose every turn gives a bound.
 double hulls_apart(const MeshData& a, const MeshData& b, const Pose& X_AB, Vec3& n);
 
+// Whether no triangle of the mesh comes into a ball, m. `ball`: a sphere of ODE's, which is moved. `triangles`: the mesh where it stands.
+bool outside_ball(dGeomID triangles, dGeomID ball, const Vec3& middle, double radius);
+
 // m, the most that a point within `reach` of `middle` (both in a body's frame) moved while the body went from X to Y.
 double most_moved(const Pose& X, const Pose& Y, const Vec3& middle, double reach);
 
 class Separations {
  public:
-  // Whether the two are meshes with no contacts, as far as is known or quickly found out.
+  // Whether the two are two meshes, or a mesh and a plane, with no contacts, as far as is known or quickly found out.
   bool apart(const Shape& a, const Shape& b);
   void forget();  // all: shapes have gone
 
@@ -30,7 +34,10 @@ class Separations {
     Vec3 n{1, 0, 0};
     int wait = 0;  // steps before it is looked for again
   };
+  bool meshes_apart(Known& known, const Shape& a, const Shape& b);
+  bool apart_from_plane(Known& known, const Shape& mesh, const Shape& plane);
   std::unordered_map<uint64_t, Known> known_;  // by the ids of both
+  OwnedGeom ball_;
 };
 
 }  // namespace ode_sim

@@ -9,7 +9,7 @@ import pytest
 from PIL import Image
 
 import ode_sim
-from ode_sim import collision_meshes
+from ode_sim import collision_meshes, math3
 from ode_sim.description.model import Box, Collision, Heightmap, Inertial, Link, Mesh, Model, Polyline, Pose
 from physics_models import ground
 
@@ -129,3 +129,48 @@ def test_what_was_prepared_goes_with_the_description(tmp_path):
     del model
     gc.collect()
     assert len(collision_meshes._ready) == before
+
+
+def rod():
+    """(corners (8, 3), OBJ) of a rod of 0.6 x 0.1 x 0.1 m."""
+    corners = np.array([(x, y, z) for x in (-0.3, 0.3) for y in (-0.05, 0.05) for z in (-0.05, 0.05)])
+    quads = ((1, 2, 4, 3), (5, 7, 8, 6), (1, 5, 6, 2), (3, 4, 8, 7), (1, 3, 7, 5), (2, 6, 8, 4))
+    return corners, "".join(f"v {x} {y} {z}\n" for x, y, z in corners) + "".join(f"f {a} {b} {c}\nf {a} {c} {d}\n" for a, b, c, d in quads)
+
+
+FUNNEL = ("v 0 0 0\n" + "".join(f"v {x} {y} 1\n" for x, y in ((2, 2), (-2, 2), (-2, -2), (2, -2)))
+          + "f 1 2 3\nf 1 3 4\nf 1 4 5\nf 1 5 2\n")  # no hull of it is empty above it: z = max(|x|, |y|) / 2
+
+
+@pytest.mark.parametrize("on", ("plane", "mesh", "funnel"))
+@pytest.mark.parametrize("spin", ((0.0, 9.0, 0.0), (3.0, 0.0, 7.0), (8.0, -6.0, 2.0)))
+def test_a_mesh_that_falls_and_turns_touches_when_its_lowest_corner_does(tmp_path, on, spin):
+    corners, text = rod()
+    (tmp_path / "rod.obj").write_text(text)
+    (tmp_path / "mesh.obj").write_text("v -3 -3 0\nv 3 -3 0\nv 3 3 0\nv -3 3 0\nf 1 2 3\nf 1 3 4\n")
+    (tmp_path / "funnel.obj").write_text(FUNNEL)
+    world = ode_sim.World()
+    if on == "plane":
+        world.spawn(ground())
+    else:
+        floor = Collision("c", Pose(), Mesh(uri=on, path=str(tmp_path / f"{on}.obj")))
+        world.spawn(Model("floor", Pose(), (Link("l", collisions=(floor,)),), static=True))
+    shape = Collision("mesh", Pose(), Mesh(uri="rod.obj", path=str(tmp_path / "rod.obj")))
+    inertial = Inertial(1.0, Pose(), 0.1, 0, 0, 0.1, 0, 0.1)
+    rods = world.spawn(Model("rod", Pose((0.0, 0.0, 1.2)), (Link("link", Pose(), inertial, (shape,)),)))
+    rods.links["link"].set_twist((0.0, 0.0, 0.0), spin)
+
+    def above():
+        """m, of the lowest corner above what is below it."""
+        turned = np.array([math3.transform(rods.pose, tuple(corner)) for corner in corners])
+        below = np.max(np.abs(turned[:, :2]), axis=1) / 2 if on == "funnel" else 0.0
+        return float(np.min(turned[:, 2] - below))
+    for _ in range(2000):
+        height = above()
+        world.step(1)
+        if height < -2e-4:
+            assert len(world.contacts())
+            break
+        assert height < 2e-4 or not len(world.contacts()), height
+    else:
+        raise AssertionError("it never came down")
