@@ -251,6 +251,17 @@ class Panel(unittest.TestCase):
         self.publish(lambda: self.scene()[1] == {} and "Box_0" in self.scene()[0], "object in the world again")
         self.rviz.click_text("Planning")
 
+    def name_file(self, title, path):
+        """Into a file dialog, which may take no keys yet when it is seen first."""
+        self.rviz.window(title)
+
+        def typed():
+            self.desktop.keys("ctrl+a")
+            self.desktop.type(path)
+            return self.rviz.text("fileNameEdit") == path
+        self.rviz.wait(typed, f"the name in {title}")
+        self.desktop.type("\n")
+
     def test_6_2_objects_go_to_a_file_and_come_back_with_a_mesh(self):
         mesh = os.path.join(self.folder, "wedge.stl")
         with open(mesh, "w") as file:
@@ -263,23 +274,19 @@ class Panel(unittest.TestCase):
         self.choose("shapes_combo_box", "Mesh from file")
         self.type_number("shape_size_x_spin_box", 0.1)
         self.rviz.click("add_object_button")
-        self.rviz.window("Mesh")
-        self.desktop.type(mesh + "\n")
+        self.name_file("Mesh", mesh)
         self.rviz.wait(lambda: "wedge_0" in self.rviz.text("object_status"), "mesh")
         self.type_number("object_z", 1.5)
         self.publish(lambda: "wedge_0" in self.scene()[0], "mesh in move_group")
         before = self.scene()[0]
         self.assertEqual(max(v.x for v in before["wedge_0"].meshes[0].vertices), 0.1)
         self.rviz.click("export_scene_geometry_text_button")
-        self.rviz.window("Export")
-        self.desktop.keys("ctrl+a")
-        self.desktop.type(os.path.join(self.folder, "all") + "\n")
+        self.name_file("Export", os.path.join(self.folder, "all"))
         self.rviz.wait(lambda: os.path.exists(os.path.join(self.folder, "all.scene")), "file")
         self.rviz.click("clear_scene_button")
         self.publish(lambda: not self.scene()[0], "empty scene")
         self.rviz.click("import_scene_geometry_text_button")
-        self.rviz.window("Import")
-        self.desktop.type(os.path.join(self.folder, "all.scene") + "\n")
+        self.name_file("Import", os.path.join(self.folder, "all.scene"))
         self.rviz.wait(lambda: self.rviz.ask("entry", "wedge_0"), "objects of the file")
         self.publish(lambda: set(self.scene()[0]) == set(before), "objects in move_group again")
         for name, item in self.scene()[0].items():
