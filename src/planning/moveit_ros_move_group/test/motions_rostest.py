@@ -18,7 +18,7 @@ from rosgraph_msgs.msg import Log
 from sensor_msgs.msg import JointState
 from shape_msgs.msg import SolidPrimitive
 from std_msgs.msg import Header
-from tf.transformations import quaternion_about_axis, quaternion_multiply
+from tf.transformations import quaternion_about_axis, quaternion_matrix, quaternion_multiply
 
 from client import wait_until
 
@@ -105,6 +105,23 @@ class Circles(unittest.TestCase):
         np.testing.assert_allclose(found.trajectory.joint_trajectory.points[-1].positions, turned, atol=1e-3)
         self.assertEqual(self.ask(goal=joint_goal(turned), link="claw").error_code.val, Codes.INVALID_LINK_NAME)
 
+    def test_the_centre_may_be_given_in_the_frame_of_a_thing_or_of_the_hand(self):
+        """A circle of 0.1 m from HOME, about a point 0.1 m below; the frames are turned, and stand elsewhere."""
+        centre, hand = vector(moved(z=-0.1)), place(HOME)
+        mark = box("mark", 1.0, 0.2, 0.5)
+        mark.pose.orientation = Quaternion(*quaternion_about_axis(1.0, (0, 0, 1)))
+        self.assertTrue(apply(mark))
+        # frames of the robot are those of its present state
+        self.assertEqual(move(HOME).result()[1].error_code.val, Codes.SUCCESS)
+        for frame, origin in (("mark", mark.pose), ("hand", hand)):
+            turn = quaternion_matrix([getattr(origin.orientation, axis) for axis in "xyzw"])[:3, :3]
+            there = Pose(orientation=Quaternion(0, 0, 0, 1))
+            there.position.x, there.position.y, there.position.z = turn.T @ (centre - vector(origin))
+            found = self.ask("center", there, frame=frame, goal=pose_goal(moved(y=0.1, z=-0.1)))
+            self.assertEqual(found.error_code.val, Codes.SUCCESS, frame)
+            np.testing.assert_allclose(np.linalg.norm(path(found.trajectory) - centre, axis=1), 0.1, atol=1e-3)
+        clear()
+
     def test_what_is_no_circle(self):
         for name, asked in (("its name", dict(kind="")), ("no pose", dict(poses=0, region=True)), ("two poses", dict(poses=2)),
                             ("on the line", dict(at=moved(y=0.1))), ("not in the middle", dict(kind="center", at=moved(y=0.15, z=0.02)))):
@@ -129,6 +146,17 @@ class Requests(unittest.TestCase):
             self.assertLessEqual(max([np.abs(point.velocities).max() for point in points] or [0]), 2.002)
             self.assertLessEqual(max([np.abs(point.accelerations).max() for point in points] or [0]), 4.004)
         self.assertEqual(codes, [Codes.PLANNING_FAILED, Codes.SUCCESS])
+
+    def test_a_line_that_only_turns_keeps_the_hand_in_its_place(self):
+        goal = moved()
+        goal.orientation = Quaternion(*quaternion_multiply([getattr(goal.orientation, axis) for axis in "xyzw"],
+                                                           quaternion_about_axis(2.0, (0, 0, 1))))
+        found = answer(industrial("LIN", pose_goal(goal)))
+        self.assertEqual(found.error_code.val, Codes.SUCCESS)
+        np.testing.assert_allclose(path(found.trajectory), np.tile(vector(goal), (len(found.trajectory.joint_trajectory.points), 1)),
+                                   atol=1e-3)
+        steps = np.abs(np.diff([point.positions for point in found.trajectory.joint_trajectory.points], axis=0))
+        self.assertLess(steps.max(), 0.1)
 
     def test_scalings_that_were_not_filled_in_are_one(self):
         """MotionPlanRequest.msg: what is not in (0, 1], 0 above all, means 1."""
@@ -192,6 +220,20 @@ class Sequences(unittest.TestCase):
         np.testing.assert_allclose(points[-1], vector(moved(y=0.1, z=-0.1)), atol=1e-3)
         times = [point.time_from_start.to_sec() for point in found.planned_trajectories[0].joint_trajectory.points]
         self.assertTrue(all(a < b for a, b in zip(times, times[1:])))
+
+    def test_motions_of_all_kinds_follow_each_other_from_a_start_of_their_own(self):
+        turned = [0.1] + HOME[1:]
+        way = Constraints(name="center", position_constraints=[PositionConstraint(link_name="hand")])
+        way.position_constraints[0].header.frame_id = "world"
+        way.position_constraints[0].constraint_region.primitive_poses = [moved(z=-0.1)]
+        found = self.ask(self.item(0.0, planner_id="PTP", start_state=state_of(turned)),
+                         self.item(0.0, y=0.1, z=-0.1, planner_id="CIRC", path_constraints=way), self.item(0.0, y=0.1))
+        self.assertEqual((found.error_code.val, len(found.planned_trajectories)), (Codes.SUCCESS, 1))
+        points = path(found.planned_trajectories[0])
+        np.testing.assert_allclose(points[0], vector(place(turned)), atol=1e-3)
+        np.testing.assert_allclose(points[-1], vector(moved(y=0.1)), atol=1e-3)
+        for corner in (moved(), moved(y=0.1, z=-0.1)):
+            self.assertLess(np.linalg.norm(points - vector(corner), axis=1).min(), 1e-3)
 
     def test_a_blend_leaves_the_corner_out(self):
         found = self.ask(self.item(0.04, y=0.1), self.item(0.0, y=0.1, z=-0.1))
