@@ -1,0 +1,156 @@
+"""``roslaunch foxglove_bridge foxglove_bridge.launch``"""
+from __future__ import annotations
+
+import signal
+import socket
+import threading
+from typing import Any, Dict, List, Optional, Set
+
+import foxglove
+import rosgraph
+import rospy
+from foxglove.websocket import Capability, ConnectionGraph, Parameter, ServerListener, StatusLevel
+from foxglove_bridge import assets
+from foxglove_bridge.parameters import Parameters
+from foxglove_bridge.services import Services
+from foxglove_bridge.settings import SettingError, Settings, allowed, unknown
+from foxglove_bridge.topics import Published, Topics, now_ns
+from rosgraph_msgs.msg import Clock
+
+FIRST_LOOK, SLOWER = 0.2, 1.5  # s between looks at the graph, which grow while nothing changes
+_KNOWN = {"clientPublish": Capability.ClientPublish, "parameters": Capability.Parameters, "services": Capability.Services,
+          "connectionGraph": Capability.ConnectionGraph}
+
+
+class Bridge(ServerListener):
+    """The server, and what clients ask of it.
+
+    :raises OSError: the address cannot be listened on
+    """
+
+    def __init__(self, settings: Settings) -> None:
+        self.settings = settings
+        self._context = foxglove.Context()
+        self._topics = Topics(self._context)
+        self._published = Published(lambda name: allowed(name, settings.client_topic_whitelist), self._complain)
+        self._parameters = Parameters(lambda name: allowed(name, settings.param_whitelist), self._parameters_changed, self._complain)
+        self._graph_wanted = False
+        self._clock: Optional[rospy.Subscriber] = None
+        has = settings.capabilities
+        simulated = bool(rospy.get_param("/use_sim_time", False))
+        capabilities = [_KNOWN[name] for name in has if name in _KNOWN] + ([Capability.Time] if simulated else [])
+        with socket.socket() as probe:  # the server's own error does not say which port
+            probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+            probe.bind((settings.address, settings.port))
+        self.server = foxglove.start_server(
+            name="noetic_labs", host=settings.address, port=settings.port, capabilities=capabilities, server_listener=self,
+            supported_encodings=["ros1"], context=self._context, session_id=str(now_ns()),
+            asset_handler=(lambda uri: assets.fetch(uri, settings.asset_uri_allowlist)) if "assets" in has else None)
+        self._services = Services(self.server) if "services" in has else None
+        if simulated:
+            self._clock = rospy.Subscriber("/clock", Clock, lambda m: self.server.broadcast_time(m.clock.to_nsec()), queue_size=1)
+
+    # ------------------------------------------------------------------------------------------ the graph
+
+    def follow_graph(self, stop: threading.Event) -> None:
+        """Until ``stop``: topics, services and followed parameters as they come and go."""
+        master = rosgraph.Master(rospy.get_name())
+        pause, before = FIRST_LOOK, None
+        while not stop.wait(pause):
+            try:
+                state, types = master.getSystemState(), dict(master.getTopicTypes())
+                self._look(state, types)
+                self._parameters.look()
+            except (rosgraph.MasterException, OSError):  # it is away; it may come back
+                state = None
+            pause = FIRST_LOOK if state != before else min(pause * SLOWER, self.settings.max_update_ms / 1000)
+            before = state
+
+    def _look(self, state: List[Any], types: Dict[str, str]) -> None:
+        published, subscribed, services = ({name: nodes for name, nodes in part} for part in state)
+        names = {name: types[name] for name in published if name in types and allowed(name, self.settings.topic_whitelist)}
+        self._topics.are({name: type_name for name, type_name in names.items() if type_name != "*"})
+        if self._services is not None:
+            own = rospy.get_name() + "/"
+            wanted: Set[str] = {name for name in services if allowed(name, self.settings.service_whitelist) and not name.startswith(own)}
+            self._services.are(wanted)
+        if self._graph_wanted:
+            graph = ConnectionGraph()
+            for name, nodes in published.items():
+                graph.set_published_topic(name, nodes)
+            for name, nodes in subscribed.items():
+                graph.set_subscribed_topic(name, nodes)
+            for name, nodes in services.items():
+                graph.set_advertised_service(name, nodes)
+            self.server.publish_connection_graph(graph)
+
+    # ------------------------------------------------------------------------------------------ what clients ask
+
+    def on_subscribe(self, client: Any, channel: Any) -> None:
+        topic = self._topics.by_channel(channel.id)
+        if topic is not None:
+            topic.read_by(client.id)
+
+    def on_unsubscribe(self, client: Any, channel: Any) -> None:
+        topic = self._topics.by_channel(channel.id)
+        if topic is not None:
+            topic.left_by(client.id)
+
+    def on_client_advertise(self, client: Any, channel: Any) -> None:
+        self._published.advertise(client.id, channel)
+
+    def on_client_unadvertise(self, client: Any, client_channel_id: int) -> None:
+        self._published.unadvertise(client.id, client_channel_id)
+
+    def on_message_data(self, client: Any, client_channel_id: int, data: bytes) -> None:
+        self._published.message(client.id, client_channel_id, data)
+
+    def on_get_parameters(self, client: Any, param_names: List[str], request_id: Optional[str] = None) -> List[Parameter]:
+        return self._parameters.get(param_names)
+
+    def on_set_parameters(self, client: Any, parameters: List[Parameter], request_id: Optional[str] = None) -> List[Parameter]:
+        return self._parameters.set(parameters)
+
+    def on_parameters_subscribe(self, param_names: List[str]) -> None:
+        self._parameters.follow(param_names)
+
+    def on_parameters_unsubscribe(self, param_names: List[str]) -> None:
+        self._parameters.unfollow(param_names)
+
+    def on_connection_graph_subscribe(self) -> None:
+        self._graph_wanted = True  # the graph's own thread tells it: from here the server would wait for itself
+
+    def on_connection_graph_unsubscribe(self) -> None:
+        self._graph_wanted = False
+
+    # ------------------------------------------------------------------------------------------ what is told
+
+    def _parameters_changed(self, parameters: List[Parameter]) -> None:
+        self.server.publish_parameter_values(parameters)
+
+    def _complain(self, line: str) -> None:
+        rospy.logwarn("%s", line)
+        self.server.publish_status(line, StatusLevel.Warning)
+
+
+def main() -> int:
+    rospy.init_node("foxglove_bridge")
+    try:
+        settings = Settings.read(lambda name, default: rospy.get_param("~" + name, default), rospy.logwarn)
+        for name in unknown(settings.capabilities):
+            rospy.logwarn("~capabilities: there is no '%s'", name)
+        bridge = Bridge(settings)
+    except SettingError as error:
+        rospy.logfatal("%s", error)
+        return 1
+    except (OSError, OverflowError) as error:
+        rospy.logfatal("%s port %d cannot be listened on: %s; set ~port to another", settings.address, settings.port,
+                       getattr(error, "strerror", None) or error)
+        return 1
+    rospy.loginfo("ws://%s:%d for Foxglove and Lichtblick", settings.address, bridge.server.port)
+    stop = threading.Event()
+    rospy.on_shutdown(stop.set)
+    signal.signal(signal.SIGTERM, lambda *_: rospy.signal_shutdown("SIGTERM"))
+    bridge.follow_graph(stop)
+    bridge.server.stop()
+    return 0
