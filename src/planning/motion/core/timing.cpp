@@ -7,7 +7,7 @@ namespace motion
 {
 namespace
 {
-constexpr double TOLERANCE = 0.01;     // of an acceleration, rad/s^2 or m/s^2, as upstream
+constexpr double TOLERANCE = 1e-3;     // of a limit of an acceleration; upstream's 0.01 rad/s^2 is 5 % of 0.2 rad/s^2
 constexpr double SAME = 1e-8;          // rad or m: way points that are nearer to each other are one
 constexpr double SHORTEST = 1e-6;      // s, of a segment: times of messages are whole nanoseconds
 constexpr double MOST_STRETCH = 0.01;  // s, of a segment at one touch, as upstream
@@ -74,7 +74,7 @@ bool stretch(const Rows& points, std::vector<double>& segments, std::size_t i, s
   const std::size_t segment = i == 0 ? 0 : i == last ? last - 1 : later ? i : i - 1;
   auto fits = [&]() {
     const Around a = around(points, segments, i, j);
-    return a.time_before + a.time_after <= 0 || std::abs(a.acceleration()) <= limit + TOLERANCE;
+    return a.time_before + a.time_after <= 0 || std::abs(a.acceleration()) <= limit * (1 + TOLERANCE);
   };
   if (fits())
     return false;
