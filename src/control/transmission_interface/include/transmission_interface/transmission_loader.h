@@ -41,30 +41,37 @@ protected:
     return element;
   }
 
-  // Numbers and words of an <actuator> or <joint>; false: it is required and missing, or it is no number.
+  enum ParseStatus
+  {
+    SUCCESS,
+    NO_DATA,  // it is not there; an error only where it is required
+    BAD_TYPE  // no number
+  };
 
-  static bool getActuatorReduction(const TiXmlElement& parent, const std::string& actuator, const std::string& transmission,
-                                   bool required, double& reduction)
+  // Numbers and words of an <actuator> or <joint>.
+
+  static ParseStatus getActuatorReduction(const TiXmlElement& parent, const std::string& actuator,
+                                          const std::string& transmission, bool required, double& reduction)
   {
     return number(parent, "mechanicalReduction", "actuator '" + actuator, transmission, required, reduction);
   }
-  static bool getJointReduction(const TiXmlElement& parent, const std::string& joint, const std::string& transmission,
-                                bool required, double& reduction)
+  static ParseStatus getJointReduction(const TiXmlElement& parent, const std::string& joint, const std::string& transmission,
+                                       bool required, double& reduction)
   {
     return number(parent, "mechanicalReduction", "joint '" + joint, transmission, required, reduction);
   }
-  static bool getJointOffset(const TiXmlElement& parent, const std::string& joint, const std::string& transmission,
-                             bool required, double& offset)
+  static ParseStatus getJointOffset(const TiXmlElement& parent, const std::string& joint, const std::string& transmission,
+                                    bool required, double& offset)
   {
     return number(parent, "offset", "joint '" + joint, transmission, required, offset);
   }
-  static bool getActuatorRole(const TiXmlElement& parent, const std::string& actuator, const std::string& transmission,
-                              bool required, std::string& role)
+  static ParseStatus getActuatorRole(const TiXmlElement& parent, const std::string& actuator, const std::string& transmission,
+                                     bool required, std::string& role)
   {
     return text(parent, "role", "actuator '" + actuator, transmission, required, role);
   }
-  static bool getJointRole(const TiXmlElement& parent, const std::string& joint, const std::string& transmission, bool required,
-                           std::string& role)
+  static ParseStatus getJointRole(const TiXmlElement& parent, const std::string& joint, const std::string& transmission,
+                                  bool required, std::string& role)
   {
     return text(parent, "role", "joint '" + joint, transmission, required, role);
   }
@@ -78,28 +85,28 @@ private:
     return has == expected;
   }
 
-  static bool text(const TiXmlElement& parent, const char* tag, const std::string& whose, const std::string& transmission,
-                   bool required, std::string& result)
+  static ParseStatus text(const TiXmlElement& parent, const char* tag, const std::string& whose,
+                          const std::string& transmission, bool required, std::string& result)
   {
     const TiXmlElement* element = parent.FirstChildElement(tag);
     if (element && element->GetText())
       result = element->GetText();
     else if (required)
       ROS_ERROR_STREAM("transmission '" << transmission << "', " << whose << "': it needs <" << tag << ">");
-    return !required || (element && element->GetText());
+    return element && element->GetText() ? SUCCESS : NO_DATA;
   }
 
-  static bool number(const TiXmlElement& parent, const char* tag, const std::string& whose, const std::string& transmission,
-                     bool required, double& result)
+  static ParseStatus number(const TiXmlElement& parent, const char* tag, const std::string& whose,
+                            const std::string& transmission, bool required, double& result)
   {
     std::string written;
-    if (!text(parent, tag, whose, transmission, required, written))
-      return false;
-    if (!parent.FirstChildElement(tag) || internal::number_of(written, result))
-      return true;
+    if (text(parent, tag, whose, transmission, required, written) != SUCCESS)
+      return NO_DATA;
+    if (internal::number_of(written, result))
+      return SUCCESS;
     ROS_ERROR_STREAM("transmission '" << transmission << "', " << whose << "': <" << tag << ">" << written << "</" << tag
                                       << "> is no number");
-    return false;
+    return BAD_TYPE;
   }
 };
 
