@@ -127,6 +127,17 @@ class Bridge(unittest.TestCase):
         client.tell(op="unadvertise", channelIds=[5])
         client.wait(lambda: not subscriber.get_num_connections(), "the end of the publisher")
 
+    def test_a_client_that_leaves_takes_its_topics_with_it(self):
+        subscriber = rospy.Subscriber("/from_leaver", String, lambda m: None)
+        publisher = rospy.Publisher("/for_leaver", String, queue_size=1)
+        client, other = Client(self), Client(self)
+        client.tell(op="advertise", channels=[{"id": 5, "topic": "/from_leaver", "encoding": "ros1", "schemaName": "std_msgs/String"}])
+        client.subscribe("/for_leaver", 9)
+        client.wait(lambda: subscriber.get_num_connections() and publisher.get_num_connections(), "the bridge")
+        client.socket.close()
+        other.wait(lambda: not subscriber.get_num_connections(), "the end of the publisher")
+        other.wait(lambda: not publisher.get_num_connections(), "the bridge to listen no more")
+
     def test_what_may_not_be_published_is_told(self):
         client = Client(self)
         for number, (topic, kind, said) in enumerate((("/other", "std_msgs/String", "client_topic_whitelist"),

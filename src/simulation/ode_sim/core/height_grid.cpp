@@ -9,8 +9,7 @@ namespace ode_sim {
 
 namespace {
 constexpr double kNever = std::numeric_limits<double>::infinity();
-constexpr double kMargin =
-    1e-6;  // m, above and below all heights, so that what is met there lies between two places of the ray
+constexpr double kMargin = 1e-6;  // m beyond all heights: what is met lies between two places of the ray
 constexpr double kBorder = 1e-9;  // cells beyond the border, for a ray along it
 
 // One coordinate of the ray: at + by * t.

@@ -1,10 +1,10 @@
-#include "geometry.hpp"
 #include "world.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
+#include "geometry.hpp"
 #include "phases.hpp"
 
 namespace ode_sim {
