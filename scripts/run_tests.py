@@ -251,25 +251,31 @@ def run(job: Job, scratch: Path) -> Result:
         return _run_in(job, scratch, temporary)
 
 
-def _run_in(job: Job, scratch: Path, temporary: str) -> Result:
-    """:param temporary: the folder for what its processes, which may be killed, would leave in /tmp"""
-    home = Path(tempfile.mkdtemp(prefix=job.package.name + "_", dir=scratch))
+def _environment(job: Job, home: Path, temporary: str) -> Dict[str, str]:
     environment = dict(os.environ, ROS_HOME=str(home), ROS_TEST_RESULTS_DIR=str(home / "results"), TMPDIR=temporary,
                        GAZEBO_MASTER_URI=f"http://localhost:{_gazebo_port()}",
                        PYTHONUNBUFFERED="1")  # tests read what nodes print, as it is printed
     environment.pop("PYTHONDONTWRITEBYTECODE", None)  # every node of every test would compile all messages anew
     if ROOT / "docs" in job.package.parents:  # an example to copy, which is not built here
         environment["ROS_PACKAGE_PATH"] = f"{job.package}:{environment.get('ROS_PACKAGE_PATH', '')}"
-    if job.kind == "pytest":
-        command = [sys.executable, "-m", "pytest", "-q", "-o", f"cache_dir={scratch / 'pytest' / job.name}", "--durations=5",
-                   "--durations-min=2", f"--junitxml={home / 'report.xml'}", *([] if job.slow else ["-m", "not slow"]),
-                   *(["--last-failed"] if job.failed_only else []), str(job.path)]
-    else:
-        command = ["rostest", str(job.path)]
+    return environment
+
+
+def _command(job: Job, scratch: Path, home: Path) -> List[str]:
+    if job.kind != "pytest":
+        return ["rostest", str(job.path)]
+    chosen = ([] if job.slow else ["-m", "not slow"]) + (["--last-failed"] if job.failed_only else [])
+    options = ["-q", "-o", f"cache_dir={scratch / 'pytest' / job.name}", "--durations=5", "--durations-min=2"]
+    return [sys.executable, "-m", "pytest", *options, f"--junitxml={home / 'report.xml'}", *chosen, str(job.path)]
+
+
+def _run_in(job: Job, scratch: Path, temporary: str) -> Result:
+    """:param temporary: the folder for what its processes, which may be killed, would leave in /tmp"""
+    home = Path(tempfile.mkdtemp(prefix=job.package.name + "_", dir=scratch))
     start = time.monotonic()
-    process = subprocess.Popen(command, cwd=home, env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                               stderr=subprocess.STDOUT, text=True, errors="replace", start_new_session=True,
-                               preexec_fn=_listen_to_ctrl_c)
+    process = subprocess.Popen(_command(job, scratch, home), cwd=home, env=_environment(job, home, temporary), text=True,
+                               errors="replace", stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                               start_new_session=True, preexec_fn=_listen_to_ctrl_c)
     try:
         output, _ = process.communicate(timeout=job.time_limit)
     except subprocess.TimeoutExpired:

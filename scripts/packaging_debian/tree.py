@@ -112,12 +112,7 @@ def build(root: Path, prefix: Path) -> Path:
     sources.mkdir(parents=True, exist_ok=True)
     export_sources(root, sources)
     shutil.rmtree(stage, ignore_errors=True)
-    shutil.rmtree(workspace / "src", ignore_errors=True)
-    (workspace / "src").mkdir(parents=True)
-    # else catkin takes the clone around it for the workspace; catkin_tools 0.9.5 wants the inner folder too
-    (workspace / ".catkin_tools/profiles").mkdir(parents=True, exist_ok=True)
-    for room in sorted({package.parent for package in platform_packages(sources)}):
-        (workspace / "src" / room.name).symlink_to(room)
+    _lay_out(workspace, sources)
     environment = {key: value for key, value in os.environ.items()
                    if key not in ("CMAKE_PREFIX_PATH", "ROS_PACKAGE_PATH", "PYTHONPATH", "CPLUS_INCLUDE_PATH")}
     environment["PATH"] = f"{sources}/src/tools/noetic_environment/debian_python:/usr/sbin:/usr/bin:/sbin:/bin"
@@ -130,16 +125,29 @@ def build(root: Path, prefix: Path) -> Path:
     run(["catkin", "build", "--workspace", workspace, "--no-notify", "--no-status", "--summarize"], "catkin build",
         {**environment, "DESTDIR": str(stage)})
     tree = stage / prefix.relative_to("/")
-    run([sys.executable, "-m", "pip", "install", "-q", "--disable-pip-version-check", "--root-user-action=ignore", "--no-deps",
-         "--require-hashes", "--no-compile", "--target", tree / "share/noetic_environment/python",
-         "-r", sources / "scripts/requirements.txt"],
-        "installing the PyPI add-ons", {**os.environ, "PYTHONPATH": ""})
+    _install_add_ons(tree / "share/noetic_environment/python", sources / "scripts/requirements.txt")
     clean(tree)
     missing = not_installed(sources, tree)
     if missing:
         raise PackagingError(f"{len(missing)} files have no install rule in their package's CMakeLists.txt: {', '.join(missing[:5])}"
                              + (" ..." if len(missing) > 5 else ""))
     return tree
+
+
+def _lay_out(workspace: Path, sources: Path) -> None:
+    """A catkin workspace over the packages of the exported sources."""
+    shutil.rmtree(workspace / "src", ignore_errors=True)
+    (workspace / "src").mkdir(parents=True)
+    # else catkin takes the clone around it for the workspace; catkin_tools 0.9.5 wants the inner folder too
+    (workspace / ".catkin_tools/profiles").mkdir(parents=True, exist_ok=True)
+    for room in sorted({package.parent for package in platform_packages(sources)}):
+        (workspace / "src" / room.name).symlink_to(room)
+
+
+def _install_add_ons(folder: Path, requirements: Path) -> None:
+    options = "-q --disable-pip-version-check --root-user-action=ignore --no-deps --require-hashes --no-compile".split()
+    run([sys.executable, "-m", "pip", "install", *options, "--target", folder, "-r", requirements], "installing the PyPI add-ons",
+        {**os.environ, "PYTHONPATH": ""})
 
 
 def clean(tree: Path) -> None:

@@ -139,14 +139,16 @@ def elevator():
                  filename="libgazebo_ros_elevator.so")
     lift = tag("model", cabin, door, slide("lift", "world", "cabin", (0, 0, 1), 6), slide(
         "door", "cabin", "door", (0, 1, 0), 1), plugin, name="elevator")
-    walls = tag("link", *(part(name, size, at, "Gazebo/White") for name, size, at in (
-        ("back", (0.1, 2.4, 9), (-1.15, 0, 4.5)), ("left", (2.2, 0.1, 9), (0, 1.15, 4.5)),
-        ("right", (2.2, 0.1, 9), (0, -1.15, 4.5)))), name="walls")
-    shaft = tag("model", tag("static", "true"), walls, name="shaft")
     storeys = [block(f"storey_{n}", (4, 4, 0.1), (3.08, 0, 3 * n + 0.05), None, "Gazebo/Wood") for n in range(3)]
     ramp = block("ramp", (1.5, 4, 0.02), (5.82, 0, 0.04, 0, 0.0667, 0), None, "Gazebo/Wood")
     return world("An elevator between three storeys: rostopic pub -1 /elevator std_msgs/String 2 sends it up.",
-                 SUN, FLOOR, lift, shaft, *storeys, ramp)
+                 SUN, FLOOR, lift, _shaft(), *storeys, ramp)
+
+
+def _shaft():
+    walls = (("back", (0.1, 2.4, 9), (-1.15, 0, 4.5)), ("left", (2.2, 0.1, 9), (0, 1.15, 4.5)), ("right", (2.2, 0.1, 9), (0, -1.15, 4.5)))
+    link = tag("link", *(part(name, size, at, "Gazebo/White") for name, size, at in walls), name="walls")
+    return tag("model", tag("static", "true"), link, name="shaft")
 
 
 def actor():

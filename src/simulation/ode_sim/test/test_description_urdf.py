@@ -1,49 +1,12 @@
 """URDF to a model, rule by rule (sdformat 9's conversion as Gazebo Classic 11 uses it)."""
-import math
 
 import numpy as np
 import pytest
 
 from ode_sim import math3
-from ode_sim.description import DescriptionError, ResourceFinder, read_model, read_urdf
+from ode_sim.description import DescriptionError, read_model
 
-FINDER = ResourceFinder(environment=False, stock="/nowhere", package_path=lambda name: None)
-INERTIA = '<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/>'
-
-
-def link(name, mass=1.0, body=""):
-    inertial = f'<inertial><mass value="{mass}"/>{INERTIA}</inertial>' if mass is not None else ""
-    return f'<link name="{name}">{inertial}{body}</link>'
-
-
-def joint(name, parent, child, kind="fixed", xyz="0 0 0", rpy="0 0 0", body=""):
-    return (f'<joint name="{name}" type="{kind}"><parent link="{parent}"/><child link="{child}"/>'
-            f'<origin xyz="{xyz}" rpy="{rpy}"/>{body}</joint>')
-
-
-def box(tag="collision", name=None, xyz="0 0 0"):
-    named = f' name="{name}"' if name else ""
-    return f'<{tag}{named}><origin xyz="{xyz}"/><geometry><box size="1 2 3"/></geometry></{tag}>'
-
-
-LIMIT = '<limit lower="-1" upper="2" effort="3" velocity="4"/>'
-
-
-def convert(*parts, file=""):
-    return read_urdf('<robot name="r">' + "".join(parts) + "</robot>", finder=FINDER, file=file)
-
-
-def names(items):
-    return [item.name for item in items]
-
-
-def one(items, name):
-    found, = [item for item in items if item.name == name]
-    return found
-
-
-def messages(problems):
-    return "\n".join(str(problem) for problem in problems)
+from urdf_texts import FINDER, LIMIT, box, convert, joint, link, messages, names, one
 
 
 # ---------------------------------------------------------------------------------------------- tree and joints
@@ -291,116 +254,6 @@ def test_singular_and_huge_inertias_are_kept():
     model, problems = convert(f'<link name="base"><inertial><mass value="0.1"/>{tensor}</inertial></link>')
     i = model.links[0].inertial
     assert (i.ixx, i.ixy, i.ixz, i.iyy, i.iyz, i.izz) == (200, 200, 200, 200, 200, 1.5e8) and not problems
-
-
-# ---------------------------------------------------------------------------------------------- extensions
-
-def test_link_extensions():
-    model, problems = convert(link("base", body=box() + box("visual")), """
-        <gazebo reference="base">
-          <material>Gazebo/Orange</material> <mu1>0.1</mu1> <mu2 value="0.2"/> <fdir1>1 0 0</fdir1>
-          <kp>1000</kp> <kd>2</kd> <maxVel>0.5</maxVel> <minDepth>0.003</minDepth> <maxContacts>4</maxContacts>
-          <laserRetro>7</laserRetro> <selfCollide>true</selfCollide> <turnGravityOff>true</turnGravityOff>
-          <dampingFactor>0.01</dampingFactor> <stopKp>3</stopKp>
-        </gazebo>""")
-    base, = model.links
-    surface = base.collisions[0].surface
-    assert (surface.mu, surface.mu2, surface.fdir1) == (0.1, 0.2, (1.0, 0.0, 0.0))
-    assert (surface.kp, surface.kd, surface.max_vel, surface.min_depth) == (1000.0, 2.0, 0.5, 0.003)
-    assert (base.collisions[0].max_contacts, base.collisions[0].laser_retro) == (4, 7.0)
-    assert (base.self_collide, base.gravity, base.linear_decay, base.angular_decay) == (True, False, 0.01, 0.01)
-    assert base.visuals[0].material.diffuse == (1.0, 0.5088, 0.0468, 1.0)
-    assert not problems
-
-
-@pytest.mark.parametrize("text, gravity", [("false", True), ("0", True), ("no", True), ("true", False), ("on", False)])
-def test_turn_gravity_off(text, gravity):
-    model, _ = convert(link("base"), f'<gazebo reference="base"><turnGravityOff>{text}</turnGravityOff></gazebo>')
-    assert model.links[0].gravity is gravity
-
-
-def test_extensions_stay_with_the_shapes_of_their_own_link():
-    model, _ = convert(link("base", body=box() + box("visual")), link("tip", body=box() + box("visual")),
-                       joint("f", "base", "tip"),
-                       '<gazebo reference="base"><mu1>0.1</mu1><material>Gazebo/Red</material></gazebo>'
-                       '<gazebo reference="tip"><mu1>0.9</mu1><material>Gazebo/Blue</material></gazebo>')
-    base, = model.links
-    assert [c.surface.mu for c in base.collisions] == [0.1, 0.9]
-    assert [v.material.name for v in base.visuals] == ["Gazebo/Red", "Gazebo/Blue"]
-
-
-def test_the_later_of_two_values_counts():
-    model, problems = convert(link("base", body=box()), '<gazebo reference="base"><mu1>0.1</mu1></gazebo>'
-                                                        '<gazebo reference="base"><mu1>0.2</mu1></gazebo>')
-    assert model.links[0].collisions[0].surface.mu == 0.2 and "given twice" in messages(problems)
-    assert [problem.severity for problem in problems] == ["note"]  # robots with lumped links do this all the time
-
-
-def test_blocks_inside_visual_and_collision():
-    model, _ = convert(link("base", body=box() + box("visual")), """
-        <gazebo reference="base">
-          <visual><material><diffuse>0.1 0.2 0.3 1</diffuse></material><transparency>0.5</transparency></visual>
-          <collision><surface><friction><ode><mu>0.7</mu></ode></friction></surface></collision>
-        </gazebo>""")
-    base, = model.links
-    assert base.visuals[0].material.diffuse == (0.1, 0.2, 0.3, 1.0) and base.visuals[0].transparency == 0.5
-    assert base.collisions[0].surface.mu == 0.7
-
-
-def test_urdf_colours_are_dropped_and_white_is_the_default():
-    coloured = '<visual><geometry><sphere radius="1"/></geometry><material name="m"><color rgba="1 0 0 1"/></material>' \
-               '</visual>'
-    model, _ = convert(link("base", body=coloured), '<material name="m"><color rgba="1 0 0 1"/></material>')
-    assert model.links[0].visuals[0].material.name == "Gazebo/White"
-
-
-def test_joint_extensions():
-    model, _ = convert(link("base"), link("a"), joint("j", "base", "a", "continuous"), """
-        <gazebo reference="j"><stopCfm>0.1</stopCfm><stopErp>0.3</stopErp><provideFeedback>1</provideFeedback>
-        <implicitSpringDamper>true</implicitSpringDamper><springReference>0.5</springReference>
-        <springStiffness>9</springStiffness><fudgeFactor>0.4</fudgeFactor></gazebo>""")
-    j, = model.joints
-    assert (j.limit_cfm, j.limit_erp, j.provide_feedback, j.implicit_spring_damper) == (0.1, 0.3, True, True)
-    assert (j.axes[0].spring_reference, j.axes[0].spring_stiffness, j.fudge_factor) == (0.5, 9.0, 0.4)
-
-
-def test_wrong_reference_is_a_warning():
-    model, problems = convert(link("base"), '<gazebo reference="bose"><mu1>1</mu1></gazebo>')
-    assert "'bose'" in messages(problems) and model.links
-
-
-def test_static_robot():
-    assert convert(link("base"), "<gazebo><static>true</static></gazebo>")[0].static is True
-
-
-def test_sensor_of_a_lumped_link_moves_with_its_pose():
-    model, _ = convert(link("base"), link("cam", None), joint("f", "base", "cam", xyz="1 0 0", rpy="0 0 1.5707963267948966"),
-                       """<gazebo reference="cam"><sensor type="camera" name="eye"><pose>1 0 0 0 0.1 0</pose>
-                       <update_rate>30</update_rate><always_on>true</always_on>
-                       <plugin name="ctl" filename="libgazebo_ros_camera.so"><frameName>cam</frameName></plugin>
-                       </sensor></gazebo>""")
-    sensor, = model.links[0].sensors
-    assert (sensor.name, sensor.type, sensor.update_rate, sensor.always_on) == ("eye", "camera", 30.0, True)
-    assert sensor.pose.p == pytest.approx((1.0, 1.0, 0.0))
-    assert math3.to_rpy(sensor.pose) == pytest.approx((0.0, 0.1, math.pi / 2))
-    assert sensor.plugins[0].element.find("frameName").text == "cam"  # inside a sensor: left alone
-
-
-def test_model_plugin_names_follow_a_lumped_link():
-    model, _ = convert(link("base"), link("imu", None), joint("f", "base", "imu", xyz="1 0 0"),
-                       '<gazebo><plugin name="p" filename="libx.so"><bodyName>imu</bodyName>'
-                       "<xyzOffset>0 2 0</xyzOffset></plugin></gazebo>")
-    element = model.plugins[0].element
-    assert element.find("bodyName").text == "base"
-    assert [float(v) for v in element.find("xyzOffset").text.split()] == [1.0, 2.0, 0.0]
-    assert [float(v) for v in element.find("rpyOffset").text.split()] == [0.0, 0.0, 0.0]
-
-
-def test_contact_sensor_of_a_lumped_link_names_what_sdformat_makes_of_it():
-    model, _ = convert(link("base"), link("bumper", None, box()), joint("f", "base", "bumper"),
-                       '<gazebo reference="bumper"><sensor type="contact" name="c"><contact>'
-                       "<collision>bumper_collision</collision></contact></sensor></gazebo>")
-    assert model.links[0].sensors[0].element.find("contact/collision").text == "base_collision_bumper"
 
 
 # ---------------------------------------------------------------------------------------------- untidy originals

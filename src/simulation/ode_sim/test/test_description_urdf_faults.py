@@ -2,7 +2,7 @@
 import pytest
 
 from ode_sim.description import DescriptionError, read_urdf
-from test_description_urdf import FINDER, INERTIA, box, convert, joint, link, messages, names, one
+from urdf_texts import FINDER, INERTIA, box, convert, joint, link, messages, names, one
 
 
 @pytest.mark.parametrize("mass", ["nan", "inf", "heavy", ""])

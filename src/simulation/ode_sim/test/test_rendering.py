@@ -8,47 +8,12 @@ import pytest
 from ode_sim.description.model import (Box, Cylinder, DescriptionError, Heightmap, Light, Link, Material, Mesh, Model,
                                        Plane, Polyline, Pose, Ribbon, Scene, Sphere, Visual)
 from ode_sim.math3 import from_rpy
-from ode_sim.rendering import NOTHING, Camera, CameraError, Distortion, Renderer, arrange, look_at
+from ode_sim.rendering import NOTHING, Camera, CameraError, Renderer, arrange, look_at
 from ode_sim.rendering.assets import Assets
 from ode_sim.rendering.geometry import ribbon
 from ode_sim.rendering.context import RenderingUnavailable
-
-RED, GREEN, BLUE, YELLOW = (1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 0)
-BACKGROUND = (0.2, 0.4, 0.6)
-FULL_AMBIENT = Scene(ambient=(1, 1, 1, 1), background=BACKGROUND + (1,), shadows=False)
-CAMERA = Camera(width=160, height=120, hfov=1.2, near=0.05, far=50.0)
-ORIGIN = np.array([[0, 0, 0, 0, 0, 0, 1.0]])
-
-
-def visual(name, geometry, p, rgb, rpy=(0, 0, 0), **extra):
-    colour = tuple(float(c) for c in rgb) + (1.0,)
-    return Visual(name, from_rpy(*p, *rpy), geometry, Material(ambient=colour, diffuse=colour), **extra)
-
-
-def scene_of(*visuals, lights=(), scene=FULL_AMBIENT):
-    return arrange([Model("m", links=(Link("l", visuals=visuals),))], lights, scene)[0]
-
-
-@pytest.fixture(scope="module")
-def renderer():
-    made = Renderer(backend="egl", shadows="on")
-    yield made
-    made.close()
-
-
-def draw(renderer, scene, camera=CAMERA, poses=ORIGIN):
-    renderer.set_scene(scene)
-    return renderer.color(camera, poses)
-
-
-def bytes_of(rgb):
-    return tuple(round(255 * c) for c in rgb)
-
-
-def pixel(picture, camera, p_C):
-    column, row = camera.project([p_C])[0]
-    return tuple(int(v) for v in picture[round(row), round(column)])
-
+from pictures import (BACKGROUND, BLUE, CAMERA, FULL_AMBIENT, GREEN, ORIGIN, RED, YELLOW, bytes_of, draw, renderer, scene_of,
+                      visual)
 
 CUBOID = Box((0.2, 0.4, 0.4))
 FOUR = (visual("left", CUBOID, (2, 0.6, 0), RED), visual("right", CUBOID, (2, -0.6, 0), GREEN),
@@ -419,40 +384,3 @@ def test_anti_aliasing_mixes_edges():
     red, blue = bytes_of(RED), bytes_of(BACKGROUND)
     mixed = ~((picture == red).all(axis=2) | (picture == blue).all(axis=2))
     assert 20 < mixed.sum() < 600
-
-
-# ---------------------------------------------------------------------------------------------- lens
-
-def brown(lens, x, y):
-    r2 = x * x + y * y
-    radial = 1 + lens.k1 * r2 + lens.k2 * r2 ** 2 + lens.k3 * r2 ** 3
-    return (x * radial + 2 * lens.p1 * x * y + lens.p2 * (r2 + 2 * x * x),
-            y * radial + lens.p1 * (r2 + 2 * y * y) + 2 * lens.p2 * x * y)
-
-
-@pytest.mark.parametrize("lens", [Distortion(k1=-0.25, k2=0.12, p1=-0.003, p2=0.002), Distortion(k1=0.1, k3=0.02)])
-def test_a_distorted_point_is_where_the_formula_puts_it(renderer, lens):
-    camera = Camera(width=320, height=240, hfov=1.2, near=0.05, distortion=lens)
-    for y, z in ((0.0, 0.0), (0.9, 0.6), (-0.8, 0.5), (0.7, -0.7)):
-        picture = draw(renderer, scene_of(visual("dot", Sphere(0.04), (2, y, z), RED)), camera)
-        rows, columns = np.nonzero(picture[..., 0] > 150)
-        u, v = brown(lens, -y / 2, -z / 2)
-        f = camera.focal_length
-        assert columns.mean() == pytest.approx(159.5 + f * u, abs=0.7)
-        assert rows.mean() == pytest.approx(119.5 + f * v, abs=0.7)
-
-
-def test_crop_leaves_no_black_border(renderer):
-    wall = scene_of(visual("wall", Box((0.2, 90, 90)), (3.1, 0, 0), RED))
-    lens = Distortion(k1=-0.15)
-    filled = draw(renderer, wall, Camera(hfov=1.2, distortion=lens))
-    bordered = draw(renderer, wall, Camera(hfov=1.2, distortion=Distortion(k1=-0.15, crop=False)))
-    assert (filled == bytes_of(RED)).all()
-    assert (bordered[0, 0] == 0).all() and tuple(bordered[120, 160]) == bytes_of(RED)
-
-
-def test_depth_under_distortion_is_not_interpolated(renderer):
-    renderer.set_scene(scene_of(visual("near", Box((0.2, 0.5, 0.5)), (1.1, 0, 0), RED),
-                                visual("wall", Box((0.2, 90, 90)), (3.1, 0, 0), BLUE)))
-    depth = renderer.depth(Camera(hfov=1.2, distortion=Distortion(k1=-0.15)), ORIGIN)
-    assert ((np.abs(depth - 1.0) < 1e-3) | (np.abs(depth - 3.0) < 1e-3)).all()

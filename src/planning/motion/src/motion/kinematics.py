@@ -77,12 +77,9 @@ def ik(scene_or_model: Union[_core.PlanningScene, _core.RobotModel], group: str,
     """
     scene = scene_or_model if isinstance(scene_or_model, _core.PlanningScene) else None
     model = scene.model if scene is not None else scene_or_model
-    if isinstance(seed, _core.RobotState):
-        start = seed
-    else:
-        start = scene.state if scene is not None else model.state()
-        if seed is not None:
-            start.set_group(group, seed)
+    start = seed if isinstance(seed, _core.RobotState) else scene.state if scene is not None else model.state()
+    if seed is not None and start is not seed:
+        start.set_group(group, seed)
     if scene is None and (avoid_collisions or constraints is not None):
         raise _core.InvalidInputError("inverse kinematics: collisions and constraints need a planning scene, not a model alone")
     targets = [_on_robot(start, name, p) for name, p in _targets(model, model.group(group), pose, link)]
@@ -91,11 +88,13 @@ def ik(scene_or_model: Union[_core.PlanningScene, _core.RobotModel], group: str,
     found = _core._ik(start, group, targets, timeout, tolerance, position_only, solutions, max_restarts,
                       return_approximate, consistency, valid, random_seed, scene if avoid_collisions else None,
                       scene, constraints)
-    message = ""
-    if not len(found["solutions"]) or found["approximate"]:
-        names = ", ".join(f"'{name}'" for name, _ in targets)
-        message = (f"{found['rejected']} ways to bring {names} there were found, but all collide or break a constraint"
-                   if found["rejected"] else
-                   f"no joint values of group '{group}' bring {names} there: the pose is out of reach "
-                   f"(nearest: {found['error']:.3g} off after {found['restarts']} restarts)")
-    return IkResult(message=message, **found)
+    none = not len(found["solutions"]) or found["approximate"]
+    return IkResult(message=_why(found, group, [name for name, _ in targets]) if none else "", **found)
+
+
+def _why(found: Mapping[str, Any], group: str, links: Sequence[str]) -> str:
+    names = ", ".join(f"'{name}'" for name in links)
+    if found["rejected"]:
+        return f"{found['rejected']} ways to bring {names} there were found, but all collide or break a constraint"
+    return (f"no joint values of group '{group}' bring {names} there: the pose is out of reach "
+            f"(nearest: {found['error']:.3g} off after {found['restarts']} restarts)")

@@ -12,6 +12,7 @@ from motion.cartesian import explain, path_valid
 from motion.kinematics import ik
 from motion.planning import AuxiliaryPoint, MotionRequest, PlanResult
 from motion.pose import Pose
+from motion.timing import above_zero
 from motion.trajectory import Trajectory
 
 Planner = Callable[[_core.PlanningScene, MotionRequest, Optional[_core.CancelToken]], PlanResult]
@@ -150,7 +151,13 @@ def _slerp(a: Pose, b: Pose) -> Tuple[float, Callable[[float], np.ndarray]]:
 
 
 def _joint_limits(scene: _core.PlanningScene, group: str, unset: float) -> Tuple[np.ndarray, np.ndarray]:
-    limits = [scene.model.variable_limits(name) for name in scene.model.group(group).variables]
+    names = scene.model.group(group).variables
+    limits = [scene.model.variable_limits(name) for name in names]
+    for name, limit in zip(names, limits):
+        for what, has, most in (("velocity", limit.has_velocity, limit.max_velocity),
+                                ("acceleration", limit.has_acceleration, limit.max_acceleration)):
+            if has:
+                above_zero(name, what, most)
     return (np.array([limit.max_velocity if limit.has_velocity else unset for limit in limits]),
             np.array([limit.max_acceleration if limit.has_acceleration else unset for limit in limits]))
 

@@ -23,6 +23,12 @@ def _scaling(value: float) -> float:
     return float(value) if 0.0 < value <= 1.0 else 1.0
 
 
+def above_zero(name: str, what: str, most: float) -> None:
+    """:raises InvalidInputError: ``most``, a joint's velocity or acceleration limit, is none that it can move with"""
+    if not most > 0:
+        raise _core.InvalidInputError(f"the {what} limit of joint '{name}' is {most:g}: it must be above 0 (joint_limits.yaml)")
+
+
 def _limits(
     trajectory: Trajectory, velocity_scaling: float, acceleration_scaling: float, scale_unset: bool
 ) -> Tuple[np.ndarray, np.ndarray]:
@@ -33,8 +39,8 @@ def _limits(
             (limits.has_velocity, limits.max_velocity, velocity_scaling, velocity, "velocity"),
             (limits.has_acceleration, limits.max_acceleration, acceleration_scaling, acceleration, "acceleration"),
         ):
-            if has and not most > 0:
-                raise _core.InvalidInputError(f"joint '{name}' has a {what} limit of {most:g}: it must be above 0 (joint_limits.yaml)")
+            if has:
+                above_zero(name, what, most)
             into.append(most * scaling if has else _UNSET * (scaling if scale_unset else 1.0))
     return np.array(velocity), np.array(acceleration)
 

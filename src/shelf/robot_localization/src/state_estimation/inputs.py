@@ -50,11 +50,15 @@ class Sensor:
         if not (self.pose or self.twist or self.acceleration):
             rospy.logwarn("%s_config asks for nothing that a message of %s tells; the topic is not listened to.", own, own)
             return
-        types = {"odom": (Odometry, self._odometry), "pose": (PoseWithCovarianceStamped, self._posed),
-                 "twist": (TwistWithCovarianceStamped, self._twisted), "imu": (Imu, self._inertial)}
-        message, read = types[kind]
+        message, read = self._reader(kind)
         rospy.Subscriber(parameters[name], message, self._guarded, callback_args=read, queue_size=int(get("queue_size", 10)),
                          tcp_nodelay=bool(get("nodelay", False)))
+
+    def _reader(self, kind: str):
+        """(type of the topic's messages, what takes one)"""
+        types = {"odom": (Odometry, self._odometry), "pose": (PoseWithCovarianceStamped, self._posed),
+                 "twist": (TwistWithCovarianceStamped, self._twisted), "imu": (Imu, self._inertial)}
+        return types[kind]
 
     def forget(self) -> None:
         if self.pose:

@@ -22,6 +22,7 @@ from gazebo_ros.driving import Drivers
 from gazebo_ros.plugin import ModelPlugin, PluginError, SensorPlugin, WorldPlugin
 from gazebo_ros.plugin_host import PluginHost, PluginInstance, ResolvedPlugin, plugin_sdf
 from gazebo_ros.sensors import Sensor
+from gazebo_ros.server_view import ServerView
 from gazebo_ros.throttle import Throttle
 
 _NS = 1_000_000_000
@@ -441,47 +442,6 @@ class Server:
         for instance in self._world_plugins:
             self._end_plugin(instance)
         self._models.clear()
-
-
-class ServerView:
-    """What a plugin sees of the :class:`Server`: step callbacks made through it end with the plugin."""
-
-    def __init__(self, server: Server, owner: PluginInstance):
-        self._server = server
-        self._owner = owner
-        self.world = server.world
-        self.description = server.description
-        self.finder = server.finder
-        self.lockstep = server.lockstep
-        self.now = server.now
-        self.call = server.call
-
-    @property
-    def paused(self) -> bool:
-        return self._server.paused
-
-    def before_step(self, f: Callable[[], None]) -> Connection:
-        """See :meth:`Server.before_step`."""
-        return self._server._before.connect(f, self._owner)
-
-    def after_step(self, f: Callable[[], None]) -> Connection:
-        """See :meth:`Server.after_step`."""
-        return self._server._after.connect(f, self._owner)
-
-    def unpause(self) -> None:
-        """From any thread."""
-        self._server.call(self._server.unpause)
-
-    def step(self) -> None:
-        """One step though paused; returns when it is done. Not in the physics thread.
-
-        :raises ValueError: not paused, or somebody else's steps are being taken
-        """
-        self._server.call(lambda: self._server.request_steps(1)).result()
-
-    def drives(self, *joints: Any) -> None:
-        """The plugin moves these joints from now on: a second plugin that says so of one of them is a warning."""
-        self._server._drivers.drives(self._owner, joints)
 
 
 def log_problems(problems: Iterable[d.Problem], what: str) -> None:

@@ -82,6 +82,12 @@ class BagWidget(QWidget):
         scroll.setWidgetResizable(True)
         scroll.setWidget(self.frame)
         scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        layout = QVBoxLayout(self)
+        layout.addLayout(bar)
+        layout.addWidget(scroll, 1)
+        self._build_status(layout)
+
+    def _build_status(self, layout: QVBoxLayout) -> None:
         status = QHBoxLayout()
         self.stamp_label, self.date_label, self.seconds_label, self.speed_label, self.size_label = (QLabel() for _ in range(5))
         for name in ("stamp", "date", "seconds", "speed", "size"):
@@ -95,9 +101,6 @@ class BagWidget(QWidget):
         self.progress_bar.hide()
         status.addStretch()
         status.addWidget(self.progress_bar)
-        layout = QVBoxLayout(self)
-        layout.addLayout(bar)
-        layout.addWidget(scroll, 1)
         layout.addWidget(self.message)
         layout.addLayout(status)
         self.message.hide()

@@ -16,7 +16,7 @@ __all__ = ["Camera", "CameraError", "Distortion", "ENCODINGS", "Frame", "NOTHING
            "read_camera", "read_distortion", "render", "segment_names"]
 
 # Drawing in this process needs OpenCV, half a second to load; a simulator draws in another and comes up without it.
-_DRAWING = {"NOTHING": "renderer", "Renderer": "renderer", "render": "live", "segment_names": "live"}
+_DRAWING = {"NOTHING": "target", "Renderer": "renderer", "render": "live", "segment_names": "live"}
 
 
 def __getattr__(name: str):

@@ -6,7 +6,6 @@ from collections import OrderedDict
 from dataclasses import dataclass
 from typing import Any, Dict, Hashable, List, Optional, Sequence, Tuple
 
-import cv2
 import numpy as np
 
 from ode_sim.description.model import one_line
@@ -18,9 +17,9 @@ from ode_sim.rendering.geometry import bounding_sphere
 from ode_sim.rendering.lens import Lens
 from ode_sim.rendering.scene import WORLD_FRAME, SceneDescription
 from ode_sim.rendering.shadow import ShadowMap
+from ode_sim.rendering.target import Target
 from ode_sim.rendering.wide_lens import WideView
 
-NOTHING = -1  # of a segmentation image: no visual there
 MAX_LIGHTS = 16
 ANTIALIASING = ("none", "msaa")
 _MAX_TARGETS = 8  # frame buffers kept for cameras of different sizes
@@ -63,47 +62,6 @@ class _Batch:
     transparent: bool = False
 
 
-class _Target:
-    """Frame buffer of one size for some outputs, multi-sampled or not."""
-
-    _KINDS = {"color": (4, "f1"), "depth": (1, "f4"), "ident": (1, "f4")}
-
-    def __init__(self, ctx, width: int, height: int, outputs: Tuple[str, ...], samples: int):
-        self._ctx, self._shape, self._outputs = ctx, (height, width), outputs
-        self.frame, self._single = self._make(samples)
-        self._plain = self._make(0)[0] if samples else self.frame
-
-    def _make(self, samples: int):
-        size = self._shape[::-1]
-        images = [self._ctx.renderbuffer(size, components, samples=samples, dtype=kind)
-                  for components, kind in (self._KINDS[name] for name in self._outputs)]
-        depth = self._ctx.depth_renderbuffer(size, samples=samples)
-        # each image alone as well: a clear of several at once would give them all one value
-        single = [self._ctx.framebuffer([image], depth) for image in images]
-        return (single[0] if len(images) == 1 else self._ctx.framebuffer(images, depth)), single
-
-    def clear(self, background) -> None:
-        """Set background colour, no depth, no visual, and make the frame buffer current."""
-        values = {"color": (*background[:3], 1.0), "depth": (np.inf,) * 4, "ident": (NOTHING,) * 4}
-        for name, frame in zip(self._outputs, self._single):
-            frame.clear(*values[name])
-        self.frame.use()
-
-    def read(self) -> Dict[str, np.ndarray]:
-        if self._plain is not self.frame:
-            self._ctx.copy_framebuffer(self._plain, self.frame)
-        pictures = {}
-        for attachment, name in enumerate(self._outputs):
-            if name == "color":
-                pixels = np.frombuffer(self._plain.read(components=4, attachment=attachment), np.uint8)
-                pictures[name] = cv2.cvtColor(pixels.reshape(*self._shape, 4), cv2.COLOR_RGBA2RGB)
-            else:
-                pixels = np.frombuffer(self._plain.read(components=1, attachment=attachment, dtype="f4"), np.float32)
-                pixels = pixels.reshape(self._shape)
-                pictures[name] = pixels.copy() if name == "depth" else pixels.astype(np.int32)
-        return pictures
-
-
 class Renderer:
     """One OpenGL context with one scene. Use it from the thread that made it.
 
@@ -134,7 +92,7 @@ class Renderer:
         self._mesh_buffers: Dict[Hashable, tuple] = {}
         self._textures: Dict[str, Any] = {}
         self._programs: Dict[tuple, Any] = {}
-        self._targets: "OrderedDict[tuple, _Target]" = OrderedDict()
+        self._targets: "OrderedDict[tuple, Target]" = OrderedDict()
         self._lenses: Dict[tuple, Lens] = {}
         self._views: Dict[tuple, WideView] = {}  # of wide-angle lenses
         self._shadow: Optional[ShadowMap] = None
@@ -297,7 +255,7 @@ class Renderer:
         return self.images(camera, link_poses, ("depth",))["depth"]
 
     def segmentation(self, camera: Camera, link_poses: np.ndarray) -> np.ndarray:
-        """(H,W) int32: index into :attr:`visual_names`, :data:`NOTHING` for the background."""
+        """(H,W) int32: index into :attr:`visual_names`, :data:`~ode_sim.rendering.target.NOTHING` for the background."""
         return self.images(camera, link_poses, ("ident",))["ident"]
 
     def images(self, camera: Camera, link_poses: np.ndarray, outputs: Sequence[str]) -> Dict[str, np.ndarray]:
@@ -475,12 +433,12 @@ class Renderer:
                                        self._ctx.buffer(mesh.triangles.astype("u4").tobytes()), mesh.uv is not None)
         return self._mesh_buffers[key]
 
-    def _target(self, width: int, height: int, outputs) -> _Target:
+    def _target(self, width: int, height: int, outputs) -> Target:
         samples = self._samples if outputs == ("color",) else 0  # a depth or an index must not be averaged
         key = (width, height, outputs, samples)
         if key not in self._targets:
             while len(self._targets) >= _MAX_TARGETS:
                 self._targets.popitem(last=False)
-            self._targets[key] = _Target(self._ctx, width, height, outputs, samples)
+            self._targets[key] = Target(self._ctx, width, height, outputs, samples)
         self._targets.move_to_end(key)
         return self._targets[key]
