@@ -27,8 +27,6 @@ _noetic_absent("${_noetic_built} (hrnr/m-explore, branch noetic-devel)." explore
 _noetic_absent("${_noetic_built} (paulbovbel/frontier_exploration)."
   frontier_exploration exploration_msgs exploration_server polygon_layer)
 _noetic_absent("${_noetic_built} (ros/executive_smach, branch noetic-devel)." executive_smach smach smach_msgs smach_ros)
-_noetic_absent("${_noetic_built} (RobotWebTools/rosbridge_suite, branch ros1, and GT-RAIL/rosauth)."
-  rosapi rosauth rosbridge_library rosbridge_msgs rosbridge_server rosbridge_suite)
 _noetic_absent("${_noetic_built} (RobotWebTools/tf2_web_republisher)." tf2_web_republisher)
 _noetic_absent("${_noetic_built} (AprilRobotics/apriltag_ros)." apriltag_ros)
 _noetic_absent("${_noetic_built} (pal-robotics/aruco_ros, branch noetic-devel)." aruco aruco_msgs aruco_ros)

@@ -1,0 +1,1 @@
+"""Services that tell what the master and its nodes have."""

@@ -1,0 +1,24 @@
+"""Names that clients may use, as patterns of the shell."""
+from __future__ import annotations
+
+import fnmatch
+from typing import Any, Tuple
+
+from rosbridge_library.internal.exceptions import InvalidArgumentException
+
+
+def globs(name: str, value: Any) -> Tuple[str, ...]:
+    """Patterns from "[/a, '/b*']", as launch files have them, or from a list; none: all is allowed.
+
+    :raises InvalidArgumentException:
+    """
+    if value is None or value == "None":
+        return ()
+    words = value.strip().strip("[]").split(",") if isinstance(value, str) else value
+    if not isinstance(words, (list, tuple)) or not all(isinstance(word, str) for word in words):
+        raise InvalidArgumentException(f"{name} should be a list of patterns as [/camera/*, /odom], not {value!r}")
+    return tuple(word for word in (word.strip().strip("'\"") for word in words) if word)
+
+
+def allowed(name: str, patterns: Tuple[str, ...]) -> bool:
+    return not patterns or any(fnmatch.fnmatchcase(name, pattern) for pattern in patterns)
