@@ -1,12 +1,14 @@
 """A client of the websocket, for tests; by a library that is not the server's."""
 import json
 import time
+import unittest
 
 import cbor2
 import rospy
 from websockets.sync.client import connect
 
 PATIENCE = 20.0  # s
+PORT = 29090  # of protocol.test
 
 
 class Client:
@@ -74,3 +76,24 @@ def gone(test, thing, what):
     while thing.get_num_connections():
         test.assertLess(time.monotonic(), end, what)
         rospy.sleep(0.02)
+
+
+class Case(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        rospy.wait_for_service("/rosapi/get_time", 60)  # the last of them
+
+    def client(self):
+        return Client(self, PORT)
+
+    def publisher(self, topic, kind, **options):
+        made = rospy.Publisher(topic, kind, queue_size=100, **options)
+        self.addCleanup(made.unregister)
+        return made
+
+    def listener(self, topic, kind):
+        """Subscriber, and what it hears."""
+        got = []
+        made = rospy.Subscriber(topic, kind, got.append)
+        self.addCleanup(made.unregister)
+        return made, got
