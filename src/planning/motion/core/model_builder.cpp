@@ -382,13 +382,18 @@ void ModelBuilder::applyLimits()
       b.min_position = limit.min_position.value_or(b.min_position);
       b.max_position = limit.max_position.value_or(b.max_position);
     }
-    // A limit counts without its flag, which can only take it back.
-    b.has_velocity = limit.has_velocity.value_or(b.has_velocity || limit.max_velocity);
-    b.max_velocity = limit.max_velocity.value_or(b.max_velocity);
-    b.has_acceleration = limit.has_acceleration.value_or(b.has_acceleration || limit.max_acceleration);
-    b.max_acceleration = limit.max_acceleration.value_or(b.max_acceleration);
-    b.has_jerk = limit.has_jerk.value_or(b.has_jerk || limit.max_jerk);
-    b.max_jerk = limit.max_jerk.value_or(b.max_jerk);
+    // A limit counts without its flag, which can take it back, but makes none.
+    const auto take = [&, &joint_name = name](bool& has, double& most, const std::optional<bool>& flag,
+                                              const std::optional<double>& value, const std::string& what) {
+      if (flag.value_or(false) && !has && !value)
+        warn("joint_limits: joint '" + joint_name + "' has has_" + what + "_limits: true, but no max_" + what +
+             ": it counts as not limited");
+      has = (has || value) && flag.value_or(true);
+      most = value.value_or(most);
+    };
+    take(b.has_velocity, b.max_velocity, limit.has_velocity, limit.max_velocity, "velocity");
+    take(b.has_acceleration, b.max_acceleration, limit.has_acceleration, limit.max_acceleration, "acceleration");
+    take(b.has_jerk, b.max_jerk, limit.has_jerk, limit.max_jerk, "jerk");
   }
   for (const JointModel& joint : model_.joints)
     for (const VariableBounds& b : joint.bounds)

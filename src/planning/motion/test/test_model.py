@@ -178,6 +178,17 @@ def test_a_limit_counts_without_its_flag_and_the_flag_takes_it_back():
     assert (left.has_velocity, left.max_velocity) == (True, 0.2)  # the URDF's stay
 
 
+def test_a_flag_without_a_number_makes_no_limit():
+    """One of 0 would stop the whole group."""
+    limits = {"lift": {"has_acceleration_limits": True, "has_velocity_limits": True}, "drive": {"x": {"has_velocity_limits": True}}}
+    model = motion.load_model(GRIPPER, HAND_SRDF, joint_limits=limits)
+    lift, x = model.variable_limits("lift"), model.variable_limits("drive/x")
+    assert (lift.has_acceleration, x.has_velocity, lift.has_velocity) == (False, False, True)  # the URDF has a velocity
+    assert [line for line in model.warnings if "joint_limits" in line] == [
+        f"joint_limits: joint '{name}' has has_{what}_limits: true, but no max_{what}: it counts as not limited"
+        for name, what in (("drive/x", "velocity"), ("lift", "acceleration"))]
+
+
 def test_the_variables_of_a_planar_joint_have_limits_of_their_own():
     limits = {"drive": {"x": {"max_velocity": 0.2, "min_position": -1, "max_position": 2},
                         "theta": {"max_acceleration": 3, "max_position": 1}},

@@ -140,7 +140,7 @@ def test_many_random_paths_with_corners(model):
 def test_limits_of_zero_and_unknown_methods_are_refused(model):
     limits = dict(LIMITS, elbow_joint={"has_acceleration_limits": True, "max_acceleration": 0.0})
     bad = motion.load_model(*robots.arm("ur5"), joint_limits=limits)
-    with pytest.raises(motion.InvalidInputError, match="'elbow_joint' has a acceleration limit of 0"):
+    with pytest.raises(motion.InvalidInputError, match="acceleration limit of joint 'elbow_joint' is 0: it must"):
         motion.time_parameterize(bad, path(bad))
     with pytest.raises(motion.InvalidInputError, match="no timing method 'magic'"):
         motion.time_parameterize(model, path(model), "magic")

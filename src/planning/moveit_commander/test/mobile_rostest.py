@@ -6,7 +6,7 @@ import moveit_commander
 import numpy as np
 import rospy
 import rostest
-from geometry_msgs.msg import TransformStamped
+from geometry_msgs.msg import Quaternion, Transform, TransformStamped, Vector3
 from moveit_commander import MoveGroupCommander, MoveItCommanderException, RobotCommander
 from moveit_msgs.msg import RobotState
 from moveit_msgs.srv import GetPositionFK
@@ -41,6 +41,27 @@ class Mobile(unittest.TestCase):
             np.testing.assert_allclose(vector(pose.pose), vector(there.pose), atol=1e-4)
         state = self.robot.get_current_state().multi_dof_joint_state
         self.assertAlmostEqual(dict(zip(state.joint_names, state.transforms))["base"].translation.x, 1.0)
+
+    def test_a_state_may_give_the_base_in_another_frame(self):
+        """0.5 m ahead of where the base stands, (1, -0.5) turned by 0.3 rad; a frame that nobody knows is the robot's own."""
+        state = RobotState(is_diff=True)
+        state.multi_dof_joint_state.joint_names = ["base"]
+        state.multi_dof_joint_state.transforms = [Transform(Vector3(0.5, 0.0, 0.0), Quaternion(0.0, 0.0, 0.0, 1.0))]
+        for frame, there in (("world", [1.0 + 0.5 * np.cos(0.3), -0.5 + 0.5 * np.sin(0.3), 0.3]), ("odom", [0.5, 0.0, 0.0]),
+                             ("", [0.5, 0.0, 0.0]), ("nowhere", [0.5, 0.0, 0.0])):
+            state.multi_dof_joint_state.header.frame_id = frame
+            pose = rospy.ServiceProxy("compute_fk", GetPositionFK)(Header(frame_id="odom"), ["world"], state).pose_stamped[0].pose
+            found = [pose.position.x, pose.position.y, 2 * np.arctan2(pose.orientation.z, pose.orientation.w)]
+            np.testing.assert_allclose(found, there, atol=1e-6, err_msg=frame)
+        state.multi_dof_joint_state.header.frame_id = "world"
+        self.base.set_workspace([-5, -5, 0, 5, 5, 0])
+        self.base.set_start_state(state)
+        self.base.set_joint_value_target([2.0, -0.5, 0.3])
+        good, path, _, _ = self.base.plan()
+        self.base.set_start_state_to_current_state()
+        self.assertTrue(good)
+        begin = path.multi_dof_joint_trajectory.points[0].transforms[0].translation
+        np.testing.assert_allclose([begin.x, begin.y], [1.0 + 0.5 * np.cos(0.3), -0.5 + 0.5 * np.sin(0.3)], atol=1e-6)
 
     def test_a_line_from_where_the_hand_is(self):
         self.arm.set_joint_value_target(HOME)

@@ -27,6 +27,13 @@ bool isContinuous(const moveit::core::JointModel& joint)
   return revolute && revolute->isContinuous();
 }
 
+// The frame that TF has a joint's transform in.
+std::string parentFrame(const moveit::core::RobotModel& model, const moveit::core::JointModel& joint)
+{
+  const moveit::core::LinkModel* parent = joint.getParentLinkModel();
+  return parent ? parent->getName() : model.getModelFrame();
+}
+
 }  // namespace
 
 CurrentStateMonitor::CurrentStateMonitor(const moveit::core::RobotModelConstPtr& robot_model,
@@ -62,8 +69,17 @@ void CurrentStateMonitor::startStateMonitor(const std::string& joint_states_topi
   else
     joint_state_subscriber_ = nh_.subscribe(joint_states_topic, 25, &CurrentStateMonitor::take, this);
   if (tf_buffer_ && !robot_model_->getMultiDOFJointModels().empty())
+  {
     tf_connection_ =
         std::make_unique<boost::signals2::connection>(tf_buffer_->_addTransformsChangedListener([this] { takeTransforms(); }));
+    // What is there already may be all that comes: a static transform is sent once.
+    const auto& joints = robot_model_->getMultiDOFJointModels();
+    if (std::any_of(joints.begin(), joints.end(), [this](auto* joint) {
+          return tf_buffer_->canTransform(parentFrame(*robot_model_, *joint), joint->getChildLinkModel()->getName(),
+                                          ros::Time(0));
+        }))
+      takeTransforms();
+  }
   spinner_ = std::make_unique<ros::AsyncSpinner>(1, &queue_);
   spinner_->start();
   started_ = true;
@@ -268,7 +284,9 @@ bool CurrentStateMonitor::takeJoint(const sensor_msgs::JointState& joint_state, 
       ROS_WARN_STREAM_NAMED(LOGNAME, "New joint state for joint '" << joint->getName()
                                                                    << "' is not newer than the "
                                                                       "previous state. Assuming your rosbag looped.");
-      joint_time_.clear();
+      // A static transform, which has no time, is not sent again.
+      for (auto entry = joint_time_.begin(); entry != joint_time_.end();)
+        entry = entry->second.isZero() ? std::next(entry) : joint_time_.erase(entry);
     }
   }
   joint_time_[joint] = joint_state.header.stamp;
@@ -327,12 +345,11 @@ void CurrentStateMonitor::takeTransforms()
     const std::lock_guard<std::mutex> lock(mutex_);
     for (const moveit::core::JointModel* joint : robot_model_->getMultiDOFJointModels())
     {
-      const moveit::core::LinkModel *parent = joint->getParentLinkModel(), *child = joint->getChildLinkModel();
+      const moveit::core::LinkModel* child = joint->getChildLinkModel();
       geometry_msgs::TransformStamped transform;
       try
       {
-        transform = tf_buffer_->lookupTransform(parent ? parent->getName() : robot_model_->getModelFrame(), child->getName(),
-                                                ros::Time(0));
+        transform = tf_buffer_->lookupTransform(parentFrame(*robot_model_, *joint), child->getName(), ros::Time(0));
       }
       catch (const tf2::TransformException& error)
       {

@@ -63,7 +63,7 @@ XmlRpc::XmlRpcValue* tableOf(XmlRpc::XmlRpcValue& limits, const std::string& var
   return table->getType() == XmlRpc::XmlRpcValue::TypeStruct ? table : nullptr;
 }
 
-bool readNumber(XmlRpc::XmlRpcValue& table, const char* key, double& value)
+bool readNumber(XmlRpc::XmlRpcValue& table, const std::string& key, double& value)
 {
   if (!table.hasMember(key))
     return false;
@@ -77,13 +77,19 @@ bool readNumber(XmlRpc::XmlRpcValue& table, const char* key, double& value)
   return true;
 }
 
-// A limit counts without its flag, which can only take it back.
-void readLimit(XmlRpc::XmlRpcValue& table, const char* key, double& value, const char* flag, std::uint8_t& has)
+// A limit counts without its flag, which can take it back, but makes none.
+void readLimit(XmlRpc::XmlRpcValue& table, const std::string& what, const std::string& joint, double& value, std::uint8_t& has)
 {
+  const std::string key = "max_" + what, flag = "has_" + what + "_limits";
   if (readNumber(table, key, value))
     has = true;
-  if (table.hasMember(flag) && table[flag].getType() == XmlRpc::XmlRpcValue::TypeBoolean)
-    has = static_cast<bool>(table[flag]);
+  if (!table.hasMember(flag) || table[flag].getType() != XmlRpc::XmlRpcValue::TypeBoolean)
+    return;
+  if (!static_cast<bool>(table[flag]))
+    has = false;
+  else if (!has)
+    ROS_WARN_NAMED(LOGNAME, "joint_limits: joint '%s' has %s: true, but no %s: it counts as not limited", joint.c_str(),
+                   flag.c_str(), key.c_str());
 }
 
 bool isAngle(const moveit::core::JointModel& joint, std::size_t variable)
@@ -123,8 +129,8 @@ void RobotModelLoader::readLimits()
       }
       else if (low || high)
         limit.has_position_limits = true;
-      readLimit(*given, "max_velocity", limit.max_velocity, "has_velocity_limits", limit.has_velocity_limits);
-      readLimit(*given, "max_acceleration", limit.max_acceleration, "has_acceleration_limits", limit.has_acceleration_limits);
+      readLimit(*given, "velocity", limit.joint_name, limit.max_velocity, limit.has_velocity_limits);
+      readLimit(*given, "acceleration", limit.joint_name, limit.max_acceleration, limit.has_acceleration_limits);
       if (limit.min_position > limit.max_position)
       {
         ROS_ERROR_NAMED(LOGNAME, "joint_limits of '%s': min_position %g is above max_position %g; the limits of the URDF stay",

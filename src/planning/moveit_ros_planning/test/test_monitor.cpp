@@ -62,6 +62,10 @@ TEST(Loader, limitsWithoutFlagsAndOfAPlanarJointCount)
   EXPECT_EQ(first.max_acceleration_, 0.5);
   const moveit::core::VariableBounds& second = model->getVariableBounds("joint_2");
   EXPECT_FALSE(second.velocity_bounded_ || second.acceleration_bounded_);
+  const moveit::core::VariableBounds& third = model->getVariableBounds("joint_3");  // flags without a number
+  EXPECT_FALSE(third.acceleration_bounded_);
+  EXPECT_TRUE(third.velocity_bounded_);  // the URDF's
+  EXPECT_GT(third.max_velocity_, 0.0);
 }
 
 TEST(Loader, aLineEndsAtAJointsLimitAndNoJointSpinsBack)

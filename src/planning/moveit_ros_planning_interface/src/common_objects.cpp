@@ -14,7 +14,8 @@ struct Shared {
   std::mutex mutex;
   std::weak_ptr<tf2_ros::Buffer> tf;
   std::map<std::string, std::weak_ptr<const moveit::core::RobotModel>> models;
-  std::map<std::string, std::weak_ptr<planning_scene_monitor::CurrentStateMonitor>> monitors;
+  std::map<std::pair<const moveit::core::RobotModel*, std::string>, std::weak_ptr<planning_scene_monitor::CurrentStateMonitor>>
+      monitors;
 };
 
 // Never destroyed: a program's globals may use it until the very end.
@@ -63,9 +64,8 @@ planning_scene_monitor::CurrentStateMonitorPtr getSharedStateMonitor(const movei
                                                                      const std::shared_ptr<tf2_ros::Buffer>& tf_buffer,
                                                                      const ros::NodeHandle& nh) {
   const std::lock_guard<std::mutex> lock(shared().mutex);
-  // Two robots of one name in two namespaces have two states.
-  std::weak_ptr<planning_scene_monitor::CurrentStateMonitor>& known =
-      shared().monitors[robot_model->getName() + "@" + nh.getNamespace()];
+  // Robots of one name have states of their own: in two namespaces, or by two descriptions. A monitor keeps its model alive.
+  std::weak_ptr<planning_scene_monitor::CurrentStateMonitor>& known = shared().monitors[{robot_model.get(), nh.getNamespace()}];
   planning_scene_monitor::CurrentStateMonitorPtr monitor = known.lock();
   if (!monitor) {
     monitor = std::make_shared<planning_scene_monitor::CurrentStateMonitor>(robot_model, tf_buffer, nh);

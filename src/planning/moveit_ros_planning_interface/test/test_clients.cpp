@@ -402,6 +402,29 @@ TEST_F(Clients, PickAndPlaceGoalsAndTheirFailure) {
   EXPECT_EQ(arm_.planGraspsAndPick("no such block"), Codes::INVALID_OBJECT_NAME);
 }
 
+// The same arm on a base whose place only a static transform tells, which came before anybody asked: 1 m ahead, 0.5 m to the right,
+// turned by 0.3 rad.
+TEST_F(Clients, SeeABaseThatAStaticTransformPlaced) {
+  goHome();
+  const Eigen::Isometry3d X_OW =
+      Eigen::Translation3d(1.0, -0.5, 0.0) * Eigen::Isometry3d(Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitZ()));
+  const Eigen::Vector3d p_WH = arm_.getCurrentState(5)->getGlobalLinkTransform("hand").translation(), p_OH = X_OW * p_WH;
+  const std::map<std::string, Values> places{{"planar", {1.0, -0.5, 0.3}},
+                                             {"floating", {1.0, -0.5, 0.0, 0.0, 0.0, std::sin(0.15), std::cos(0.15)}}};
+  for (const auto& [kind, place] : places) {
+    MoveGroupInterface arm(MoveGroupInterface::Options("manipulator", kind + "_description"));
+    const geometry_msgs::PoseStamped pose = arm.getCurrentPose("hand");
+    EXPECT_EQ(pose.header.frame_id, "odom");
+    EXPECT_NEAR(pose.pose.position.x, p_OH.x(), 1e-3) << kind;
+    EXPECT_NEAR(pose.pose.position.y, p_OH.y(), 1e-3) << kind;
+    EXPECT_NEAR(pose.pose.position.z, p_OH.z(), 1e-3) << kind;
+    const Values values =
+        MoveGroupInterface(MoveGroupInterface::Options("base", kind + "_description")).getCurrentJointValues();
+    ASSERT_EQ(values.size(), place.size());
+    for (std::size_t i = 0; i < place.size(); ++i) EXPECT_NEAR(values[i], place[i], 1e-6) << kind << i;
+  }
+}
+
 TEST_F(Clients, CanBeMoved) {
   MoveGroupInterface other(std::move(arm_));
   EXPECT_EQ(other.getName(), "manipulator");

@@ -8,6 +8,7 @@ import numpy as np
 import rospy
 from moveit_msgs.msg import AttachedCollisionObject, CollisionObject, RobotState, RobotTrajectory
 from object_recognition_msgs.msg import ObjectType
+from sensor_msgs.msg import MultiDOFJointState
 from trajectory_msgs.msg import JointTrajectoryPoint, MultiDOFJointTrajectoryPoint
 
 from . import convert
@@ -25,6 +26,9 @@ def is_empty(message: RobotState) -> bool:
 def apply_robot_state(scene, state: motion.RobotState, message: RobotState, attach: Optional[Callable] = None) -> None:
     """Merge a RobotState message into ``state``.
 
+    Poses of floating and planar joints are given in the frame of ``multi_dof_joint_state``'s header, which ``scene`` (None: the robot's
+    own frame alone) tells; as upstream, one that nobody knows is told of and taken for the robot's.
+
     :param attach: ``attach(state, AttachedCollisionObject)`` for the attached bodies of the message; None leaves them
         out.
     :raises ValueError: names and positions do not match, a joint is unknown, or a value is not finite.
@@ -38,13 +42,28 @@ def apply_robot_state(scene, state: motion.RobotState, message: RobotState, atta
             raise ValueError(f"a robot state names joint '{name}', which the robot '{state.model.name}' does not have")
         state.set(name, value)
     multi = message.multi_dof_joint_state
+    origin = _frame_of_joints(scene, state, multi)
     for name, transform in zip(multi.joint_names, multi.transforms):
-        set_multi_dof(state, name, convert.pose(transform, f"joint '{name}'"))
+        set_multi_dof(state, name, origin * convert.pose(transform, f"joint '{name}'"))
     if not message.is_diff:
         state.clear_attached()
     if attach is not None:
         for body in message.attached_collision_objects:
             attach(state, body)
+
+
+def _frame_of_joints(scene, state: motion.RobotState, multi: MultiDOFJointState) -> motion.Pose:
+    here = motion.Pose((0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0))
+    if not multi.joint_names or convert.strip(multi.header.frame_id) in ("", state.model.frame):
+        return here
+    try:
+        if scene is not None:
+            return convert.in_model_frame(scene, multi.header.frame_id, here)
+    except motion.UnknownNameError:
+        pass
+    rospy.logwarn("The transform for multi-dof joints was specified in frame '%s' but it was not possible to transform that to frame '%s'",
+                  multi.header.frame_id, state.model.frame)
+    return here
 
 
 def set_multi_dof(state: motion.RobotState, joint: str, pose: motion.Pose) -> None:
