@@ -362,17 +362,6 @@ def test_lin_and_circ_keep_the_joints_accelerations():
     assert statuses == ["failed", "failed", "solved"] * 2
 
 
-def test_a_limit_of_zero_is_named_by_every_motion():
-    limits = {"elbow_joint": {"has_acceleration_limits": True, "max_acceleration": 0.0}}
-    scene = motion.PlanningScene(motion.load_model(*robots.arm("ur5"), joint_limits=limits))
-    state = scene.state
-    state.set_group("arm", HOME)
-    scene.set_state(state)
-    for planner, extra in (("PTP", None), ("LIN", None), ("CIRC", auxiliary("interim", state.pose("tool").position + (0, 0.1, 0.05)))):
-        result = motion.pilz_plan(scene, moved(scene, (0, 0.2, 0), planner, auxiliary=extra))
-        assert not result and "the acceleration limit of joint 'elbow_joint' is 0: it must be above 0" in result.message
-
-
 def test_last_intervals_are_not_so_short_that_rounding_speeds_a_joint_up():
     from motion.pilz import _Trapeze
     for length in np.linspace(0.05, 0.5, 400):

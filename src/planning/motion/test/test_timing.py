@@ -146,6 +146,19 @@ def test_limits_of_zero_and_unknown_methods_are_refused(model):
         motion.time_parameterize(model, path(model), "magic")
 
 
+def test_industrial_motions_name_a_limit_of_zero_as_well():
+    bad = motion.load_model(*robots.arm("ur5"), joint_limits=dict(LIMITS, elbow_joint={"max_acceleration": 0.0}))
+    scene = motion.PlanningScene(bad)
+    state = scene.state
+    state.set_group("arm", [0.3, -1.2, 1.4, -0.9, 1.1, 0.5])
+    scene.set_state(state)
+    tool = state.pose("tool")
+    for planner in ("PTP", "LIN"):
+        goal = motion.pose_goal("tool", (tool.position + (0.0, 0.1, 0.0), tool.quaternion))
+        result = motion.pilz_plan(scene, motion.MotionRequest("arm", planner=planner, goals=[goal]))
+        assert not result and "the acceleration limit of joint 'elbow_joint' is 0: it must be above 0" in result.message
+
+
 def test_cartesian_speed_limit(model):
     timed = motion.time_parameterize(model, path(model))
     slow = motion.limit_cartesian_speed(timed, "tool", 0.1)
