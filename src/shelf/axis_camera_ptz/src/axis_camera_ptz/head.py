@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Dict, Tuple
+from typing import Any, Dict, List, Tuple
 
 #: Parameters of the node with the values that they have when nothing is said; rad.
 DEFAULTS: Dict[str, Any] = {
@@ -27,7 +27,7 @@ class Head:
     @classmethod
     def from_parameters(cls, values: Dict[str, Any]) -> "Head":
         """:raises ValueError: a limit is no number, or the least is above the most; one line that names it."""
-        limits = []
+        limits: List[Tuple[float, float]] = []
         for name in ("pan", "tilt", "zoom"):
             try:
                 least, most = (float(values[f"{end}_{name}_value"]) for end in ("min", "max"))
@@ -36,7 +36,8 @@ class Head:
             if not least <= most:
                 raise ValueError(f"min_{name}_value {least:g} is above max_{name}_value {most:g}")
             limits.append((least, most))
-        return cls(tuple(limits), bool(values["invert_ptz"]))
+        pan, tilt, zoom = limits
+        return cls((pan, tilt, zoom), bool(values["invert_ptz"]))
 
     def go(self, pan: float, tilt: float, zoom: float, relative: bool = False) -> None:
         """A command, to a place or (``relative``) onwards from where the head is to be; cut to the limits. What is no number

@@ -4,7 +4,7 @@ from __future__ import annotations
 import math
 from typing import Optional
 
-from .rotation import Quaternion, Vector, advanced, conjugate, cross, product, turned, unit
+from .rotation import Quaternion, Vector, added, advanced, conjugate, cross, product, turned, unit
 
 _NORTH = {"enu": (0.0, 1.0), "nwu": (1.0, 0.0), "ned": (1.0, 0.0)}  # x and y of the horizontal part of the field
 
@@ -26,7 +26,7 @@ class Madgwick:
         """One reading: m/s^2, rad/s, magnetic field in any unit or None, s since the last one."""
         q = self.orientation
         seen = unit(acceleration)
-        pull = (0.0, 0.0, 0.0)  # turn of the sensor, about its own axes, that its readings ask for
+        pull: Vector = (0.0, 0.0, 0.0)  # turn of the sensor, about its own axes, that its readings ask for
         if seen is not None:
             up = (0.0, 0.0, -1.0 if self.world == "ned" else 1.0)
             pull = cross(seen, turned(conjugate(q), up))
@@ -36,7 +36,7 @@ class Madgwick:
                 east, north = _NORTH[self.world]
                 level = math.hypot(flux[0], flux[1])
                 expected = turned(conjugate(q), (east * level, north * level, flux[2]))
-                pull = tuple(a + b for a, b in zip(pull, cross(seen, expected)))
+                pull = added(pull, cross(seen, expected))
         pull = unit(pull, 1e-9) or (0.0, 0.0, 0.0)
         if self.zeta:
             self.bias = tuple(b - self.zeta * 2 * p * dt for b, p in zip(self.bias, pull))

@@ -12,6 +12,10 @@ def dot(a: Vector, b: Vector) -> float:
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
+def added(a: Vector, b: Vector) -> Vector:
+    return a[0] + b[0], a[1] + b[1], a[2] + b[2]
+
+
 def cross(a: Vector, b: Vector) -> Vector:
     return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
 
@@ -49,7 +53,7 @@ def advanced(q: Quaternion, rate: Vector, dt: float) -> Quaternion:
     speed = math.sqrt(dot(rate, rate))
     if speed * abs(dt) < 1e-12:
         return q
-    return product(q, about(tuple(x / speed for x in rate), speed * dt))
+    return product(q, about((rate[0] / speed, rate[1] / speed, rate[2] / speed), speed * dt))
 
 
 def of_axes(x: Vector, y: Vector, z: Vector) -> Quaternion:

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import ast
 import operator
-from typing import Callable, Dict, Sequence
+from typing import Callable, Dict, Optional, Sequence, Tuple, cast
 
 _OPERATORS: Dict[type, Callable] = {
     ast.Add: operator.add, ast.Sub: operator.sub, ast.Mult: operator.mul, ast.Div: operator.truediv,
@@ -43,25 +43,31 @@ class Formula:
         elif isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id in _FUNCTIONS and node.args:
             for argument in node.args:
                 self._check(argument)
-        elif not self._is_item(node):
+        elif self._item(node) is None:
             raise ValueError(f"'{ast.unparse(node)}' in '{self.text}' is not understood: numbers, axes[i], buttons[i], "
                              "+ - * / ^, abs, max and min are")
 
     @staticmethod
-    def _is_item(node: ast.expr) -> bool:
-        return (isinstance(node, ast.Subscript) and isinstance(node.value, ast.Name) and node.value.id in _LISTS
-                and isinstance(node.slice, ast.Constant) and type(node.slice.value) is int)
+    def _item(node: ast.expr) -> Optional[Tuple[str, int]]:
+        """("axes", 1) of ``axes[1]``; None of anything else."""
+        if (isinstance(node, ast.Subscript) and isinstance(node.value, ast.Name) and node.value.id in _LISTS
+                and isinstance(node.slice, ast.Constant) and type(node.slice.value) is int):
+            return node.value.id, node.slice.value
+        return None
 
     def _value(self, node: ast.expr, lists: Dict[str, Sequence[float]]) -> float:
         if isinstance(node, ast.Constant):
-            return node.value
+            return cast(float, node.value)
         if isinstance(node, ast.BinOp):
             return _OPERATORS[type(node.op)](self._value(node.left, lists), self._value(node.right, lists))
         if isinstance(node, ast.UnaryOp):
             return _OPERATORS[type(node.op)](self._value(node.operand, lists))
-        if isinstance(node, ast.Call):
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
             return _FUNCTIONS[node.func.id](*(self._value(argument, lists) for argument in node.args))
-        values, index = lists[node.value.id], node.slice.value
+        item = self._item(node)
+        assert item is not None  # _check lets nothing else through
+        name, index = item
+        values = lists[name]
         if index >= len(values):
-            raise IndexError(f"'{self.text}' asks for {node.value.id}[{index}], the joystick has {len(values)} {node.value.id}")
+            raise IndexError(f"'{self.text}' asks for {name}[{index}], the joystick has {len(values)} {name}")
         return values[index]

@@ -2,6 +2,8 @@
 from __future__ import annotations
 
 import math
+from types import ModuleType
+from typing import Any, Optional, Set
 
 import rospy
 from gazebo_plugins.imu import Differentiator
@@ -64,12 +66,12 @@ class Kobuki(ModelPlugin):
         self.command = Command(topics, f"{base}/commands/velocity")
         self.motors_on = True
         topics.subscriber(f"{base}/commands/reset_odometry", Empty, lambda _: setattr(self, "odometry_reset", True))
+        self.kobuki: Optional[ModuleType] = None
         try:
             from kobuki_msgs import msg as kobuki
         except ImportError:
             rospy.logwarn("the Kobuki base of model %s drives, but tells no bumps and cliffs: their messages are in "
                           "kobuki_msgs, which is not here (github.com/yujinrobot/kobuki_msgs)", self.model.name)
-            self.kobuki = None
             return
         self.kobuki = kobuki
         topics.subscriber(f"{base}/commands/motor_power", kobuki.MotorPower,
@@ -82,7 +84,9 @@ class Kobuki(ModelPlugin):
     def reset(self) -> None:
         self.command.clear()
         self.odometry_reset = True
-        self.was_pressed, self.was_cliff, self.was_dropped = set(), set(), set()
+        self.was_pressed: Set[str] = set()
+        self.was_cliff: Set[str] = set()
+        self.was_dropped: Set[str] = set()
 
     def drive(self) -> None:
         late = (self.server.now() - self.command.received).to_sec() > self.timeout
@@ -108,8 +112,8 @@ class Kobuki(ModelPlugin):
         self._publish_odometry(now, speed, rates[2])
         pull = [a - g for a, g in zip(self.acceleration(now.to_nsec()), self.world.gravity)]
         self._publish_imu(now, q_WG, rates, math3.quat_rotate(q_GW, tuple(pull)))
-        if self.kobuki:
-            self._publish_events(now)
+        if self.kobuki is not None:
+            self._publish_events(self.kobuki.SensorState(), now)
 
     def _publish_joints(self, now: rospy.Time) -> None:
         message = JointState(effort=[0.0, 0.0])
@@ -138,8 +142,8 @@ class Kobuki(ModelPlugin):
         message.orientation_covariance = message.angular_velocity_covariance = diagonal((_UNKNOWN, _UNKNOWN, 0.05))
         self.imu.publish(message)
 
-    def _publish_events(self, now: rospy.Time) -> None:
-        state = self.kobuki.SensorState()
+    def _publish_events(self, state: Any, now: rospy.Time) -> None:
+        """:param state: a kobuki_msgs/SensorState to fill in"""
         pressed, distances = self.bumper.pressed(), self.cliffs.distances()
         cliff = {side for side, distance in distances.items() if self.cliffs.is_cliff(distance)}
         dropped = {side for side, touches in self.on_floor.items() if not touches()}

@@ -17,10 +17,14 @@ class _PlaceFilter(Filter):
         """(N,) of points (N, 3) in ``frame``; what is NaN is not inside."""
         raise NotImplementedError
 
+    def _moved(self, points: np.ndarray, to: str, whence: str, stamp: float) -> np.ndarray:
+        assert self.transform is not None  # only a chain without tf, for scans in the frames of its filters, has none
+        return self.transform(points, to, whence, stamp)
+
     def apply(self, scan: Scan) -> None:
         points = scan.points()
         if self.frame != scan.frame:
-            points = self.transform(points, self.frame, scan.frame, scan.stamp)
+            points = self._moved(points, self.frame, scan.frame, scan.stamp)
         with np.errstate(invalid="ignore"):
             inside = self.inside(points)
         hidden = ~inside & ~np.isnan(points[:, 0]) if self.values.get("invert") else inside
@@ -86,7 +90,7 @@ class StaticPolygonFilter(PolygonFilter):
         if not self._placed:
             flat = np.column_stack((self.corners, np.zeros(len(self.corners))))
             if self.frame != scan.frame:
-                flat = self.transform(flat, scan.frame, self.frame, math.nan)
+                flat = self._moved(flat, scan.frame, self.frame, math.nan)
             self.corners, self._placed = flat[:, :2], True
         with np.errstate(invalid="ignore"):
             points = scan.points()

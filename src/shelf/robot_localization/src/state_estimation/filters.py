@@ -68,8 +68,8 @@ class Ekf:
         self._flatten()
 
     def predict(self, dt: float) -> None:
-        """Move on by dt seconds; nothing happens for dt <= 0."""
-        if dt <= 0:
+        """Move on by dt seconds; nothing happens for dt <= 0, nor before the first measurement."""
+        if dt <= 0 or self.time is None:
             return
         noise = self._noise() * dt
         self._propagate(dt, noise)

@@ -79,8 +79,7 @@ class Sensor:
 
     def _odometry(self, message: Odometry, measured: list) -> None:
         self._pose(message.header, message.pose.pose, message.pose.covariance, measured)
-        if self.twist:
-            self._velocity(message.child_frame_id, message.header.stamp, message.twist.twist, message.twist.covariance, measured)
+        self._velocity(message.child_frame_id, message.header.stamp, message.twist.twist, message.twist.covariance, measured)
 
     def _posed(self, message: PoseWithCovarianceStamped, measured: list) -> None:
         self._pose(message.header, message.pose.pose, message.pose.covariance, measured)
@@ -96,8 +95,9 @@ class Sensor:
                 measured.append(made)
 
     def _velocity(self, frame, stamp, twist, covariance, measured: list) -> None:
-        measured.append(self.twist.measure(frame, stamp, stamp.to_sec(), vector(twist.linear), vector(twist.angular),
-                                           np.reshape(covariance, (6, 6))))
+        if self.twist:
+            measured.append(self.twist.measure(frame, stamp, stamp.to_sec(), vector(twist.linear), vector(twist.angular),
+                                               np.reshape(covariance, (6, 6))))
 
     def _inertial(self, message: Imu, measured: list) -> None:
         header, time, oriented = message.header, message.header.stamp.to_sec(), message.orientation_covariance[0] != -1

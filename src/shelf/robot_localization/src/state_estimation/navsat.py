@@ -211,9 +211,11 @@ class NavsatTransform:
                 self._align()
                 return
             if self._fix and self._odometry:
-                self._publish_odometry()
+                fix, self._fix = self._fix, None
+                self._publish_odometry(self._anchor, fix)
             if self._filtered and self._odometry:
-                self._publish_fix()
+                odometry, self._odometry = self._odometry, None
+                self._publish_fix(self._anchor, odometry, self._filtered)
 
     def _align(self) -> None:
         if self._datum is None or self._pose is None or self._rpy is None:
@@ -234,10 +236,10 @@ class NavsatTransform:
                       "the grid's east.", self._world, *self._anchor.to_earth(np.zeros(3))[:2],
                       -angles(self._anchor.world_plane.rotation)[2])
         if self._settings.broadcast:
-            self._broadcast()
+            self._broadcast(self._anchor.world_plane)
 
-    def _broadcast(self) -> None:
-        parent, child, pose = self._world, self._settings.cartesian_frame, self._anchor.world_plane
+    def _broadcast(self, pose: Transform) -> None:
+        parent, child = self._world, self._settings.cartesian_frame
         if self._settings.as_parent:
             parent, child, pose = child, parent, pose.inverse()
         sent = TransformStamped(child_frame_id=child)
@@ -248,10 +250,9 @@ class NavsatTransform:
             sent.transform.translation.z = 0.0
         self._broadcaster.sendTransform(sent)
 
-    def _publish_odometry(self) -> None:
-        fix, self._fix = self._fix, None
+    def _publish_odometry(self, anchor: Anchor, fix: NavSatFix) -> None:
         try:
-            position = self._anchor.to_map(fix.latitude, fix.longitude, fix.altitude)
+            position = anchor.to_map(fix.latitude, fix.longitude, fix.altitude)
         except ValueError as error:
             rospy.logerr_throttle(1.0, f"gps/fix: {error}")
             return
@@ -260,7 +261,7 @@ class NavsatTransform:
         message.pose.pose.position = self._point(position - self._receiver_offset(fix.header.stamp))
         message.pose.pose.orientation.w = 1.0
         covariance = np.zeros((6, 6))
-        covariance[:3, :3] = self._anchor.covariance_in_map(np.reshape(fix.position_covariance, (3, 3)))
+        covariance[:3, :3] = anchor.covariance_in_map(np.reshape(fix.position_covariance, (3, 3)))
         message.pose.covariance = covariance.ravel().tolist()
         self._gps_odometry.publish(message)
 
@@ -276,21 +277,20 @@ class NavsatTransform:
                 _WARN_PERIOD, f"The navsat device's offset from the robot's origin is not removed: {error}")
             return np.zeros(3)
 
-    def _publish_fix(self) -> None:
-        odometry, self._odometry = self._odometry, None
+    def _publish_fix(self, anchor: Anchor, odometry: Odometry, publisher: rospy.Publisher) -> None:
         at = odometry.pose.pose.position
         message = NavSatFix(position_covariance_type=NavSatFix.COVARIANCE_TYPE_KNOWN)
         try:
-            place = self._anchor.to_earth(np.array([at.x, at.y, at.z]))
+            place = anchor.to_earth(np.array([at.x, at.y, at.z]))
         except ValueError as error:
             rospy.logerr_throttle(1.0, f"odometry/filtered: {error}")
             return
         message.latitude, message.longitude, message.altitude = place
         covariance = np.reshape(odometry.pose.covariance, (6, 6))[:3, :3]
-        message.position_covariance = self._anchor.covariance_on_earth(covariance).ravel().tolist()
+        message.position_covariance = anchor.covariance_on_earth(covariance).ravel().tolist()
         message.status.status = NavSatStatus.STATUS_GBAS_FIX
         message.header.stamp, message.header.frame_id = odometry.header.stamp, self._base
-        self._filtered.publish(message)
+        publisher.publish(message)
 
 
 def main() -> int:

@@ -5,6 +5,7 @@ import re
 import sys
 import threading
 from dataclasses import dataclass
+from typing import Any, Dict
 
 import node_signals
 import numpy as np
@@ -75,7 +76,7 @@ class Localization:
             rospy.logwarn("%s has no sensors: set its parameters odom0, pose0, twist0 or imu0 to topics, and odom0_config and so on "
                           "to what is to be used of them.", own)
         rospy.Subscriber("set_pose", PoseWithCovarianceStamped, self.set_pose, queue_size=1)
-        rospy.Service("set_pose", SetPose, lambda request: self.set_pose(request.pose) or SetPoseResponse())
+        rospy.Service("set_pose", SetPose, self._on_set_pose)
         rospy.Service("~enable", Empty, self._enable)
         rospy.Service("~toggle", ToggleFilterProcessing, lambda request: ToggleFilterProcessingResponse(self._toggle(request.on)))
         rospy.Service("~get_state", GetState, self._get_state)
@@ -103,10 +104,11 @@ class Localization:
         def given(name: str, default: np.ndarray) -> np.ndarray:
             return matrix(parameters[name], f"{own}/{name}") if name in parameters else default
 
-        options = dict(process_noise=given("process_noise_covariance", PROCESS_NOISE),
-                       covariance=given("initial_estimate_covariance", INITIAL_COVARIANCE),
-                       planar=bool(parameters.get("two_d_mode", False)),
-                       dynamic_noise=bool(parameters.get("dynamic_process_noise_covariance", False)))
+        options: Dict[str, Any] = dict(
+            process_noise=given("process_noise_covariance", PROCESS_NOISE),
+            covariance=given("initial_estimate_covariance", INITIAL_COVARIANCE),
+            planar=bool(parameters.get("two_d_mode", False)),
+            dynamic_noise=bool(parameters.get("dynamic_process_noise_covariance", False)))
         if kind == "ukf":
             options.update({name: number("~" + name, default) for name, default in (("alpha", 0.001), ("kappa", 0.0), ("beta", 2.0))})
         initial = np.diag(given("initial_state", np.zeros((SIZE, SIZE)))).copy()
@@ -136,6 +138,10 @@ class Localization:
             changed, self._running = self._running != on, bool(on)
             self._queue.clear()
             return changed
+
+    def _on_set_pose(self, request) -> SetPoseResponse:
+        self.set_pose(request.pose)
+        return SetPoseResponse()
 
     def set_pose(self, message: PoseWithCovarianceStamped) -> None:
         """The robot is said to stand there, at rest; what was measured before does not count any more."""
@@ -210,9 +216,9 @@ class Localization:
             accelerated.accel.covariance = wide.ravel().tolist()
             self._acceleration.publish(accelerated)
         if self._broadcaster:
-            self._broadcast(message, Transform(rotation(state[ORIENTATION]), state[POSITION].copy()))
+            self._broadcast(self._broadcaster, message, Transform(rotation(state[ORIENTATION]), state[POSITION].copy()))
 
-    def _broadcast(self, message: Odometry, pose: Transform) -> None:
+    def _broadcast(self, broadcaster: tf2_ros.TransformBroadcaster, message: Odometry, pose: Transform) -> None:
         """world -> base_link; where the world is the map and somebody else tells odom -> base_link, map -> odom."""
         child = self.frames.base
         if self.frames.world == self.frames.map:
@@ -225,7 +231,7 @@ class Localization:
         sent.header.stamp, sent.header.frame_id = message.header.stamp + self._offset, message.header.frame_id
         fill(sent.transform.translation, pose.translation)
         fill(sent.transform.rotation, quaternion(pose.rotation), "xyzw")
-        self._broadcaster.sendTransform(sent)
+        broadcaster.sendTransform(sent)
 
     def report(self) -> None:
         """Once a second to /diagnostics."""

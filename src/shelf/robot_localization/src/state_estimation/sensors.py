@@ -1,6 +1,6 @@
 """From messages to measurements: frames, covariances, what each sensor is asked for."""
 from dataclasses import dataclass
-from typing import Callable, List, Optional
+from typing import Callable, Optional
 
 import numpy as np
 
@@ -198,7 +198,7 @@ def flags(value, parameter: str) -> np.ndarray:
 def matrix(value, parameter: str) -> np.ndarray:
     """(15, 15) from a list of 225 numbers, row by row, or of the 15 on the diagonal. :raises ValueError: it is neither"""
     try:
-        numbers: List[float] = np.array(value, float).ravel()
+        numbers = np.array(value, float).ravel()
     except (TypeError, ValueError):
         numbers = np.array([np.nan])
     if len(numbers) not in (SIZE, SIZE ** 2) or not np.isfinite(numbers).all():

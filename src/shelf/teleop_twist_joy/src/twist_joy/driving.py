@@ -1,5 +1,5 @@
 """From axes and buttons to velocities. No ROS in it."""
-from typing import Dict, Optional, Sequence, Tuple
+from typing import Dict, List, Optional, Sequence, Tuple
 
 FIELDS = {"linear": ("x", "y", "z"), "angular": ("yaw", "pitch", "roll")}
 _DEFAULTS = {"linear": ("x", 1, 0.5, 1.0), "angular": ("yaw", 0, 0.5, None)}  # field, axis, scale, turbo (None: as scale)
@@ -67,7 +67,7 @@ class Driver:
 
     def lines(self) -> Sequence[Tuple[str, tuple]]:
         """What the node tells at its start: formats with their arguments."""
-        told = [("Teleop enable button %i.", (self.enable,))]
+        told: List[Tuple[str, tuple]] = [("Teleop enable button %i.", (self.enable,))]
         if self.turbo >= 0:
             told.append(("Turbo on button %i.", (self.turbo,)))
         for kind, fields in FIELDS.items():

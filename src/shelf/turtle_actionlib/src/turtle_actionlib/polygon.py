@@ -1,5 +1,6 @@
 """Drives along a regular polygon by the turtle's pose. Knows no ROS."""
 import math
+from typing import Optional, Tuple
 
 _GAIN = 6.0  # 1/s, velocity per error
 _DISTANCE, _ANGLE = 1e-5, 1e-5  # m, rad; an error below is none
@@ -27,8 +28,9 @@ class Polygon:
         self.apothem = radius * math.cos(math.pi / edges)
         self._side = 2 * radius * math.sin(math.pi / edges)
         self._edges = edges
-        self._start = None  # x, y, theta at the last corner
-        self._last, self._unchanged = None, 0
+        self._start: Optional[Tuple[float, float, float]] = None  # x, y, theta at the last corner
+        self._last: Optional[tuple] = None
+        self._unchanged = 0
 
     @property
     def done(self) -> bool:

@@ -6,7 +6,7 @@ program may replace, and left out.
 from __future__ import annotations
 
 import sys
-from typing import Any, Callable, Dict, List, Optional
+from typing import Any, Callable, Dict, List, Optional, Union
 from xml.dom import minidom
 from xml.etree import ElementTree
 
@@ -55,6 +55,8 @@ class Field:
 
     :param read: an attribute's text to a value; for children a subclass of :class:`Object`, or a name of an attribute and its reader
     """
+
+    kind = ""
 
     def __init__(self, xml: str, read: Any, required: bool = True, default: Any = None, var: Optional[str] = None):
         self.xml, self.read, self.required, self.default, self.var = xml, read, required, default, var or xml
@@ -129,7 +131,7 @@ class Object:
     # reading
 
     @classmethod
-    def from_xml_string(cls, xml_string: str) -> Any:
+    def from_xml_string(cls, xml_string: Union[str, bytes]) -> Any:
         """:raises ParseError: what it says is missing or wrong, or no XML"""
         return cls._read(cls.__new_empty(), xml_string)
 
@@ -174,9 +176,9 @@ class Object:
             if name in attributes:
                 setattr(self, attributes[name].var, _judged(attributes[name].read, value, f"{path}[@{name}]"))
                 seen.add(name)
-        name = node.get("name")
-        if name is not None and "name" in attributes:
-            path = f"{path.rpartition('[')[0] if path.endswith(']') else path}[@name='{name}']"
+        own = node.get("name")
+        if own is not None and "name" in attributes:
+            path = f"{path.rpartition('[')[0] if path.endswith(']') else path}[@name='{own}']"
         for child in node:
             self._read_child(children.get(child.tag) if isinstance(child.tag, str) else None, child, path, seen)
         for field in self.FIELDS:
@@ -230,9 +232,9 @@ class Object:
             value = field.value_to_write(self)
             if value is not None and isinstance(field, Attribute):
                 node.set(field.xml, written(value))
-            elif value is not None:
+            elif value is not None and isinstance(field, Child):
                 field.to_xml(node, value)
-        by_name = {field.xml: field for field in self.FIELDS}
+        by_name = {field.xml: field for field in self.FIELDS if isinstance(field, Child)}
         for xml_var, value in getattr(self, "aggregate_order", []):
             by_name[xml_var].to_xml(node, value)
 
