@@ -32,18 +32,25 @@ def pose_of(text, link, root, positions=None):
     :param positions: dict of joint name to angle (rad); joints that are not named stand at 0.
     :returns: (4, 4) X_RL, the pose of `link` in `root`.
     """
-    by_child = {joint.find("child").get("link"): joint for joint in ET.fromstring(text).findall("joint")}
+    def part(joint, tag):
+        found = joint.find(tag)
+        if found is None:
+            raise ValueError(f"joint {joint.get('name')} has no <{tag}>")
+        return found
+
+    by_child = {part(joint, "child").get("link"): joint for joint in ET.fromstring(text).findall("joint")}
     pose = np.eye(4)
     while link != root:
         joint = by_child[link]
         origin = joint.find("origin")
         step = np.eye(4)
         if origin is not None:
+            roll, pitch, yaw = numbers(origin.get("rpy", "0 0 0"))
             step = translation_matrix(numbers(origin.get("xyz", "0 0 0"))) @ \
-                euler_matrix(*numbers(origin.get("rpy", "0 0 0")), "sxyz")
+                euler_matrix(roll, pitch, yaw, "sxyz")
         angle = (positions or {}).get(joint.get("name"), 0.0)
         if angle:
-            step = step @ rotation_matrix(angle, numbers(joint.find("axis").get("xyz")))
+            step = step @ rotation_matrix(angle, numbers(part(joint, "axis").get("xyz")))
         pose = step @ pose
-        link = joint.find("parent").get("link")
+        link = part(joint, "parent").get("link")
     return pose

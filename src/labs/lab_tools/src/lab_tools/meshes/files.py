@@ -43,6 +43,7 @@ def save_dae(path, coloured, scale=1.0):
     nodes = []
     for index, (colour, parts) in enumerate(coloured.items()):
         mesh = trimesh.util.concatenate(parts)
+        assert isinstance(mesh, trimesh.Trimesh)  # as its parts are
         mesh.apply_scale(scale)
         effect = material.Effect("effect%d" % index, [], "phong", ambient=(*colour, 1.0), diffuse=(*colour, 1.0),
                                  specular=(0.15, 0.15, 0.15, 1.0), shininess=20.0)

@@ -44,7 +44,7 @@ class Driver:
 
     def __init__(self):
         self.speed = 0.2  # m/s at full deflection
-        self.turn_rate = 1  # rad/s at full deflection
+        self.turn_rate: float = 1  # rad/s at full deflection
         self.linear = 0.0  # m/s, what is commanded now
         self.angular = 0.0  # rad/s, to the left
         self._direction = (0, 0)

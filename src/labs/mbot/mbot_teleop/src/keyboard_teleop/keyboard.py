@@ -30,7 +30,7 @@ class Keyboard:
         return self
 
     def __exit__(self, *_):
-        if self._terminal:
+        if self._settings is not None:
             termios.tcsetattr(self._descriptor, termios.TCSADRAIN, self._settings)
 
     def read(self):

@@ -71,7 +71,8 @@ def fingers(opening: float) -> JointTrajectory:
 
 def grasps(box: Pose, size: Sequence[float] = SIZES["block"]) -> List[Grasp]:
     """Ways to grip an upright box from above, a quarter of a turn apart; none where it is too wide, or lies on its side."""
-    found, at, o = [], position(box), box.orientation
+    found: List[Grasp] = []
+    at, o = position(box), box.orientation
     turn = (o.x, o.y, o.z, o.w)
     if quaternion_matrix(turn)[2, 2] < 0.999:
         return found
