@@ -1,5 +1,6 @@
 """The node arbotix: joints, controllers and pins of one board."""
 import sys
+from typing import Optional
 
 import node_signals
 import rospy
@@ -24,29 +25,30 @@ CONTROLLER_TYPES = {"diff_controller": DiffController, "follow_controller": Foll
 class Driver:
     def __init__(self):
         self.fake = rospy.get_param("~sim", False)
-        self.board = None
+        self.board: Optional[ArbotiX] = None
         if self.fake:
             rospy.loginfo("ArbotiX being simulated.")
         else:
             self.board = ArbotiX(rospy.get_param("~port", "/dev/ttyUSB0"), int(number("~baud", 115200, above=0)),
                                  float(number("~timeout", 0.1, above=0)), open_port=False)
-            self._connect()
+            self._connect(self.board)
         self._rate = number("~rate", 100.0, above=0)
         self._joint_states = rospy.Publisher("joint_states", JointState, queue_size=5)
         self._joint_states_every = every(number("~read_rate", 10.0, above=0))
         self._diagnostics = rospy.Publisher("diagnostics", DiagnosticArray, queue_size=5)
         self._diagnostics_every = every(number("~diagnostic_rate", 1.0, above=0))
-        self.joints = {}
+        self.joints: dict = {}
         self._make(self.joints, "joint", JOINT_TYPES, "dynamixel")
         self.controllers = {"servos": ServoController(self, "servos")}
         self._make(self.controllers, "controller", CONTROLLER_TYPES)
         self._channels = {}
 
-    def _connect(self):
+    @staticmethod
+    def _connect(board):
         tries = 0
         while not rospy.is_shutdown():
             try:
-                self.board.openPort()
+                board.openPort()
                 rospy.loginfo("Started ArbotiX connection on port %s.", rospy.get_param("~port", "/dev/ttyUSB0"))
                 return
             except ArbotiXException as error:
@@ -70,8 +72,9 @@ class Driver:
             except ParameterError as error:
                 rospy.logerr("%s %s left out: %s.", kind.capitalize(), name, error)
 
-    def _wait_for_board(self):
-        while self.board.getDigital(1) == -1 and not rospy.is_shutdown():
+    @staticmethod
+    def _wait_for_board(board):
+        while board.getDigital(1) == -1 and not rospy.is_shutdown():
             rospy.loginfo("ArbotiX: waiting for response...")
             rospy.sleep(0.25)
         rospy.loginfo("ArbotiX connected.")
@@ -99,8 +102,8 @@ class Driver:
 
     def run(self):
         pins = any(rospy.has_param("~" + group) for group in channels.PARAMETERS)
-        if not self.fake and (pins or any(controller.pause for controller in self.controllers.values())):
-            self._wait_for_board()
+        if self.board is not None and (pins or any(controller.pause for controller in self.controllers.values())):
+            self._wait_for_board(self.board)
         for controller in self.controllers.values():
             controller.startup()
         self._start_channels()
@@ -110,7 +113,7 @@ class Driver:
                 self._turn(rospy.Time.now())
             except ArbotiXException as error:
                 rospy.logerr("ArbotiX error: %s", error)
-                self._connect()
+                self._connect(self.board)
             rate.sleep()
 
     def _turn(self, now):

@@ -15,7 +15,9 @@ WARM, HOT = 50, 60  # degrees C
 class Servo:
     """A joint that goes to a commanded angle at no more than its greatest speed."""
 
-    TICKS, RANGE, MAX_SPEED = None, None, None  # defaults: ticks over the range, degrees, degrees per s
+    TICKS: int  # defaults, of each kind: ticks over the range
+    RANGE: float  # degrees
+    MAX_SPEED: float  # degrees per s
 
     def __init__(self, device, name):
         self.device = device

@@ -4,7 +4,7 @@ from __future__ import annotations
 import os
 import threading
 import time
-from typing import Callable, Iterator, Optional
+from typing import Any, Callable, Iterator, Optional
 
 import can
 
@@ -25,15 +25,16 @@ def open_interface(interface: str, channel: str, bitrate: int = BITRATE) -> can.
     :param interface: ``socketcan`` (its bit rate is set with ``ip link``), ``slcan``, or another one python-can has.
     :raises OSError, ValueError, can.CanError: it cannot be opened.
     """
+    make: Any = can.Bus  # makes an object of the class that the interface has
     if interface == "slcan":
         protocol_lines.register()
         device = channel.partition("@")[0]
         if not os.path.exists(device):
             raise FileNotFoundError(f"there is no {device}")
-        return can.Bus(interface="slcan", channel=f"lines://{channel}", bitrate=bitrate, sleep_after_open=0)
+        return make(interface="slcan", channel=f"lines://{channel}", bitrate=bitrate, sleep_after_open=0)
     if interface == "socketcan":
-        return can.Bus(interface="socketcan", channel=channel)
-    return can.Bus(interface=interface, channel=channel, bitrate=bitrate)
+        return make(interface="socketcan", channel=channel)
+    return make(interface=interface, channel=channel, bitrate=bitrate)
 
 
 class CanBus:
@@ -137,7 +138,7 @@ class CanBus:
             self._failing_since = None
             self.lose(error.__cause__ or error)
 
-    def lose(self, error: Exception) -> None:
+    def lose(self, error: BaseException) -> None:
         """The bus failed: close it and start looking for it again."""
         bus, self._bus = self._bus, None
         if bus is None:

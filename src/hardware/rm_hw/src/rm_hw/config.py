@@ -4,7 +4,7 @@ from __future__ import annotations
 import os
 import reprlib
 from dataclasses import dataclass, field
-from typing import Any, List, Mapping, Tuple
+from typing import Any, Dict, List, Mapping, Tuple
 
 from node_signals.parameters import is_number
 
@@ -129,7 +129,7 @@ def _buses(params: Mapping[str, Any], lines: List[Tuple[str, str]]) -> List[BusC
         return []
     if not isinstance(entries, list):
         raise ConfigError(f"parameter 'bus' is {reprlib.repr(entries)}: write a list, for example [can0]")
-    buses = []
+    buses: List[BusConfig] = []
     for entry in entries:
         entry = entry if isinstance(entry, dict) else {"name": entry}
         name = str(entry.get("name", ""))
@@ -198,7 +198,7 @@ def _triple(value: Any, what: str) -> Tuple[float, float, float]:
 def _add_imu(config: Config, name: str, entry: Any) -> None:
     if not _complete("IMU", name, entry, ("bus", "id", "frame_id"), config):
         return
-    values = {}
+    values: Dict[str, Any] = {}
     for key, default in ((f.name, f.default) for f in ImuConfig.__dataclass_fields__.values()
                          if f.name not in ("name", "bus", "id", "frame_id")):
         given = entry.get(key + "_diagonal", entry.get(key))

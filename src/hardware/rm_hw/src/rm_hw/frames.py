@@ -143,7 +143,8 @@ def unpack_imu_gyro(data: bytes) -> ImuGyro:
     if len(data) != 8:
         raise ValueError(f"IMU frame has {len(data)} bytes instead of 8")
     temperature = data[6] << 3 | data[7] >> 5
-    return ImuGyro(*_IMU.unpack(data[:6]), temperature - 2048 if temperature > 1023 else temperature)
+    x, y, z = _IMU.unpack(data[:6])
+    return ImuGyro(x, y, z, temperature - 2048 if temperature > 1023 else temperature)
 
 
 def pack_imu_accel(accel: ImuAccel) -> bytes:
@@ -154,4 +155,5 @@ def unpack_imu_accel(data: bytes) -> ImuAccel:
     """Frame ``id + 1`` of an IMU. :raises ValueError: not 8 bytes."""
     if len(data) != 8:
         raise ValueError(f"IMU frame has {len(data)} bytes instead of 8")
-    return ImuAccel(*_IMU.unpack(data[:6]), bool(data[6] & 1), bool(data[6] & 2))
+    x, y, z = _IMU.unpack(data[:6])
+    return ImuAccel(x, y, z, bool(data[6] & 1), bool(data[6] & 2))

@@ -4,7 +4,7 @@ from __future__ import annotations
 import math
 import os
 import time as clock
-from typing import Any, Callable, Dict, List, Tuple
+from typing import Any, Callable, Dict, List, Optional, Set, Tuple
 
 import can
 import rospkg
@@ -59,7 +59,7 @@ class _Bus:
         self.cheetahs = {a.id: a for a in actuators if "cheetah" in a.type}
         self.gyros = {imu.config.id: imu for imu in imus}
         self.accels = {imu.config.id + 1: imu for imu in imus}
-        self._unknown = set()
+        self._unknown: Set[int] = set()
 
     def read(self, now: float) -> None:
         """Take all frames that have come. Of several from one motor the newest counts, the others only its turns."""
@@ -121,9 +121,9 @@ class RmRobotHW(RobotHW):
         self._joints: List = []
         self._limits = JointLimitsInterface()
         self._transmissions = RobotTransmissions()
-        self._warned_warm = set()
+        self._warned_warm: Set[str] = set()
         self._next_publish = 0.0
-        self._guard = None
+        self._guard: Optional[Guard] = None
         self._part: Any = None  # an RmControlPart, once a compiled controller is loaded
 
     def init(self, root_nh, robot_hw_nh) -> bool:
@@ -283,7 +283,7 @@ class RmRobotHW(RobotHW):
     def _enable_imu_trigger(self, request) -> EnableImuTriggerResponse:
         imu = self._imus.get(request.imu_name)
         bus = next((b for b in self._buses if imu and b.can_bus.name == imu.config.bus), None)
-        if bus is None:
+        if imu is None or bus is None:
             report("error", f"there is no IMU '{request.imu_name}'; there are: {', '.join(self._imus) or 'none'}")
             return EnableImuTriggerResponse(False)
         return EnableImuTriggerResponse(bus.can_bus.send(imu.config.id + 2, bytes((request.enable_trigger,))))

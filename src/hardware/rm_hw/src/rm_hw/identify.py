@@ -15,7 +15,7 @@ import math
 import sys
 import time
 from dataclasses import dataclass
-from typing import List, Optional, Tuple
+from typing import Any, List, Optional, Tuple
 
 import can
 import numpy as np
@@ -144,6 +144,7 @@ def _excite(options: argparse.Namespace) -> None:
     bus, name = open_bus(options.bus, None, None)
     counts, start, due = options.amperes / AMPERES_PER_COUNT[options.type], time.time(), 0.0
     try:
+        logger: Any  # a Logger is made as what writes the file's kind
         with can.Logger(options.log) as logger:
             while (elapsed := time.time() - start) < options.seconds:
                 if elapsed >= due:

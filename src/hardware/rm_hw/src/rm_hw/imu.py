@@ -32,7 +32,7 @@ def _rotation(x: float, y: float, z: float) -> Quaternion:
 
 def _normalized(q: Quaternion) -> Quaternion:
     norm = math.sqrt(sum(v * v for v in q))
-    return tuple(v / norm for v in q)
+    return q[0] / norm, q[1] / norm, q[2] / norm, q[3] / norm
 
 
 class Imu:
@@ -42,8 +42,9 @@ class Imu:
         self.config = config
         self.temperature = 0.0
         self.camera_trigger = self.trigger_enabled = False
+        self._orientation: Quaternion = (0.0, 0.0, 0.0, 1.0)
         self.handle = ImuSensorHandle(
-            config.name, config.frame_id, (0.0, 0.0, 0.0, 1.0), _diagonal(config.orientation_covariance),
+            config.name, config.frame_id, self._orientation, _diagonal(config.orientation_covariance),
             (0.0, 0.0, 0.0), _diagonal(config.angular_velocity_covariance),
             (0.0, 0.0, 0.0), _diagonal(config.linear_acceleration_covariance))
         self._stamp: Optional[float] = None
@@ -63,7 +64,7 @@ class Imu:
         self._stamp = stamp
         if 0.0 < interval < 0.1:
             turn = _rotation(*(w * interval for w in rate))
-            self.handle.orientation = _normalized(_multiply(self.handle.orientation, turn))
+            self._orientation = self.handle.orientation = _normalized(_multiply(self._orientation, turn))
 
     def on_accel(self, accel: ImuAccel) -> None:
         """Take an acceleration: pull roll and pitch towards the direction of gravity."""
@@ -74,13 +75,13 @@ class Imu:
         norm = math.sqrt(a[0] ** 2 + a[1] ** 2 + a[2] ** 2)
         if abs(norm - _GRAVITY) > _TOLERANCE * _GRAVITY:
             return
-        x, y, z, w = self.handle.orientation
+        x, y, z, w = self._orientation
         up = (2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y))     # the world's z in the sensor frame
         measured = tuple(v / norm for v in a)
         error = (measured[1] * up[2] - measured[2] * up[1], measured[2] * up[0] - measured[0] * up[2],
                  measured[0] * up[1] - measured[1] * up[0])
         correction = _rotation(*(_GAIN * e for e in error))
-        self.handle.orientation = _normalized(_multiply(self.handle.orientation, correction))
+        self._orientation = self.handle.orientation = _normalized(_multiply(self._orientation, correction))
 
 
 def _diagonal(values: Tuple[float, float, float]) -> Tuple[float, ...]:

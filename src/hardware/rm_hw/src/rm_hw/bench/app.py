@@ -37,7 +37,7 @@ class Recorder:
         self.bench: Union[Bench, Replay, None] = None
 
     def __call__(self, bus: str, frame: Frame) -> None:
-        if self._logger:
+        if self._logger and self.bench is not None:
             self._logger.on_message_received(can.Message(
                 timestamp=self._start + self.bench.time, arbitration_id=frame.id, data=frame.data, channel=bus,
                 is_extended_id=False))
@@ -75,7 +75,7 @@ class RosFace:
         self._message.name = list(motors)
         self._message.position = [motor.output_angle for motor in motors.values()]
         self._message.velocity = [motor.output_speed for motor in motors.values()]
-        self._message.effort = [motor.torque * motor.gear for motor in motors.values()]
+        self._message.effort = [motor.torque * motor.ratio for motor in motors.values()]
         self._publisher.publish(self._message)
 
     def shutdown(self) -> None:
@@ -97,7 +97,7 @@ def _arguments(arguments: List[str]) -> argparse.Namespace:
     return parser.parse_args(arguments)
 
 
-def _status(bench: Bench, selected: Optional[str]) -> str:
+def _status(bench: Union[Bench, Replay], selected: Optional[str]) -> str:
     parts = []
     for name, device in bench.devices.items():
         motor = device.motor

@@ -4,7 +4,7 @@ from __future__ import annotations
 import random
 from collections import deque
 from dataclasses import dataclass, field
-from typing import Callable, Deque, Dict, List, Optional, Tuple
+from typing import Callable, Deque, Dict, List, Mapping, Optional, Tuple
 
 from rm_hw.bench.motor import SPECS, TUTORIAL_ARM, Load, Motor
 from rm_hw.bench.slcan import Frame, SlcanPort
@@ -182,7 +182,8 @@ class Bench:
         if not words or words[0] not in _USAGE:
             raise BenchError(f"'{line}' is no bench command. " + "; ".join(_USAGE.values()))
         verb, arguments = words[0], words[1:]
-        targets = self.buses if verb in ("garbage", "busoff", "recover", "unplug", "plug") else self.devices
+        of_bus = verb in ("garbage", "busoff", "recover", "unplug", "plug")
+        targets: Mapping[str, object] = self.buses if of_bus else self.devices
         if not arguments or arguments[0] not in targets:
             raise BenchError(f"{verb}: '{' '.join(arguments[:1])}' is not on the bench; there are {', '.join(targets)} "
                              f"({_USAGE[verb]})")
@@ -191,11 +192,10 @@ class Bench:
             number = float(arguments[1]) if needs_number else 0.0
         except (IndexError, ValueError):
             raise BenchError(f"{verb} needs a number: {_USAGE[verb]}") from None
-        target = targets[arguments[0]]
-        if targets is self.buses:
-            self._bus_fault(verb, target, int(number))
+        if of_bus:
+            self._bus_fault(verb, self.buses[arguments[0]], int(number))
         else:
-            self._device_fault(verb, target, number)
+            self._device_fault(verb, self.devices[arguments[0]], number)
         return " ".join(words)
 
     def _bus_fault(self, verb: str, bus: Bus, count: int) -> None:

@@ -6,9 +6,10 @@ import select
 import sys
 import termios
 import tty
-from typing import Dict, Optional
+from typing import Dict, Optional, Union
 
 from rm_hw.bench.bus import Bench, BenchError
+from rm_hw.bench.replay import Replay
 
 HELP = """keys: Tab next motor | left/right arrow turn its shaft 0.1 rad by hand | space hold/release (stuck motor)
       l leave/return | d drop half of its frames | t 5 ms late | h heat to 105 C | c cool to 25 C
@@ -19,7 +20,7 @@ _ARROWS = {"\x1b[C": 0.1, "\x1b[D": -0.1}
 class Keys:
     """Reads standard input without waiting. Use as a context manager: it restores the terminal."""
 
-    def __init__(self, bench: Bench) -> None:
+    def __init__(self, bench: Union[Bench, Replay]) -> None:
         self._bench = bench
         self._selected = 0
         self._unplugged: Dict[str, bool] = {}
@@ -49,7 +50,7 @@ class Keys:
             self._selected += 1
             return f"selected {self.motor}"
         line = self._line(key)
-        if line is None:
+        if line is None or isinstance(self._bench, Replay):  # a recording has no motors to work on
             return HELP
         try:
             return self._bench.command(line)

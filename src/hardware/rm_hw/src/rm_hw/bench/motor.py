@@ -89,6 +89,7 @@ TUTORIAL_ARM = Load(inertia=0.0108333 + 0.5 * 0.2 ** 2, gravity=0.5 * 9.81 * 0.2
 class Motor:
     """State of one motor; angles are zero where it was switched on.
 
+    :ivar gear: rotor turns per output turn; the spec's where none is given. ``ratio`` is the one that holds
     :ivar start: rad at the output, the load's angle at rotor angle 0
     :ivar hand: rad at the output still to be turned by hand; ``hand_speed`` in rad/s at the output
     :ivar held: the shaft is held still (a stuck motor, or a hand on the arm)
@@ -107,25 +108,25 @@ class Motor:
     hand: float = 0.0
     hand_speed: float = 2.0
     held: bool = False
+    ratio: float = field(init=False)
 
     def __post_init__(self) -> None:
-        if self.gear is None:
-            self.gear = self.spec.gear
-        if self.gear == 0.0:
+        self.ratio = self.gear = self.spec.gear if self.gear is None else self.gear
+        if self.ratio == 0.0:
             raise ValueError("gear is 0: write the rotor turns per output turn, for example 19.2032")
-        self._inertia = self.spec.inertia + self.load.inertia / self.gear ** 2
-        self._coulomb = self.spec.coulomb + self.load.friction / abs(self.gear)
-        self._viscous = self.spec.viscous + self.load.damping / self.gear ** 2
+        self._inertia = self.spec.inertia + self.load.inertia / self.ratio ** 2
+        self._coulomb = self.spec.coulomb + self.load.friction / abs(self.ratio)
+        self._viscous = self.spec.viscous + self.load.damping / self.ratio ** 2
 
     @property
     def output_angle(self) -> float:
         """rad, the load's angle."""
-        return self.start + self.angle / self.gear
+        return self.start + self.angle / self.ratio
 
     @property
     def output_speed(self) -> float:
         """rad/s behind the gearbox."""
-        return self.speed / self.gear
+        return self.speed / self.ratio
 
     @property
     def torque(self) -> float:
@@ -152,13 +153,13 @@ class Motor:
         if self.hand:
             step = math.copysign(min(abs(self.hand), self.hand_speed * dt), self.hand)
             self.hand = 0.0 if abs(self.hand) <= self.hand_speed * dt else self.hand - step
-            self.angle += step * self.gear
-            self.speed = step * self.gear / dt if self.hand else 0.0
+            self.angle += step * self.ratio
+            self.speed = step * self.ratio / dt if self.hand else 0.0
             return
         if self.held:
             self.speed = 0.0
             return
-        weight = self.load.gravity * math.cos(self.output_angle) / self.gear
+        weight = self.load.gravity * math.cos(self.output_angle) / self.ratio
         speed = (self.speed + dt * (self.torque + weight) / self._inertia) / (1.0 + dt * self._viscous / self._inertia)
         # dry friction takes at most what is there: a motor at rest stays at rest, exactly
         self.speed = math.copysign(max(0.0, abs(speed) - dt * self._coulomb / self._inertia), speed)

@@ -5,7 +5,7 @@ from typing import Dict, Iterator, Optional
 
 import can
 
-from rm_hw.bench.bus import TICK, BenchError, Bus, Frame
+from rm_hw.bench.bus import TICK, BenchError, Bus, Device, Frame
 from rm_hw.frames import RM_COMMAND_IDS
 
 _LINGER = 0.5            # s between the last frame and the end
@@ -33,7 +33,7 @@ class Replay:
             name = str(message.channel or "can0")
             if name not in self.buses:
                 self.buses[name] = Bus(name, directory, watch)
-        self.devices: Dict[str, object] = {}
+        self.devices: Dict[str, Device] = {}
         self._messages: Iterator[can.Message] = iter(
             m for m in messages if not m.is_error_frame and m.arbitration_id not in RM_COMMAND_IDS)
         self._since_last = 0.0

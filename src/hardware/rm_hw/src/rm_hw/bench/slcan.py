@@ -65,7 +65,8 @@ class SlcanPort:
         *lines, self._buffer = self._buffer.split(_OK)
         if len(self._buffer) > _LONGEST_LINE:
             self._buffer = b""
-        frames, answers = [], b""
+        frames: List[Frame] = []
+        answers = b""
         for line in lines:
             answers += self._command(line, frames, bus_works)
         self._write(answers)
