@@ -1,9 +1,12 @@
 #!/usr/bin/env python3
 """gzclient as a user starts it, and Debian's Chromium: real clicks, and what they did is asked by ROS."""
+import json
 import math
 import os
 import re
+import subprocess
 import sys
+from urllib.parse import urlsplit
 
 import numpy as np
 import rospy
@@ -26,6 +29,40 @@ OLD = "<sdf version='1.6'><model name='old'><static>1</static>" + "".join(f"""<l
     for name in ("Wall_0", "Roof_0")) + "</model></sdf>"
 # of mbot_gazebo's room.world, between the middles of its walls; one stands askew
 CORNERS = ((-2.75, -2.45), (5.6, -2.45), (5.6, 2.4), (-0.75, 2.4), (-0.75, 0.05), (-5.6, 0.05), (-5.6, -1.8), (-5.6, -2.4))
+
+
+ASK = """
+import http.client, json, sys
+for path, words in json.loads(sys.argv[2]):
+    near = http.client.HTTPConnection("127.0.0.1", int(sys.argv[1]), timeout=60)
+    near.putrequest("GET", path, skip_host="Host" in words)
+    for name, value in words.items():
+        near.putheader(name, value)
+    near.endheaders()
+    answer = near.getresponse()
+    print(json.dumps([answer.status, answer.getheader("Set-Cookie", "").partition(";")[0]]))
+    near.close()
+"""
+
+
+def strangers(port, asked, cookies=False):
+    """What another user of this machine, where root runs the test, is answered: status, with the cookie where that is wanted.
+
+    :param asked: (path, headers)
+    """
+    other = ["setpriv", "--reuid=65534", "--regid=65534", "--clear-groups"] if os.geteuid() == 0 else []
+    words = [*other, "/usr/bin/python3", "-I", "-c", ASK, str(port), json.dumps(asked)]
+    done = subprocess.run(words, cwd="/", stdout=subprocess.PIPE, text=True, check=True, timeout=120)
+    answers = [json.loads(line) for line in done.stdout.splitlines()]
+    return [tuple(answer) if cookies else answer[0] for answer in answers]
+
+
+def command_line(pid):
+    try:
+        with open(f"/proc/{pid}/cmdline", encoding="utf-8", errors="replace") as file:
+            return file.read()
+    except OSError:
+        return ""
 
 
 class Clicks(Session):
@@ -366,6 +403,25 @@ class Clicks(Session):
             page.check("Hold the controls")
             page.click("Pause")
             wait(paused, "pause from the first page")
+
+    def test_7b_whoever_does_not_show_the_token_stays_outside(self):
+        """Another user of this machine, by http and by the websocket that all of the page goes through, and a browser of his."""
+        address, token = self.page.address.split("?token=")
+        place = urlsplit(address)
+        upgrade = {"Connection": "Upgrade", "Upgrade": "websocket", "Sec-WebSocket-Version": "13",
+                   "Sec-WebSocket-Key": "dGhlIHNhbXBsZSBub25jZQ=="}
+        asked = [(path, {**more, **words}) for path in ("/", "/?token=", f"/?token={token[:-1]}", "/index.html", "//", "/x/../")
+                 for more in ({}, upgrade) for words in ({}, {"Origin": address.rstrip("/")}, {"Cookie": "viewer_0=x"})]
+        asked += [(f"/?token={token}", {"Host": "evil.example"}), (f"/?token={token}", {**upgrade, "Origin": "http://evil.example"})]
+        self.assertEqual(strangers(place.port, asked), [403] * len(asked))
+        with Browser(address, frames=2) as other:
+            other.see("open this page with the address that the terminal printed")
+            self.assertNotIn("Iterations", other.text())
+        (status, cookie), = strangers(place.port, [(f"/?token={token}", {})], cookies=True)
+        self.assertEqual(status, 303)
+        self.assertEqual(strangers(place.port, [("/", {"Cookie": cookie}), ("/", {"Cookie": cookie, **upgrade})]), [200, 101])
+        shown = [words for words in map(command_line, filter(str.isdigit, os.listdir("/proc"))) if "gzclient" in words and token in words]
+        self.assertEqual(shown, [], "everybody can read command lines")
 
     def test_8_the_server_ends_and_a_robot_drives_in_the_room_that_was_drawn(self):
         self.end(self.server)
