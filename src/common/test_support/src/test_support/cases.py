@@ -4,7 +4,7 @@ from __future__ import annotations
 import contextlib
 import traceback
 import unittest
-from typing import Any, Iterator
+from typing import Any, Iterator, List, Optional
 
 
 class TestCase(unittest.TestCase):
@@ -13,10 +13,12 @@ class TestCase(unittest.TestCase):
     rosunit writes no line about a failure of unittest's own subtests into its report.
     """
 
+    _told: Optional[List[str]] = None
+
     @contextlib.contextmanager
     def subTest(self, msg: Any = None, **params: Any) -> Iterator[None]:
         """The test goes on after a case that failed, and fails at its end."""
-        told = getattr(self, "_told", None)
+        told = self._told
         if told is None:
             told = self._told = []
             self.addCleanup(self._tell)

@@ -6,6 +6,11 @@ import rosgraph
 import rospy
 
 
+def _node(uri: str) -> Any:
+    """The XML-RPC side of a node: what a call gives depends on the call."""
+    return xmlrpc.client.ServerProxy(uri)
+
+
 def heard(subscribers: Iterable[Any]) -> bool:
     """Whether every publisher of their topics, of which there is one at least, sends to this node. It is the publishers that are asked:
     a Subscriber's ``get_num_connections()`` counts a connection before it is made, and what is published until then is lost.
@@ -17,7 +22,7 @@ def heard(subscribers: Iterable[Any]) -> bool:
 
     def sends(node: str, topic: str) -> bool:
         try:
-            links = xmlrpc.client.ServerProxy(master.lookupNode(node)).getBusInfo(rospy.get_name())[2]
+            _, _, links = _node(master.lookupNode(node)).getBusInfo(rospy.get_name())
         except (rosgraph.MasterException, OSError):  # it has gone meanwhile
             return False
         return any(link[1] == rospy.get_name() and link[2] == "o" and link[4] == topic for link in links)
@@ -37,7 +42,7 @@ def received(publisher: Any, count: int) -> bool:
 
     def received_by(node: str) -> bool:
         try:
-            listening = dict(xmlrpc.client.ServerProxy(master.lookupNode(node)).getBusStats(rospy.get_name())[2][1])
+            listening = dict(_node(master.lookupNode(node)).getBusStats(rospy.get_name())[2][1])
         except (rosgraph.MasterException, OSError):  # it has gone meanwhile
             return False
         return sum(link[2] for link in listening.get(topic, [])) >= count

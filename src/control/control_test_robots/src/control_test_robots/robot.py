@@ -4,7 +4,7 @@ from __future__ import annotations
 import math
 from collections import deque
 from dataclasses import dataclass
-from typing import Dict, List
+from typing import Any, Dict, List
 
 from hardware_interface import (EffortJointInterface, ForceTorqueSensorHandle, ForceTorqueSensorInterface,
                                 ImuSensorHandle, ImuSensorInterface, JointHandle, JointStateHandle,
@@ -44,7 +44,7 @@ class TestJoint:
     def __init__(self, name: str, modes: List[str], position: float):
         self.state = JointStateHandle(name, position)
         self._initial = position
-        self.handles = {mode: _COMMANDS[mode][1](self.state) for mode in modes}
+        self.handles: Dict[str, Any] = {mode: _COMMANDS[mode][1](self.state) for mode in modes}
         self.mode = modes[0] if modes else ""
         self.position = position
         self.velocity = 0.0

@@ -1,5 +1,6 @@
 """What tests do with a controller manager: its services as functions."""
 import xmlrpc.client
+from typing import Any
 
 import rosgraph
 import rospy
@@ -15,7 +16,8 @@ BEST_EFFORT = SwitchControllerRequest.BEST_EFFORT
 def sends(node, topic):
     """Whether ``node`` is connected to this process and sends it ``topic``."""
     me = rospy.get_name()
-    connections = xmlrpc.client.ServerProxy(rosgraph.Master(me).lookupNode(node)).getBusInfo(me)[2]
+    proxy: Any = xmlrpc.client.ServerProxy(rosgraph.Master(me).lookupNode(node))
+    _, _, connections = proxy.getBusInfo(me)
     return any(connection[1:5] == [me, "o", "TCPROS", topic] for connection in connections)
 
 

@@ -1,4 +1,6 @@
 """Controllers that claim joints in every way there is, and one that breaks on demand."""
+from typing import ClassVar, Dict, List, Tuple
+
 from controller_interface import Controller, MultiInterfaceController
 from hardware_interface import (EffortJointInterface, HardwareInterface, JointCommandInterface, PositionJointInterface,
                                 VelocityJointInterface)
@@ -26,7 +28,7 @@ class EffortTestController(Controller):
 class _TwoInterfaces(MultiInterfaceController):
     """Claims the parameters ``<prefix>_joints`` through the interfaces of the class."""
 
-    joints = {}
+    joints: Dict[type, Tuple[str, List[str]]] = {}
 
     def init(self, hw, root_nh, controller_nh):
         for interface in self.interfaces:
@@ -69,7 +71,7 @@ class MyDummyController(Controller):
 class ExtensibleController(MultiInterfaceController):
     """A controller that others derive from: takes effort joints."""
 
-    interfaces = (EffortJointInterface,)
+    interfaces: ClassVar[Tuple[type, ...]] = (EffortJointInterface,)
 
     def init(self, hw, root_nh, controller_nh):
         self.take(hw.get(EffortJointInterface), "hiDOF_joint1")

@@ -18,7 +18,8 @@ class DummyRobot(RobotHW):
         super().__init__()
         states = [JointStateHandle(name) for name in JOINTS + TEST_JOINTS]
         self.register_interface(JointStateInterface(*states))
-        self.register_interface(EffortJointInterface(*map(JointHandle, states)))
+        self._efforts = EffortJointInterface(*map(JointHandle, states))
+        self.register_interface(self._efforts)
         self.register_interface(VelocityJointInterface(*map(JointHandle, states)))
         self._positions = PositionJointInterface(*map(JointHandle, states))
         if with_positions:
@@ -26,7 +27,7 @@ class DummyRobot(RobotHW):
 
     def read(self, time, period):
         """Efforts commanded are efforts measured, so that a test can see them."""
-        for handle in self.get(EffortJointInterface).handles():
+        for handle in self._efforts.handles():
             handle.state.effort = handle.command
         for handle in self._positions.handles():
             handle.state.position = handle.command

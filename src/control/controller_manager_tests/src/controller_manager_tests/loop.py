@@ -25,7 +25,9 @@ class Loop:
         self.manager = ControllerManager(self.hw, namespace)
 
     def command(self, kind, name):
-        return next(handle.command for handle in self.hw.get(_INTERFACES[kind]).handles() if handle.name == name)
+        offered = self.hw.get(_INTERFACES[kind])
+        assert offered is not None  # __init__ registers all of them
+        return next(handle.command for handle in offered.handles() if handle.name == name)
 
     def cycle(self, count=1):
         for _ in range(count):

@@ -23,7 +23,7 @@ from gazebo_ros.sensors import Sensor
 try:
     from gazebo_cpp import _core
 except ImportError:  # built without compiled plugins, or on a system that lacks what they need
-    _core = None
+    _core = None  # type: ignore[assignment]  # the usual form for a module that may not be there
 
 _OF_ANOTHER_CORE = "" if _core is None or _core.layout == ode_sim._core.layout else (
     "gazebo_cpp was not built with this ode_sim and would read its world wrongly; build both: catkin build ode_sim gazebo_cpp")

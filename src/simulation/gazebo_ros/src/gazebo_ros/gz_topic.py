@@ -12,7 +12,7 @@ from gazebo_ros.command_line import Failure
 try:
     from gazebo_cpp import _core
 except ImportError:  # built without compiled plugins, or on a system that lacks what they need
-    _core = None
+    _core = None  # type: ignore[assignment]  # the usual form for a module that may not be there
 
 
 def topic(options: argparse.Namespace) -> None:

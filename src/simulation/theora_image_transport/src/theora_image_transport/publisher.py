@@ -6,7 +6,8 @@ from typing import Dict, Optional, Tuple
 import rospy
 from dynamic_parameters import Parameter, Server
 
-from theora_image_transport import encoder, msg
+from theora_image_transport import encoder
+from theora_image_transport.msg import Packet
 
 _BITRATE, _QUALITY = 0, 1
 PARAMETERS = (
@@ -32,7 +33,7 @@ class TheoraPublisher(rospy.SubscribeListener):
         self._settings = encoder.Settings()
         self._encoder: Optional[encoder.Encoder] = None
         self._restart, self._silent, self._said = True, encoding not in encoder.ENCODINGS, False
-        self._publisher = rospy.Publisher(self._topic, msg.Packet, queue_size=queue_size + _HEADERS,
+        self._publisher = rospy.Publisher(self._topic, Packet, queue_size=queue_size + _HEADERS,
                                           subscriber_listener=self)
         self._parameters = Server(self._topic, PARAMETERS, self._configure)
 
@@ -45,7 +46,7 @@ class TheoraPublisher(rospy.SubscribeListener):
         if not self.wanted():
             return
         try:
-            if self._restart:
+            if self._restart or self._encoder is None:
                 self._restart = False  # first: a wish that comes from now on starts one more stream
                 self._encoder = encoder.Encoder(self._shape, self._encoding, self._settings)
                 self._send(header, self._encoder.headers)
@@ -73,5 +74,5 @@ class TheoraPublisher(rospy.SubscribeListener):
 
     def _send(self, header, packets) -> None:
         for packet in packets:
-            self._publisher.publish(msg.Packet(header, packet.data, packet.b_o_s, 0, packet.granulepos,
+            self._publisher.publish(Packet(header, packet.data, packet.b_o_s, 0, packet.granulepos,
                                                packet.packetno))

@@ -4,10 +4,10 @@ from __future__ import annotations
 import math
 import xml.etree.ElementTree as ET
 from dataclasses import dataclass, field, replace
-from typing import Dict, Iterator, List, Optional, Set
+from typing import Any, Callable, Dict, Iterator, List, Optional, Set
 
 from ode_sim import math3
-from ode_sim.description.model import FORCE_TORQUE, Axis, Joint, Link, Plugin, Pose, Vec3, quoted
+from ode_sim.description.model import FORCE_TORQUE, Axis, Joint, Link, Plugin, Pose, Sensor, Vec3, quoted
 from ode_sim.description.sdf_frames import relative_to
 from ode_sim.description.sdf_shapes import SdfShapes
 from ode_sim.description.sdf_values import LONGEST
@@ -51,7 +51,16 @@ def _turn_round(sensor: ET.Element) -> None:
 
 
 class SdfJoints(SdfShapes):
-    """Reads ``<joint>``."""
+    """Reads ``<joint>``. What it shares with links is the model's reader's."""
+
+    def _pose_in(self, owner: ET.Element, x_mo: Pose, child: ET.Element, frames: Dict[str, Pose]) -> Pose:
+        raise NotImplementedError
+
+    def _unique(self, parent: ET.Element, tag: str, read: Callable[[ET.Element], Any]) -> Iterator:
+        raise NotImplementedError
+
+    def _sensor(self, element: ET.Element, pose: Pose, of_joint: bool) -> Sensor:
+        raise NotImplementedError
 
     def joint(self, element: ET.Element, parts: Parts, known: Set[str]) -> List[Joint]:
         name = element.get("name") or ""
