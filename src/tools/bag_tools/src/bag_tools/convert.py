@@ -7,7 +7,7 @@ import shutil
 import sys
 import tempfile
 from pathlib import Path
-from typing import Iterator, Optional, Union
+from typing import Any, Iterator, Optional, Union
 
 from bag_tools.files import BAG_COMPRESSIONS, MCAP_COMPRESSIONS, BagError, BagSink, BagSource, McapSink, McapSource
 
@@ -107,7 +107,7 @@ def _by_rosbags(source: Path, target: Path, compression: Optional[str], storage:
 
 
 @contextlib.contextmanager
-def _progress(count: Optional[int], name: str, quiet: bool) -> Iterator[object]:
+def _progress(count: Optional[int], name: str, quiet: bool) -> Iterator[Any]:
     from tqdm import tqdm
     with tqdm(total=count, desc=name, unit=" messages", disable=quiet or not sys.stderr.isatty()) as bar:
         yield bar

@@ -145,8 +145,9 @@ class BagSink:
 
     def __init__(self, path: Path, compression: str = "none") -> None:
         self._bag = BagFile(path)
-        if BAG_COMPRESSIONS[compression] is not None:
-            self._bag.set_compression(BAG_COMPRESSIONS[compression])
+        chosen = BAG_COMPRESSIONS[compression]
+        if chosen is not None:
+            self._bag.set_compression(chosen)
         self._bag.open()
         self._connections: Dict[Channel, Any] = {}
 

@@ -42,7 +42,7 @@ def root_of(parents: Dict[str, str]) -> str:
             seen.add(frame)
             frame = parents[frame]
         counts[frame] = counts.get(frame, 0) + 1
-    return max(counts, key=counts.get) if counts else "map"
+    return max(counts, key=lambda frame: counts[frame]) if counts else "map"
 
 
 def config(topics: List[Tuple[str, str]], description: bool, root: str, reach: float) -> dict:

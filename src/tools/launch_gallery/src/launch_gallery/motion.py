@@ -22,7 +22,8 @@ class Sample:
 def sample(time: float, position: Sequence[float], quaternion: Sequence[float]) -> Sample:
     """:param position: x, y, z, m. :param quaternion: x, y, z, w, of length 1."""
     x, y, z, w = quaternion
-    return Sample(time, *position, math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z)),
+    p_x, p_y, p_z = position
+    return Sample(time, p_x, p_y, p_z, math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z)),
                   math.acos(max(-1.0, min(1.0, 1 - 2 * (x * x + y * y)))))
 
 

@@ -81,6 +81,7 @@ def look(module: str, words: List[str], log: str, job: dict, windows: bool = Tru
         with running(["roslaunch", "-p", str(port), *words], environment, log) as process:
             looker = subprocess.Popen([sys.executable, "-m", module], env=environment, text=True,
                                       stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+            assert looker.stdin is not None  # a pipe, as asked for
             looker.stdin.write(json.dumps(job))
             looker.stdin.close()
             looker.stdin = None

@@ -24,7 +24,8 @@ def mode(environment: Mapping[str, str] = os.environ) -> str:
 
 def rgb(index: int, count: int) -> Tuple[int, int, int]:
     """Evenly spread hues, light enough for black text."""
-    return tuple(round(255 * c) for c in colorsys.hsv_to_rgb(index / max(1, count), 0.45, 0.9))
+    red, green, blue = (round(255 * c) for c in colorsys.hsv_to_rgb(index / max(1, count), 0.45, 0.9))
+    return red, green, blue
 
 
 def label_escape(index: int, count: int, colour_mode: str) -> str:

@@ -67,7 +67,7 @@ class _Loader(XmlLoader):
         self.attributes: Dict[str, str] = {}
         self._options = options
         self._inherited: List[Dict[str, str]] = [{}]
-        self._scope = None
+        self._scope: Any = None  # the LoaderContext of what was read last
 
     def _check_attrs(self, tag, context, ros_config, attrs):
         super()._check_attrs(tag, context, ros_config, [*attrs, *_INHERITED, *_OF_NODE, *_OF_INCLUDE])

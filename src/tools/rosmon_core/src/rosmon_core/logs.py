@@ -43,7 +43,7 @@ class Log:
             self._file.write(f"[{stamp}] {severity.upper():5} {label}: {text}\n")
             if self._flush:
                 self._file.flush()
-        else:
+        elif self._syslog:
             self._syslog.emit(logging.LogRecord("rosmon", _LEVELS[severity], "", 0, f"rosmon: {label}: {text}", None,
                                                 None))
 

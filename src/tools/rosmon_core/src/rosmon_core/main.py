@@ -78,13 +78,13 @@ class _Session:
     async def _monitor_nodes(self, uri: str, log_dir: Optional[str]) -> int:
         loop = asyncio.get_running_loop()
         monitor = self._monitor = Monitor(self._file, uri, log_dir, self._log, self._display.show)
-        interface = await loop.run_in_executor(None, self._connect, loop)
+        interface = await loop.run_in_executor(None, self._connect, monitor, loop)
         monitor.say(f"Running as '{interface.name}'")
         publishing = asyncio.ensure_future(interface.run())
         if not self._options.no_start and not self._stopping.is_set():
             monitor.start_all()
         try:
-            if self._interactive:
+            if isinstance(self._display, Terminal):
                 await self._display.run(monitor)
             await monitor.wait()
         finally:
@@ -94,10 +94,10 @@ class _Session:
             await loop.run_in_executor(None, interface.shutdown)
         return 1 if monitor.failed else 0
 
-    def _connect(self, loop: asyncio.AbstractEventLoop):
+    def _connect(self, monitor: Monitor, loop: asyncio.AbstractEventLoop):
         from rosmon_core.ros_interface import RosInterface
         name = self._options.name or self._file.attributes.get("rosmon-name")
-        return RosInterface(self._monitor, self._options, name, loop)
+        return RosInterface(monitor, self._options, name, loop)
 
 
 def _launch(options: cli.Options) -> int:

@@ -5,7 +5,7 @@ import asyncio
 import os
 import socket
 import xmlrpc.client
-from typing import Callable, Optional, Tuple
+from typing import Any, Callable, Optional, Tuple
 
 import rosgraph
 import rospkg
@@ -20,7 +20,8 @@ _POLL = 0.2              # s
 def _ask_run_id(uri: str) -> Optional[str]:
     """The master's run id ('' before it is set); None when no master answers."""
     try:
-        code, _, value = xmlrpc.client.ServerProxy(uri).getParam(_CALLER, "/run_id")
+        master: Any = xmlrpc.client.ServerProxy(uri)
+        code, _, value = master.getParam(_CALLER, "/run_id")
     except (OSError, xmlrpc.client.Error):
         return None
     return value if code == 1 else ""
@@ -60,7 +61,7 @@ def _check(results, calls: Tuple[str, ...]) -> None:
 
 def set_parameters(uri: str, launch_file: LaunchFile) -> None:
     """Delete what clear_params names, then set the parameters. :raises RosmonError: the master fails."""
-    master = xmlrpc.client.ServerProxy(uri)
+    master: Any = xmlrpc.client.ServerProxy(uri)
     try:
         names = [name.rstrip("/") or "/" for name in launch_file.clear_params]
         for name in names:

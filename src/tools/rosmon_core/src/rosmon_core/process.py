@@ -143,7 +143,7 @@ class NodeProcess:
         return arguments
 
     def _interrupt(self) -> None:
-        if not self.running:
+        if self.pid is None:
             if self.state == State.WAITING:
                 self.state = State.IDLE
             self._kill_left_behind()
@@ -153,7 +153,8 @@ class NodeProcess:
 
     def _give_up(self) -> None:
         self._event(self, f"does not stop within {self.spec.stop_timeout:g} s of SIGINT: killed", "warn")
-        _signal_group(self.pid, signal.SIGKILL)
+        if self.pid is not None:
+            _signal_group(self.pid, signal.SIGKILL)
 
     def _kill_left_behind(self) -> None:
         for group in self._left_behind:
@@ -220,14 +221,16 @@ class NodeProcess:
             del self._readers[master]
 
     def _ended(self) -> None:
-        code = self._process.wait()
+        process, group = self._process, self.pid
+        assert process is not None and group is not None  # what runs has ended
+        code = process.wait()
         self._loop.remove_reader(self._watch)
         os.close(self._watch)
         self._cancel_timer()
         for master in list(self._readers):       # its last words
             while master in self._readers and select.select([master], [], [], 0)[0]:
                 self._read(master)
-        group, self.pid, self._process = self.pid, None, None
+        self.pid = self._process = None
         if _signal_group(group, 0):
             self._left_behind.append(group)
         self._after(code)

@@ -48,8 +48,8 @@ class Terminal:
         self._width = max(map(len, labels))
         self._count = len(labels) - 1
         self._colour = colors.mode()
-        self._lines: List[tuple] = []
-        self._monitor: Optional[Monitor] = None
+        self._lines: List[Tuple[str, str, str, Optional[int]]] = []
+        self._running: Optional[Monitor] = None
         self._selected: Optional[NodeProcess] = None
         self._search: Optional[str] = None
         self._match = 0
@@ -62,6 +62,11 @@ class Terminal:
             key_bindings=self._bindings(), style=_STYLE, input=create_input(), output=self._output,
             erase_when_done=True, min_redraw_interval=_INTERVAL)
 
+    @property
+    def _monitor(self) -> Monitor:
+        assert self._running is not None  # nothing is drawn and no key is read before run()
+        return self._running
+
     def show(self, label: str, text: str, level: str, index: Optional[int]) -> None:
         self._lines.append((label, text, level, index))
 
@@ -73,7 +78,7 @@ class Terminal:
 
     async def run(self, monitor: Monitor) -> None:
         """Until the monitor is done."""
-        self._monitor = monitor
+        self._running = monitor
         monitor.changed.append(self._application.invalidate)
         writer = asyncio.ensure_future(self._write())
         ending = asyncio.ensure_future(self._end())
@@ -98,7 +103,8 @@ class Terminal:
     def _formatted(self) -> List[str]:
         lines, self._lines = self._lines, []
         columns = self._output.get_size().columns
-        return [format_line(*line, self._width, self._count, self._colour, columns) for line in lines]
+        return [format_line(label, text, level, index, self._width, self._count, self._colour, columns)
+                for label, text, level, index in lines]
 
     def _matches(self) -> List[NodeProcess]:
         return [n for n in self._monitor.nodes if (self._search or "") in self._monitor.label(n)]
@@ -106,7 +112,7 @@ class Terminal:
     # what is drawn
 
     def _block(self) -> Fragments:
-        if self._monitor is None:
+        if self._running is None:
             return []
         columns = max(_BOX, self._output.get_size().columns)
         return [*self._bar(), ("", "\n"), *self._boxes(columns)]
@@ -114,6 +120,7 @@ class Terminal:
     def _bar(self) -> Fragments:
         if self._search is not None:
             return [("class:bar", f" Searching for: {self._search}_  (Tab, arrows: next; Enter: choose; Esc: end) ")]
+        keys: Tuple[Tuple[str, str], ...]
         if self._selected:
             title, keys = f" Actions for '{self._monitor.label(self._selected)}': ", _NODE_KEYS
         else:
@@ -188,14 +195,14 @@ class Terminal:
         elif text is None or not text.isprintable():
             return
         elif self._selected:
-            self._act(text)
+            self._act(self._selected, text)
         elif text == "/":
             self._search, self._match = "", 0
         elif text in KEYS and KEYS.index(text) < len(self._monitor.nodes):
             self._selected = self._monitor.nodes[KEYS.index(text)]
 
-    def _act(self, key: str) -> None:
-        node, self._selected = self._selected, None
+    def _act(self, node: NodeProcess, key: str) -> None:
+        self._selected = None
         if key in _ACTIONS:
             self._monitor.act(node, _ACTIONS[key])
         elif key == "d":

@@ -4,11 +4,11 @@ from __future__ import annotations
 import contextlib
 import ctypes
 import importlib.util
-from typing import Iterator
+from typing import TYPE_CHECKING, Iterator
 
 from . import qt
 
-if qt.package() != "PyQt6":
+if TYPE_CHECKING or qt.package() != "PyQt6":
     from PyQt5 import sip
     from PyQt5.QtCore import QPoint, QRect
     from PyQt5.QtGui import QImage, QPainter

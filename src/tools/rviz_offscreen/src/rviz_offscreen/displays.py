@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Dict, Iterator, Tuple
+from typing import Any, Dict, Iterator, Tuple
 
 import rosgraph
 
@@ -27,11 +27,11 @@ class State:
         return f"no message on {', '.join(self.topics)} yet" if self.silent else self.level
 
 
-def _children(prop) -> Dict[str, object]:
+def _children(prop) -> Dict[str, Any]:
     return {str(prop.childAt(number).getName()): prop.childAt(number) for number in range(prop.numChildren())}
 
 
-def _status(children: Dict[str, object]) -> Tuple[str, Dict[str, str]]:
+def _status(children: Dict[str, Any]) -> Tuple[str, Dict[str, str]]:
     """Level, and the lines below it."""
     for name, prop in children.items():
         if name.startswith(("Status: ", "Global Status: ")):

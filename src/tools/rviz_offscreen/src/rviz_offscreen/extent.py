@@ -35,9 +35,9 @@ def _turned(points: np.ndarray, x: float, y: float, z: float, w: float) -> np.nd
     return points + 2 * np.cross(axis, np.cross(axis, points) + w * points)
 
 
-def _bounds(geometry: ET.Element, packages: rospkg.RosPack) -> Tuple[np.ndarray, np.ndarray]:
+def _bounds(geometry: Optional[ET.Element], packages: rospkg.RosPack) -> Tuple[np.ndarray, np.ndarray]:
     """Lowest and highest corner of a shape, (3,) each, m."""
-    shape = next(iter(geometry), None)
+    shape = None if geometry is None else next(iter(geometry), None)
     half = _POINT
     if shape is not None and shape.tag == "box":
         half = _numbers(shape.get("size"), (0.0,) * 3) / 2
@@ -56,7 +56,8 @@ def _bounds(geometry: ET.Element, packages: rospkg.RosPack) -> Tuple[np.ndarray,
 
 def _link_boxes(description: str) -> Dict[str, List[np.ndarray]]:
     """Link -> the corners (8,3) of each of its visuals, in the link's frame. What cannot be read is a point."""
-    packages, boxes = rospkg.RosPack(), {}
+    packages = rospkg.RosPack()
+    boxes: Dict[str, List[np.ndarray]] = {}
     for link in lenient_xml.fromstring(description).iterfind("link"):
         found = boxes[link.get("name", "")] = []
         for visual in link.iterfind("visual"):

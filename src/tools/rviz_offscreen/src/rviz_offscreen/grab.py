@@ -10,10 +10,11 @@ import json
 import os
 import sys
 import time
-from typing import Dict, List
+from typing import Any, Dict, List
 
 # RViz's bindings load every module of Qt that is installed; the web engine asks for an OpenGL that OSMesa does not give.
-sys.modules.update({f"PyQt5.{name}": None for name in ("QtWebEngine", "QtWebEngineCore", "QtWebEngineWidgets")})
+for _name in ("QtWebEngine", "QtWebEngineCore", "QtWebEngineWidgets"):
+    sys.modules[f"PyQt5.{_name}"] = None  # type: ignore[assignment]  # None is how Python knows what is not to be imported
 
 from . import displays, extent  # noqa: E402
 from .bindings import (  # noqa: E402
@@ -103,13 +104,13 @@ class Grabber:
 
     # ------------------------------------------------------------------------------------------ pictures
 
-    def set_view(self, values: List[list], fit: bool) -> None:
-        """``fit``: distance and focal point are those that have the robots in the frame, unless ``values`` say others."""
-        values = dict(values)
+    def set_view(self, wanted: List[list], fit: bool) -> None:
+        """``fit``: distance and focal point are those that have the robots in the frame, unless ``wanted`` says others."""
+        values: Dict[str, Any] = dict(wanted)
         if not values:
             return
-        points = extent.corners(self.manager) if fit else ()
-        if len(points):
+        points = extent.corners(self.manager) if fit else None
+        if points is not None and len(points):
             panel = next(panel for panel in self.frame.findChildren(QWidget)
                          if panel.metaObject().className() == "rviz::RenderPanel")
             aspect = panel.width() / max(panel.height(), 1)
@@ -159,7 +160,7 @@ def render_windows() -> List[int]:
     get_target = ogre._ZN4Ogre4Root15getRenderTargetERKNSt7__cxx1112basic_stringIcSt11char_traitsIcESaIcEEE
     get_target.restype = ctypes.c_void_p
     get_target.argtypes = [ctypes.c_void_p, ctypes.c_void_p]
-    windows = []
+    windows: List[int] = []
     while not windows or windows[-1]:
         with _StdString(b"OgreWindow(%d)" % (len(windows) + 1)) as name:  # RViz's numbers; 0 is never shown
             windows.append(get_target(root(), name))
@@ -170,7 +171,8 @@ def render_windows() -> List[int]:
 
 def window_of(panel: QWidget) -> int:
     """Address of the OGRE window of a render panel: rviz::RenderWidget keeps it behind its QWidget."""
-    words = ctypes.cast(sip.unwrapinstance(panel), ctypes.POINTER(ctypes.c_void_p))
+    address: int = sip.unwrapinstance(panel)  # type: ignore[func-returns-value,assignment]  # the stub of PyQt says None
+    words = ctypes.cast(address, ctypes.POINTER(ctypes.c_void_p))
     windows = render_windows()
     return next(word for word in words[:16] if word in windows)
 

@@ -138,7 +138,7 @@ def _plus(a: Any, b: Any) -> Any:
 def _modulo(a: Any, b: Any) -> Any:
     if isinstance(a, (str, bytes)):
         _check_format(a, b if isinstance(b, (tuple, list)) and "*" in str(a) else ())
-        _check_fields(a.count("%" if isinstance(a, str) else b"%"), b if isinstance(b, tuple) else (b,))
+        _check_fields(a.count("%") if isinstance(a, str) else a.count(b"%"), b if isinstance(b, tuple) else (b,))
         return _made(a % b)
     return a % b
 

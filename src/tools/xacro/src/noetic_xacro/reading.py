@@ -3,11 +3,12 @@ and macros without prefix. Does not import ``xacro``, which imports this and han
 """
 from __future__ import annotations
 
+import importlib
 import os
 import sys
 import xml.dom.expatbuilder
 import xml.dom.minidom
-from typing import Any, Optional
+from typing import Any, Optional, Union
 
 from noetic_xacro.expressions import MOST_ITEMS, bound_symbols, safe_eval
 from noetic_xacro.reserved import RESERVED
@@ -46,7 +47,9 @@ class _PlacedBuilder(xml.dom.expatbuilder.ExpatBuilderNS):
 
 def _parse(inp, filename: Optional[str] = None) -> xml.dom.minidom.Document:
     """Replacement of ``xacro.parse``: same contract, with places."""
+    data: Union[str, bytes]
     if inp is None:
+        assert filename is not None  # one of the two is there
         path = os.path.join(xacro.root_dir, filename)
         try:
             with open(path, "rb") as file:
@@ -57,10 +60,11 @@ def _parse(inp, filename: Optional[str] = None) -> xml.dom.minidom.Document:
     elif isinstance(inp, (str, bytes)):
         path, data = filename or "text", inp
     elif hasattr(inp, "read"):
-        path, data = filename or getattr(inp, "name", "text"), inp.read()
+        path, data = filename or str(getattr(inp, "name", "text")), inp.read()
     else:
         return inp
     document = _PlacedBuilder(path).parseString(data)
+    assert document.documentElement is not None  # of XML that could be read
     _prefix_words(document.documentElement, path)
     return document
 
@@ -89,7 +93,8 @@ def _prefix_words(root: xml.dom.minidom.Element, path: str) -> None:
 
 
 def _keep_place_in_clones() -> None:
-    original, process = xml.dom.minidom._clone_node, xacro.process_doc
+    minidom: Any = xml.dom.minidom  # what is replaced is its own business: no stub tells of it
+    original, process = minidom._clone_node, xacro.process_doc
     count = 0
 
     def process_doc(*arguments, **named):
@@ -109,7 +114,7 @@ def _keep_place_in_clones() -> None:
             setattr(clone, PLACE, getattr(node, PLACE))
         return clone
 
-    xml.dom.minidom._clone_node = clone_node
+    minidom._clone_node = clone_node
 
 
 def _accept_macros_without_prefix() -> None:
@@ -155,7 +160,7 @@ def _eval_extension(text: str) -> str:
     """``$(...)``: what goes wrong is told once, with what was written."""
     if text == "$(cwd)":
         return os.path.abspath(xacro.root_dir)
-    from xacro import substitution_args
+    substitution_args: Any = importlib.import_module("xacro.substitution_args")
 
     try:
         return substituted(text, xacro.substitution_args_context, substitution_args)

@@ -4,6 +4,7 @@ Its package has the same name and stands behind this one on sys.path: it is foun
 functions and those that replace some of them see one set of globals.
 """
 import sys as _sys
+import typing as _typing
 from importlib.machinery import PathFinder as _PathFinder
 
 
@@ -17,6 +18,9 @@ def _distribution():
     raise ModuleNotFoundError("xacro's PyPI distribution is not on PYTHONPATH: run scripts/setup, or source setup.bash in "
                               "this shell", name="xacro")
 
+
+if _typing.TYPE_CHECKING:
+    def __getattr__(name: str) -> _typing.Any: ...  # what the code executed below defines
 
 _spec = _distribution()
 __path__[:] = [*_spec.submodule_search_locations]
