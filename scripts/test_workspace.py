@@ -88,8 +88,8 @@ ROOTS = {"ode_sim": "SimulationError", "hardware_interface": "ControlError", "no
          "moveit_setup_assistant": "AssistantError", "laser_filters": "FilterError", "topic_tools": "ExpressionError",
          "robot_localization": "FrameMissing", "turtle_actionlib": "PolygonError", "xacro": "PackageNotFoundError",
          "web_video_server": "VideoError", "image_pixels": "ImageError",
-         "bag_tools": "BagError", "rosbridge_library": "RosbridgeError", "foxglove_bridge": "BridgeError",
-         "lenient_xml": "XmlError", "urdfdom_py": "ParseError"}
+         "bag_tools": "BagError", "rosbridge_library": "RosbridgeError", "noetic_environment": "EditorError",
+         "foxglove_bridge": "BridgeError", "lenient_xml": "XmlError", "urdfdom_py": "ParseError"}
 
 
 @pytest.mark.parametrize("package", sorted(PACKAGES))

@@ -1,0 +1,1 @@
+"""What a sourced workspace is to other programs."""
