@@ -14,12 +14,13 @@ if TYPE_CHECKING:
 
 #: Which module of noetic_names completes which module.
 COMPLETED_BY = {name: group for group, names in {
-    "standard": "array asyncio base64 cgi collections configparser fractions html.parser importlib inspect json locale plistlib random "
-                "threading unittest xml.etree.ElementTree",
-    "numbers": "numpy numpy.lib scipy scipy.integrate scipy.interpolate scipy.linalg scipy.misc scipy.signal scipy.spatial.distance "
-               "scipy.spatial.transform scipy.stats",
+    "standard": "array asyncio base64 cgi collections configparser fractions html.parser importlib inspect json locale math plistlib "
+                "random threading unittest xml.etree.ElementTree",
+    "numbers": "numpy numpy.lib scipy scipy.fft scipy.integrate scipy.interpolate scipy.linalg scipy.misc scipy.signal scipy.sparse "
+               "scipy.spatial scipy.spatial.distance scipy.spatial.transform scipy.stats",
     "drawings": "matplotlib matplotlib.axes matplotlib.axis matplotlib.backend_bases matplotlib.backends.backend_agg matplotlib.cbook "
-                "matplotlib.cm matplotlib.colors matplotlib.figure matplotlib.lines matplotlib.patches matplotlib.pyplot matplotlib.style "
+                "matplotlib.cm matplotlib.colorbar matplotlib.colors matplotlib.contour matplotlib.dates matplotlib.figure "
+                "matplotlib.lines matplotlib.patches matplotlib.pyplot matplotlib.scale matplotlib.style matplotlib.widgets "
                 "mpl_toolkits.mplot3d.axes3d",
     "pictures": "PIL.Image PIL.ImageDraw PIL.ImageFont cv2",
     "files": "yaml PyKDL",

@@ -1,6 +1,6 @@
 """Scripts for Noetic's Python (3.8, NumPy 1.17, SciPy 1.3, PyYAML 5.3, Matplotlib 3.1) run with Debian's.
 
-The numbers are what NumPy 1.17.4, SciPy 1.3.3 and Matplotlib 3.1.2 print under Python 3.8.
+The numbers are what NumPy 1.17.4, SciPy 1.3.3, Matplotlib 3.1.2 and OpenCV 4.2 print under Python 3.8.
 """
 import atexit
 import shutil
@@ -79,6 +79,108 @@ SCRIPTS = {
     "f = p.figure(); a = Axes3D(f); print(f.axes == [a]); a.w_xaxis.set_pane_color((1, 1, 1, 1))\n"
     "a.add_artist(Arrow((0, 0), (0, 0), mutation_scale=20)); f.canvas.draw(); g = p.figure(); g.add_subplot(111, projection='3d');"
     "print(len(g.axes))": "True\n3\n1",
+    "import random; print(random.sample({1:2}.keys(),1)); random.seed((1,2)); print(0 <= random.random() < 1)":
+        "[1]\nTrue",
+    "import math; print(math.factorial(5.0)); from math import factorial; print(factorial(4))":
+        "120\n24",
+    "import asyncio\nasync def f():\n  l=asyncio.Lock(loop=None); q=asyncio.Queue(3, loop=asyncio.get_event_loop()); "
+    "q.put_nowait(1); print(l.locked(), q.qsize(), "
+    "asyncio.Event(loop=None).is_set())\nasyncio.get_event_loop().run_until_complete(f())":
+        "False 1 False",
+    "import numpy as np; print(np.histogram([1,2],2,normed=True)[0], [np.float64(1.5), np.int64(2)], "
+    "str((np.float32(.5),)))":
+        "[1. 1.] [1.5, 2] (0.5,)",
+    "from numpy import *; print(float_(1), product([2,3]), Inf, sin(0))":
+        "1.0 6 inf 0.0",
+    "from scipy import *; print(sin(0), array([1]), pi>3, linspace(0,1,2), isinstance(True, bool), max([1,2]))":
+        "0.0 [1] True [0. 1.] True 2",
+    "from scipy import fft, ifft; print(fft([1.0,2]).real, ifft([3.0,-1]).real)":
+        "[ 3. -1.] [1. 2.]",
+    "import scipy.linalg as l; print(l.eigh([[2.0,0],[0,3]], eigvals=(0,0))[0], l.eigvalsh([[2.0]], turbo=False), "
+    "l.solve([[2.0]],[1.0],sym_pos=True))":
+        "[2.] [2.] [0.5]",
+    "from scipy.signal import firwin, firwin2; print(firwin(3,0.5,nyq=1.0).round(4), "
+    "firwin2(5,[0,0.5,1],[1,1,0],nyq=1).round(3))":
+        "[0.0462 0.9076 0.0462] [-0.009  0.111  0.75   0.111 -0.009]",
+    "from scipy.stats import itemfreq, mode, norm, t; print(itemfreq([1,1,2]).tolist(), mode([1,1,2])[0][0], "
+    "mode([[1,2],[1,3]])[0].shape, mode([3,3,4],axis=None)[0][0], round(norm.interval(alpha=.95)[0],3), "
+    "round(t.interval(alpha=.9,df=3)[1],3), round(norm.moment(n=2),6))":
+        "[[1, 2], [2, 1]] 1 (1, 2) 3 -1.96 2.353 1.0",
+    "from scipy.spatial import cKDTree, KDTree; print(cKDTree([[0,0],[1,1]]).query([0,.1],n_jobs=2)[1], "
+    "cKDTree([[0,0]]).query_ball_point([0,0],1,n_jobs=-1))":
+        "0 [0]",
+    "from scipy.sparse import csr_matrix, lil_matrix; m=csr_matrix([[1,0],[0,2]]); print(m.A.tolist(), m.H.A.tolist(), "
+    "lil_matrix((1,1)).A.tolist())":
+        "[[1, 0], [0, 2]] [[1, 0], [0, 2]] [[0.0]]",
+    PLOT + "p.hist([1,2,2],2,normed=1); p.gca().hist([1,2],normed=True); p.hist2d([1,2],[1,2],normed=True); "
+    "print(p.gca().patches[0].get_height())":
+        "0.6666666666666666",
+    PLOT + "p.plot([1,2]); a=p.gca(); l=a.lines[0]; a.lines.remove(l); print(len(a.lines)); p.plot([1]); p.plot([2]); "
+    "a.lines.pop(0); a.lines.pop(); print(len(a.lines)); p.plot([1]); a.lines=[]; print(len(a.lines)); p.text(0,0,'a'); "
+    "del a.texts[:]; p.text(0,0,'b'); a.texts=[]; a.patches=[]; a.collections=[]; print(len(a.texts))":
+        "0\n0\n0\n0",
+    PLOT + "c=p.contour([[0,1],[1,2]]); [k.set_alpha(.5) for k in c.collections]; [k.remove() for k in c.collections]; "
+    "print(len(p.gca().collections))":
+        "0",
+    PLOT + "p.gca().xaxis.grid(b=True); print(p.gca().xaxis.get_gridlines()[0].get_visible())":
+        "True",
+    PLOT + "a=p.gca(); print(next(a._get_lines.prop_cycler)['color'], next(a._get_lines.prop_cycler)['color']); "
+    "print(p.plot([1])[0].get_color())":
+        "#1f77b4 #ff7f0e\n#2ca02c",
+    PLOT + "a=p.subplot(121); b=p.subplot(122); a.get_shared_x_axes().join(a,b); a.set_xlim(0,7); print(b.get_xlim()[1], "
+    "b.rowNum, b.colNum)":
+        "7.0 0 1",
+    PLOT + "p.stem([1,2],[1,2],'r-','bo'); p.gca().stem([1,2],[3,4],'r-','bo','k:',use_line_collection=True); "
+    "print(len(p.gca().containers))":
+        "2",
+    PLOT + "p.loglog([1,2],[1,2],basex=2,basey=2,nonposx='clip',subsx=[2,3]); p.semilogy([1,2],basey=2); "
+    "p.xscale('log',basex=2); p.yscale('log',nonposy='clip'); p.gca().set_xscale('log',nonposx='mask'); "
+    "print(p.gca().get_xscale(), p.gca().get_yscale()); p.yscale('symlog',linthreshy=.1,linscaley=1); "
+    "p.gcf().canvas.draw()":
+        "log log",
+    PLOT + "c=p.colorbar(p.imshow([[0,1]])); c.set_clim(0,5); c.draw_all(); print(c.mappable.get_clim())":
+        "(0, 1)",
+    PLOT + "import numpy as np; i=p.imshow(np.zeros((2,2)),'gray',None,'equal','nearest',.5,0,1,'lower'); "
+    "print(i.get_cmap().name, i.get_alpha(), i.origin)":
+        "gray 0.5 lower",
+    PLOT + "p.subplots(1,2,True); a=p.gca(); a.add_patch(m.patches.Ellipse((0,0),1,2,30)); "
+    "a.add_patch(m.patches.Rectangle((0,0),1,1,45)); a.add_patch(m.patches.Polygon([[0,0],[1,1],[0,1]],True)); "
+    "a.add_patch(m.patches.RegularPolygon((0,0),5,.1)); a.add_patch(m.patches.Arc((0,0),1,1,0,0,90)); "
+    "p.gcf().canvas.draw(); print(a.patches[0].angle)":
+        "30",
+    PLOT + "m.rcParams['text.latex.unicode']=True; p.rcParams.update({'savefig.frameon': False, 'font.size': 9}); p.rc('font', "
+    "size=7); print(p.rcParams['font.size'])":
+        "7.0",
+    PLOT + "import warnings, matplotlib.cbook; warnings.filterwarnings('ignore',category=matplotlib.cbook.mplDeprecation); "
+    "print(issubclass(matplotlib.cbook.MatplotlibDeprecationWarning, Warning))":
+        "True",
+    PLOT + "from matplotlib.dates import epoch2num, num2date, num2epoch; print(num2date(epoch2num(86400.0)).isoformat(), "
+    "num2epoch(epoch2num(5.0)).round(3))":
+        "1970-01-02T00:00:00+00:00 5.0",
+    PLOT + "f=p.figure(figsize=(1,1),dpi=10); f.canvas.draw(); print(len(f.canvas.get_renderer().tostring_rgb()))":
+        "300",
+    "import yaml, warnings; warnings.filterwarnings('ignore', category=yaml.YAMLLoadWarning); print(yaml.load('a'))":
+        "a",
+    "import cv2, numpy as np; c=cv2.split(np.zeros((2,2,3),np.uint8)); c[0]=c[0]+1; print(type(c).__name__, "
+    "cv2.merge(c).sum())":
+        "list 4",
+    "import cv2, numpy as np; i=np.zeros((50,90),np.uint8); i[10:40,10:40]=255; i[2:5,60:63]=255; "
+    "c,h=cv2.findContours(i,cv2.RETR_EXTERNAL,cv2.CHAIN_APPROX_SIMPLE); c.sort(key=cv2.contourArea,reverse=True); "
+    "c.append(c[0]); print(len(c), cv2.contourArea(c[0]), h.shape); "
+    "print(len(cv2.findContours(i*0,cv2.RETR_EXTERNAL,cv2.CHAIN_APPROX_SIMPLE)[0]))":
+        "3 841.0 (1, 2, 4)\n0",
+    "import cv2, numpy as np; i=np.zeros((50,50,3),np.uint8); cv2.circle(i,tuple(np.float32([5.6,5])),3,(0,0,255)); "
+    "cv2.line(i,tuple(np.float32([0,0])),tuple(np.float32([5,5])),(255,0,0)); print(i[0,0].tolist())":
+        "[255, 0, 0]",
+    "import cv2, numpy as np; print([i[0] for i in cv2.dnn.NMSBoxes([[0,0,9,9],[40,40,9,9]],[.9,.8],.5,.4)], "
+    "len(cv2.dnn.NMSBoxes([],[],.5,.4)))":
+        "[0, 1] 0",
+    "import cv2, numpy as np; i=(np.random.RandomState(1).rand(200,200)*255).astype(np.uint8); o=cv2.ORB_create(); "
+    "k,d=o.detectAndCompute(i,None); k2=o.detect(i,None); b=cv2.BFMatcher(cv2.NORM_HAMMING,crossCheck=True); "
+    "m=b.match(d,d); m.sort(key=lambda x:x.distance); print(type(k).__name__, type(k2).__name__, type(m).__name__, "
+    "len(m)==len(k)); m=cv2.BFMatcher().knnMatch(d,d,k=2); m.sort(key=lambda x: x[0].distance); print(type(m).__name__, "
+    "len(m[0]), [1 for a,b in m][:1])":
+        "list list list True\nlist 2 [1]",
     "from matplotlib.figure import Figure; print(Figure.gca.__qualname__)": "FigureBase.gca",  # pyplot of Debian 13 asks for it
 }
 

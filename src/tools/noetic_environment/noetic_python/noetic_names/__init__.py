@@ -36,3 +36,28 @@ def renamed(function, **names):
     def call(*arguments, **options):
         return function(*arguments, **{names.get(name, name): value for name, value in options.items()})
     return call
+
+
+def positional(function, *names):
+    """``function``, whose arguments ``names``, after those that it still takes in order, were once given in order as well.
+
+    :param names: of all parameters, ``self`` among them
+    """
+    import inspect
+    kinds = (inspect.Parameter.POSITIONAL_ONLY, inspect.Parameter.POSITIONAL_OR_KEYWORD)
+    count = sum(one.kind in kinds for one in inspect.signature(function).parameters.values())
+
+    @functools.wraps(function)
+    def call(*arguments, **options):
+        if len(arguments) <= count or len(arguments) > len(names):
+            return function(*arguments, **options)
+        return function(*arguments[:count], **dict(zip(names[count:], arguments[count:])), **options)
+    return call
+
+
+def replace_in_compiled(cls, **wrappers):
+    """A method of a class in C is replaced by what a wrapper makes of it; one that the class lacks is left out."""
+    attributes = gc.get_referents(vars(cls))[0]
+    for name, wrapper in wrappers.items():
+        if name in attributes:
+            attributes[name] = wrapper(attributes[name])

@@ -1,7 +1,9 @@
 """PyYAML 6 and KDL 1.5."""
+from noetic_names import add
 
 
 def _yaml(module):
+    add(module, YAMLLoadWarning=type("YAMLLoadWarning", (RuntimeWarning,), {}))
     if module.load.__defaults__:
         return
     new_load, new_load_all = module.load, module.load_all

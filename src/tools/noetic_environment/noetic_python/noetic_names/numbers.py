@@ -1,7 +1,7 @@
 """NumPy 1.18 to 2.2, SciPy 1.4 to 1.15."""
 import functools
 
-from noetic_names import add, add_to_compiled, aliases, without
+from noetic_names import add, add_to_compiled, aliases, renamed, replace_in_compiled, without
 
 #: Names of NumPy 1.17, by what they stood for; the second half went with NumPy 2.
 _NUMPY = {"cumproduct": "cumprod", "product": "prod", "sometrue": "any", "alltrue": "all", "float_": "float64", "complex_": "complex128",
@@ -29,8 +29,12 @@ def _numpy(module):
         setattr(module, name, _of_lists_of_any_length(module, getattr(module, name)))
     for name in ("linspace", "logspace", "geomspace"):
         setattr(module, name, _of_a_whole_number(getattr(module, name)))
+    for name in ("histogram", "histogram2d", "histogramdd"):
+        setattr(module, name, renamed(getattr(module, name), normed="density"))
     if module.__version__ >= "2":
         _methods_of_arrays(module)
+        module.__all__ = [*module.__all__, *(name for name in _NUMPY if name in vars(module) and name not in module.__all__)]
+        module.set_printoptions(legacy="1.25")  # a number in a list is written as a number: [1.5], not [np.float64(1.5)]
 
 
 class _Casts(dict):
@@ -105,11 +109,24 @@ def _scipy(module):
             return own(name)
         except AttributeError:
             import numpy
-            place = numpy.random if name in ("rand", "randn") else numpy
+            place = {"rand": numpy.random, "randn": numpy.random, "ifft": numpy.fft}.get(name, numpy)
             if name.startswith("_") or name not in vars(place):
                 raise
             return getattr(place, name)
     module.__getattr__ = __getattr__
+    import numpy
+    types = {"bool", "bytes", "complex", "float", "int", "long", "object", "str", "unicode"}
+    kept = {"abs", "max", "min", "pow", "round", "fft", "test", *module.__all__}
+    more = {name for name in numpy.__all__ if name[0] != "_"} - types - kept
+    module.__all__ = [*module.__all__, *sorted(more), "rand", "randn"]
+
+
+def _fft(module):
+    """It was a function."""
+    class Transforms(type(module)):
+        def __call__(self, *arguments, **options):
+            return self.fft(*arguments, **options)
+    module.__class__ = Transforms
 
 
 def _integrate(module):
@@ -191,6 +208,16 @@ def _linalg(module):
     import numpy
     aliases(module, pinv2="pinv")
     add(module, tri=numpy.tri, tril=numpy.tril, triu=numpy.triu)
+    for name in ("eigh", "eigvalsh"):
+        setattr(module, name, without(renamed(getattr(module, name), eigvals="subset_by_index"), "turbo"))
+    new_solve = without(module.solve, "debug")
+
+    @functools.wraps(module.solve)
+    def solve(a, b, sym_pos=False, *arguments, **options):
+        if isinstance(sym_pos, bool) and sym_pos:
+            options.setdefault("assume_a", "pos")
+        return new_solve(a, b, *([] if isinstance(sym_pos, bool) else [sym_pos]), *arguments, **options)
+    module.solve = solve
 
 
 def _misc(module):
@@ -232,6 +259,32 @@ def _signal(module):
         """(len(widths), len(data)): the wavelet transform."""
         return numpy.array([module.convolve(data, wavelet(min(10 * width, len(data)), width), mode="same") for width in widths])
     add(module, ricker=ricker, cwt=cwt)
+    aliases(module, lsim2="lsim", impulse2="impulse", step2="step")
+    for name in ("firls", "firwin", "firwin2", "remez"):
+        setattr(module, name, _of_a_nyquist_frequency(getattr(module, name)))
+
+
+def _of_a_nyquist_frequency(function):
+    @functools.wraps(function)
+    def design(*arguments, **options):
+        if options.pop("Hz", None) is not None:
+            raise TypeError("write fs for Hz")
+        if options.get("nyq") is not None:
+            options["fs"] = 2.0 * options.pop("nyq")
+        return function(*arguments, **options)
+    return design
+
+
+def _sparse(module):
+    """``m.A`` is the array, ``m.H`` the conjugate transpose."""
+    for cls in {module.csr_matrix.__mro__[-2], *module.csr_matrix.__mro__[:-1]}:
+        if "toarray" in vars(cls):
+            add(cls, A=property(lambda self: self.toarray()), H=property(lambda self: self.conjugate().transpose()))
+
+
+def _spatial(module):
+    replace_in_compiled(module.cKDTree, query=lambda new: renamed(new, n_jobs="workers"),
+                        query_ball_point=lambda new: renamed(new, n_jobs="workers"))
 
 
 def _distance(module):
@@ -255,6 +308,26 @@ def _transform(module):
 
 
 def _stats(module):
+    import numpy
+    new_mode = module.mode
+
+    @functools.wraps(new_mode)
+    def mode(a, axis=0, *arguments, **options):
+        """The axis stays: ``mode(x)[0][0]``."""
+        if "keepdims" not in options:
+            options["keepdims"] = True
+            a, axis = (numpy.ravel(a), 0) if axis is None else (a, axis)
+        return new_mode(a, axis, *arguments, **options)
+    module.mode = mode
+    distribution = module.rv_continuous.__mro__[1]
+    distribution.interval = renamed(distribution.interval, alpha="confidence")
+    distribution.moment = renamed(distribution.moment, n="order")
+
+    def itemfreq(a):
+        """(n, 2): values and how often each is there"""
+        return numpy.array(numpy.unique(a, return_counts=True)).T
+    add(module, itemfreq=itemfreq)
+
     def binom_test(x, n=None, p=0.5, alternative="two-sided"):
         if n is None:
             x, n = x[0], sum(x)
@@ -264,6 +337,7 @@ def _stats(module):
             x, axis=axis, scale=1.0 / scale, nan_policy=nan_policy)))
 
 
-COMPLETE = {"numpy": _numpy, "numpy.lib": _numpy_lib, "scipy": _scipy, "scipy.integrate": _integrate, "scipy.interpolate": _interpolate,
-            "scipy.linalg": _linalg, "scipy.misc": _misc, "scipy.signal": _signal, "scipy.spatial.distance": _distance,
+COMPLETE = {"numpy": _numpy, "numpy.lib": _numpy_lib, "scipy": _scipy, "scipy.fft": _fft, "scipy.integrate": _integrate,
+            "scipy.interpolate": _interpolate, "scipy.linalg": _linalg, "scipy.misc": _misc, "scipy.signal": _signal,
+            "scipy.sparse": _sparse, "scipy.spatial": _spatial, "scipy.spatial.distance": _distance,
             "scipy.spatial.transform": _transform, "scipy.stats": _stats}

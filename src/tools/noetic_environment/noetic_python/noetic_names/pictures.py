@@ -1,5 +1,7 @@
 """Pillow 7.1 to 11, OpenCV 4.3 to 4.10."""
-from noetic_names import add, aliases
+import functools
+
+from noetic_names import add, add_to_compiled, aliases, replace_in_compiled
 
 
 def _image(module):
@@ -30,8 +32,51 @@ def _cv2(module):
     for name in dir(legacy) if legacy else ():
         if name.startswith(("Tracker", "MultiTracker")):
             add(module, **{name: getattr(legacy, name)})
+    module.split, module.findContours = _with_lists(module.split), _with_lists(module.findContours)
+    for name in ("arrowedLine", "circle", "drawMarker", "ellipse", "line", "putText", "rectangle"):
+        setattr(module, name, _at_whole_pixels(getattr(module, name)))
+    replace_in_compiled(module.DescriptorMatcher, match=_with_lists, knnMatch=_with_lists, radiusMatch=_with_lists)
+    replace_in_compiled(module.Feature2D, detect=_with_lists, detectAndCompute=_with_lists)
+    if hasattr(module, "dnn"):
+        module.dnn.NMSBoxes = _as_a_column(module.dnn.NMSBoxes)
+        replace_in_compiled(module.dnn.Net, getUnconnectedOutLayers=_as_a_column)
     if hasattr(module, "aruco"):
         _aruco(module, module.aruco)
+
+
+def _with_lists(function):
+    """What OpenCV has several of came as a list, which is sorted and whose items are replaced; now they are a tuple."""
+    @functools.wraps(function)
+    def call(*arguments, **options):
+        found = function(*arguments, **options)
+        if isinstance(found, tuple) and any(isinstance(one, tuple) for one in found):
+            several = [list(one) if isinstance(one, tuple) else one for one in found]
+            return several if all(isinstance(one, list) for one in several) else tuple(several)
+        one_answer = isinstance(found, tuple) and function.__name__ in ("split", "match", "detect")
+        return list(found) if one_answer else found
+    return call
+
+
+def _at_whole_pixels(function):
+    """A place of ``numpy.float32`` numbers, as circles and corners are found, was cut to whole ones."""
+    import numpy
+
+    def whole(value):
+        return tuple(int(one) if isinstance(one, numpy.float32) else one for one in value) if isinstance(value, tuple) else value
+
+    @functools.wraps(function)
+    def draw(*arguments, **options):
+        return function(*map(whole, arguments), **{name: whole(value) for name, value in options.items()})
+    return draw
+
+
+def _as_a_column(function):
+    """(n, 1), as ``i[0] for i in ...`` reads them; (n,) now."""
+    @functools.wraps(function)
+    def call(*arguments, **options):
+        found = function(*arguments, **options)
+        return found.reshape(-1, 1) if getattr(found, "ndim", 0) == 1 else found
+    return call
 
 
 def _aruco(cv2, aruco):
@@ -41,6 +86,9 @@ def _aruco(cv2, aruco):
         CharucoBoard_create=lambda x, y, square, marker, dictionary: aruco.CharucoBoard((x, y), square, marker, dictionary),
         GridBoard_create=lambda x, y, length, separation, dictionary, first=0: aruco.GridBoard(
             (x, y), length, separation, dictionary, *_ids(first, x * y)))
+    if hasattr(aruco, "Board") and hasattr(aruco.Board, "generateImage"):
+        add_to_compiled(aruco.Board, draw=lambda self, outSize, img=None, marginSize=0, borderBits=1: self.generateImage(
+            outSize, img, marginSize, borderBits))
     if hasattr(aruco, "ArucoDetector"):
         def detectMarkers(image, dictionary, corners=None, ids=None, parameters=None, rejectedImgPoints=None):
             return aruco.ArucoDetector(dictionary, parameters or aruco.DetectorParameters()).detectMarkers(image)

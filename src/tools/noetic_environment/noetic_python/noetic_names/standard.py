@@ -42,6 +42,9 @@ def _asyncio(module):
     async def wait(aws, *, loop=None, **options):
         return await new_wait([module.ensure_future(one) for one in aws], **options)
     module.coroutine, module.wait = coroutine, wait
+    for name in ("BoundedSemaphore", "Condition", "Event", "Lock", "LifoQueue", "PriorityQueue", "Queue", "Semaphore"):
+        cls = getattr(module, name)
+        cls.__init__ = without(cls.__init__, "loop")
     for name in ("gather", "shield", "sleep", "wait_for", "open_connection", "start_server"):
         setattr(module, name, without(getattr(module, name), "loop"))
 
@@ -120,6 +123,11 @@ def _locale(module):
     add(module, format=format)
 
 
+def _math(module):
+    new_factorial = module.factorial
+    module.factorial = lambda x: new_factorial(int(x) if isinstance(x, float) and x.is_integer() else x)
+
+
 def _plistlib(module):
     def on_file(function, mode):
         def call(value, path):
@@ -135,11 +143,18 @@ def _plistlib(module):
 
 def _random(module):
     import functools
+    from collections.abc import Set
     new_sample, new_shuffle, new_randrange = module.Random.sample, module.Random.shuffle, module.Random.randrange
+    new_seed = module.Random.seed
+
+    @functools.wraps(new_seed)
+    def seed(self, a=None, version=2):
+        """Anything that has a hash may be a seed."""
+        return new_seed(self, a if a is None or isinstance(a, (int, float, str, bytes, bytearray)) else hash(a), version)
 
     @functools.wraps(new_sample)
     def sample(self, population, k, **options):
-        return new_sample(self, tuple(population) if isinstance(population, (set, frozenset)) else population, k, **options)
+        return new_sample(self, tuple(population) if isinstance(population, Set) else population, k, **options)
 
     @functools.wraps(new_shuffle)
     def shuffle(self, x, random=None):
@@ -157,7 +172,7 @@ def _random(module):
     def randint(self, a, b):
         """Random integer in range [a, b], including both end points."""
         return self.randrange(a, b + 1)
-    for method in (sample, shuffle, randrange, randint):
+    for method in (sample, shuffle, randrange, randint, seed):
         setattr(module.Random, method.__name__, method)
         setattr(module, method.__name__, getattr(module._inst, method.__name__))
 
@@ -193,5 +208,5 @@ def _element_tree(module):
 
 COMPLETE = {"array": _array, "asyncio": _asyncio, "base64": _base64, "cgi": _cgi, "collections": _collections,
             "configparser": _configparser, "fractions": _fractions, "html.parser": _html_parser, "importlib": _importlib,
-            "inspect": _inspect, "json": _json, "locale": _locale, "plistlib": _plistlib, "random": _random, "threading": _threading,
-            "unittest": _unittest, "xml.etree.ElementTree": _element_tree}
+            "inspect": _inspect, "json": _json, "locale": _locale, "math": _math, "plistlib": _plistlib, "random": _random,
+            "threading": _threading, "unittest": _unittest, "xml.etree.ElementTree": _element_tree}
