@@ -18,7 +18,7 @@ import rospkg
 PACKAGES = ("libode8", "ros-base", "rviz", "catkin", "catkin-tools", "python3-numpy", "python3-rospkg", "libgl1-mesa-dri", "libqt5gui5*",
             "libqt6gui6*", "g++", "cmake")
 #: names of variables of which the value counts
-VARIABLES = re.compile(r"ROS_|GAZEBO_|ODE_SIM_|CMAKE_PREFIX_PATH|PYTHONPATH|DISPLAY|WAYLAND_DISPLAY|QT_|LIBGL_|MESA_|LANG|LC_ALL|XDG_SESSION_TYPE")
+VARIABLES = re.compile(r"ROS_|GAZEBO_|ODE_SIM_|CMAKE_PREFIX_PATH|PYTHONPATH|DISPLAY|WAYLAND_|QT_|LIBGL_|MESA_|LANG|LC_ALL|XDG_SESSION")
 LINES = 200  # of each log, from its end
 LOGS = 8  # the newest
 _DRAWS = "from ode_sim.rendering import Renderer; print(Renderer().device)"
