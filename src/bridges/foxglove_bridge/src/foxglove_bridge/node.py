@@ -1,6 +1,7 @@
 """``roslaunch foxglove_bridge foxglove_bridge.launch``"""
 from __future__ import annotations
 
+import logging
 import signal
 import socket
 import threading
@@ -30,6 +31,9 @@ class Bridge(ServerListener):
 
     def __init__(self, settings: Settings) -> None:
         self.settings = settings
+        # The library says by Python's logging that a client reads too slowly, and holds a lock of that client meanwhile: another thread
+        # that has Python's own lock then waits for the first, which waits for Python's. It says nothing from CRITICAL on.
+        foxglove.set_log_level(logging.CRITICAL)
         self._context = foxglove.Context()
         self._topics = Topics(self._context)
         self._published = Published(lambda name: allowed(name, settings.client_topic_whitelist), self._complain)
