@@ -48,7 +48,8 @@ OWN, DEBIANS = [sys.executable, str(BIN / "rosrun")], ["/usr/bin/rosrun"]
 
 @pytest.mark.slow
 @pytest.mark.parametrize("words", [["my_arm", "node.py", "a b", "*"], ["--prefix", "nice -n 1", "my_arm", "relayed.py"],
-                                   ["my_arm", "left.py"], ["my_arm", "nod*.py"], ["my_arm", "twice.py"], ["my_arm", "plain.py"]])
+                                   ["my_arm", "left.py"], ["my_arm", "nod*.py"], ["my_arm", "twice.py"], ["my_arm", "plain.py"],
+                                   ["my_arm", "scripts/node.py", "a"], ["my_arm", "nowhere/node.py"]])
 def test_runs_what_debians_runs(workspace, words):
     code, printed, _ = run(OWN, *words)
     assert (code, printed) == run(DEBIANS, *words)[:2]
@@ -60,6 +61,18 @@ def test_a_launch_file_is_no_program_also_when_it_is_executable(workspace):
         (workspace / "arm.launch").chmod(mode)
         code, printed, said = run(OWN, "my_arm", "arm.launch")
         assert code != 0 and printed == "" and "That is a launch file: roslaunch my_arm arm.launch" in said and "chmod" not in said
+
+
+def test_a_place_in_the_package_is_looked_at_as_a_name_is(workspace):
+    (workspace / "launch").mkdir()
+    (workspace / "launch" / "arm.launch").write_text("<launch/>")
+    code, printed, said = run(OWN, "my_arm", "launch/arm.launch")
+    assert code != 0 and printed == "" and "That is a launch file: roslaunch my_arm arm.launch" in said
+    (workspace / "scripts" / "windows.py").write_bytes(b"#!/usr/bin/env python3\r\nprint(3)\r\n")
+    assert "chmod +x" in run(OWN, "my_arm", "scripts/windows.py")[2]
+    (workspace / "scripts" / "windows.py").chmod(0o755)
+    code, printed, said = run(OWN, "my_arm", "scripts/windows.py")
+    assert (code, printed) == (0, "3\n") and "dos2unix" in said
 
 
 @pytest.mark.parametrize("words, told", [(["my_arm", "node.py"], "rosrun my_arm node.py"), (["src/node.py"], "rosrun PACKAGE node.py"),
@@ -81,7 +94,6 @@ def test_why_there_is_nothing_to_run(workspace):
     assert run(OWN, "my_leg", "x")[2].startswith("rosrun: the package 'my_leg' is not here. Is it built in your workspace")
 
 
-@pytest.mark.parametrize("words", [["rosrun"], ["rosrun", "my_arm"], ["rosrun", "--debug", "my_arm", "a"], ["rosrun", "my_arm", "x/a"],
-                                   ["rosrun", "-p"]])
+@pytest.mark.parametrize("words", [["rosrun"], ["rosrun", "my_arm"], ["rosrun", "--debug", "my_arm", "a"], ["rosrun", "-p"]])
 def test_the_rest_is_debians(words):
     assert programs.command(words) is None

@@ -81,7 +81,7 @@ def of_program(package: str, name: str) -> str:
         folder = Path(rospkg.RosPack().get_path(package))
     except rospkg.ResourceNotFound:
         return ""
-    files = [path for path in sorted(folder.rglob("*")) if path.name == name and path.is_file()]
+    files = [path for path in sorted(folder.rglob("*")) if name in (path.name, str(path.relative_to(folder))) and path.is_file()]
     if files and no_program(files[0], package):
         return no_program(files[0], package)
     if files:

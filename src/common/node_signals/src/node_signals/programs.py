@@ -29,7 +29,7 @@ def command(words: List[str]) -> Optional[Command]:
     rest, prefix = words[1:], ""
     while len(rest) > 2 and rest[0] in ("-p", "--prefix"):
         prefix, rest = rest[1], rest[2:]
-    if len(rest) < 2 or rest[0].startswith("-") or "/" in rest[1]:
+    if len(rest) < 2 or rest[0].startswith("-"):
         return None
     return Command(prefix, rest[0], rest[1], rest[2:])
 
@@ -39,6 +39,9 @@ def find(package: str, name: str) -> List[str]:
     catkins, own = _catkin_folders(["libexec", "share"], package), _folder_of(package)
     if not own:
         return []
+    if "/" in name:  # a place in the package
+        path = os.path.join(own, name.lstrip("/"))
+        return [path] if os.path.isfile(path) and os.access(path, os.X_OK) else []
     found = _executables([*catkins, own], own, name)
     if len(found) == 2:  # a relay in the workspace's development space, and what it stands for
         shared = _catkin_folders(["share"], package)

@@ -154,10 +154,8 @@ def _joint_limits(scene: _core.PlanningScene, group: str, unset: float) -> Tuple
     names = scene.model.group(group).variables
     limits = [scene.model.variable_limits(name) for name in names]
     for name, limit in zip(names, limits):
-        for what, has, most in (("velocity", limit.has_velocity, limit.max_velocity),
-                                ("acceleration", limit.has_acceleration, limit.max_acceleration)):
-            if has:
-                above_zero(name, what, most)
+        above_zero(name, "velocity", limit.max_velocity if limit.has_velocity else unset)
+        above_zero(name, "acceleration", limit.max_acceleration if limit.has_acceleration else unset)
     return (np.array([limit.max_velocity if limit.has_velocity else unset for limit in limits]),
             np.array([limit.max_acceleration if limit.has_acceleration else unset for limit in limits]))
 

@@ -5,6 +5,7 @@ import argparse
 import os
 import signal
 
+from node_signals import rviz_displays
 from python_qt_binding.QtCore import qWarning
 from python_qt_binding.QtGui import QGuiApplication
 from python_qt_binding.QtWidgets import (QCheckBox, QDialog, QDialogButtonBox, QFileDialog, QFormLayout, QHBoxLayout, QLineEdit,
@@ -45,6 +46,7 @@ class TheFrame:
             return frame
         if self._made is not None:
             raise PluginLoadError("RViz can be open once in a window; run rqt_rviz or rviz for another one")
+        rviz_displays.start([])
         if not ogre_log:
             rviz.OgreLogging.noLog()
         self._made = frame = rviz.VisualizationFrame()
