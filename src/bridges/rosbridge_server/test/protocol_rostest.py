@@ -9,6 +9,7 @@ import sys
 import threading
 import time
 
+import rosgraph
 import rospy
 import rostest
 from geometry_msgs.msg import PointStamped, Twist
@@ -354,8 +355,7 @@ class Offering(Case):
         _, out = self.ask(client, "/page_leaves", SetBool, True)
         client.socket.close()
         wait_until(lambda: out and "gone" in out[0], "the caller's error")
-        with self.assertRaises(rospy.ROSException):
-            rospy.wait_for_service("/page_leaves", 0.1)
+        wait_until(lambda: not any(name == "/page_leaves" for name, _ in rosgraph.Master(rospy.get_name()).getSystemState()[2]))
 
     def test_the_last_that_offers_it_has_it(self):
         first = self.offered("/page_twice")

@@ -19,7 +19,7 @@ from rosbridge_server.outbox import Outbox
 
 BUFFER = 16 * 1024 * 1024  # bytes that are read at once, of pictures and clouds
 FORMS = ("none", "png", "cbor", "cbor-raw")  # of a message; where clients of one connection ask for several, the last
-SETTLING = 1.0  # s after a publisher's beginning, in which who subscribes is also told what was published before
+SETTLING = 2.0  # s after a publisher's beginning, in which who subscribes is also told what was published before
 SLOW = 1.0  # s between looks whether a slow client has read
 
 
