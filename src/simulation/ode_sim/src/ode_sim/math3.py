@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Sequence, Tuple
+from typing import Iterable, Sequence, Tuple
 
 Vec3 = Tuple[float, float, float]
 Quat = Tuple[float, float, float, float]
@@ -27,6 +27,12 @@ IDENTITY = Pose()
 
 
 # ---------------------------------------------------------------------------------------------- vectors
+
+def vec3(values: Iterable[float]) -> Vec3:
+    """Three numbers of any kind, such as an array's."""
+    x, y, z = values
+    return float(x), float(y), float(z)
+
 
 def add(a: Vec3, b: Vec3) -> Vec3:
     return (a[0] + b[0], a[1] + b[1], a[2] + b[2])

@@ -42,7 +42,8 @@ class Forces:
         """
         arrows = arrow_points(places, vectors, scale)
         if not len(arrows):
-            self._arrows = _without(self._arrows)
+            _without(self._arrows)
+            self._arrows = None
         elif self._arrows is None:
             self._arrows = self._scene.add_arrows(f"{self._node}/arrows", arrows, self._colour, shaft_radius=_THICK,
                                                   head_radius=2.5 * _THICK, head_length=6 * _THICK)
@@ -54,7 +55,8 @@ class Forces:
 
     def _show_dots(self, places: np.ndarray) -> None:
         if not len(places):
-            self._points = _without(self._points)
+            _without(self._points)
+            self._points = None
         elif self._points is None:
             self._points = self._scene.add_point_cloud(f"{self._node}/places", places, colors=(220, 30, 30),
                                                        point_size=0.02, point_shape="circle", precision="float32")
@@ -62,7 +64,9 @@ class Forces:
             self._points.points = places
 
     def hide(self) -> None:
-        self._arrows, self._points = _without(self._arrows), _without(self._points)
+        _without(self._arrows)
+        _without(self._points)
+        self._arrows = self._points = None
 
 
 def _without(node: Optional[Any]) -> None:

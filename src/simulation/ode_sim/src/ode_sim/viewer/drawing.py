@@ -11,7 +11,7 @@ from typing import Any, Callable, Dict, List, Optional, Tuple
 import numpy as np
 
 from ode_sim.description import model as d
-from ode_sim.math3 import quat_between, quat_multiply, transform
+from ode_sim.math3 import quat_between, quat_multiply, transform, vec3
 from ode_sim.rendering.assets import Assets, Look, Part
 from ode_sim.viewer.simulation import Frame, ModelRecord, WorldRecord
 
@@ -26,8 +26,14 @@ def wxyz(q: d.Quat) -> Tuple[float, float, float, float]:
     return (q[3], q[0], q[1], q[2])
 
 
+def byte_of(part: float) -> int:
+    """0 to 255 from 0 to 1."""
+    return int(round(255 * min(1.0, max(0.0, part))))
+
+
 def rgb255(colour) -> Tuple[int, int, int]:
-    return tuple(int(round(255 * min(1.0, max(0.0, c)))) for c in colour[:3])
+    red, green, blue = (byte_of(part) for part in colour[:3])
+    return red, green, blue
 
 
 def plain_png(colour: Tuple[int, int, int]) -> bytes:
@@ -69,9 +75,9 @@ class ModelDrawing:
     def __init__(self, root: str, record: ModelRecord):
         self.root = root
         self.record = record
-        self.links: Dict[int, object] = {}  # row -> frame
-        self.meshes: List[object] = []
-        self.handles: List[object] = []  # all, in the order to remove them
+        self.links: Dict[int, Any] = {}  # row -> frame
+        self.meshes: List[Any] = []
+        self.handles: List[Any] = []  # all, in the order to remove them
         self.boxes: List[Tuple[str, np.ndarray]] = []  # link, (8, 3) corners in its frame of what is to be seen
 
 
@@ -97,7 +103,7 @@ class Drawing:
         self._lit: Tuple = ()
         self._serial = 0
         self._shown: Optional[np.ndarray] = None
-        self._rows: Dict[int, object] = {}
+        self._rows: Dict[int, Any] = {}
         self.transparent = False
         self.wireframe = False
         self.shadows = True
@@ -212,7 +218,7 @@ class Drawing:
     def _box(self, part: Part) -> np.ndarray:
         points = np.asarray(self._assets.meshes[part.key].vertices) * part.scale
         corners = itertools.product(*zip(points.min(axis=0), points.max(axis=0)))
-        return np.array([transform(part.pose, tuple(map(float, corner))) for corner in corners])
+        return np.array([transform(part.pose, vec3(corner)) for corner in corners])
 
     def corners(self, frame: Frame) -> Tuple[np.ndarray, np.ndarray]:
         """(N, 3) corners in the world, m, of the boxes around what stands still and around what can move; not the
@@ -221,8 +227,9 @@ class Drawing:
         for drawn in self._models.values():
             for link, box in drawn.boxes:
                 pose = frame.pose(drawn.record.links[link])
-                found[0 if drawn.record.static else 1].extend(transform(pose, tuple(corner)) for corner in box)
-        return tuple(np.array(points, float).reshape(-1, 3) for points in found)
+                found[0 if drawn.record.static else 1].extend(transform(pose, vec3(corner)) for corner in box)
+        still, moving = (np.array(points, float).reshape(-1, 3) for points in found)
+        return still, moving
 
     def _image(self, file: str, scoped: str):
         if file not in self._textures:
@@ -282,7 +289,7 @@ class Drawing:
         """Put every link where ``frame`` has it; returns how many moved."""
         poses = frame.poses
         if self._shown is None or self._shown.shape != poses.shape:
-            rows = range(len(poses))
+            rows = np.arange(len(poses))
         else:
             rows = np.flatnonzero((np.abs(poses - self._shown) > _STILL).any(axis=1))
         moved = 0

@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any, Optional, Sequence, Tuple
+from typing import Any, Iterable, Optional, Tuple
 
 import numpy as np
 
@@ -55,7 +55,7 @@ def view_from(eye: Pose, still: np.ndarray, moving: np.ndarray) -> View:
     return place, place + max(float((middle - place) @ ahead), 1.0) * ahead
 
 
-def put_eye(client: Any, place: Sequence[float], target: Sequence[float]) -> None:
+def put_eye(client: Any, place: Iterable[float], target: Iterable[float]) -> None:
     """Have a page look from ``place`` to ``target``, m: in this order, as the target goes along with the eye."""
     client.camera.position = tuple(float(v) for v in place)
     client.camera.look_at = tuple(float(v) for v in target)
@@ -76,7 +76,7 @@ class Eyes:
         for client in self._server.get_clients().values():
             camera = client.camera
             if before is None or self._as_told(camera, before):
-                put_eye(client, *view)
+                put_eye(client, view[0], view[1])
 
     @staticmethod
     def _as_told(camera: Any, view: View) -> bool:

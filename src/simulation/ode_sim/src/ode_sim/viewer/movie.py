@@ -12,10 +12,11 @@ import subprocess
 import sys
 import tempfile
 from dataclasses import dataclass, field
-from typing import Any, List, Tuple
+from typing import Any, List
 
 import numpy as np
 
+from ode_sim.math3 import Vec3, vec3
 from ode_sim.rendering.camera import Camera, look_at
 from ode_sim.rendering.scene import WORLD_FRAME, SceneDescription, SceneLight, SceneVisual, roads_of
 from ode_sim.viewer.simulation import Frame, Refused, WorldRecord
@@ -32,8 +33,8 @@ class Shot:
 
     scene: int
     poses: np.ndarray
-    eye: Tuple[float, ...]
-    target: Tuple[float, ...]
+    eye: Vec3
+    target: Vec3
     field: float
 
 
@@ -62,8 +63,8 @@ class Movie:
         if world.revision != self._revision:
             self._revision = world.revision
             self.scenes.append(scene_of(world))
-        self.shots.append(Shot(len(self.scenes) - 1, frame.poses, tuple(map(float, camera.position)),
-                               tuple(map(float, camera.look_at)), float(camera.fov)))
+        self.shots.append(Shot(len(self.scenes) - 1, frame.poses, vec3(camera.position),
+                               vec3(camera.look_at), float(camera.fov)))
 
     def render(self) -> bytes:
         """The file. In another process; it takes about as long as the film.

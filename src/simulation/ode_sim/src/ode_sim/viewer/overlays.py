@@ -7,7 +7,7 @@ from typing import Any, Dict, List, Optional, Tuple
 import numpy as np
 
 from ode_sim.description import model as d
-from ode_sim.math3 import Pose, compose, quat_from_matrix
+from ode_sim.math3 import Pose, compose, quat_from_matrix, vec3
 from ode_sim.rendering.assets import Assets
 from ode_sim.viewer.arrows import Forces
 from ode_sim.viewer.drawing import take_away, wxyz
@@ -40,7 +40,7 @@ class Overlays:
         if on == (self._contacts is not None):
             return
         self._page.simulation.watch_contacts(on)
-        if on:
+        if self._contacts is None:
             self._contacts = Forces(self._scene, "/contacts", (20, 160, 60), dots=True)
         else:
             self._contacts.hide()
@@ -164,4 +164,4 @@ def inertia_box(inertial: d.Inertial) -> Optional[Tuple[Pose, Tuple[float, float
     if np.linalg.det(axes) < 0.0:
         axes[:, 0] = -axes[:, 0]
     turned = compose(inertial.pose, Pose(q=quat_from_matrix(axes.tolist())))
-    return turned, tuple(float(math.sqrt(s)) for s in squares)
+    return turned, vec3(np.sqrt(squares))

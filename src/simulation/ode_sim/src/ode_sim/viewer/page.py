@@ -5,7 +5,7 @@ import logging
 import queue
 import threading
 import time
-from typing import Any, Callable, List, Optional, Sequence
+from typing import Any, Callable, List, Optional, Sequence, Type
 
 from ode_sim.description.model import one_line
 from ode_sim.viewer.drawing import Drawing
@@ -265,7 +265,7 @@ class Page:
         for panel in self.panels:
             f(panel)
 
-    def _build(self, kinds: Sequence[type]) -> None:
+    def _build(self, kinds: Sequence[Type[Panel]]) -> None:
         gui = self.server.gui
         for kind in kinds:
             if not kind.title:  # above the tabs
@@ -273,7 +273,7 @@ class Page:
         self._tabs = gui.add_tab_group()
         self._add_tabs([kind for kind in kinds if kind.title])
 
-    def _add_tabs(self, kinds: Sequence[type]) -> None:
+    def _add_tabs(self, kinds: Sequence[Type[Panel]]) -> None:
         for kind in kinds:
             with self._tabs.add_tab(kind.title):
                 self.panels.append(kind(self))

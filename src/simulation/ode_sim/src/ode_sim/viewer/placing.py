@@ -107,7 +107,7 @@ class Placing:
             self._page.tell(event, "Click on the ground: this place is above the horizon.")
             return
         if step > 0.0:
-            place = tuple(round(v / step) * step for v in place)
+            place = round(place[0] / step) * step, round(place[1] / step) * step
         self._last = (event.client_id, time.monotonic())
         self.end()
         name = self._page.attempt(event, lambda: self._page.selection.insert(

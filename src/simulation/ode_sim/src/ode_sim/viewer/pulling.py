@@ -7,7 +7,7 @@ from typing import Any, Optional, Tuple
 
 import numpy as np
 
-from ode_sim.math3 import add, cross, inverse, sub, transform
+from ode_sim.math3 import Vec3, add, cross, inverse, scale, sub, transform
 from ode_sim.viewer.arrows import Forces
 from ode_sim.viewer.simulation import Frame, ModelRecord
 
@@ -42,7 +42,10 @@ class Pull:
 
     def _take(self) -> None:
         with self._lock:
-            (event, model, link), self._news = self._news, None
+            news, self._news = self._news, None
+        if news is None:
+            return
+        event, model, link = news
         frame = self._page.frame
         if event.phase == "end":
             self._grip = self._event = self._last = None
@@ -77,13 +80,13 @@ class Pull:
             force = (0.0, 0.0, 0.0)
         self._page.attempt(self._event, lambda: self._page.simulation.push(model, link, force, torque, _LASTS))
 
-    def _force(self, record: ModelRecord, frame: Frame, place: Tuple) -> Tuple:
+    def _force(self, record: ModelRecord, frame: Frame, place: Vec3) -> Vec3:
         mass = sum(max(0.0, link.inertial.mass) for link in record.description.links)
         stiffness = _STIFF * mass
-        force = tuple(stiffness * way for way in sub(self._event.end_position, place))
+        force = scale(sub(self._event.end_position, place), stiffness)
         if self._last is not None and frame.sim_time > self._last[0]:
             speed = 1.0 / (frame.sim_time - self._last[0])
             brake = -2.0 * _DAMPED * math.sqrt(stiffness * mass) * speed
-            force = add(force, tuple(brake * way for way in sub(place, self._last[1])))
+            force = add(force, scale(sub(place, self._last[1]), brake))
         self._last = (frame.sim_time, place)
         return force

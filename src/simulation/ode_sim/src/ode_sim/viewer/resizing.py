@@ -13,8 +13,8 @@ import numpy as np
 
 from ode_sim.description import model as d
 from ode_sim.description.sdf_writer import model_text
-from ode_sim.math3 import Pose, add, compose, rotate, scale, sub
-from ode_sim.viewer.shapes import shape_model
+from ode_sim.math3 import Pose, add, compose, rotate, scale, sub, vec3
+from ode_sim.viewer.shapes import Simple, shape_model
 from ode_sim.viewer.simulation import Frame, ModelRecord, Refused
 
 _LEAST, _LARGEST = 0.01, 1000.0  # m along a side
@@ -24,27 +24,27 @@ _AXES = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 _COLOURS = ((220, 60, 60), (60, 180, 60), (60, 90, 220))
 
 
-def shape_of(model: d.Model) -> Optional[Tuple[d.Geometry, Pose]]:
+def shape_of(model: d.Model) -> Optional[Tuple[Simple, Pose]]:
     """The geometry of a simple shape and X_LG, or None."""
     if len(model.links) != 1 or model.joints:
         return None
     link = model.links[0]
-    parts = {(part.geometry, part.pose) for part in (*link.collisions, *link.visuals)}
+    parts = {(part.geometry, part.pose) for part in link.collisions} | {(part.geometry, part.pose) for part in link.visuals}
     if len(parts) != 1:
         return None
     geometry, pose = next(iter(parts))
     return (geometry, pose) if isinstance(geometry, (d.Box, d.Sphere, d.Cylinder)) else None
 
 
-def size_of(geometry: d.Geometry) -> d.Vec3:
+def size_of(geometry: Simple) -> d.Vec3:
     """Along the axes of the shape, m."""
     if isinstance(geometry, d.Box):
-        return tuple(float(v) for v in geometry.size)
+        return vec3(geometry.size)
     across = 2.0 * float(geometry.radius)
     return across, across, float(geometry.length) if isinstance(geometry, d.Cylinder) else across
 
 
-def with_size(geometry: d.Geometry, axis: int, length: float) -> d.Geometry:
+def with_size(geometry: Simple, axis: int, length: float) -> Simple:
     """The same kind of shape, ``length`` m along one of its axes; what is round stays round.
 
     :raises Refused: no shape is so
@@ -52,13 +52,13 @@ def with_size(geometry: d.Geometry, axis: int, length: float) -> d.Geometry:
     if not _LEAST <= length <= _LARGEST:
         raise Refused(f"A side is from {_LEAST:g} to {_LARGEST:g} m.")
     if isinstance(geometry, d.Box):
-        return d.Box(tuple(length if number == axis else side for number, side in enumerate(geometry.size)))
+        return d.Box(vec3(length if number == axis else side for number, side in enumerate(geometry.size)))
     if isinstance(geometry, d.Cylinder) and axis == 2:
         return d.Cylinder(geometry.radius, length)
     return replace(geometry, radius=length / 2)
 
 
-def resized(model: d.Model, geometry: d.Geometry) -> d.Model:
+def resized(model: d.Model, geometry: Simple) -> d.Model:
     """A simple shape of other measures: the mass stays, the inertia is that of the new shape."""
     link = model.links[0]
     solid = shape_model(model.name, geometry, max(link.inertial.mass, 1e-9)).links[0].inertial
@@ -77,9 +77,9 @@ class Resizing:
         self._snap = 0.0
         self._place = Pose()  # X_W of what was resized last
         self._knobs: List[Any] = []
-        self._drag: Optional[Tuple[int, d.Geometry]] = None  # axis, the shape as it would be
+        self._drag: Optional[Tuple[int, Simple]] = None  # axis, the shape as it would be
         self._events: List[Tuple[int, Any, str, Tuple]] = []
-        self.on_pull: Callable[[d.Geometry, bool], None] = lambda geometry, done: None  # a hand makes it so, or has made it so
+        self.on_pull: Callable[[Simple, bool], None] = lambda geometry, done: None  # a hand makes it so, or has made it so
         self._lock = threading.Lock()
 
     def show(self, on: bool, snap: float = 0.0) -> None:
@@ -88,7 +88,7 @@ class Resizing:
         if self._page.frame is not None:
             self.move(self._page.frame)
 
-    def apply(self, geometry: d.Geometry, typed: bool = False) -> None:
+    def apply(self, geometry: Simple, typed: bool = False) -> None:
         """What is picked gets these measures; a step that can be undone.
 
         :param typed: see :meth:`~ode_sim.viewer.selection.History.do`
@@ -96,10 +96,11 @@ class Resizing:
         """
         selection, frame = self._page.selection, self._page.frame
         record = selection.latest
-        if record is None or frame is None or shape_of(record.description) is None:
+        shape = shape_of(record.description) if record is not None else None
+        if record is None or frame is None or shape is None:
             raise Refused("Only a single box, sphere or cylinder has other sizes here; pick one.")
         before = replace(record.description, name=record.name, static=record.static, pose=Pose())
-        if shape_of(before)[0] == geometry:
+        if shape[0] == geometry:
             return
         after, name = resized(before, geometry), record.name
         if selection.record is not None:  # else it is just being made anew, where it was
@@ -123,7 +124,7 @@ class Resizing:
         """Once for each frame."""
         record = self._page.selection.record if self._wanted else None
         shape = shape_of(record.description) if record is not None else None
-        if shape is None or frame.revision != self._page.world.revision or not record.links:
+        if record is None or shape is None or frame.revision != self._page.world.revision or not record.links:
             self._hide()
             return
         geometry, pose = (self._drag[1] if self._drag is not None else shape[0]), self._centre(record, frame, shape[1])
@@ -187,7 +188,7 @@ class Resizing:
         finally:
             self.on_pull(geometry, phase == "end")
 
-    def _stretch(self, record: ModelRecord, geometry: d.Geometry) -> None:
+    def _stretch(self, record: ModelRecord, geometry: Simple) -> None:
         """What is seen already follows the hand."""
         drawn = self._page.drawing.model_root(record.name)
         sizes = size_of(geometry) if isinstance(geometry, d.Box) else tuple(

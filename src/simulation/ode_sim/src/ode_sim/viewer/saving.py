@@ -4,7 +4,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from ode_sim.description import model as d
-from ode_sim.math3 import inverse, transform
+from ode_sim.math3 import inverse, transform, vec3
 
 
 def describe_now(world) -> d.World:
@@ -52,4 +52,4 @@ def _collision_now(handle, written: d.Collision) -> d.Collision:
 
 
 def _plain(vector) -> d.Vec3:
-    return tuple(float(v) for v in vector)
+    return vec3(vector)

@@ -9,7 +9,7 @@ from typing import Any, Callable, Dict, List, Optional, Set, Tuple
 
 from ode_sim.description import model as d
 from ode_sim.description.sdf_writer import light_text, model_text
-from ode_sim.math3 import Pose, quat_from_rpy, quat_to_rpy
+from ode_sim.math3 import Pose, quat_from_rpy, quat_to_rpy, vec3
 from ode_sim.viewer.drawing import wxyz
 from ode_sim.viewer.panels.base import free_name
 from ode_sim.viewer.simulation import Frame, ModelRecord, Refused, WorldRecord
@@ -71,9 +71,10 @@ class History:
             if not source:
                 raise Refused(f"There is nothing to {'undo' if back else 'do again'}.")
             step = source.pop()
-            step[2 if back else 1]()
+            what, forth, backwards = step
+            (backwards if back else forth)()
             target.append(step)
-            return step[0]
+            return what
 
 
 class Selection:
@@ -230,7 +231,7 @@ class Selection:
 
         Of places on the way only the newest is gone to.
         """
-        position = tuple(float(v) for v in event.target.position)
+        position = vec3(event.target.position)
         w, x, y, z = (float(v) for v in event.target.wxyz)
         update = (event, Pose(position, (x, y, z, w)), event.phase)
         with self._lock:

@@ -1,13 +1,16 @@
 """Bodies of one simple shape, as Gazebo's window inserts them."""
 from __future__ import annotations
 
+from typing import Union
+
 from ode_sim.description import model as d
 from ode_sim.math3 import Pose
 
+Simple = Union[d.Box, d.Sphere, d.Cylinder]  # what the window inserts and gives other sizes
 _GREY = d.Material("Gazebo/Grey")
 
 
-def shape_model(name: str, shape: d.Geometry, mass: float = 1.0) -> d.Model:
+def shape_model(name: str, shape: Simple, mass: float = 1.0) -> d.Model:
     """A grey body of one link named ``link``, as Gazebo's window inserts it: 1 kg, inertia of the full shape."""
     if isinstance(shape, d.Sphere):
         moment = 0.4 * mass * shape.radius ** 2

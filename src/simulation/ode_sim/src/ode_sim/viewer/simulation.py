@@ -75,7 +75,8 @@ class Frame:
     def pose(self, row: int) -> Pose:
         """X_WL of a row."""
         values = [float(v) for v in self.poses[row]]
-        return Pose(tuple(values[:3]), tuple(values[3:]))
+        x, y, z, qx, qy, qz, qw = values
+        return Pose((x, y, z), (qx, qy, qz, qw))
 
 
 @dataclass(frozen=True)

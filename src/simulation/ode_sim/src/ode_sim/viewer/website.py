@@ -178,7 +178,11 @@ def _take_port(port: int, listen: bool) -> socket.socket:
 def _start(viser: Any, door: socket.socket, guard: Guard, title: str) -> Any:
     """A viser server on ``door`` whose requests pass ``guard`` first; viser has no place for either, so its call of
     ``serve`` is."""
-    import websockets.asyncio.server as library
+    import rich
+    import websockets.asyncio.server
+
+    library: Any = websockets.asyncio.server
+    console: Any = rich
 
     usual = library.serve
 
@@ -195,11 +199,10 @@ def _start(viser: Any, door: socket.socket, guard: Guard, title: str) -> Any:
 
         return usual(handler, sock=door, process_request=guarded, **options)
 
-    import rich
     with _starting, contextlib.redirect_stdout(io.StringIO()):
         # viser draws a frame round an address that is not ours: not loaded, not drawn
-        library.serve, write, rich.print = serve, rich.print, lambda *_, **__: None
+        library.serve, write, console.print = serve, console.print, lambda *_, **__: None
         try:
             return viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
         finally:
-            library.serve, rich.print = usual, write
+            library.serve, console.print = usual, write

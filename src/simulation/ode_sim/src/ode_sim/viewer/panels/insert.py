@@ -2,14 +2,14 @@
 from __future__ import annotations
 
 import threading
-from typing import Any, Dict
+from typing import Any, Dict, Tuple
 
 from ode_sim.description import DescriptionError, model as d, read_model
 from ode_sim.description.sdf_writer import light_text, model_text
-from ode_sim.math3 import Pose, compose
+from ode_sim.math3 import Pose, compose, vec3
 from ode_sim.viewer.panels.base import Panel, note
 from ode_sim.viewer.placing import Thing
-from ode_sim.viewer.shapes import shape_model
+from ode_sim.viewer.shapes import Simple, shape_model
 from ode_sim.viewer.simulation import Refused, WorldRecord
 
 _NONE = "(no model on the model path)"
@@ -61,12 +61,14 @@ class InsertPanel(Panel):
         if self._by_hand.value:
             self.page.later(lambda: self.page.placing.begin(event, thing))
         else:
-            place = Pose(tuple(float(v) for v in self._place.value))
+            place = Pose(vec3(self._place.value))
             self.page.selection.insert(thing.name, thing.text, compose(place, thing.lift))
 
     def _shape(self, event: Any) -> None:
-        shape, name = {"Box": (d.Box(), "unit_box"), "Sphere": (d.Sphere(0.5), "unit_sphere"),
-                       "Cylinder": (d.Cylinder(0.5, 1.0), "unit_cylinder")}[event.target.value]
+        shapes: Dict[str, Tuple[Simple, str]] = {
+            "Box": (d.Box(), "unit_box"), "Sphere": (d.Sphere(0.5), "unit_sphere"),
+            "Cylinder": (d.Cylinder(0.5, 1.0), "unit_cylinder")}
+        shape, name = shapes[event.target.value]
         model = shape_model(name, shape)
         self._put(event, Thing(name, model_text(model), Pose((0.0, 0.0, 0.5)), model))
 

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 from typing import Any, Dict, List, Tuple
 
 from ode_sim.description import model as d
@@ -70,16 +71,16 @@ class JointsPanel(Panel):
             for joint in movable[:_MOST]:
                 low, high = range_of(joint, mode, float(self._force.value))
                 slider = self.gui.add_slider(joint.name, low, high, (high - low) / 1000, max(low, min(high, 0.0)))
-                self.on_update(slider, lambda value, name=joint.name: self._command(name, float(value)))
+                self.on_update(slider, partial(self._command, joint.name))
                 self._sliders[joint.name] = slider
                 self._made.append(slider)
 
     def _command(self, joint: str, value: float) -> None:
         mode = self._mode.value
         if mode == "set":
-            self.simulation.set_joint_position(self._model, joint, value)
+            self.simulation.set_joint_position(self._model, joint, float(value))
         else:
-            self.simulation.command_joint(self._model, joint, mode, value, self._typed())
+            self.simulation.command_joint(self._model, joint, mode, float(value), self._typed())
 
 
 def range_of(joint: d.Joint, mode: str, largest_force: float = 10.0) -> Tuple[float, float]:

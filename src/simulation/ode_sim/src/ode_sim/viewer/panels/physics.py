@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import threading
 from dataclasses import replace
+from functools import partial
 from typing import Any, Callable, Dict, NamedTuple, Optional, Tuple
 
 from ode_sim.description import model as d
@@ -56,7 +57,7 @@ class PhysicsPanel(Panel):
             _number(self._correcting, "contact_max_correcting_vel"), _number(self._layer, "contact_surface_layer"),
             _number(self._contacts, "max_contacts", int))
         for field in self._fields:
-            self.on_update(field.control, lambda _, field=field: self._set(field))
+            self.on_update(field.control, partial(self._set, field))
         self.on_click(self.gui.add_button("Read again"), self._read)
 
     def on_world(self, world: WorldRecord) -> None:
@@ -70,7 +71,7 @@ class PhysicsPanel(Panel):
             for field in self._fields:
                 field.control.value = field.shown(*now)
 
-    def _set(self, field: _Field) -> None:
+    def _set(self, field: _Field, _value: Any = None) -> None:
         """What the field holds now. It is not written to: a hand may be typing on in it. What is refused is taken back later."""
         label = str(field.control.label)
         with self._lock:
@@ -78,7 +79,8 @@ class PhysicsPanel(Panel):
             if earlier:
                 earlier.cancel()
             try:
-                self.simulation.set_physics(*field.put(*self.simulation.physics(), field.control.value))
+                physics, gravity = self.simulation.physics()
+                self.simulation.set_physics(*field.put(physics, gravity, field.control.value))
             except Exception:
                 later = self._waiting[label] = threading.Timer(PATIENCE, self._take_back, (field, label))
                 later.daemon = True

@@ -6,9 +6,10 @@ from dataclasses import replace
 from typing import Any, Dict, List, Tuple
 
 from ode_sim.description import model as d
-from ode_sim.math3 import Pose, quat_from_rpy, to_rpy
-from ode_sim.viewer.drawing import rgb255
+from ode_sim.math3 import Pose, quat_from_rpy, to_rpy, vec3
+from ode_sim.viewer.drawing import byte_of, rgb255
 from ode_sim.viewer.resizing import shape_of, size_of, with_size
+from ode_sim.viewer.shapes import Simple
 from ode_sim.viewer.simulation import Frame, LinkProperties, ModelRecord, Refused, SurfaceProperties, WorldRecord
 
 
@@ -41,7 +42,7 @@ class Properties:
     def show(self, world: WorldRecord) -> None:
         """Show what is now, after an undo; else a field has what was typed into it."""
 
-    def show_size(self, geometry: d.Geometry) -> None:
+    def show_size(self, geometry: Simple) -> None:
         """While a hand makes it so."""
         self._put({"size": size_of(geometry)})
 
@@ -66,7 +67,7 @@ class Properties:
 
     def _move(self) -> None:
         roll, pitch, yaw = (math.radians(float(v)) for v in self.angles.value)
-        self.page.selection.move(Pose(tuple(float(v) for v in self.position.value), quat_from_rpy(roll, pitch, yaw)), typed=True)
+        self.page.selection.move(Pose(vec3(self.position.value), quat_from_rpy(roll, pitch, yaw)), typed=True)
 
 
 class ModelProperties(Properties):
@@ -110,9 +111,10 @@ class ModelProperties(Properties):
     def _set_size(self, sizes: tuple) -> None:
         """The sides that were changed; of a round thing the others follow."""
         record = self.page.selection.latest
-        if record is None:
+        known = shape_of(record.description) if record is not None else None
+        if known is None:
             return
-        shape = before = shape_of(record.description)[0]
+        shape = before = known[0]
         for axis, (was, now) in enumerate(zip(size_of(before), sizes)):
             if abs(float(now) - was) > 1e-9:
                 shape = with_size(shape, axis, float(now))
@@ -202,7 +204,7 @@ def _contact(now: SurfaceProperties) -> Dict[str, Any]:
 def _colour(visual: d.Visual) -> Tuple[int, ...]:
     """0 to 255: red, green, blue and how solid it is."""
     rgba = (visual.material.diffuse if visual.material else None) or (0.7, 0.7, 0.7, 1.0)
-    return (*rgb255(rgba), *rgb255((rgba[3] * (1.0 - visual.transparency),)))
+    return (*rgb255(rgba), byte_of(rgba[3] * (1.0 - visual.transparency)))
 
 
 class LightProperties(Properties):

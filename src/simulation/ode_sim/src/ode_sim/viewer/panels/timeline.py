@@ -28,7 +28,7 @@ class TimelinePanel(Panel):
         self._text = self.gui.add_html(note("nothing is kept yet"))
         self._steps = self.gui.add_button_group("Go", ("First", "Back", "On", "Last"))
         self.on_update(self._record, lambda on: self._set_recording())
-        self.on_update(self._period, lambda value: self._record.value and self._set_recording())
+        self.on_update(self._period, self._period_changed)
         self.on_click(self._keep, self._keep_now)
         self.on_update(self._slider, lambda value: self._go(int(value)))
         self._steps.on_click(lambda event: page.attempt(event, lambda: self._step(event.target.value)))
@@ -41,6 +41,10 @@ class TimelinePanel(Panel):
         if (self._record.value and not frame.paused or self._next == 0.0 and self._moments) and now >= self._next:
             self._next = now + _PERIOD
             self._look()
+
+    def _period_changed(self, _value: Any) -> None:
+        if self._record.value:
+            self._set_recording()
 
     def _set_recording(self) -> None:
         self.simulation.record(float(self._period.value) if self._record.value else 0.0)

@@ -57,7 +57,8 @@ class ViewPanel(Panel):
 
     def _on_all(self, event: Any) -> None:
         if event.client is not None and self.page.frame is not None:
-            put_eye(event.client, *view_of(*self.page.drawing.corners(self.page.frame)))
+            place, target = view_of(*self.page.drawing.corners(self.page.frame))
+            put_eye(event.client, place, target)
 
     def _on_view(self, event: Any) -> None:
         if event.client is None:

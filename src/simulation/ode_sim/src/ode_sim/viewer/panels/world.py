@@ -5,11 +5,11 @@ import math
 import time
 from typing import Any, Callable, Dict, Optional, Tuple
 
-from ode_sim.description import model as d
 from ode_sim.math3 import Pose
 from ode_sim.viewer.eye import put_eye
 from ode_sim.viewer.panels.base import Panel, note
 from ode_sim.viewer.panels.properties import LightProperties, ModelProperties, Properties
+from ode_sim.viewer.shapes import Simple
 from ode_sim.viewer.simulation import Frame, WorldRecord
 
 _MOST_ROWS = 30
@@ -148,7 +148,7 @@ class WorldPanel(Panel):
                 self.page.later(self._show_anew)
         return turn
 
-    def _on_pull(self, geometry: d.Geometry, done: bool) -> None:
+    def _on_pull(self, geometry: Simple, done: bool) -> None:
         if done:
             self._show_anew()  # the inertia, too
         elif self._properties is not None:
