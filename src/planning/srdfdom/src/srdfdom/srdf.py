@@ -7,7 +7,9 @@
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
-from typing import Any, Dict, List, Optional, Tuple
+from typing import Any, Dict, List, Optional, Tuple, Type, TypeVar, cast
+
+_Robot = TypeVar("_Robot", bound="Robot")
 
 
 class ParseError(ValueError):
@@ -15,11 +17,14 @@ class ParseError(ValueError):
 
 
 class Element:
-    """Base of all elements. ``_attributes``: (name, required, field); ``_children``: (tag, class, field of a list)."""
+    """Base of all elements. ``_attributes``: (name, required, field); ``_children``: (tag, class, field of a list).
+
+    A required attribute is typed as what it is once it was read or set; an element made without it has None there.
+    """
 
     _tag = ""
     _attributes: Tuple[Tuple[str, bool, str], ...] = ()
-    _children: Tuple[Tuple[str, type, str], ...] = ()
+    _children: Tuple[Tuple[str, Type["Element"], str], ...] = ()
 
     @classmethod
     def from_xml(cls, node: ET.Element):
@@ -77,7 +82,7 @@ class Link(Element):
     _tag, _attributes = "link", (("name", True, "name"),)
 
     def __init__(self, name: Optional[str] = None):
-        self.name = name
+        self.name = cast(str, name)
 
 
 class Joint(Link):
@@ -98,7 +103,7 @@ class JointVal(Element):
     _tag, _attributes = "joint", (("name", True, "name"), ("value", True, "value"))
 
     def __init__(self, name: Optional[str] = None, value: Any = None):
-        self.name = name
+        self.name = cast(str, name)
         self.value: List[float] = [] if value is None else value
 
     def _read(self, field: str, value: str) -> Any:
@@ -136,17 +141,17 @@ class VirtualJoint(Element):
 
     def __init__(self, name: Optional[str] = None, child_link: Optional[str] = None, parent_frame: Optional[str] = None,
                  joint_type: Optional[str] = None):
-        self.name = name
-        self.child_link = child_link
-        self.parent_frame = parent_frame
-        self.type = joint_type
+        self.name = cast(str, name)
+        self.child_link = cast(str, child_link)
+        self.parent_frame = cast(str, parent_frame)
+        self.type = cast(str, joint_type)
 
     @property
-    def joint_type(self) -> Optional[str]:
+    def joint_type(self) -> str:
         return self.type
 
     @joint_type.setter
-    def joint_type(self, value: Optional[str]) -> None:
+    def joint_type(self, value: str) -> None:
         self.type = value
 
     def check_valid(self) -> None:
@@ -165,8 +170,8 @@ class Chain(Element):
     _tag, _attributes = "chain", (("base_link", True, "base_link"), ("tip_link", True, "tip_link"))
 
     def __init__(self, base_link: Optional[str] = None, tip_link: Optional[str] = None):
-        self.base_link = base_link
-        self.tip_link = tip_link
+        self.base_link = cast(str, base_link)
+        self.tip_link = cast(str, tip_link)
 
 
 class EndEffector(Element):
@@ -178,9 +183,9 @@ class EndEffector(Element):
 
     def __init__(self, name: Optional[str] = None, group: Optional[str] = None, parent_link: Optional[str] = None,
                  parent_group: Optional[str] = None):
-        self.name = name
-        self.group = group
-        self.parent_link = parent_link
+        self.name = cast(str, name)
+        self.group = cast(str, group)
+        self.parent_link = cast(str, parent_link)
         self.parent_group = parent_group
 
 
@@ -191,8 +196,8 @@ class DisableCollisions(Element):
     _attributes = (("link1", True, "link1"), ("link2", True, "link2"), ("reason", False, "reason"))
 
     def __init__(self, link1: Optional[str] = None, link2: Optional[str] = None, reason: Optional[str] = None):
-        self.link1 = link1
-        self.link2 = link2
+        self.link1 = cast(str, link1)
+        self.link2 = cast(str, link2)
         self.reason = reason
 
 
@@ -202,7 +207,7 @@ class Group(Element):
     _tag, _attributes = "group", (("name", True, "name"),)
 
     def __init__(self, name: Optional[str] = None):
-        self.name = name
+        self.name = cast(str, name)
         self.links: List[Link] = []
         self.joints: List[Joint] = []
         self.chains: List[Chain] = []
@@ -221,9 +226,9 @@ class GroupState(Element):
     _children = (("joint", JointVal, "joints"),)
 
     def __init__(self, name: Optional[str] = None, group: Optional[str] = None):
-        self.name = name
+        self.name = cast(str, name)
         self.joints: List[JointVal] = []
-        self.group = group
+        self.group = cast(str, group)
 
 
 class LinkSphereApproximation(Element):
@@ -233,7 +238,7 @@ class LinkSphereApproximation(Element):
     _children = (("sphere", Sphere, "spheres"),)
 
     def __init__(self, link: Optional[str] = None):
-        self.link = link
+        self.link = cast(str, link)
         self.spheres: List[Sphere] = []
 
 
@@ -288,7 +293,7 @@ class Robot(Element):
         self.add_aggregate("link_sphere_approximation", link)
 
     @classmethod
-    def from_xml_string(cls, text) -> "Robot":
+    def from_xml_string(cls: Type[_Robot], text) -> _Robot:
         """Read a document.
 
         :raises ParseError: not XML, not a robot, or an attribute is missing.

@@ -25,7 +25,8 @@ def parse(arguments: List[str]) -> argparse.Namespace:
                         help="let other machines open the page; the token in its address is a password")
     parser.add_argument("--no-window", action="store_true", help="only serve the page, also where there is a desktop")
     parser.add_argument("--shadows", action="store_true", help="also where the graphics are computed by the processor")
-    options, options.unknown = parser.parse_known_args(arguments)
+    options, unknown = parser.parse_known_args(arguments)
+    options.unknown = unknown
     if not 0 <= options.port < 65536:
         parser.error(f"--port {options.port}: a port is a number up to 65535")
     return options

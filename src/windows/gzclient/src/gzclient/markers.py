@@ -131,8 +131,8 @@ class Markers:
         points, colours = _points(marker), _colours(marker)
         if kind in (Marker.CUBE_LIST, Marker.SPHERE_LIST):
             mesh = _SHAPES[kind]()
-            turns = np.tile(np.float32((1.0, 0.0, 0.0, 0.0)), (len(points), 1))
-            scales = np.tile(np.float32(_extent(kind - 5, size)), (len(points), 1))
+            turns = np.tile(np.array((1.0, 0.0, 0.0, 0.0), np.float32), (len(points), 1))
+            scales = np.tile(np.array(_extent(kind - 5, size), np.float32), (len(points), 1))
             return self._scene.add_batched_meshes_simple(
                 node, np.asarray(mesh.vertices, np.float32), np.asarray(mesh.triangles, np.uint32), turns, points,
                 batched_scales=scales, batched_colors=colours, opacity=opacity, lod="off", cast_shadow=False)

@@ -165,7 +165,7 @@ class RosSimulation(Simulation):
     def set_light(self, light: d.Light) -> None:
         lights = {other.name: other for other in self._known.lights} if self._known else {}
         self._change_light(light, lights.get(light.name))
-        if light.name in lights:
+        if self._known is not None and light.name in lights:
             self._known = replace(self._known, lights=tuple({**lights, light.name: light}.values()))
 
     def _change_light(self, light: d.Light, known: Optional[d.Light]) -> None:

@@ -31,7 +31,7 @@ class Place(NamedTuple):
 class Kind(NamedTuple):
     """``draw(view, source, place)``; ``most`` topics of it are shown. ``in_world``: whatever frame they name."""
 
-    cls: type
+    cls: Any  # of messages
     draw: Callable
     most: int = 30
     in_world: bool = False

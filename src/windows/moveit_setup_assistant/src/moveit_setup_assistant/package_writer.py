@@ -9,7 +9,7 @@ import time
 from dataclasses import dataclass
 from enum import Enum
 from pathlib import Path
-from typing import Callable, Dict, List, Optional
+from typing import Callable, Dict, List, Optional, Set
 from xml.sax.saxutils import escape, quoteattr
 
 import rospkg
@@ -88,7 +88,7 @@ class PlannedFile:
 
 class _Template(string.Template):
     delimiter = "@"  # launch files are full of $
-    pattern = r"""(?P<escaped>@@)|@\{(?P<braced>[a-z_]+)\}|(?P<named>(?!))|(?P<invalid>(?!))"""
+    pattern = r"""(?P<escaped>@@)|@\{(?P<braced>[a-z_]+)\}|(?P<named>(?!))|(?P<invalid>(?!))"""  # type: ignore[assignment]  # compiled at once
 
 
 def templates_folder() -> Path:
@@ -234,7 +234,8 @@ def _load_attribute(source) -> str:
 
 def _initial_joints(config: Configuration) -> Dict[str, float]:
     """Joint values of the first pose of each group."""
-    seen, values = set(), {}
+    seen: Set[str] = set()
+    values: Dict[str, float] = {}
     for state in config.semantics.group_states:
         if state.group not in seen:
             seen.add(state.group)

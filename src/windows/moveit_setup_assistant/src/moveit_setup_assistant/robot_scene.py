@@ -14,6 +14,7 @@ from ode_sim.rendering.scene import WORLD_FRAME, SceneDescription, SceneLight, S
 
 from moveit_setup_assistant.robot_source import Robot
 
+Colour = Tuple[float, float, float, float]  # red, green, blue, alpha, 0 to 1
 HIGHLIGHT = (0.9, 0.1, 0.1, 1.0)
 _PLAIN = (0.6, 0.6, 0.65, 1.0)
 
@@ -48,7 +49,7 @@ class RobotScene:
         return np.array([[*found[name].position, *found[name].quaternion] for name in self.links])
 
 
-def _visuals_of(link: ET.Element, row: int, colours: Dict[Optional[str], Optional[Tuple]]) -> Iterable[SceneVisual]:
+def _visuals_of(link: ET.Element, row: int, colours: Dict[Optional[str], Optional[Colour]]) -> Iterable[SceneVisual]:
     """The link's visuals; its collision shapes if it has none."""
     for index, element in enumerate(link.findall("visual") or link.findall("collision")):
         shape = _shape(element.find("geometry"))
@@ -77,18 +78,26 @@ def _origin(element: ET.Element) -> d.Pose:
     origin = element.find("origin")
     if origin is None:
         return d.Pose()
-    return from_rpy(*_numbers(origin.get("xyz"), (0.0,) * 3), *_numbers(origin.get("rpy"), (0.0,) * 3))
+    return from_rpy(*_vector(origin.get("xyz"), 0.0), *_vector(origin.get("rpy"), 0.0))
 
 
-def _colour(material: ET.Element) -> Optional[Tuple[float, ...]]:
+def _colour(material: ET.Element) -> Optional[Colour]:
     colour = material.find("color")
-    return None if colour is None else _numbers(colour.get("rgba"), _PLAIN)
+    if colour is None:
+        return None
+    red, green, blue, alpha = _numbers(colour.get("rgba"), _PLAIN)
+    return red, green, blue, alpha
+
+
+def _vector(text: Optional[str], default: float) -> d.Vec3:
+    x, y, z = _numbers(text, (default,) * 3)
+    return x, y, z
 
 
 def _shape(geometry: Optional[ET.Element]):
     for element in geometry if geometry is not None else ():
         if element.tag == "box":
-            return d.Box(_numbers(element.get("size"), (0.1,) * 3))
+            return d.Box(_vector(element.get("size"), 0.1))
         if element.tag == "sphere":
             return d.Sphere(_numbers(element.get("radius"), (0.05,))[0])
         if element.tag == "cylinder":
@@ -96,5 +105,5 @@ def _shape(geometry: Optional[ET.Element]):
         if element.tag == "mesh":
             uri = element.get("filename") or ""
             path = resolve(uri)
-            return d.Mesh(path, uri, _numbers(element.get("scale"), (1.0,) * 3)) if path else None
+            return d.Mesh(path, uri, _vector(element.get("scale"), 1.0)) if path else None
     return None

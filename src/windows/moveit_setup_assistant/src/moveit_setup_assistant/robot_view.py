@@ -42,7 +42,7 @@ class RobotView(QWidget):
     def set_robot(self, robot: Optional[Robot]) -> None:
         """Show another robot in its default state, all of it in the picture; None for nothing."""
         self._scene = RobotScene(robot) if robot else None
-        if self._scene is None:
+        if robot is None or self._scene is None:
             self._image = QImage()
             self.update()
             return
@@ -68,7 +68,7 @@ class RobotView(QWidget):
 
     def highlight(self, links: Iterable[str]) -> None:
         """Light up these links, and no others."""
-        if self._scene is not None:
+        if self._scene is not None and self._renderer is not None:
             self._renderer.set_scene(self._scene.description(links))
             self._timer.start(0)
 

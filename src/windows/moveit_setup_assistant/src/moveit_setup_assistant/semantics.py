@@ -124,8 +124,8 @@ class Semantics(Robot):
                 check(what, "group", other.name, groups)
         for state in self.group_states:
             check(f"pose '{state.name}'", "group", state.group, groups)
-            for joint in state.joints:
-                check(f"pose '{state.name}'", "joint", joint.name, joints)
+            for value in state.joints:
+                check(f"pose '{state.name}'", "joint", value.name, joints)
         for effector in self.end_effectors:
             check(f"end effector '{effector.name}'", "group", effector.group, groups)
             check(f"end effector '{effector.name}'", "link", effector.parent_link, links)

@@ -54,14 +54,20 @@ class Session:
         """The groups are no longer those of the model."""
         self._model = None
 
+    @property
+    def edited(self) -> Configuration:
+        """The configuration, of a screen that is open only while there is one."""
+        assert self.config is not None
+        return self.config
+
     def model(self):
         """The robot with its groups as they are now; without them while they do not fit."""
         if self._model is None:
             try:
-                self._model = self.config.model()
+                self._model = self.edited.model()
             except AssistantError as error:
                 self.say(str(error), bad=True)
-                self._model = self.config.robot.model
+                self._model = self.edited.robot.model
         return self._model
 
     def links_of(self, group: str) -> List[str]:
@@ -76,7 +82,7 @@ class Session:
 
     def child_of(self, joint: str) -> str:
         """The link that a joint moves."""
-        model = self.config.robot.model
+        model = self.edited.robot.model
         return model.joint(joint).child_link if model.has_joint(joint) else ""
 
     def highlight(self, links: Iterable[str]) -> None:
@@ -94,36 +100,41 @@ class Session:
 
     def rename_group(self, group, name: str) -> None:
         """Give a group another name, everywhere."""
-        document, old = self.config.semantics, group.name
-        for thing in (*document.group_states, *document.end_effectors):
-            if thing.group == old:
-                thing.group = name
+        document, old = self.edited.semantics, group.name
+        for state in document.group_states:
+            if state.group == old:
+                state.group = name
         for effector in document.end_effectors:
+            if effector.group == old:
+                effector.group = name
             if effector.parent_group == old:
                 effector.parent_group = name
         for other in document.groups:
             for member in other.groups:
                 member.name = name if member.name == old else member.name
-        for table in (self.config.kinematics, self.config.default_planners):
-            if old in table:
-                table[name] = table.pop(old)
+        solvers, chosen = self.edited.kinematics, self.edited.default_planners
+        if old in solvers:
+            solvers[name] = solvers.pop(old)
+        if old in chosen:
+            chosen[name] = chosen.pop(old)
         group.name = name
         self._groups_changed()
 
     def remove_group(self, group) -> None:
         """Take a group out, with its poses and end effectors, and out of other groups."""
-        document, name = self.config.semantics, group.name
+        document, name = self.edited.semantics, group.name
         document.groups.remove(group)
         document.group_states[:] = [state for state in document.group_states if state.group != name]
         document.end_effectors[:] = [e for e in document.end_effectors if e.group != name]
         for other in document.groups:
             other.groups[:] = [member for member in other.groups if member.name != name]
-        for table in (self.config.kinematics, self.config.default_planners):
-            table.pop(name, None)
+        self.edited.kinematics.pop(name, None)
+        self.edited.default_planners.pop(name, None)
         self._groups_changed()
 
     def _groups_changed(self) -> None:
-        self.config.semantics.group_map = {group.name: group for group in self.config.semantics.groups}
+        document = self.edited.semantics
+        document.group_map = {group.name: group for group in document.groups}
         self.model_changed()
 
 
@@ -174,7 +185,7 @@ class Window(QMainWindow):
 
     def robot_changed(self) -> None:
         """Another robot was loaded: show it, and open the other screens."""
-        self.view.set_robot(self.session.config.robot)
+        self.view.set_robot(self.session.edited.robot)
         self._allow()
 
     def edit(self, package: str) -> None:

@@ -7,7 +7,7 @@ from typing import Any, Dict
 
 def load(package: str, uifile: str, baseinstance: Any, custom_widgets: Dict[str, type]) -> Any:
     """See :func:`python_qt_binding.loadUi`. ``package``: ``PySide2`` or ``PySide6``."""
-    tools = importlib.import_module(f"{package}.QtUiTools")
+    tools: Any = importlib.import_module(f"{package}.QtUiTools")
     core = importlib.import_module(f"{package}.QtCore")
 
     class Loader(tools.QUiLoader):

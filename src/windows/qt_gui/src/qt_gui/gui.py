@@ -1,4 +1,6 @@
 """The whole of a window: plugins, perspectives, menus, wired together."""
+from typing import Any
+
 from python_qt_binding.QtCore import QObject, Qt
 from python_qt_binding.QtGui import QIcon
 from python_qt_binding.QtWidgets import QApplication
@@ -27,7 +29,7 @@ class Gui(QObject):
         self._settings = settings
         self.plugins = PluginManager(CompositePluginProvider(providers), options)
         self.perspectives = PerspectiveManager(settings)
-        self.window = None
+        self.window: Any = None  # a MainWindow, while there is one
 
     def choose(self, name):
         """The id of the only plugin that ``name`` fits.

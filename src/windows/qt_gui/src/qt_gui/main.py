@@ -3,6 +3,7 @@ import os
 import signal
 import sys
 import threading
+from typing import Any, Optional
 
 from node_signals.display import missing_display
 from qt_gui import options as command_line
@@ -12,14 +13,14 @@ from qt_gui.errors import PerspectiveError, UsageError
 class Main:
     """``Main(...).main(argv)`` runs the window and returns the exit code. A face of its own derives from it."""
 
-    main_filename = None
+    main_filename: Optional[str] = None  # of the program that was started
 
     def __init__(self, qtgui_path=None, invoked_filename=None, settings_filename="qt_gui"):
         """:param settings_filename: name of the INI file, without ending, below ``~/.config/ros.org``"""
         Main.main_filename = invoked_filename or os.path.abspath(sys.argv[0] or __file__)
         self._settings_filename = settings_filename
         self.plugin_providers = []
-        self._options = None
+        self._options: Any = None  # argparse's, from main() on
 
     def main(self, argv=None, standalone=None, plugin_argument_provider=None, plugin_manager_settings_prefix=""):
         """Run until the window is closed.
@@ -31,7 +32,7 @@ class Main:
         argv = sys.argv if argv is None else argv
         if threading.current_thread() is threading.main_thread():
             signal.signal(signal.SIGINT, signal.SIG_DFL)  # until there is a window to close, Ctrl-C just ends the process
-        program = os.path.basename(Main.main_filename)
+        program = os.path.basename(Main.main_filename or "")
         try:
             self._options = command_line.parse(program, argv[1:], standalone, plugin_argument_provider)
             return self._run([argv[0]] if argv else [program])
@@ -43,7 +44,7 @@ class Main:
     def _run(self, argv):
         options = self._options
         if options.qt_binding is not None:
-            sys.SELECT_QT_BINDING = options.qt_binding
+            setattr(sys, "SELECT_QT_BINDING", options.qt_binding)  # noqa: B010  as python_qt_binding is told which one
         from python_qt_binding.QtCore import QSettings
         from qt_gui import reporting
         from qt_gui.compatibility import accept_floats

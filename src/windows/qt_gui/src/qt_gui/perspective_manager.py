@@ -1,5 +1,6 @@
 """Perspectives: named sets of plugins, places and settings."""
 import os
+from typing import Any, Optional
 
 from python_qt_binding.QtCore import QObject, Signal, qCritical
 from python_qt_binding.QtGui import QIcon
@@ -32,8 +33,8 @@ class PerspectiveManager(QObject):
         self._proxy = SettingsProxy(qsettings)
         self._global_settings = Settings(self._proxy, "global")
         self._perspective_settings = None
-        self._current = None
-        self._menu = None
+        self._current: Optional[str] = None
+        self._menu: Any = None  # a MenuManager, in a window that has one
         self._folder = os.getcwd()
         names = self._proxy.value("", "perspectives", [])
         names = [names] if isinstance(names, str) else names or []
@@ -199,7 +200,7 @@ class PerspectiveManager(QObject):
             self._try(self.import_perspective_from_file, path, name)
 
     def _on_export(self):
-        proposal = os.path.join(self._folder, self._current.lstrip(HIDDEN) + SUFFIX)
+        proposal = os.path.join(self._folder, (self._current or "").lstrip(HIDDEN) + SUFFIX)
         path, _ = QFileDialog.getSaveFileName(self._parent(), "Export perspective to file", proposal, f"Perspectives (*{SUFFIX})")
         if path:
             self._folder = os.path.dirname(path)

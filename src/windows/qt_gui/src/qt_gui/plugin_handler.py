@@ -1,4 +1,6 @@
 """One running plugin: its instance, its docks and toolbars, its settings."""
+from typing import Any
+
 from python_qt_binding.QtCore import QEvent, QObject, QSize, Qt, Signal, qCritical, qWarning
 from python_qt_binding.QtWidgets import QDockWidget, QToolBar
 
@@ -25,7 +27,7 @@ class PluginHandler(QObject):
         self._descriptor = descriptor
         self._instance_id = instance_id
         self._argv = list(argv or [])
-        self._plugin = None
+        self._plugin: Any = None  # what the provider makes
         self._docks = {}  # widget -> dock
         self.wanted_size = QSize()  # that its widgets were given before they were docked
         self._toolbars = []

@@ -1,4 +1,6 @@
 """Which plugins there are and which run; loads, unloads, reloads, and restores those of a perspective."""
+from typing import Any, Dict
+
 from python_qt_binding.QtCore import QObject, Qt, Signal, qCritical, qWarning
 
 from qt_gui.errors import PluginLoadError
@@ -32,10 +34,11 @@ class PluginManager(QObject):
         self._importer = ReloadImporter(everything=options.reload_import)
         self._window = None
         self._menu = None
-        self._descriptors = None
+        self._descriptors: Dict[str, Any] = {}  # by plugin id; empty before discover()
         self._running = {}  # str(instance id) -> PluginHandler, in order of loading
         self._absent = {}  # plugins of the perspective that nobody has here: id -> serial numbers, kept for when they are back
-        self._global_settings = self._perspective_settings = None
+        self._global_settings: Any = None  # Settings, from the first restoring on
+        self._perspective_settings: Any = None
         queued = Qt.ConnectionType.QueuedConnection  # a plugin must not be deleted while one of its own slots runs
         self._reload_later.connect(self._reload, queued)
         self._unload_later.connect(self._unload_by_user, queued)
@@ -50,7 +53,7 @@ class PluginManager(QObject):
 
     def discover(self):
         """Find all plugins, once."""
-        if self._descriptors is not None:
+        if self._descriptors:
             return
         self._descriptors = {d.plugin_id(): d for d in self._provider.discover(None)}
         container = PluginDescriptor(CONTAINER, {"class_type": CONTAINER})
@@ -83,7 +86,7 @@ class PluginManager(QObject):
 
     def get_plugin_descriptor(self, plugin_id):
         self.discover()
-        return self._descriptors.get(plugin_id) or self._descriptors.get(OTHER_NAMES.get(plugin_id))
+        return self._descriptors.get(plugin_id) or self._descriptors.get(OTHER_NAMES.get(plugin_id, ""))
 
     def running(self):
         """The handlers of all running plugins, in order of loading."""

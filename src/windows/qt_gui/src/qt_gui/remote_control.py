@@ -10,7 +10,7 @@ from python_qt_binding.QtCore import QObject, Slot
 from qt_gui.errors import UsageError
 
 try:
-    from python_qt_binding import QtDBus
+    from python_qt_binding import QtDBus  # type: ignore[attr-defined]  # a module of whichever binding there is
 except ImportError:
     QtDBus = None
 

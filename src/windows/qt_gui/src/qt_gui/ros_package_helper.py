@@ -19,7 +19,7 @@ def package_facts(name, path=None):
     except (rospkg.ResourceNotFound, OSError, ET.ParseError):
         return {}
     urls = [(element.get("type", "website") != "website", (element.text or "").strip()) for element in root.findall("url")]
+    described = root.find("description")
     return {"version": (root.findtext("version") or "").strip(),
-            "description": " ".join("".join(root.find("description").itertext()).split())[:500]
-            if root.find("description") is not None else "",
+            "description": "" if described is None else " ".join("".join(described.itertext()).split())[:500],
             "maintainer": (root.findtext("maintainer") or "").strip(), "url": min(urls)[1] if urls else ""}

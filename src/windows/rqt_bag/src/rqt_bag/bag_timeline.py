@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import threading
-from typing import Dict, List, Optional, Tuple
+from typing import TYPE_CHECKING, Dict, List, Optional, Tuple
 
 import genpy
 from python_qt_binding.QtCore import QElapsedTimer, QObject, QTimer, Signal
@@ -10,6 +10,9 @@ from python_qt_binding.QtCore import QElapsedTimer, QObject, QTimer, Signal
 from rqt_bag.bags import BagError, Bags, copy_region, open_bag
 from rqt_bag.player import Player
 from rqt_bag.recorder import Recorder
+
+if TYPE_CHECKING:
+    from rqt_bag.timeline_frame import TimelineFrame
 
 _TICK = 40  # ms
 SLOWEST, FASTEST = 1 / 1024, 1024.0
@@ -22,6 +25,8 @@ class BagTimeline(QObject):
 
     :param context: of the plugin: views become docks of it. :param publish_clock: publish the playhead's time on /clock.
     """
+
+    _timeline_frame: TimelineFrame  # set by the frame itself
 
     status_bar_changed_signal = Signal()
     selected_region_changed = Signal(object, object)
@@ -40,7 +45,6 @@ class BagTimeline(QObject):
         self._context = context
         self._bags = Bags()
         self._bag_lock = self._bags.lock
-        self._timeline_frame = None  # set by the frame itself
         self._player = Player(self._bags, publish_clock, self.problem.emit)
         self._recorder: Optional[Recorder] = None
         self._listeners: Dict[str, List] = {}
@@ -106,7 +110,7 @@ class BagTimeline(QObject):
     def topics_by_datatype(self) -> Dict[str, List[str]]:
         found: Dict[str, List[str]] = {}
         for topic in self._bags.topics:
-            found.setdefault(self.get_datatype(topic), []).append(topic)
+            found.setdefault(self.get_datatype(topic) or "", []).append(topic)
         return found
 
     def _get_start_stamp(self) -> Optional[genpy.Time]:
@@ -217,7 +221,7 @@ class BagTimeline(QObject):
         """Move the playhead by so many seconds of real time; at the end of the region it begins again."""
         frame = self._timeline_frame
         begin, end = frame.play_region
-        if begin is None or frame.playhead is None:
+        if begin is None or end is None or frame.playhead is None:
             return
         target = frame.playhead.to_sec() + elapsed * self.play_speed
         if target > end.to_sec():
@@ -301,7 +305,7 @@ class BagTimeline(QObject):
     def copy_region_to_bag(self, name: str) -> None:
         """Save the messages of the play region, in another thread."""
         start, end = self._timeline_frame.play_region
-        if start is None or self._background is not None and self._background.is_alive():
+        if start is None or end is None or self._background is not None and self._background.is_alive():
             return
 
         def work() -> None:

@@ -5,7 +5,7 @@ import os
 import tempfile
 import threading
 from pathlib import Path
-from typing import Dict, Iterator, List, NamedTuple, Optional, Sequence, Tuple, Union
+from typing import Any, Dict, Iterator, List, NamedTuple, Optional, Sequence, Tuple, Union
 
 import genpy
 import numpy as np
@@ -24,7 +24,7 @@ class _Index(NamedTuple):
 
     stamps: np.ndarray  #: (n,) s
     nanoseconds: np.ndarray  #: (n,) int64
-    entries: List[Tuple[rosbag.Bag, object]]
+    entries: List[Tuple[rosbag.Bag, Any]]
 
 
 _EMPTY = _Index(np.empty(0), np.empty(0, np.int64), [])
@@ -69,7 +69,7 @@ class Bags:
 
     def add(self, bag: rosbag.Bag) -> None:
         """Take in an open bag."""
-        found: Dict[str, List[Tuple[rosbag.Bag, object]]] = {}
+        found: Dict[str, List[Tuple[rosbag.Bag, Any]]] = {}
         for connection in bag._get_connections():
             self._types.setdefault(connection.topic, connection.datatype)
             entries = found.setdefault(connection.topic, [])
@@ -113,7 +113,7 @@ class Bags:
         names = self._indexes if topics is None else [topics] if isinstance(topics, str) else topics
         return [self._indexes[name] for name in names if name in self._indexes]
 
-    def entries(self, topics: Topics, start, end) -> Iterator[Tuple[rosbag.Bag, object]]:
+    def entries(self, topics: Topics, start, end) -> Iterator[Tuple[rosbag.Bag, Any]]:
         """(bag, index entry) with start <= stamp <= end, in the order of their stamps."""
         parts, keys = [], []
         for index in self._chosen(topics):
@@ -155,7 +155,7 @@ class Bags:
                 raise BagError(f"{bag.filename}: a message cannot be read: {type(error).__name__}: {str(error)[:80]}") from None
 
 
-def _merged(index: _Index, more: List[Tuple[rosbag.Bag, object]]) -> _Index:
+def _merged(index: _Index, more: List[Tuple[rosbag.Bag, Any]]) -> _Index:
     entries = index.entries + more
     nanoseconds = np.concatenate((index.nanoseconds, np.array([entry.time.to_nsec() for _, entry in more], np.int64)))
     order = np.argsort(nanoseconds, kind="stable")

@@ -75,7 +75,7 @@ class Player:
             with self._condition:
                 self._busy = False
                 self._condition.wait_for(lambda: self._wanted is not None or self._over)
-                if self._over:
+                if self._over or self._wanted is None:
                     return
                 (begin, end, playing), self._wanted, self._busy = self._wanted, None, True
             self._publish(begin, end, playing)
@@ -105,6 +105,7 @@ class Player:
         if self._clock is not None:
             self._clock.publish(Clock(stamp))
         if topic in self._publishers:
-            if self._publishers[topic] is None:
-                self._publishers[topic] = rospy.Publisher(topic, type(message), queue_size=100)
-            self._publishers[topic].publish(message)
+            publisher = self._publishers[topic]
+            if publisher is None:
+                publisher = self._publishers[topic] = rospy.Publisher(topic, type(message), queue_size=100)
+            publisher.publish(message)

@@ -93,7 +93,7 @@ class TimelineFrame(QWidget):
 
     def select_region(self, begin: Optional[float], end: Optional[float] = None) -> None:
         """Mark from ``begin`` to ``end`` (s); None marks nothing."""
-        if begin is None or self._start is None:
+        if begin is None or end is None or self._start is None or self._end is None:
             self._region = None
         else:
             low, high = self._start.to_sec(), self._end.to_sec()
@@ -180,7 +180,7 @@ class TimelineFrame(QWidget):
 
     def reset_zoom(self) -> None:
         """Show all."""
-        if self._start is not None:
+        if self._start is not None and self._end is not None:
             begin, end = self._start.to_sec(), self._end.to_sec()
             room = 0.02 * (end - begin) or 0.5
             self.set_timeline_view(begin - room, end + room)
@@ -194,7 +194,7 @@ class TimelineFrame(QWidget):
 
     def zoom_timeline(self, factor: float, center: Optional[float] = None) -> None:
         """Show a span ``factor`` times as long, ``center`` (s) stays in place."""
-        if self._start is None:
+        if self._start is None or self._end is None:
             return
         center = (self._playhead.to_sec() if self._playhead else self._left) if center is None else center
         width = self._right - self._left
@@ -276,11 +276,11 @@ class TimelineFrame(QWidget):
         bottom = self._rows[-1][1] + self._rows[-1][2] if self._rows else _TIME_HEIGHT
         if self._start is not None:
             self._draw_region(painter, bottom)
-            self._draw_times(painter, bottom)
+            self._draw_times(painter, bottom, self._start.to_sec())
         for number, (topic, y, height) in enumerate(self._rows):
             self._draw_row(painter, topic, y, height, number)
         if self._playhead is not None:
-            self._draw_playhead(painter, bottom)
+            self._draw_playhead(painter, bottom, self._playhead.to_sec())
         painter.end()
 
     def _draw_row(self, painter: QPainter, topic: str, y: int, height: int, number: int) -> None:
@@ -326,11 +326,10 @@ class TimelineFrame(QWidget):
         breaks = np.flatnonzero(np.diff(stamps) > self.map_dx_to_dstamp(combine))
         return list(zip(stamps[np.concatenate(([0], breaks + 1))], stamps[np.concatenate((breaks, [len(stamps) - 1]))]))
 
-    def _draw_times(self, painter: QPainter, bottom: int) -> None:
+    def _draw_times(self, painter: QPainter, bottom: int, origin: float) -> None:
         painter.setFont(self.font())
         wanted = self.map_dx_to_dstamp(90)
         step = next((division for division in _DIVISIONS if division >= wanted), _DIVISIONS[-1])
-        origin = self._start.to_sec()
         number = math.ceil((self._left - origin) / step)
         while origin + number * step <= self._right:
             x = self.map_stamp_to_x(origin + number * step)
@@ -346,8 +345,8 @@ class TimelineFrame(QWidget):
             painter.fillRect(QRectF(left, _TIME_HEIGHT - 8, right - left, bottom - _TIME_HEIGHT + 8), QColor(0, 179, 0, 50))
             painter.fillRect(QRectF(left, _TIME_HEIGHT - 8, right - left, 8), QColor(0, 140, 0, 160))
 
-    def _draw_playhead(self, painter: QPainter, bottom: int) -> None:
-        x = self.map_stamp_to_x(self._playhead.to_sec(), False)
+    def _draw_playhead(self, painter: QPainter, bottom: int, stamp: float) -> None:
+        x = self.map_stamp_to_x(stamp, False)
         if self._history_left <= x <= self._history_right:
             painter.setPen(QColor("red"))
             painter.setBrush(QColor("red"))

@@ -1,5 +1,6 @@
 """The plugin: log messages of a topic, several thousand a second if need be."""
 from collections import deque
+from typing import Any, Deque
 
 import rospy
 from python_qt_binding.QtCore import QTimer
@@ -24,7 +25,7 @@ class Console(Plugin):
         super().__init__(context)
         self.setObjectName("Console")
         self._limit, self._topic, self._subscriber = LIMIT, "/rosout_agg", None
-        self._queue = deque(maxlen=LIMIT)
+        self._queue: Deque[Any] = deque(maxlen=LIMIT)
         self._widget = ConsoleWidget(message_limit=self._limit)
         if context.serial_number() > 1:
             self._widget.setWindowTitle(f"Console ({context.serial_number()})")
@@ -34,7 +35,7 @@ class Console(Plugin):
         self._timer.timeout.connect(self._flush)
         self._timer.start(FLUSH)
         self._values_timer = QTimer(self)
-        self._values_timer.timeout.connect(lambda: (self._widget.exclude_box.refresh(), self._widget.highlight_box.refresh()))
+        self._values_timer.timeout.connect(self._refresh_values)
         self._values_timer.start(10 * FLUSH)
         self._subscribe(self._topic)
 
@@ -50,6 +51,10 @@ class Console(Plugin):
     def queue_message(self, log: Log) -> None:
         """Called in rospy's thread."""
         self._queue.append(Message.from_log(log))
+
+    def _refresh_values(self) -> None:
+        self._widget.exclude_box.refresh()
+        self._widget.highlight_box.refresh()
 
     def _flush(self) -> None:
         queue = self._queue

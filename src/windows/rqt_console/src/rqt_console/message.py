@@ -1,7 +1,7 @@
 """One log message."""
 import time
 from dataclasses import dataclass
-from typing import List, Tuple
+from typing import Sequence, Tuple
 
 from rosgraph_msgs.msg import Log
 
@@ -16,7 +16,7 @@ class Message:
     severity: int = Log.INFO
     node: str = ""
     stamp: Tuple[int, int] = (0, 0)
-    topics: List[str] = ()
+    topics: Sequence[str] = ()
     location: str = ""
     id: int = 0
 

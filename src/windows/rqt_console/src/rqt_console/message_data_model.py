@@ -1,7 +1,7 @@
 """The table of messages: keeps the newest, hides what is excluded, sorts."""
 import itertools
 from collections import deque
-from typing import Iterable, List, Optional
+from typing import Any, Deque, Dict, Iterable, List, Optional
 
 from python_qt_binding.QtCore import QAbstractTableModel, QModelIndex, Qt, Signal
 from python_qt_binding.QtGui import QColor, QIcon
@@ -34,11 +34,12 @@ class MessageDataModel(QAbstractTableModel):
         self.exclude_filters, self.highlight_filters = FilterCollection(), FilterCollection()
         self.only_highlighted = False
         self._limit = message_limit
-        self._all = deque()
+        self._all: Deque[Message] = deque()
         self._shown: List[Message] = []  # ascending by key
         self._column, self._descending = 0, True
         self._count = 0
-        self._icons, self._grey = {}, QColor("gray")
+        self._icons: Dict[Any, Any] = {}
+        self._grey = QColor("gray")
         self._colors = {level: QColor(name) for level, name in _COLORS.items()}
 
     # what Qt asks

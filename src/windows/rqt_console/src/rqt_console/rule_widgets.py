@@ -1,5 +1,5 @@
 """The boxes with rules: one line per condition, each with its editor."""
-from typing import Callable, Dict, List
+from typing import Any, Callable, Dict, List, Optional
 
 from python_qt_binding.QtCore import QDateTime, Qt
 from python_qt_binding.QtGui import QIcon
@@ -143,7 +143,7 @@ class RuleBox(QGroupBox):
     def __init__(self, title: str, filters: FilterCollection, model):
         super().__init__(title)
         self._filters = filters
-        self._rows: Dict[object, tuple] = {}  # filter -> (row widget, editor, kind)
+        self._rows: Dict[Any, tuple] = {}  # filter -> (row widget, editor, kind)
         self._values = {"severity": lambda: list(SEVERITIES), "node": lambda: model.values("node"),
                         "topic": lambda: model.values("topics"), "time": model.stamps, "message": None, "location": None}
         self._list = QVBoxLayout()
@@ -167,7 +167,7 @@ class RuleBox(QGroupBox):
         layout.addWidget(self.add_button, 0, Qt.AlignmentFlag.AlignTop)
         layout.addWidget(scroll)
 
-    def add(self, kind: str, state: dict = None, enabled: bool = True):
+    def add(self, kind: str, state: Optional[dict] = None, enabled: bool = True):
         """A new rule, as :meth:`state` has it; returns its filter."""
         label, make = KINDS[kind]
         filter_ = make()

@@ -27,7 +27,7 @@ class Options:
 def read_packages(rospack: Optional[rospkg.RosPack] = None) -> Dict[str, Set[str]]:
     """Package -> names that its manifest depends on, of all packages on ROS_PACKAGE_PATH; what cannot be read has none."""
     rospack = rospack or rospkg.RosPack()
-    packages = {}
+    packages: Dict[str, Set[str]] = {}
     for name in rospack.list():
         try:
             root = ET.parse(os.path.join(rospack.get_path(name), "package.xml")).getroot()

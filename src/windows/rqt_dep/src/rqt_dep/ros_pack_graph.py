@@ -1,5 +1,5 @@
 """The window of the graph of packages."""
-from python_qt_binding.QtWidgets import QComboBox, QCompleter, QLineEdit, QVBoxLayout, QWidget
+from python_qt_binding.QtWidgets import QCheckBox, QComboBox, QCompleter, QLineEdit, QVBoxLayout, QWidget
 from rqt_dep.packages import BOTH, DEPENDS, DEPENDS_ON, Options, generate_dot, read_packages
 from rqt_graph.background import Latest
 from rqt_graph.graph_pane import GraphPane
@@ -39,8 +39,9 @@ class RosPackGraph(Plugin):
         self.transitive_box = row.check("transitives_check_box", "No transitive", "Leave out edges that a longer way replaces", True,
                                         self.update)
         self.system_box = row.check("show_system_check_box", "System", "Also what is no package of ROS", False, self.update)
-        self.highlight_box = row.check("highlight_connections_check_box", "Highlight", "Highlight connections under the mouse", True,
-                                       lambda: self.pane.set_highlight(self.highlight_box.isChecked()))
+        self.highlight_box: QCheckBox = row.check(
+            "highlight_connections_check_box", "Highlight", "Highlight connections under the mouse", True,
+            lambda: self.pane.set_highlight(self.highlight_box.isChecked()))
         row.button("fit_in_view_push_button", "zoom-fit-best", "Fit", "Fit graph in view", self.pane.fit)
         row.file_buttons(self.pane, "rospackgraph", self._load)
         self._reader = Latest(self)

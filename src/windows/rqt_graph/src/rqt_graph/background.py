@@ -1,5 +1,6 @@
 """Work in a thread of its own, of which only the newest result counts."""
 import threading
+from typing import Any, Optional, Tuple
 
 from python_qt_binding.QtCore import QObject, Signal
 
@@ -28,6 +29,7 @@ class Latest(QObject):
         return self._busy
 
     def _work(self, work):
+        outcome: Tuple[Any, Optional[Exception]]
         try:
             outcome = work(), None
         except Exception as error:  # the result of whatever it was is the caller's to judge

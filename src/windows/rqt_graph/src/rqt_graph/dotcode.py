@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass, field
-from typing import Dict, Iterable, List, Optional, Set, Tuple
+from typing import Any, Dict, Iterable, List, Optional, Set, Tuple
 
 import rosgraph.names
 from rqt_graph.ros_state import DEAD, WONKY, State
@@ -225,7 +225,7 @@ class _Writer:
     """Collects lines of DOT, nodes in the clusters of their namespaces."""
 
     def __init__(self):
-        self._root = ({}, [])  # clusters within: name -> the same pair; lines
+        self._root: Tuple[Dict[str, Any], List[str]] = ({}, [])  # clusters within: name -> the same pair; lines
         self._edges: List[str] = []
 
     def node(self, namespaces, key, label, shape, tooltip, color) -> None:

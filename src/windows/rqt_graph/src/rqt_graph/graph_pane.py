@@ -1,5 +1,6 @@
 """A graph in a view: laid out beside the window's thread, loaded, saved, highlighted."""
 import os
+from typing import Optional
 
 from python_qt_binding.QtCore import QEvent, QRectF, QSize, Qt, Signal, qWarning
 from python_qt_binding.QtGui import QImage, QKeySequence, QPainter
@@ -38,7 +39,8 @@ class GraphPane(QWidget):
         self.nodes, self.edges = {}, {}
         self.highlight = True
         self.auto_fit = True
-        self._dot = self._layout = None
+        self._dot: Optional[str] = None
+        self._layout = None
         self._worker = Latest(self)
         self._worker.done.connect(self._on_laid_out)
         self.view.tool_tip_wanted.connect(self._on_tool_tip)
@@ -127,7 +129,8 @@ class GraphPane(QWidget):
         form = os.path.splitext(path)[1].lower()
         try:
             if form in (".dot", ".gv", ".svg", ".pdf"):
-                data = self._dot.encode() if form in (".dot", ".gv") else render(self._dot, form[1:])
+                dot = self._dot or ""  # nothing is drawn yet
+                data = dot.encode() if form in (".dot", ".gv") else render(dot, form[1:])
                 with open(path, "wb") as file:
                     file.write(data)
             elif not self._image().save(path):

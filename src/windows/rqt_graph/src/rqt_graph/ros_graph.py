@@ -4,7 +4,7 @@ import threading
 import rospy
 from python_qt_binding.QtCore import Qt, QTimer, Signal
 from python_qt_binding.QtGui import QKeySequence
-from python_qt_binding.QtWidgets import QComboBox, QCompleter, QLineEdit, QSpinBox, QToolTip, QVBoxLayout, QWidget
+from python_qt_binding.QtWidgets import QCheckBox, QComboBox, QCompleter, QLineEdit, QSpinBox, QToolTip, QVBoxLayout, QWidget
 from qt_gui.compatibility import QShortcut
 from rosgraph_msgs.msg import TopicStatistics
 from rqt_graph.background import Latest
@@ -99,9 +99,10 @@ class RosGraph(Plugin):
         self._boxes = {option: second.check(name, text, tip, getattr(defaults, option), self.update)
                        for name, option, text, tip in _GROUPS}
         second.addStretch(1)
-        self.highlight_box = second.check("highlight_connections_check_box", "Highlight", "Highlight connections under the mouse",
-                                          True, lambda: self.pane.set_highlight(self.highlight_box.isChecked()))
-        self.fit_box = second.check("auto_fit_graph_check_box", "Fit", "Automatically fit graph into view", True,
+        self.highlight_box: QCheckBox = second.check(
+            "highlight_connections_check_box", "Highlight", "Highlight connections under the mouse", True,
+            lambda: self.pane.set_highlight(self.highlight_box.isChecked()))
+        self.fit_box: QCheckBox = second.check("auto_fit_graph_check_box", "Fit", "Automatically fit graph into view", True,
                                     lambda: self.pane.set_auto_fit(self.fit_box.isChecked()))
         second.button("fit_in_view_push_button", "zoom-fit-best", "Fit", "Fit graph in view", self.pane.fit)
         third.label("Hide:")

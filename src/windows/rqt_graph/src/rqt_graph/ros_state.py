@@ -7,7 +7,7 @@ import threading
 import xmlrpc.client
 from dataclasses import dataclass, field
 from http.client import HTTPException
-from typing import Dict, List, Set, Tuple
+from typing import Any, Dict, List, Set, Tuple
 
 import rosgraph
 from qt_gui.errors import WindowError
@@ -55,7 +55,7 @@ def read() -> State:
     uri = rosgraph.get_master_uri()
     try:
         master = xmlrpc.client.ServerProxy(uri, _Transport(5.0))
-        multi = xmlrpc.client.MultiCall(master)
+        multi: Any = xmlrpc.client.MultiCall(master)
         multi.getSystemState("/rqt_graph")
         multi.getTopicTypes("/rqt_graph")
         (_, _, (publishers, subscribers, services)), (_, _, types) = multi()
@@ -79,7 +79,7 @@ def read() -> State:
 
 
 def _node_uris(master, nodes) -> Dict[str, str]:
-    multi = xmlrpc.client.MultiCall(master)
+    multi: Any = xmlrpc.client.MultiCall(master)
     for node in nodes:
         multi.lookupNode("/rqt_graph", node)
     answers = multi() if nodes else ()
@@ -91,7 +91,8 @@ def _bus_info(uri):
     if uri is None:
         return DEAD  # it went between two questions
     try:
-        code, _, info = xmlrpc.client.ServerProxy(uri, _Transport(_TIMEOUT)).getBusInfo("/rqt_graph")
+        node: Any = xmlrpc.client.ServerProxy(uri, _Transport(_TIMEOUT))
+        code, _, info = node.getBusInfo("/rqt_graph")
         return info if code == 1 and isinstance(info, list) else WONKY
     except (ConnectionRefusedError, socket.gaierror):
         return DEAD

@@ -15,11 +15,12 @@ class Main(Base):
         self._ros_pack = ros_pack or rospkg.RosPack()
         super().__init__(invoked_filename=filename, settings_filename=settings_filename)
 
-    def main(self, argv=None, standalone=None, plugin_argument_provider=None):
+    def main(self, argv=None, standalone=None, plugin_argument_provider=None, plugin_manager_settings_prefix=""):
         """See :meth:`qt_gui.main.Main.main`; ROS remappings are taken out of ``argv`` first."""
         argv = rospy.myargv(sys.argv if argv is None else argv)
         try:
-            return super().main(argv, standalone=standalone, plugin_argument_provider=plugin_argument_provider)
+            return super().main(argv, standalone=standalone, plugin_argument_provider=plugin_argument_provider,
+                                plugin_manager_settings_prefix=plugin_manager_settings_prefix)
         finally:
             if rospy.core.is_initialized():
                 rospy.signal_shutdown("the window is closed")

@@ -4,6 +4,7 @@ import inspect
 import os
 import sys
 from xml.etree import ElementTree
+from typing import Any, Dict, Optional, Tuple
 
 from python_qt_binding.QtCore import qWarning
 from qt_gui.errors import PluginLoadError
@@ -84,10 +85,11 @@ class RosPluginProvider(PluginProvider):
         return os.path.dirname(path)
 
 
-_parsed = {}  # (path, time) -> root, None for what is broken: several providers read the same file, one line is enough
+_parsed: Dict[Any, Any] = {}  # (path, time) -> root, None for what is broken: several providers read the same file, one line is enough
 
 
 def _parse(package, path):
+    key: Tuple[str, Optional[int]]
     try:
         key = path, os.stat(path).st_mtime_ns
         if key not in _parsed:

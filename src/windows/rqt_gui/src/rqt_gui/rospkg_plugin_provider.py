@@ -4,6 +4,7 @@ Every start reads all manifests anew: two hundred take some ten milliseconds, an
 """
 import os
 import re
+from typing import Any, Dict
 import xml.etree.ElementTree as ET
 
 import rospkg
@@ -57,7 +58,7 @@ class CompiledPluginProvider(RospkgPluginProvider):
         raise PluginLoadError(self._plugin_descriptors[plugin_id].attributes()["not_available"])
 
 
-_known = {}  # of the last RosPack asked: several providers ask for the same
+_known: Dict[Any, Any] = {}  # of the last RosPack asked: several providers ask for the same
 
 
 def exports(rospack, tags=_WINDOWS):
@@ -106,6 +107,7 @@ def _of_package(package, folder, tags, mentions):
         if mentions.search(data):  # most packages do not, and parsing is what takes time
             root = ET.fromstring(data)
             for element in root.iterfind("export/*"):
-                if element.tag in tags and element.get("plugin"):
-                    yield package, element.tag, element.get("plugin").replace("${prefix}", folder)
+                plugin = element.get("plugin")
+                if element.tag in tags and plugin:
+                    yield package, element.tag, plugin.replace("${prefix}", folder)
         return

@@ -56,7 +56,10 @@ class Canvas(QWidget):
         """The picture with all its pixels, rotated, with the grid."""
         if self.picture is None:
             return None
-        picture = rotated(self.picture, self.quarters)
+        return self._final(self.picture)
+
+    def _final(self, picture: np.ndarray) -> np.ndarray:
+        picture = rotated(picture, self.quarters)
         return invert_grid(picture, self.grid_lines) if self.grid_lines else picture
 
     def _rotated_shape(self):
@@ -79,7 +82,7 @@ class Canvas(QWidget):
         else:
             left, top, width, height = self._target()
             if self._scaled is None or (self._scaled.width(), self._scaled.height()) != (width, height):
-                self._scaled = to_qimage(self._scale(self.final_picture(), width, height))
+                self._scaled = to_qimage(self._scale(self._final(self.picture), width, height))
             painter.drawImage(left, top, self._scaled)
         painter.end()
         self.shown.emit()
@@ -101,9 +104,12 @@ class Canvas(QWidget):
 
     def pixel_at(self, x: int, y: int):
         """Pixel (x, y) of the unrotated picture below a place of the widget, or None beside the picture."""
+        if self.picture is None:
+            return None
         left, top, width, height = self._target()
         rotated_height, rotated_width = self._rotated_shape()
         column, row = (x - left) * rotated_width // width, (y - top) * rotated_height // height
         if not (0 <= column < rotated_width and 0 <= row < rotated_height):
             return None
-        return unrotated_point(column, row, *self.picture.shape[:2], self.quarters)
+        whole_height, whole_width = self.picture.shape[:2]
+        return unrotated_point(column, row, whole_height, whole_width, self.quarters)

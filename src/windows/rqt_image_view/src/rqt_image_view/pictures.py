@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Callable, Optional
+from typing import Any, Callable, Optional
 
 import cv2
 import image_pixels
@@ -83,7 +83,7 @@ class TheoraDecoder:
 
     def __init__(self):
         self._heads = {}
-        self._context = None
+        self._context: Any = None
 
     def decode(self, data: bytes) -> Optional[np.ndarray]:
         """

@@ -98,7 +98,7 @@ class ImageViewWidget(QWidget):
         self.smooth.toggled.connect(lambda _on: self._look_changed())
         self.rotate_left.clicked.connect(lambda: self._rotate(-1))
         self.rotate_right.clicked.connect(lambda: self._rotate(1))
-        self.dynamic.toggled.connect(lambda on: (self.max_depth.setEnabled(not on), self._depth_changed()))
+        self.dynamic.toggled.connect(self._dynamic_changed)
         self.max_depth.valueChanged.connect(lambda _value: self._depth_changed())
         self.scheme.currentTextChanged.connect(lambda _name: self._depth_changed())
 
@@ -135,6 +135,10 @@ class ImageViewWidget(QWidget):
     def depth_view(self) -> DepthView:
         """How depth is to be shown now."""
         return DepthView(self.max_depth.value(), self.dynamic.isChecked(), self.scheme.currentText())
+
+    def _dynamic_changed(self, on: bool) -> None:
+        self.max_depth.setEnabled(not on)
+        self._depth_changed()
 
     def _depth_changed(self) -> None:
         self.depth_changed.emit(self.depth_view())

@@ -30,11 +30,11 @@ def joint_limits(description: str) -> Dict[str, JointLimits]:
         root = lenient_xml.fromstring(description)
     except (ET.ParseError, TypeError, ValueError) as error:
         raise DescriptionError(f"robot_description is no XML: {error}") from error
-    found = {}
+    found: Dict[str, JointLimits] = {}
     for joint in root.findall("joint"):
         limits = _limits(joint)
         if limits is not None:
-            found[joint.get("name")] = limits
+            found[joint.get("name", "")] = limits
     return found
 
 

@@ -3,7 +3,7 @@ import os
 import shlex
 import threading
 import time
-from typing import List
+from typing import Any, List, Optional
 
 import rospy
 import rosgraph
@@ -30,8 +30,10 @@ class LaunchedNode:
 
     def __init__(self, node: Node, run_id: str):
         self.node, self.name = node, rosgraph.names.ns_join(node.namespace, node.name)
-        self._run_id, self._process, self._lock = run_id, None, threading.Lock()
-        self.starts, self._wanted, self._died_at = 0, False, None
+        self._run_id, self._lock = run_id, threading.Lock()
+        self._process: Any = None  # a Process of roslaunch
+        self.starts, self._wanted = 0, False
+        self._died_at: Optional[float] = None
 
     @property
     def kind(self) -> str:

@@ -1,4 +1,6 @@
 """Browsers of types: messages here, services and actions in packages of their own."""
+from typing import Dict, List
+
 from python_qt_binding.QtCore import QSize, Qt
 from python_qt_binding.QtGui import QIcon
 from python_qt_binding.QtWidgets import (QComboBox, QDialog, QHBoxLayout, QLabel, QPlainTextEdit, QPushButton, QSizePolicy,
@@ -71,7 +73,8 @@ class TypesWidget(QWidget):
     def __init__(self, mode: str):
         """:param mode: .msg, .srv or .action"""
         super().__init__()
-        self._types, self._wanted = {}, ""
+        self._types: Dict[str, List[str]] = {}
+        self._wanted = ""
         self._background = Background(self)
         self.package_combo, self.type_combo = QComboBox(), QComboBox()
         self.package_combo.setObjectName("package_combo")
@@ -81,7 +84,7 @@ class TypesWidget(QWidget):
         self.package_combo.currentTextChanged.connect(self._package_changed)
         self.add_button, self.remove_button = QPushButton(QIcon.fromTheme("list-add"), ""), QPushButton(QIcon.fromTheme("list-remove"), "")
         for button, name, call, mark in ((self.add_button, "add_button", self.add_chosen, "+"),
-                                         (self.remove_button, "remove_button", lambda: self.tree.remove_selected(), "-")):
+                                         (self.remove_button, "remove_button", lambda: self._remove_selected(), "-")):
             button.setObjectName(name)
             button.setText(mark if button.icon().isNull() else "")
             button.clicked.connect(lambda checked=False, call=call: call())
@@ -112,6 +115,9 @@ class TypesWidget(QWidget):
         """Now, or as soon as the packages are known."""
         self._wanted = name
         self.package_combo.setCurrentText(name)
+
+    def _remove_selected(self) -> None:
+        self.tree.remove_selected()
 
     def _package_changed(self, package: str) -> None:
         self.type_combo.clear()

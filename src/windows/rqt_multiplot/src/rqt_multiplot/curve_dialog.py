@@ -15,6 +15,7 @@ from rqt_plot.fields import FieldError, slot_of
 from rqt_multiplot.config import (ColorType, Curve, CurveAxis, DataType, FieldType, Orientation, PenStyle, ScaleType, StyleType,
                                   copied)
 
+_PREFIXES = {ScaleType.ABSOLUTE: "absolute", ScaleType.RELATIVE: "relative"}
 _DEEPEST = 8  # messages within messages that the list of fields goes into
 
 
@@ -95,21 +96,22 @@ class AxisBox(QGroupBox):
         self.field.setText(axis.field)
         self.receipt.setChecked(axis.field_type == FieldType.RECEIPT_TIME)
         self.scale.setCurrentIndex(self.scale.findData(int(axis.scale.type)))
-        self._shown = None
+        self._shown: Optional[ScaleType] = None
         self._show_limits()
         self._type_changed()
 
     def _show_limits(self) -> None:
         self._keep_limits()
-        scale, self._shown = self.axis.scale, ScaleType(self.scale.currentData())
-        prefix = {ScaleType.ABSOLUTE: "absolute", ScaleType.RELATIVE: "relative"}.get(self._shown)
+        scale = self.axis.scale
+        self._shown = ScaleType(self.scale.currentData())
+        prefix = _PREFIXES.get(self._shown)
         for box, end in ((self.low, "minimum"), (self.high, "maximum")):
             box.setEnabled(prefix is not None)
             if prefix:
                 box.setValue(getattr(scale, f"{prefix}_{end}"))
 
     def _keep_limits(self) -> None:
-        prefix = {ScaleType.ABSOLUTE: "absolute", ScaleType.RELATIVE: "relative"}.get(self._shown)
+        prefix = _PREFIXES.get(self._shown) if self._shown is not None else None
         if prefix:
             setattr(self.axis.scale, f"{prefix}_minimum", self.low.value())
             setattr(self.axis.scale, f"{prefix}_maximum", self.high.value())

@@ -2,15 +2,18 @@
 from __future__ import annotations
 
 from itertools import zip_longest
-from typing import List
+from typing import TYPE_CHECKING, List
 
 from python_qt_binding.QtCore import QRectF, Qt
 from python_qt_binding.QtGui import QImage, QPainter, QTextOption
 
+if TYPE_CHECKING:
+    from rqt_multiplot.panel import PlotPanel
+
 SIZE = 1280, 1024  #: pixels of a picture
 
 
-def write_image(name: str, panels: List[List[object]]) -> None:
+def write_image(name: str, panels: List[List[PlotPanel]]) -> None:
     """A picture of the plots of a table, with their titles. :raises OSError: it cannot be written."""
     image = QImage(*SIZE, QImage.Format.Format_ARGB32)
     image.fill(Qt.GlobalColor.white)
@@ -36,7 +39,7 @@ def _draw(painter: QPainter, cell: QRectF, panel) -> None:
                       Qt.AspectRatioMode.IgnoreAspectRatio)
 
 
-def write_text(name: str, panels: List[object]) -> None:
+def write_text(name: str, panels: List[PlotPanel]) -> None:
     """Two columns per curve, x and y, under a line with their names. :raises OSError: it cannot be written."""
     titles, columns = [], []
     for panel in panels:

@@ -191,16 +191,17 @@ class PlotPanel(QWidget):
         for curve, points, sampler in zip(self.plot.curves, self.points, self.samplers):
             bounds = points.bounds()
             for which, (values, axis) in enumerate(((points.x, curve.axes.x_axis), (points.y, curve.axes.y_axis))):
-                scale = axis.scale
+                scale, bound = axis.scale, bounds[which]
                 if scale.type == ScaleType.ABSOLUTE:
                     wanted[which].append((scale.absolute_minimum, scale.absolute_maximum))
                 elif scale.type == ScaleType.RELATIVE and len(values):
                     wanted[which].append((values[-1] + scale.relative_minimum, values[-1] + scale.relative_maximum))
-                elif scale.type == ScaleType.AUTO and bounds[which]:
-                    low, high = bounds[which]
+                elif scale.type == ScaleType.AUTO and bound is not None:
+                    low, high = bound
                     room = 0.0 if sampler.is_time(AXES[which]) else _ROOM * (high - low)  # a curve on the frame is not seen
                     wanted[which].append((low - room, high + room))
-        return tuple((min(low for low, _ in pairs), max(high for _, high in pairs)) if pairs else None for pairs in wanted)
+        x, y = ((min(low for low, _ in pairs), max(high for _, high in pairs)) if pairs else None for pairs in wanted)
+        return x, y
 
     def _follow(self) -> None:
         if self._at_home:

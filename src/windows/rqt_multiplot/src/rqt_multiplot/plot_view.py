@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import math
 import time
-from typing import Dict, List, Optional, Tuple
+from typing import Any, Dict, List, Optional, Tuple
 
 import numpy as np
 from python_qt_binding.QtCore import QPointF, Qt, Signal
@@ -101,7 +101,7 @@ class PlotView(pg.PlotWidget):
         self.plotItem.showGrid(True, True, 0.15)
         self.legend = self.plotItem.addLegend(offset=(-10, 10))
         self.track_points = False
-        self._items: List[object] = []
+        self._items: List[Any] = []
         self._colors: List[QColor] = []
         self._foreground, self._background = QColor("black"), QColor("white")
         self._build_cursor()

@@ -50,7 +50,7 @@ class TableView(QWidget):
         self._dialogs = []
         old = {id(panel.plot): panel for panel in self.all_panels}
         self.table = table
-        self.panels = [[old.pop(id(plot), None) or self._new_panel(plot) for plot in row] for row in table.plots]
+        self.panels = [[old.pop(id(plot)) if id(plot) in old else self._new_panel(plot) for plot in row] for row in table.plots]
         for panel in old.values():
             panel.pause()
             panel.hide()

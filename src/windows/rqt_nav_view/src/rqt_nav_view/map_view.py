@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import math
-from typing import Dict, List, Optional
+from typing import Any, Dict, List, Optional
 
 import numpy as np
 import rospy
@@ -42,7 +42,7 @@ class NavView(QGraphicsView):
         self.setScene(self._scene)
         self._tf = tf_buffer
         self.frame_id = ""
-        self._map_item = None
+        self._map_item: Any = None  # the map's QGraphicsPixmapItem
         self._lines: Dict[str, object] = {}
         self._mode = ""
         self._pressed: Optional[QPointF] = None

@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import threading
-from typing import List, Sequence
+from typing import Dict, List, Optional, Sequence
 
 import rosgraph
 import tf2_ros
@@ -60,10 +60,10 @@ class NavViewWidget(QWidget):
         self.map_topic, self.paths, self.polygons = map_topic, list(paths), list(polygons)
         self._tf = tf2_ros.Buffer(debug=False)  # its service of debugging can be there but once in a node
         self._listener = tf2_ros.TransformListener(self._tf)
-        self.view = None
+        self.view: Optional[NavView] = None
         buttons = QHBoxLayout()
-        for name, text, action in (("set_pose", "Set Pose", lambda: self.view.pose_mode()),
-                                   ("set_goal", "Set Goal", lambda: self.view.goal_mode())):
+        for name, text, action in (("set_pose", "Set Pose", lambda: self.view and self.view.pose_mode()),
+                                   ("set_goal", "Set Goal", lambda: self.view and self.view.goal_mode())):
             button = QPushButton(text)
             button.setObjectName(name)
             button.setToolTip("Press the mouse at the place, drag towards the heading")
@@ -85,7 +85,7 @@ class NavViewWidget(QWidget):
     def ask_topics(self) -> None:
         """Ask which topics are to be shown."""
         def look() -> None:
-            found = {"map": [], "paths": [], "polygons": []}
+            found: Dict[str, List[str]] = {"map": [], "paths": [], "polygons": []}
             try:
                 for name, kind in rosgraph.Master("/rqt_nav_view").getTopicTypes():
                     if kind in _TYPES:
@@ -120,7 +120,8 @@ class NavViewWidget(QWidget):
     def shutdown(self) -> None:
         """Let go of topics; the widget is of no use afterwards."""
         if self._listener is not None:
-            self.view.shutdown()
+            if self.view is not None:
+                self.view.shutdown()
             self._listener.unregister()
             self._listener = None
 

@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import time
-from typing import Dict, List, Optional, Tuple
+from typing import Any, Dict, List, Optional, Tuple
 
 import rospy
 from python_qt_binding.QtCore import Qt, QTimer, Slot, qWarning
@@ -54,7 +54,7 @@ class PlotWidget(QWidget):
         self.setObjectName("PlotWidget")
         self.setAcceptDrops(True)
         self._initial_topics = initial_topics
-        self.data_plot = None
+        self.data_plot: Any = None  # a DataPlot, or what others bring in its place
         self._build()
         self.pause_button.setChecked(start_paused)
         self._start_time = rospy.get_time()

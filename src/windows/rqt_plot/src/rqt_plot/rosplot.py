@@ -5,7 +5,7 @@ import socket
 import threading
 import weakref
 from collections import deque
-from typing import Dict, List, Optional, Tuple
+from typing import Deque, Dict, List, Optional, Tuple
 
 import rosgraph
 import roslib.message
@@ -98,7 +98,8 @@ class ROSData:
         self.connected = False
         self.lock = threading.Lock()
         # Bounded: a window that is paused for hours must not eat the memory.
-        self.buff_x, self.buff_y = deque(maxlen=CAPACITY), deque(maxlen=CAPACITY)
+        self.buff_x: Deque[float] = deque(maxlen=CAPACITY)
+        self.buff_y: Deque[float] = deque(maxlen=CAPACITY)
         self.sub = None
         self.problem = ""  #: what was wrong with the last message, if it gave no number
         self.connect(topic_types() if types is None else types)

@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import math
-from typing import Callable, List, Optional, Tuple
+from typing import Any, Callable, List, Optional, Tuple
 
 import numpy as np
 import roslib.message
@@ -16,7 +16,7 @@ def quaternion_path(message_class, wanted: str = "geometry_msgs/Quaternion") -> 
 
     :returns: None if there is none; an empty list for a quaternion itself.
     """
-    waiting = [([], message_class)]
+    waiting: List[Tuple[List[str], Any]] = [([], message_class)]
     while waiting:
         path, found = waiting.pop(0)
         if found is None:

@@ -1,7 +1,7 @@
 """The plugin: publishers with a rate each, whose fields are expressions."""
 import ast
 import math
-from typing import List
+from typing import List, Optional
 
 import rospy
 from python_qt_binding.QtCore import QObject, Qt, QTimer
@@ -31,7 +31,8 @@ class PublisherEntry(QObject):
         self.template = Field("", type_name)
         if self.template.expression is not None or self.template.is_array:
             raise TemplateError("", f"{type_name} is no message type")
-        self.error, self.counter = None, 0
+        self.error: Optional[TemplateError] = None
+        self.counter = 0
         self._report = report
         self._publisher = rospy.Publisher(topic, self.template.message_class, queue_size=100)
         self._timer = QTimer(self)

@@ -1,6 +1,6 @@
 """Calls that may take their time, in threads; their results in the thread of the window."""
 import threading
-from typing import Any, Callable, Optional
+from typing import Any, Callable, Dict, Optional
 
 from python_qt_binding.QtCore import QObject, Signal
 
@@ -16,7 +16,7 @@ class Background(QObject):
     def __init__(self, parent: Optional[QObject] = None):
         super().__init__(parent)
         self._lock = threading.Lock()
-        self._running = {}  # key -> token of the newest call
+        self._running: Dict[Any, object] = {}  # key -> token of the newest call
         self._closed = False
         self._ended.connect(self._deliver)
 

@@ -61,7 +61,7 @@ class ExpressionTree(QTreeWidget):
             field = self.field_of(child)
             wrong = error is not None and field is not None and field.expression is not None and field.path == error.path
             child.setForeground(self._expression_column, QBrush(QColor("red")) if wrong else QBrush())
-            child.setToolTip(self._expression_column, error.text if wrong else "")
+            child.setToolTip(self._expression_column, error.text if error is not None and wrong else "")
             self.show_error(child, error)
         self.blockSignals(blocked)
 

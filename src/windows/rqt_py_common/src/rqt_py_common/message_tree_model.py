@@ -20,7 +20,7 @@ class MessageTreeModel(QStandardItemModel):
 
     def _get_toplevel_items(self, index_list):
         """The topmost items above those of a selection, each once."""
-        tops = {}
+        tops: dict = {}
         for index in index_list:
             item = self.itemFromIndex(index)
             while item.parent() is not None:

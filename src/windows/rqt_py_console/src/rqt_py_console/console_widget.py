@@ -3,6 +3,7 @@ import code
 import contextlib
 import io
 import sys
+from typing import List
 
 from python_qt_binding.QtCore import QSize, Qt
 from python_qt_binding.QtGui import QFontDatabase, QTextCursor
@@ -84,8 +85,10 @@ class PyConsoleWidget(QPlainTextEdit):
         import rlcompleter
 
         line = self.current_line()
-        word = re.search(r"[\w.]*$", line).group()
-        completer, found = rlcompleter.Completer(self._names), []
+        end = re.search(r"[\w.]*$", line)
+        word = end.group() if end else ""
+        completer = rlcompleter.Completer(self._names)
+        found: List[str] = []
         while word and len(found) < 200:
             entry = completer.complete(word, len(found))
             if entry is None:

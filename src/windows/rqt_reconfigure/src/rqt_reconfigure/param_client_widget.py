@@ -1,4 +1,6 @@
 """The editors of one server."""
+from typing import Any, Dict, Optional
+
 import rospy
 from python_qt_binding.QtCore import Qt, Signal
 from python_qt_binding.QtGui import QIcon
@@ -24,7 +26,9 @@ class ParamClientWidget(QWidget):
         super().__init__()
         self.setObjectName(f"client{node}")
         self.node, self._make_client = node, make_client
-        self._client, self.group, self._to_send = None, None, {}
+        self._client: Any = None  # what make_client makes, once the node is there
+        self.group: Optional[GroupWidget] = None
+        self._to_send: Dict[str, Any] = {}
         self._closed = False
         self._background = Background(self)
         self.title_label, self.status_label = QLabel(f"<b>{node}</b>"), QLabel("waiting for its description ...")
@@ -68,9 +72,9 @@ class ParamClientWidget(QWidget):
 
     def _connected(self, found) -> None:
         self._client, description, config = found
-        self.group = GroupWidget(description)
-        self.group.changed.connect(self.send)
-        self.group.group_changed.connect(lambda name, on: self.send({"groups": {name: on}}))
+        self.group = group = GroupWidget(description)
+        group.changed.connect(self.send)
+        group.group_changed.connect(lambda name, on: self.send({"groups": {name: on}}))
         self.group.show_values(config)
         self._layout.insertWidget(2, self.group)
         self.status_label.clear()
@@ -103,7 +107,7 @@ class ParamClientWidget(QWidget):
     def _not_sent(self, error) -> None:
         self._to_send.clear()
         self.status_label.setText(f"{self.node} did not take it: {error}")
-        if self._client.config is not None:
+        if self.group is not None and self._client.config is not None:
             self.group.show_values(self._client.config)
 
     def ask_and_load(self) -> None:
@@ -117,7 +121,7 @@ class ParamClientWidget(QWidget):
         except saved_values.SavedValuesError as error:
             self.status_label.setText(str(error))
             return
-        known = self.group.all_editors() if self.group else {}
+        known: Dict[str, Any] = self.group.all_editors() if self.group else {}
         unknown = sorted(set(values) - set(known))
         self.send({name: value for name, value in values.items() if name in known})
         if unknown:

@@ -1,7 +1,7 @@
 """Editors of single parameters."""
 import ast
 import math
-from typing import Any, List, Optional, Tuple
+from typing import Any, Callable, List, Optional, Tuple
 
 from python_qt_binding.QtCore import Qt, Signal
 from python_qt_binding.QtWidgets import QCheckBox, QComboBox, QHBoxLayout, QLabel, QLineEdit, QMenu, QSlider, QWidget
@@ -88,7 +88,7 @@ class StringEditor(Editor):
 class NumberEditor(Editor):
     """A slider with the bounds at its ends, and a text."""
 
-    kind = float
+    kind: Callable[[Any], float] = float
 
     def __init__(self, description):
         super().__init__(description)
@@ -224,7 +224,7 @@ def make_editor(description: dict) -> Optional[Editor]:
     choices = _choices(description.get("edit_method", ""))
     if choices:
         return EnumEditor(description, choices)
-    kind = _KINDS.get(description.get("type"))
+    kind = _KINDS.get(description.get("type", ""))
     return kind(description) if kind else None
 
 

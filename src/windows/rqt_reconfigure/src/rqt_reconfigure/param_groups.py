@@ -1,5 +1,5 @@
 """Groups of parameters as boxes, tabs, and boxes that fold."""
-from typing import Dict
+from typing import Any, Dict, List
 
 from python_qt_binding.QtCore import Signal
 from python_qt_binding.QtWidgets import QFormLayout, QGroupBox, QPushButton, QTabWidget, QVBoxLayout, QWidget
@@ -28,7 +28,8 @@ class GroupWidget(QWidget):
         super().__init__()
         self.name, self.kind = description.get("name", ""), description.get("type", "")
         self.editors: Dict[str, Editor] = {}
-        self.groups, self._pending = [], {}
+        self.groups: List[GroupWidget] = []
+        self._pending: Dict[str, Any] = {}
         form = QFormLayout(self)
         for parameter in description.get("parameters", []):
             editor = make_editor(parameter)

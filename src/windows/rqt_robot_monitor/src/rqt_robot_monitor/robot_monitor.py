@@ -1,7 +1,7 @@
 """Trees of aggregated diagnostics and the last half minute of them."""
 import time
 from collections import deque
-from typing import Dict
+from typing import Any, Deque, Dict
 
 import rospy
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
@@ -72,7 +72,7 @@ class RobotMonitorWidget(QWidget):
         self._topic = topic or "/diagnostics_agg"
         self.setObjectName("RobotMonitor")
         self.setWindowTitle("Diagnostics Viewer")
-        self._history = deque(maxlen=HISTORY)
+        self._history: Deque[Any] = deque(maxlen=HISTORY)
         self._looking_at = None  # a message of the past; None: the newest
         self._heard = None  # s
         self.trees: Dict[str, QTreeWidget] = {}

@@ -1,6 +1,7 @@
 """The plugin: the nodes of a rosmon, with a menu to start, stop and restart them."""
 import re
 from collections import deque
+from typing import Any, Deque
 
 import rospy
 from python_qt_binding.QtCore import Qt, QTimer
@@ -40,7 +41,7 @@ class Rosmon(Plugin):
         super().__init__(context)
         self.setObjectName("ROSMon")
         self._background = Background(self)
-        self._queue = deque(maxlen=1)
+        self._queue: Deque[Any] = deque(maxlen=1)
         self._subscriber, self._shown, self._wanted = None, "", ""
         self.nodes = {}  # full name -> NodeState
         self._widget = self._build()

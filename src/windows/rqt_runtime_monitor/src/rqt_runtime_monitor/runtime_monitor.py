@@ -2,6 +2,7 @@
 import html
 import time
 from collections import deque
+from typing import Any, Deque
 
 import rospy
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
@@ -23,7 +24,7 @@ class RuntimeMonitor(Plugin):
     def __init__(self, context):
         super().__init__(context)
         self.setObjectName("RuntimeMonitor")
-        self._queue = deque(maxlen=1000)
+        self._queue: Deque[Any] = deque(maxlen=1000)
         self._statuses = {}  # name -> (status, s of arrival, level shown, item)
         self._widget = QSplitter(Qt.Orientation.Vertical)
         self._widget.setObjectName("RuntimeMonitorWidget")

@@ -6,6 +6,7 @@ import signal
 import struct
 import termios
 import time
+from typing import Optional
 
 import pyte
 from python_qt_binding.QtCore import QRectF, QSize, QSocketNotifier, Qt, QTimer, Signal
@@ -36,6 +37,7 @@ class TerminalWidget(QWidget):
         self.screen = pyte.HistoryScreen(80, 24, history=_HISTORY, ratio=0.3)
         self._stream = pyte.ByteStream(self.screen)
         self.setMinimumSize(200, 100)
+        self._descriptor: Optional[int]
         self._process, self._descriptor = pty.fork()
         if self._process == 0:
             self._become(command or [os.environ.get("SHELL", "/bin/bash")])
@@ -74,6 +76,8 @@ class TerminalWidget(QWidget):
                 pass
 
     def _read(self) -> None:
+        if self._descriptor is None:
+            return
         try:
             data = os.read(self._descriptor, 65536)
         except BlockingIOError:

@@ -26,7 +26,7 @@ import sys
 import tempfile
 import time
 from contextlib import ExitStack
-from typing import Dict, List, Optional, Tuple
+from typing import Any, Dict, List, Optional, Tuple
 
 from rviz_offscreen.display import private_display
 
@@ -194,7 +194,7 @@ class Program:
 
     def _click(self, find, what, button, times, at) -> None:
         """Click when the thing has come to rest: windows are moved by their manager, menus unfold."""
-        seen = [None, None]
+        seen: List[Any] = [None, None]  # rectangles: the last but one, the last
 
         def resting():
             seen[:] = seen[1], find()

@@ -20,7 +20,7 @@ import os
 import shutil
 import tempfile
 import time
-from typing import Callable, Iterator, Optional, Sequence
+from typing import Any, Callable, Iterator, List, Optional, Sequence
 
 os.environ["QT_QPA_PLATFORM"] = "offscreen"
 if "XDG_RUNTIME_DIR" not in os.environ:
@@ -38,8 +38,8 @@ from qt_gui.icon_loader import choose_theme  # noqa: E402
 from qt_gui.plugin_context import PluginContext  # noqa: E402
 
 accept_floats()
-errors = []  # texts of warnings and errors since the last open_gui(): what a plugin raised, what the container refused
-_application = []
+errors: List[str] = []  # texts of warnings and errors since the last open_gui(): what a plugin raised, what the container refused
+_application: List[Any] = []
 
 
 def application() -> QApplication:
@@ -108,7 +108,9 @@ class FakeContext(PluginContext):
         application()
         self._parent = QObject()
         super().__init__(self._parent)
-        self.widgets, self.toolbars, self.closed = [], [], False
+        self.widgets: List[Any] = []
+        self.toolbars: List[Any] = []
+        self.closed = False
         self._argv, self._serial = list(argv), serial_number
 
     def serial_number(self):

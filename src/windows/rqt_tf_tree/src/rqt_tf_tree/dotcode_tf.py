@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import time as clock
-from typing import Any, Dict
+from typing import Any, Dict, Optional
 
 import yaml
 from qt_gui.errors import WindowError
@@ -62,8 +62,10 @@ class RosTfTreeDotcodeGenerator:
 
     def __init__(self, initial_listen_duration: float = 1):
         self.listen_duration = initial_listen_duration
-        self.dotcode = self.dotcode_factory = self.graph = None
-        self._look = None
+        self.dotcode: Optional[str] = None
+        self.dotcode_factory: Any = None
+        self.graph: Any = None
+        self._look: Dict[str, Any] = {}
 
     def generate_dotcode(self, dotcode_factory, tf2_frame_srv, timer=None, yaml_parser=yaml, rank="same", ranksep=0.2,
                          rankdir="TB", force_refresh=False) -> str:
@@ -73,15 +75,17 @@ class RosTfTreeDotcodeGenerator:
         :param timer: with ``now()``; rospy.Time without.
         """
         look = {"rank": rank, "rankdir": rankdir, "ranksep": ranksep}
-        if force_refresh or self.dotcode is None or (dotcode_factory, look) != (self.dotcode_factory, self._look):
+        dotcode = self.dotcode
+        if force_refresh or dotcode is None or (dotcode_factory, look) != (self.dotcode_factory, self._look):
             self.dotcode_factory, self._look = dotcode_factory, look
             clock.sleep(self.listen_duration)
             self.listen_duration = 0
             if timer is None:
-                from rospy import Time as timer
+                import rospy
+                timer = rospy.Time
             self.graph = self.generate(yaml_parser.safe_load(tf2_frame_srv().frame_yaml), timer.now().to_sec())
-            self.dotcode = dotcode_factory.create_dot(self.graph)
-        return self.dotcode
+            dotcode = self.dotcode = dotcode_factory.create_dot(self.graph)
+        return dotcode
 
     def generate(self, data, timestamp: float):
         """The factory's graph of frames as :func:`parse` returns them. :param timestamp: of the recording, s"""

@@ -3,7 +3,7 @@ import rospy
 import tf2_ros
 from python_qt_binding.QtCore import Qt, QTimer
 from python_qt_binding.QtGui import QKeySequence
-from python_qt_binding.QtWidgets import QVBoxLayout, QWidget
+from python_qt_binding.QtWidgets import QCheckBox, QVBoxLayout, QWidget
 from qt_gui.compatibility import QShortcut
 from rqt_graph.graph_pane import GraphPane
 from rqt_graph.toolbar import Row
@@ -33,9 +33,10 @@ class RosTfTree(Plugin):
         row.button("refresh_graph_push_button", "view-refresh", "Refresh", "Refresh TF tree (Ctrl+R)", self.refresh)
         self.auto_box = row.check("auto_refresh_check_box", "Auto", "Refresh every two seconds", False, self._set_auto)
         row.addStretch(1)
-        self.highlight_box = row.check("highlight_connections_check_box", "Highlight", "Highlight connections under the mouse", True,
-                                       lambda: self.pane.set_highlight(self.highlight_box.isChecked()))
-        self.fit_box = row.check("auto_fit_graph_check_box", "Fit", "Automatically fit graph into view", True,
+        self.highlight_box: QCheckBox = row.check(
+            "highlight_connections_check_box", "Highlight", "Highlight connections under the mouse", True,
+            lambda: self.pane.set_highlight(self.highlight_box.isChecked()))
+        self.fit_box: QCheckBox = row.check("auto_fit_graph_check_box", "Fit", "Automatically fit graph into view", True,
                                  lambda: self.pane.set_auto_fit(self.fit_box.isChecked()))
         row.button("fit_in_view_push_button", "zoom-fit-best", "Fit", "Fit graph in view", self.pane.fit)
         row.file_buttons(self.pane, "frames", self._load)

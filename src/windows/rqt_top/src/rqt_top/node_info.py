@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import socket
-from typing import Dict, List, NamedTuple, Optional
+from typing import Any, Dict, List, NamedTuple, Optional
 from urllib.parse import urlparse
 from xmlrpc.client import Error as XmlRpcError
 from xmlrpc.client import ServerProxy, Transport
@@ -46,7 +46,7 @@ class NodeInfo:
     """Looks at all nodes that run on this machine. Every call asks the master and the new nodes: not for the GUI's thread."""
 
     def __init__(self):
-        self._processes: Dict[str, Optional[psutil.Process]] = {}  # by the node's address: a restarted node has another
+        self._processes: Dict[str, psutil.Process] = {}  # by the node's address: a restarted node has another
 
     def look(self) -> List[NodeUsage]:
         """:raises rosgraph.MasterException or OSError: no master."""
@@ -89,7 +89,8 @@ class NodeInfo:
             host = urlparse(address).hostname or ""
             if not _is_here(host):
                 return None
-            code, _, pid = ServerProxy(address, transport=_Transport()).getPid("/rqt_top")
+            node: Any = ServerProxy(address, transport=_Transport())
+            code, _, pid = node.getPid("/rqt_top")
             return psutil.Process(pid) if code == 1 else None
         except (OSError, XmlRpcError, psutil.Error, ValueError):
             return None

@@ -2,7 +2,7 @@
 import threading
 import time
 from collections import deque
-from typing import Any, Optional, Tuple
+from typing import Any, Deque, Optional, Tuple
 
 import rospy
 from rqt_py_common.topic_helpers import get_type_class
@@ -24,7 +24,7 @@ class TopicInfo:
         self.monitoring = False
         self._subscriber = None
         self._lock = threading.Lock()
-        self._arrivals = deque(maxlen=WINDOW)  # (s, bytes)
+        self._arrivals: Deque[Tuple[float, int]] = deque(maxlen=WINDOW)  # (s, bytes)
         self._newest: Optional[bytes] = None
 
     def toggle_monitoring(self) -> None:

@@ -1,5 +1,6 @@
 """The node draw_square: drives turtle1 along a square of 2 m by its pose, for ever."""
 import math
+from typing import Any, List, Optional, Tuple
 
 import node_signals
 import rospy
@@ -20,11 +21,11 @@ class SquareDriver:
     def __init__(self, log):
         """:param log: takes a line of text"""
         self._log = log
-        self._goal = None  # x, y, theta
+        self._goal: Optional[Tuple[float, float, float]] = None  # x, y, theta
         self._moving = True  # False: waits until the turtle stands
         self._straight = True
 
-    def twist(self, pose) -> tuple:
+    def twist(self, pose) -> Optional[Tuple[float, float]]:
         """(m/s, rad/s) to command now, or None."""
         if self._goal is None:
             self._aim_ahead(pose)
@@ -48,6 +49,7 @@ class SquareDriver:
         self._log("New goal [%f %f, %f]" % self._goal)
 
     def _reached(self, pose) -> bool:
+        assert self._goal is not None  # twist() has chosen one
         x, y, theta = self._goal
         return (abs(pose.x - x) < NEAR and abs(pose.y - y) < NEAR
                 and abs(math.remainder(pose.theta - theta, 2 * math.pi)) < ALIGNED)
@@ -56,7 +58,7 @@ class SquareDriver:
 def main() -> None:
     node_signals.init_node("draw_square")
     driver = SquareDriver(rospy.loginfo)
-    newest = []
+    newest: List[Any] = []
     subscriber = rospy.Subscriber("turtle1/pose", Pose, lambda pose: newest.__setitem__(slice(None), [pose]), queue_size=1)
     publisher = rospy.Publisher("turtle1/cmd_vel", Twist, queue_size=1)
     try:

@@ -3,6 +3,7 @@ import queue
 import random
 import sys
 import time
+from typing import Callable
 from concurrent.futures import Future
 
 import node_signals
@@ -77,7 +78,7 @@ class TurtleNode:
 
     def __init__(self, window_of):
         """:param window_of: makes the window of a World"""
-        self._jobs = queue.SimpleQueue()
+        self._jobs: "queue.SimpleQueue[Callable[[], None]]" = queue.SimpleQueue()
         self._faces = {}
         self._world = World()
         self.window = window_of(self._world)
@@ -110,7 +111,7 @@ class TurtleNode:
 
     def _run(self, work):
         """Runs work() in the next tick and returns what it returns; for the threads of services."""
-        done = Future()
+        done: Future = Future()
 
         def job():
             try:

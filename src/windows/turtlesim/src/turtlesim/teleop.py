@@ -2,6 +2,7 @@
 import os
 import select
 import sys
+from typing import Optional
 import termios
 
 import node_signals
@@ -18,7 +19,7 @@ class Keyboard:
 
     def __init__(self, descriptor: int):
         self._descriptor = descriptor
-        self._settings = None
+        self._settings: Optional[list] = None
 
     def __enter__(self):
         try:

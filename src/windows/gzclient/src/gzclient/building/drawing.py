@@ -64,7 +64,7 @@ class PlanDrawing:
 
     def sheet(self, height: float, snap: float) -> None:
         """To draw on, at the height of a level's floor, m."""
-        if self._sheet is None:
+        if self._sheet is None or self._grid is None:
             vertices, triangles = boxes_mesh([((0.0, 0.0, -0.005), (_SHEET, _SHEET, 0.01))])
             self._sheet = self._scene.add_mesh_simple("/plan/sheet", vertices, triangles, color=(236, 240, 246),
                                                       cast_shadow=False)
@@ -105,7 +105,7 @@ class PlanDrawing:
             for at, stairs in enumerate(level.stairs):
                 element = Element(number, "stairs", at)
                 wanted[f"s{number}_{at}"] = (element, stairs, level.base, _paint(stairs.look, element == picked))
-            if level.floor is not None and (whole or number < plan.level):
+            if building is not None and level.floor is not None and (whole or number < plan.level):
                 wanted[f"f{number}"] = (None, tuple(_floor(building, number)), level.base, colour_of(level.floor))
         for name in [name for name, (content, _) in self._nodes.items() if wanted.get(name) != content]:
             self._nodes.pop(name)[1].remove()

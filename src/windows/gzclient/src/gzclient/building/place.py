@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 from typing import Any, Callable, Dict, List, Optional, Tuple
 
 from ode_sim.viewer.simulation import Refused
@@ -37,7 +38,17 @@ class PlaceControls:
         for control, change in ((self._from, lambda: self._put("from", self._from.value)),
                                 (self._to, lambda: self._put("to", self._to.value)),
                                 (self._length, self._stretch), (self._at, lambda: self._change(at=float(self._at.value)))):
-            on_update(control, lambda value, change=change: told(change))
+            on_update(control, partial(self._changed, told, change))
+
+    @staticmethod
+    def _changed(told: Callable[[Callable[[], None]], None], change: Callable[[], None], _value: Any) -> None:
+        told(change)
+
+    @property
+    def _shown(self) -> Tuple[Plan, Element]:
+        """The plan, and what is picked in it."""
+        assert self._plan is not None and self._which is not None  # the folder is not seen without them
+        return self._plan, self._which
 
     def show(self, plan: Plan, which: Optional[Element]) -> None:
         """Other things than numbers have changed, or what is picked."""
@@ -54,11 +65,13 @@ class PlaceControls:
 
     def _fill(self, but: Any = None) -> None:
         """The numbers as they are, but for the one that a hand is in."""
-        element = self._plan.element(self._which)
-        if self._which.kind == "walls":
+        plan, which = self._shown
+        element = plan.element(which)
+        values: Tuple[Tuple[Any, Any], ...]
+        if which.kind == "walls":
             values = ((self._from, tuple(element["from"])), (self._to, tuple(element["to"])),
                       (self._length, round(math.dist(element["from"], element["to"]), 6)))
-        elif self._which.kind == "stairs":
+        elif which.kind == "stairs":
             values = ((self._from, tuple(element["at"][:2])),)
         else:
             values = ((self._at, float(element["at"])),)
@@ -67,22 +80,25 @@ class PlaceControls:
                 control.value = value
 
     def _put(self, end: str, point: Any) -> None:
-        place = tuple(float(part) for part in point)
+        plan, which = self._shown
+        place = float(point[0]), float(point[1])
         if max(map(abs, place)) > _FARTHEST:
             raise Refused(f"That is more than {_FARTHEST:g} m away.")
-        if self._which.kind == "stairs":
+        if which.kind == "stairs":
             self._change(at=place)
             return
-        self._plan.put_ends(self._which.level, self._ends[end], place)
+        plan.put_ends(which.level, self._ends[end], place)
         self._fill(self._from if end == "from" else self._to)
 
     def _stretch(self) -> None:
-        wall, length = self._plan.element(self._which), float(self._length.value)
+        plan, which = self._shown
+        wall, length = plan.element(which), float(self._length.value)
         start, end = wall["from"], wall["to"]
         part = length / math.dist(start, end)
-        self._plan.put_ends(self._which.level, self._ends["to"],
-                            tuple(round(a + part * (b - a), 6) for a, b in zip(start, end)))
+        x, y = (round(a + part * (b - a), 6) for a, b in zip(start, end))
+        plan.put_ends(which.level, self._ends["to"], (x, y))
         self._fill(self._length)
 
     def _change(self, **settings: Any) -> None:
-        self._plan.change(self._which, **settings)
+        plan, which = self._shown
+        plan.change(which, **settings)

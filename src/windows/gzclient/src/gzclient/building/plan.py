@@ -27,7 +27,7 @@ class Element(NamedTuple):
 
     level: int
     kind: str
-    index: int
+    index: int  # type: ignore[assignment]  # nobody looks for a value in an Element as in a tuple
     wall: int = -1
 
 

@@ -5,20 +5,21 @@ import os
 import re
 import xml.etree.ElementTree as ET
 from dataclasses import replace
-from typing import Callable, List, Optional, Tuple
+from typing import Callable, List, Optional, Tuple, Union
 
 import lenient_xml
 import numpy as np
 from ode_sim.description import DescriptionError, ResourceFinder, model as d, read_sdf_model
 from ode_sim.description.sdf_writer import model_text
-from ode_sim.math3 import Pose
+from ode_sim.math3 import Pose, vec3
 from ode_sim.viewer.panels.base import free_name
-from ode_sim.viewer.shapes import shape_model
+from ode_sim.viewer.shapes import Simple, shape_model
 from ode_sim.viewer.simulation import Refused
 from ode_sim.whole_files import write_whole
 
 from gzclient.modelling import meshes
 
+Solid = Union[Simple, d.Mesh]  # what the editor makes
 #: As upstream's editor names it, in the home folder.
 FOLDER = "model_editor_models"
 JOINTS = ("revolute", "prismatic", "fixed", "ball", "universal", "revolute2", "screw")
@@ -64,7 +65,7 @@ class Draft:
             raise Refused(f"There is no link '{name}' any more.")
         return found
 
-    def add_link(self, shape: d.Geometry, mass: float = 1.0) -> str:
+    def add_link(self, shape: Solid, mass: float = 1.0) -> str:
         """A body of one shape beside the others, its inertia that of the shape; its name."""
         if len(self.model.links) >= _MOST_LINKS:
             raise Refused(f"A model has at most {_MOST_LINKS} links here.")
@@ -83,7 +84,7 @@ class Draft:
         """X_ML."""
         self.change_link(name, lambda link: replace(link, pose=pose))
 
-    def set_shape(self, name: str, shape: d.Geometry, mass: float, colour: Optional[d.Rgba] = None) -> None:
+    def set_shape(self, name: str, shape: Solid, mass: float, colour: Optional[d.Rgba] = None) -> None:
         """Other measures: the inertia follows."""
         if not (mass > 0.0 and np.isfinite(mass)):
             raise Refused("A mass is more than 0.")
@@ -143,7 +144,7 @@ class Draft:
         if child in above or here == child:
             raise Refused(f"'{child}' hangs on '{above.get(child, child)}' already.")
         name = free_name(f"{parent}_{child}", {joint.name for joint in self.model.joints})
-        unit = tuple(float(v) for v in np.asarray(axis, float) / np.linalg.norm(axis))
+        unit = vec3(np.asarray(axis, float) / np.linalg.norm(axis))
         axes = tuple(d.Axis(unit if number == 0 else _across(unit), *map(float, limits))
                      for number in range(AXES.get(kind, 0)))
         self._set(joints=self.model.joints + (d.Joint(name, kind, parent, child, Pose(anchor), axes),))
@@ -242,7 +243,7 @@ def keep_mesh(model: str, file: str, content: bytes) -> d.Mesh:
     return meshes.keep(path_of(model), checked_name(os.path.basename(file)), content)
 
 
-def _body(name: str, shape: d.Geometry, mass: float) -> d.Link:
+def _body(name: str, shape: Solid, mass: float) -> d.Link:
     """Its inertia is that of the shape."""
     solid = shape_model(name, d.Box() if isinstance(shape, d.Mesh) else shape, mass).links[0]
     inertial = meshes.inertial(shape, mass) if isinstance(shape, d.Mesh) else solid.inertial
@@ -254,7 +255,7 @@ def _across(axis: d.Vec3) -> d.Vec3:
     """A unit vector at right angles."""
     other = (1.0, 0.0, 0.0) if abs(axis[0]) < 0.9 else (0.0, 1.0, 0.0)
     made = np.cross(axis, other)
-    return tuple(float(v) for v in made / np.linalg.norm(made))
+    return vec3(made / np.linalg.norm(made))
 
 
 def _config(name: str) -> str:

@@ -10,7 +10,7 @@ from typing import Dict, Iterator, List, Tuple
 
 import numpy as np
 from ode_sim.description import model as d
-from ode_sim.math3 import Pose
+from ode_sim.math3 import Pose, vec3
 from ode_sim.mesh import load_surface, load_visual, mass_properties
 from ode_sim.viewer.simulation import Refused
 
@@ -61,7 +61,7 @@ def inertial(mesh: d.Mesh, mass: float) -> d.Inertial:
 
 def _inertial(mass: float, centre: np.ndarray, tensor: np.ndarray) -> d.Inertial:
     ixx, ixy, ixz, iyy, iyz, izz = (float(v) for v in tensor[np.triu_indices(3)])
-    return d.Inertial(mass, Pose(tuple(float(v) for v in centre)), ixx=ixx, ixy=ixy, ixz=ixz, iyy=iyy, iyz=iyz, izz=izz)
+    return d.Inertial(mass, Pose(vec3(centre)), ixx=ixx, ixy=ixy, ixz=ixz, iyy=iyy, iyz=iyz, izz=izz)
 
 
 def _closed(triangles: np.ndarray) -> bool:

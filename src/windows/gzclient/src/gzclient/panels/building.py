@@ -128,7 +128,7 @@ class BuildingPanel(Panel):
             self._show_picture()
             for client in self.page.server.get_clients().values():
                 self._look(client, "Plan")
-        else:
+        elif self._drawing is not None:
             self._drawing.close()
             self._drawing = None
 
@@ -220,10 +220,14 @@ class BuildingPanel(Panel):
         self._show_picked()
         self._refresh()
 
+    def _ghost(self, line: Tuple[Point, Point], thickness: float) -> None:
+        if self._drawing is not None:
+            self._drawing.ghost(line, self._plan.base(self._plan.level), thickness)
+
     def _click_wall(self, point: Point) -> None:
         if self._start is None:
             self._start = self._plan.snap_point(point)
-            self._drawing.ghost((self._start, self._start), self._plan.base(self._plan.level), 0.3)
+            self._ghost((self._start, self._start), 0.3)
             return
         if math.dist(self._start, self._plan.snap_point(point)) < 1e-6:
             self._end_path()
@@ -231,7 +235,7 @@ class BuildingPanel(Panel):
         end = self._plan.snap_end(self._start, point)
         self._plan.add_wall(self._start, end, **self._wall_settings())
         self._start = end
-        self._drawing.ghost((end, end), self._plan.base(self._plan.level), 0.3)
+        self._ghost((end, end), 0.3)
 
     def _end_path(self) -> None:
         self._start = self._drag = None
@@ -255,18 +259,19 @@ class BuildingPanel(Panel):
             return
         if phase == "start" or self._drag is None:
             self._end_path()
-            grip = self._plan.grip(element.index, begin) if tool == "Move" and element.kind == "walls" else ""
+            of_wall = tool == "Move" and element is not None and element.kind == "walls"
+            grip = self._plan.grip(element.index, begin) if element is not None and of_wall else ""
             self._drag = (element, grip, self._plan.snap_point(begin) if tool == "Wall" else begin)
         element, grip, begin = self._drag
         line = (begin, self._plan.snap_end(begin, point) if tool == "Wall" else point)
         if phase != "end":
-            self._drawing.ghost(line, self._plan.base(self._plan.level), float(self._thickness.value))
+            self._ghost(line, float(self._thickness.value))
             return
         self._end_path()
         try:
             if tool == "Wall":
                 self._picked = self._plan.add_wall(*line, **self._wall_settings())
-            else:
+            elif element is not None:
                 self._plan.move(element, grip, begin, point)
         finally:
             self._show_picked()

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import queue
+from functools import partial
 from typing import Any, Dict, Optional
 
 import rosgraph
@@ -74,9 +75,11 @@ class MarkersPanel(Panel):
             for name in sorted(found):
                 if name not in self._boxes:
                     self._boxes[name] = self.gui.add_checkbox(name, False)
-                    self.on_update(self._boxes[name], lambda on, name=name: self.page.later(
-                        lambda: self._switch(name, found[name], on)))
+                    self.on_update(self._boxes[name], partial(self._wish, name, found[name]))
         self._say("" if self._boxes else "no topic has markers")
+
+    def _wish(self, name: str, cls: type, on: bool) -> None:
+        self.page.later(lambda: self._switch(name, cls, on))
 
     def _switch(self, name: str, cls: type, on: bool) -> None:
         if on and name not in self._topics:

@@ -2,12 +2,13 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any, Callable, List, Optional
+from typing import Any, Callable, Dict, List, Optional
 
 from ode_sim.description import model as d
-from ode_sim.math3 import Pose
+from ode_sim.math3 import Pose, vec3
 from ode_sim.viewer.eye import put_eye
 from ode_sim.viewer.panels.base import Panel, counted, note
+from ode_sim.viewer.shapes import Simple
 from ode_sim.viewer.simulation import Refused
 
 from gzclient.modelling import draft
@@ -15,7 +16,7 @@ from gzclient.modelling.draft import JOINTS, Draft
 from gzclient.modelling.drawing import ModelSketch
 
 _NONE = "(none is saved)"
-_SHAPES = {"Box": d.Box((0.5, 0.5, 0.5)), "Sphere": d.Sphere(0.25), "Cylinder": d.Cylinder(0.2, 0.5)}
+_SHAPES: Dict[str, Simple] = {"Box": d.Box((0.5, 0.5, 0.5)), "Sphere": d.Sphere(0.25), "Cylinder": d.Cylinder(0.2, 0.5)}
 _LIMITLESS = 1e16
 _MOST_LIMIT = 1000.0  # typed limits beyond are none
 
@@ -65,8 +66,8 @@ class ModelPanel(Panel):
             self._colour = gui.add_rgb("Colour of it", (180, 180, 180))
             self._delete = gui.add_button("Delete link")
         for control in (self._size, self._mass, self._colour):
-            self.on_update(control, lambda value: self._busy or self._later(self._set_shape))
-        self.on_update(self._link_name, lambda value: self._busy or self._later(lambda: self._rename(value)))
+            self.on_update(control, lambda value: self._unless_busy(self._set_shape))
+        self.on_update(self._link_name, lambda value: self._unless_busy(lambda: self._rename(value)))
         self.on_click(self._delete, lambda: self._later(self._delete_picked))
 
     def _add_joint_controls(self) -> None:
@@ -108,6 +109,10 @@ class ModelPanel(Panel):
             self._refresh()
         self.page.later(act)
 
+    def _unless_busy(self, f: Callable[[], Any]) -> None:
+        if not self._busy:
+            self._later(f)
+
     def _later(self, f: Callable[[], Any]) -> None:
         """The same where the page has been asked already; a refusal is a line in the tab."""
         def act() -> None:
@@ -127,7 +132,7 @@ class ModelPanel(Panel):
             self._sketch = ModelSketch(self.page.server.scene, self._click, self._move)
             for client in self.page.server.get_clients().values():
                 put_eye(client, (2.5, -2.5, 2.0), (0.5, 0.0, 0.5))
-        else:
+        elif self._sketch is not None:
             self._sketch.close()
             self._sketch = None
         self._refresh()
@@ -156,9 +161,9 @@ class ModelPanel(Panel):
             return
         (parent, child), self._ends = self._ends, []
         low, high = (float(value) for value in self._limits.value)
-        self._draft.add_joint(self._kind.value, parent, child, tuple(map(float, self._axis.value)),
+        self._draft.add_joint(self._kind.value, parent, child, vec3(self._axis.value),
                               (low if low > -_MOST_LIMIT else -_LIMITLESS, high if high < _MOST_LIMIT else _LIMITLESS),
-                              tuple(map(float, self._anchor.value)))
+                              vec3(self._anchor.value))
 
     def _move(self, event: Any, link: str, position: tuple, wxyz: tuple) -> None:
         """The gizmo; one step of the history for each drag."""
@@ -166,7 +171,11 @@ class ModelPanel(Panel):
         if phase == "end":
             self._act(event, lambda: self._draft.set_pose(link, pose))
         else:
-            self.page.later(lambda: self._sketch is not None and self._sketch.place(link, pose))
+            self.page.later(lambda: self._place(link, pose))
+
+    def _place(self, link: str, pose: Pose) -> None:
+        if self._sketch is not None:
+            self._sketch.place(link, pose)
 
     def _pick(self, link: str) -> None:
         """Its measures in the controls."""
@@ -186,9 +195,9 @@ class ModelPanel(Panel):
     def _set_shape(self) -> None:
         if self._picked:
             old = self._draft.link(self._picked).collisions
-            shape = _with_measures(old[0].geometry if old else None, tuple(map(float, self._size.value)))
-            colour = tuple(part / 255 for part in self._colour.value) + (1.0,)
-            self._draft.set_shape(self._picked, shape, float(self._mass.value), colour)
+            shape = _with_measures(old[0].geometry if old else None, vec3(self._size.value))
+            red, green, blue = (part / 255 for part in self._colour.value)
+            self._draft.set_shape(self._picked, shape, float(self._mass.value), (red, green, blue, 1.0))
 
     def _rename(self, name: str) -> None:
         if self._picked and name != self._picked:
@@ -228,7 +237,7 @@ def _measures(shape: d.Geometry) -> tuple:
     return shape.scale if isinstance(shape, d.Mesh) else shape.size if isinstance(shape, d.Box) else (0.0, 0.0, 0.0)
 
 
-def _with_measures(shape: d.Geometry, sizes: tuple) -> d.Geometry:
+def _with_measures(shape: d.Geometry, sizes: d.Vec3) -> draft.Solid:
     """:raises Refused: a shape that has other measures."""
     if isinstance(shape, d.Sphere):
         return d.Sphere(sizes[0])

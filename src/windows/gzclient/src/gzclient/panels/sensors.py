@@ -1,6 +1,7 @@
 """What the sensors see and feel, drawn in the world where they are."""
 from __future__ import annotations
 
+from functools import partial
 from typing import Any, Dict, Optional
 
 import rosgraph
@@ -53,7 +54,7 @@ class SensorsPanel(Panel):
         self._sources: Dict[str, Dict[str, _Source]] = {}
         for kind in KINDS:
             box = self.gui.add_checkbox(kind, False)
-            self.on_update(box, lambda on, kind=kind: self._switch(kind, on))
+            self.on_update(box, partial(self._switch, kind))
         self._note = self.gui.add_html("")
 
     def on_world(self, world: WorldRecord) -> None:

@@ -25,7 +25,8 @@ class PerceptionScreen(Screen):
         self._kind = choice(("None", *_KINDS))
         self._kind.setObjectName("perception_kind")
         self.layout_.addWidget(self._kind)
-        self._stack, self._fields = QStackedWidget(), {}
+        self._stack = QStackedWidget()
+        self._fields: Dict[str, Any] = {}
         self._stack.addWidget(QWidget())
         for kind, values in _KINDS.items():
             page = QWidget()

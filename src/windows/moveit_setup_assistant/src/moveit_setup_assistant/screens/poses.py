@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import math
-from typing import Dict
+from typing import Any, Dict
 
 from python_qt_binding.QtCore import Qt, QTimer
 from python_qt_binding.QtWidgets import (QDoubleSpinBox, QFormLayout, QHBoxLayout, QLabel, QListWidget, QPushButton, QScrollArea,
@@ -23,7 +23,7 @@ class PosesScreen(Screen):
     def __init__(self, session) -> None:
         super().__init__(session)
         self._sliders: Dict[str, tuple] = {}
-        self._state = None
+        self._state: Any = None  # of motion, from enter() on
         row = QHBoxLayout()
         left, right = QVBoxLayout(), QVBoxLayout()
         self._list = QListWidget()

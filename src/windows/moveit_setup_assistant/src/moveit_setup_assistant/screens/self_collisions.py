@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import threading
-from typing import Dict
+from typing import Dict, Optional
 
 from python_qt_binding.QtCore import Signal
 from python_qt_binding.QtWidgets import (QCheckBox, QDoubleSpinBox, QFormLayout, QHBoxLayout, QHeaderView, QProgressBar, QPushButton,
@@ -25,7 +25,8 @@ class SelfCollisionsScreen(Screen):
     def __init__(self, session) -> None:
         super().__init__(session)
         self._reasons: Dict[collisions.Pair, str] = {}
-        self._thread, self._stop = None, False
+        self._thread: Optional[threading.Thread] = None
+        self._stop = False
         self._trials, self._always = QSpinBox(), QDoubleSpinBox()
         self._trials.setRange(1000, 100000)
         self._trials.setSingleStep(1000)

@@ -1,7 +1,7 @@
 """Rules in settings and perspectives, in upstream's form: a list of kinds, and a group of values for each rule."""
 from __future__ import annotations
 
-from typing import List
+from typing import Any, Dict, List
 
 from python_qt_binding.QtCore import QDateTime
 from rqt_py_common.ini_helper import pack, unpack
@@ -47,7 +47,7 @@ def load(settings, name: str, default: List[list]) -> List[list]:
 
 def _state(kind: str, group) -> dict:
     if kind == "time":
-        state = {"stop_enabled": _true(group.value("stop_time_enabled", True))}
+        state: Dict[str, Any] = {"stop_enabled": _true(group.value("stop_time_enabled", True))}
         for key in ("start", "stop"):
             time = QDateTime.fromString(str(group.value(f"{key}_time", "")), _STAMP)
             state[key] = time.toMSecsSinceEpoch() / 1000 if time.isValid() else 0.0

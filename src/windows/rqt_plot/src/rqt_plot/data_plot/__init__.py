@@ -1,7 +1,7 @@
 """A plot of named curves that other windows embed: `DataPlot`."""
 from __future__ import annotations
 
-from typing import Dict, List, Optional
+from typing import Any, Dict, List, Optional, Tuple
 
 from python_qt_binding.QtCore import QSize, Signal, qWarning
 from python_qt_binding.QtGui import QColor
@@ -41,6 +41,8 @@ class DataPlot(QWidget):
     #: modes of the y axis: all data, what is in the window; EXTEND never shrinks
     SCALE_ALL, SCALE_VISIBLE, SCALE_EXTEND = 1, 2, 4
 
+    _data_plot_widget: Any  # of a class that a backend brings
+
     limits_changed = Signal()
     _redraw = Signal()
     _add_curve = Signal(str, str, object, bool)
@@ -59,7 +61,7 @@ class DataPlot(QWidget):
         self._autoscroll = False
         self._autoscale_x, self._autoscale_y = True, DataPlot.SCALE_ALL
         self._fresh = True  # y limits are nobody's choice yet
-        self._vline = None
+        self._vline: Optional[Tuple[float, Any]] = None
         self._plot_index = -1
         self._data_plot_widget = None
         self._switch_data_plot_widget(0)

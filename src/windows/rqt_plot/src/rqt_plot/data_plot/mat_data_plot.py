@@ -1,7 +1,7 @@
 """Curves drawn by matplotlib."""
 from __future__ import annotations
 
-from typing import Dict, List
+from typing import Any, Dict, List
 
 from matplotlib.backends.backend_qtagg import FigureCanvasQTAgg, NavigationToolbar2QT
 from matplotlib.figure import Figure
@@ -26,7 +26,7 @@ class MatDataPlot(QWidget):
         layout.addWidget(self._canvas)
         self._axes.callbacks.connect("xlim_changed", lambda _axes: self.limits_changed.emit())
         self._axes.callbacks.connect("ylim_changed", lambda _axes: self.limits_changed.emit())
-        self._curves: Dict[str, object] = {}
+        self._curves: Dict[str, Any] = {}
         self._current_vline = None
 
     def add_curve(self, curve_id: str, curve_name: str, curve_color: QColor = QColor("blue"), markers_on: bool = False) -> None:
