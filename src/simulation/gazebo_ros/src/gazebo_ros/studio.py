@@ -11,7 +11,7 @@ from ode_sim.rendering import Camera, Frame, RenderProcess
 
 class _Shared:
     def __init__(self, world):
-        self.process = RenderProcess(world, lambda line: rospy.logwarn("%s", line))
+        self.process = RenderProcess(world, lambda line: rospy.logwarn("%s", line), lambda line: rospy.loginfo("%s", line))
         self.users = 0
 
 

@@ -7,9 +7,10 @@ from __future__ import annotations
 import ctypes
 import ctypes.util
 import os
-from typing import Any
+from typing import Any, Dict, List, Optional, Tuple
 
 from ode_sim.errors import RenderingUnavailable
+from ode_sim.rendering.devices import SOFTWARE, UnknownDevice, devices, index_of
 
 BACKENDS = ("auto", "egl", "osmesa")
 _GL_VERSION = 330
@@ -70,13 +71,39 @@ def _create_osmesa(moderngl):
         glcontext.get_backend_by_name = original
 
 
-def create_context(backend: str = "auto"):
+def _create_egl(moderngl, device: Optional[int]):
+    settings: Dict[str, Any] = {"standalone": True, "backend": "egl", "require": _GL_VERSION}  # versions type them differently
+    if device is not None:
+        settings["device_index"] = device
+    return moderngl.create_context(**settings)
+
+
+def _egl_devices(trouble: List[str]) -> List[Optional[int]]:
+    """Which to try, in turn: the one that ``ODE_SIM_GL_DEVICE`` names, else EGL's first; then software."""
+    wanted, known = os.environ.get("ODE_SIM_GL_DEVICE", ""), devices()
+    first: Optional[int] = None
+    if wanted:
+        try:
+            first = index_of(wanted, known)
+        except UnknownDevice as error:
+            trouble.append(f"ODE_SIM_GL_DEVICE: {error}; the first is taken")
+    software = [number for number, name in enumerate(known) if name == SOFTWARE and number != (first or 0)]
+    return [first, *software[:1]]
+
+
+def _reason(error: Exception) -> str:
+    return str(error).strip().splitlines()[0] if str(error).strip() else type(error).__name__
+
+
+def create_context(backend: str = "auto", trouble: Optional[List[str]] = None):
     """A current, headless ``moderngl.Context``.
 
     :param backend: ``egl``, ``osmesa`` or ``auto`` (EGL, then OSMesa; the environment variable ``ODE_SIM_GL``
-        overrides ``auto``).
+        overrides ``auto``). Of several cards ``ODE_SIM_GL_DEVICE`` chooses one: by EGL's index, by PCI address, or ``software``.
+    :param trouble: gets a line for a device that is not there or whose driver fails; the next one draws then.
     :raises RenderingUnavailable: no back-end works; the message says why for each.
     """
+    trouble = [] if trouble is None else trouble
     if backend == "auto":
         backend = os.environ.get("ODE_SIM_GL", "") or "auto"
     if backend not in BACKENDS:
@@ -86,14 +113,15 @@ def create_context(backend: str = "auto"):
         import moderngl
     except ImportError as error:
         raise RenderingUnavailable(f"no OpenGL: {error}; install python3-moderngl") from error
-    reasons = []
-    for name in ("egl", "osmesa") if backend == "auto" else (backend,):
+    tries: List[Tuple[str, Optional[int]]] = [("egl", device) for device in _egl_devices(trouble)] if backend != "osmesa" else []
+    reasons: List[str] = []
+    for name, device in tries + ([("osmesa", None)] if backend != "egl" else []):
         try:
-            if name == "osmesa":
-                return _create_osmesa(moderngl)
-            settings: Any = {"standalone": True, "backend": "egl", "require": _GL_VERSION}  # versions type them differently
-            return moderngl.create_context(**settings)
+            made = _create_osmesa(moderngl) if name == "osmesa" else _create_egl(moderngl, device)
         except Exception as error:  # moderngl, glcontext and ctypes each raise types of their own
-            reasons.append(
-                f"{name}: {str(error).strip().splitlines()[0] if str(error).strip() else type(error).__name__}")
+            reasons.append(f"{name}{'' if device is None else f' device {device}'}: {_reason(error)}")
+            continue
+        if reasons and (devices() or os.environ.get("ODE_SIM_GL_DEVICE")):  # without EGL, OSMesa is what was installed for it
+            trouble.append(f"{'; '.join(reasons)}; drawn by {made.info['GL_RENDERER']}")
+        return made
     raise RenderingUnavailable(f"no OpenGL ({'; '.join(reasons)}); install libegl1 with libgl1-mesa-dri, or libosmesa6")

@@ -57,6 +57,13 @@ class Failed:
 
 
 @dataclass(frozen=True)
+class DrawnBy:
+    """What draws: a graphics card's name, or the software's."""
+
+    device: str
+
+
+@dataclass(frozen=True)
 class Problems:
     """Lines about what cannot be drawn as described."""
 

@@ -23,7 +23,7 @@ from typing import Callable, Dict, List, Optional, Tuple
 import numpy as np
 
 from ode_sim.rendering.camera import Camera
-from ode_sim.rendering.messages import AddCamera, Done, Draw, Failed, ForgetCamera, Problems, SetScene
+from ode_sim.rendering.messages import AddCamera, Done, Draw, DrawnBy, Failed, ForgetCamera, Problems, SetScene
 from ode_sim.rendering.watch import SceneWatch, camera_seed
 
 #: What can be asked of a camera: the sensor image, compressed ones (``jpeg:QUALITY``, ``png:LEVEL``), depth in metres
@@ -67,11 +67,12 @@ class RenderProcess:
     """One render process for one world. :meth:`draw` and :meth:`add_camera` belong to the physics thread.
 
     :param report: called with one line about anything that cannot be drawn; from any thread.
+    :param tell: called with one line of what draws, when the first picture is asked for; from any thread.
     """
 
-    def __init__(self, world, report: Callable[[str], None]):
+    def __init__(self, world, report: Callable[[str], None], tell: Callable[[str], None] = lambda _line: None):
         self._world = world
-        self._report = report
+        self._report, self._tell = report, tell
         self._watch = SceneWatch(world)
         self._memory_fd = os.memfd_create("ode_sim images")
         self._memory: Optional[mmap.mmap] = None
@@ -205,6 +206,9 @@ class RenderProcess:
             if isinstance(answer, Problems):
                 for line in answer.lines:
                     self._report(line)
+                continue
+            if isinstance(answer, DrawnBy):
+                self._tell(f"cameras are drawn by {answer.device}")
                 continue
             with self._lock:
                 pending = self._pending.pop(answer.frame, None)

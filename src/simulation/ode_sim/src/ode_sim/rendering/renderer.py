@@ -79,7 +79,8 @@ class Renderer:
             shadows = os.environ.get("ODE_SIM_SHADOWS", "") or "auto"
         if shadows not in ("on", "off", "auto"):
             raise ValueError(f"shadows '{shadows}'; use on, off or auto")
-        self._ctx = create_context(backend)
+        trouble: List[str] = []
+        self._ctx = create_context(backend, trouble)
         self._software = any(name in self._ctx.info["GL_RENDERER"] for name in ("llvmpipe", "softpipe"))
         # what is no longer used is deleted in set_scene, with this context current: a collector that runs while another
         # renderer draws would delete that one's objects of the same number
@@ -89,6 +90,7 @@ class Renderer:
         self._samples = 4 if antialiasing == "msaa" else 0
         self._shadows = shadows
         self._assets = assets or Assets()
+        self._assets.problems += trouble
         self._mesh_buffers: Dict[Hashable, tuple] = {}
         self._textures: Dict[str, Any] = {}
         self._programs: Dict[tuple, Any] = {}

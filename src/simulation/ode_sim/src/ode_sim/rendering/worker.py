@@ -4,6 +4,7 @@ It ends when the socket closes, however the simulator went, so it never outlives
 """
 from __future__ import annotations
 
+import contextlib
 import mmap
 import signal
 from dataclasses import replace
@@ -15,7 +16,7 @@ import numpy as np
 
 from ode_sim.description.model import one_line
 from ode_sim.rendering.image import add_noise, cloud, compress, encode
-from ode_sim.rendering.messages import AddCamera, Done, Draw, Failed, ForgetCamera, Problems, SetScene
+from ode_sim.rendering.messages import AddCamera, Done, Draw, DrawnBy, Failed, ForgetCamera, Problems, SetScene
 from ode_sim.rendering.renderer import Renderer
 from ode_sim.rendering.scene import SceneDescription
 
@@ -36,6 +37,9 @@ class Worker:
             self._renderer = Renderer()
         except Exception as error:  # whatever GL says: every frame asked for is answered with it
             self._no_renderer = one_line(error, 300).strip() or type(error).__name__
+        else:
+            with contextlib.suppress(OSError):  # the simulator has gone already
+                self._connection.send(DrawnBy(self._renderer.device))
         while True:
             try:
                 request = self._connection.recv()
