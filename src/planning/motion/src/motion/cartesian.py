@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import List, Optional, Sequence
+from typing import List, Optional, Sequence, Union
 
 import numpy as np
 
@@ -77,7 +77,7 @@ def is_valid(scene: _core.PlanningScene, state: Optional[_core.RobotState] = Non
     return not explain(scene, state, group, constraints)
 
 
-def path_valid(scene: _core.PlanningScene, start: _core.RobotState, group: str, path: Sequence[Sequence[float]],
+def path_valid(scene: _core.PlanningScene, start: _core.RobotState, group: str, path: Union[np.ndarray, Sequence[Sequence[float]]],
                constraints: Optional[_core.Constraints] = None, padded: bool = True) -> List[int]:
     """Indices of the (k, n) way points that collide or break the constraints."""
     if not len(path):

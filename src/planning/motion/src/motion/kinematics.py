@@ -49,7 +49,7 @@ def _targets(model: _core.RobotModel, group: _core.Group, pose: Union[AnyPose, M
     return [(link, pose)]
 
 
-def _on_robot(state: _core.RobotState, name: str, pose: AnyPose) -> Tuple[str, Pose]:
+def _on_robot(state: _core.RobotState, name: str, pose: AnyPose) -> Tuple[str, AnyPose]:
     """The same target for the link that carries the frame ``name`` (a link, an attached body or its subframe)."""
     link, in_link = state.frame_link(name)
     return link, Pose(*(np.asarray(part, float) for part in pose)) * in_link.inverse() if link != name else pose

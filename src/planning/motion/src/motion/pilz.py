@@ -163,6 +163,7 @@ def _joint_limits(scene: _core.PlanningScene, group: str, unset: float) -> Tuple
 def _check_limits(scene: _core.PlanningScene, trajectory: Trajectory, what: str) -> None:
     """Refuse what is too fast for the joints between or at its points; what has no limit may be as fast as it likes."""
     velocity, acceleration = _joint_limits(scene, trajectory.group, np.inf)
+    assert trajectory.times is not None and trajectory.velocities is not None and trajectory.accelerations is not None
     steps = np.diff(trajectory.positions, axis=0) / np.diff(trajectory.times)[:, None]
     for rows, limits, name in ((steps, velocity, "velocity"), (trajectory.velocities, velocity, "velocity"),
                                (trajectory.accelerations, acceleration, "acceleration")):
@@ -173,9 +174,9 @@ def _check_limits(scene: _core.PlanningScene, trajectory: Trajectory, what: str)
                                      f"{name} limit {limits[joint]:.3g}; a smaller {name} scaling helps")
 
 
-def _trajectory(scene, group: str, start: _core.RobotState, times: Sequence[float], positions: Sequence[np.ndarray]) -> Trajectory:
+def _trajectory(scene, group: str, start: _core.RobotState, at: Sequence[float], points: Sequence[np.ndarray]) -> Trajectory:
     """Velocities and accelerations are those of the differences; it starts and ends at rest."""
-    times, positions = np.asarray(times, float), np.asarray(positions, float)
+    times, positions = np.asarray(at, float), np.asarray(points, float)
     velocities, accelerations = np.zeros_like(positions), np.zeros_like(positions)
     if len(times) > 2:
         velocities[1:-1] = np.gradient(positions, times, axis=0)[1:-1]
@@ -243,7 +244,7 @@ def _along(scene: _core.PlanningScene, start: _core.RobotState, request: MotionR
         values = _follow(scene, request.group, tool.link, tool.link_at(pose_at(share)), seed,
                          f"the {request.planner} motion cannot be followed beyond {share:.0%} of its way")
         positions.append(values)
-    trajectory = _trajectory(scene, request.group, start, times, positions)
+    trajectory = _trajectory(scene, request.group, start, list(times), positions)
     _check_limits(scene, trajectory, f"the {request.planner} motion")
     return trajectory
 
@@ -387,6 +388,7 @@ def _blend(
         raise _Refused("failed", f"the blend radius {radius:g} m is larger than a motion that it joins")
     enter = int(np.flatnonzero(~inside[0])[-1])
     leave = int(np.flatnonzero(~inside[1])[0])
+    assert first.times is not None and second.times is not None  # planned motions are timed
     t_enter, t_leave = first.times[enter], second.times[leave]
     duration = max(first.duration - t_enter, t_leave)
     steps = max(2, int(np.ceil(duration / _SAMPLING)))

@@ -51,6 +51,8 @@ class Pipeline:
         "LimitMaxCartesianLinkSpeed", "AddTimeParameterization", "ResolveConstraintFrames", "FixWorkspaceBounds",
         "FixStartStateBounds", "FixStartStateCollision", "FixStartStatePathConstraints")]
 
+    ADAPTERS: List[str] = []  #: names of all adapters, without their prefix; from their table below
+
     def __init__(self, adapters: Sequence[str] = tuple(NOETIC_ADAPTERS), params: Optional[Mapping[str, Any]] = None):
         self.params: Dict[str, Any] = dict(params or {})
         self.warnings: List[str] = []
@@ -139,7 +141,7 @@ def _jerk(pipeline: Pipeline, inside: Planner, scene, request, cancel) -> PlanRe
         return result
     if result.trajectory.times is None:
         result = _timing("time_optimal")(pipeline, lambda *_: result, scene, request, cancel)
-    if not result or result.added_prefix:  # what was put before is no part of the motion
+    if not result or result.trajectory is None or result.added_prefix:  # what was put before is no part of the motion
         return result
     return replace(result, trajectory=limit_jerk(result.trajectory))
 
@@ -225,5 +227,4 @@ _ADAPTERS = {
     "FixStartStatePathConstraints": _start_constraints,
 }
 
-#: names of all adapters, without their prefix
 Pipeline.ADAPTERS = sorted(_ADAPTERS)

@@ -32,7 +32,8 @@ def above_zero(name: str, what: str, most: float) -> None:
 def _limits(
     trajectory: Trajectory, velocity_scaling: float, acceleration_scaling: float, scale_unset: bool
 ) -> Tuple[np.ndarray, np.ndarray]:
-    velocity, acceleration = [], []
+    velocity: List[float] = []
+    acceleration: List[float] = []
     for name in trajectory.variables:
         limits = trajectory.model.variable_limits(name)
         for has, most, scaling, into, what in (
@@ -94,6 +95,7 @@ def limit_jerk(trajectory: Trajectory) -> Trajectory:
     if trajectory.times is None or trajectory.velocities is None or len(trajectory) < 2 or trajectory.duration <= 0:
         return trajectory
     smooth = trajectory.replaced().unwind()
+    assert smooth.times is not None and smooth.velocities is not None  # as the trajectory's
     keep = np.concatenate([[True], np.diff(smooth.times) > 1e-9])
     times, points, speeds = smooth.times[keep] - smooth.times[0], smooth.positions[keep], smooth.velocities[keep]
     limits = [smooth.model.variable_limits(name) for name in smooth.variables]

@@ -1,9 +1,10 @@
 """Paths and trajectories of a group."""
 from __future__ import annotations
 
-from typing import List, Optional, Sequence
+from typing import Any, Dict, List, Optional
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from motion import _core
 
@@ -19,9 +20,9 @@ class Trajectory:
     :raises InvalidInputError: shapes that do not fit each other, numbers that are not finite.
     """
 
-    def __init__(self, model: _core.RobotModel, group: str, start: _core.RobotState, positions: Sequence[Sequence[float]],
-                 times: Optional[Sequence[float]] = None, velocities: Optional[Sequence[Sequence[float]]] = None,
-                 accelerations: Optional[Sequence[Sequence[float]]] = None):
+    def __init__(self, model: _core.RobotModel, group: str, start: _core.RobotState, positions: ArrayLike,
+                 times: Optional[ArrayLike] = None, velocities: Optional[ArrayLike] = None,
+                 accelerations: Optional[ArrayLike] = None):
         self.model = model
         self.group = group
         self.variables: List[str] = model.group(group).variables
@@ -87,9 +88,9 @@ class Trajectory:
 
     def replaced(self, **fields: object) -> "Trajectory":
         """A copy with other positions, times, velocities or accelerations."""
-        values = {"positions": self.positions, "times": self.times, "velocities": self.velocities,
-                  "accelerations": self.accelerations, "start": self._start, **fields}
-        return Trajectory(self.model, self.group, **values)  # type: ignore[arg-type]
+        values: Dict[str, Any] = {"positions": self.positions, "times": self.times, "velocities": self.velocities,
+                                  "accelerations": self.accelerations, "start": self._start, **fields}
+        return Trajectory(self.model, self.group, **values)
 
     def reversed(self) -> "Trajectory":
         """The same way back in the same time."""
@@ -137,7 +138,7 @@ class Trajectory:
         return f"<trajectory of '{self.group}', {len(self)} points{timed}>"
 
 
-def _rows(values: Sequence[Sequence[float]], size: int, what: str, count: Optional[int] = None) -> np.ndarray:
+def _rows(values: ArrayLike, size: int, what: str, count: Optional[int] = None) -> np.ndarray:
     rows = np.array(values, float).reshape(-1, size) if np.size(values) == 0 else np.array(values, float)
     if rows.ndim != 2 or rows.shape[1] != size or (count is not None and len(rows) != count) or not np.isfinite(rows).all():
         wanted = f"({'k' if count is None else count}, {size})"

@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import time
-from typing import List, Optional, Sequence
+from typing import List, Optional, Sequence, Tuple
 
 import rospy
 from moveit_msgs.msg import (AttachedCollisionObject, CollisionObject, Constraints, ExecuteTrajectoryAction,
@@ -37,7 +37,7 @@ class GroupRequests:
         self.start_state: Optional[RobotState] = None
         self.path_constraints: Optional[Constraints] = None
         self.trajectory_constraints: Optional[TrajectoryConstraints] = None
-        self.workspace = (0.0,) * 6
+        self.workspace: Tuple[float, ...] = (0.0,) * 6  # low x, y, z, high x, y, z
         self.replan = False
         self.look = False
         self.replan_delay = 2.0

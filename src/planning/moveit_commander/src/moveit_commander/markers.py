@@ -87,7 +87,7 @@ def _colour(material) -> Optional[ColorRGBA]:
 
 def _origin(element) -> motion.Pose:
     if element is None:
-        return motion.Pose(*convert.IDENTITY)
+        return motion.Pose.identity()
     return motion.Pose.from_rpy(_numbers(element.get("xyz"), (0.0,) * 3), _numbers(element.get("rpy"), (0.0,) * 3))
 
 

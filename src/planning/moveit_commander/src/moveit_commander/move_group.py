@@ -1,7 +1,7 @@
 """Planning and moving one group of joints."""
 from __future__ import annotations
 
-from typing import Dict, List, Optional, Sequence, Tuple, Union
+from typing import Any, Dict, List, Optional, Sequence, Tuple, Union
 
 import genpy
 import motion
@@ -54,7 +54,7 @@ class MoveGroupCommander(TargetCommands):
             raise RuntimeError(f"Group '{name}' was not found. The robot '{self._model.name}' has the groups: "
                                + (", ".join(self._model.groups) or "none; is the SRDF loaded?"))
         self._name = name
-        self._warehouse = None
+        self._warehouse: Any = None  # StoredConstraints, which not everybody has the database for
         self._group = self._model.group(name)
         settings = self._session.description.kinematics.get(name)
         self._targets = Targets(self._model, name, *((settings.joint_tolerance, settings.position_tolerance,
@@ -382,7 +382,7 @@ class MoveGroupCommander(TargetCommands):
         return state
 
     def get_jacobian_matrix(self, joint_values: Sequence[float],
-                            reference_point: Optional[Sequence[float]] = None) -> List[List[float]]:
+                            reference_point: Optional[Sequence[float]] = None) -> np.ndarray:
         """The (6, n) Jacobian of the end effector at ``joint_values``, rows v and w."""
         state = self._model.state()
         state.set_group(self._name, np.asarray(joint_values, dtype=float))

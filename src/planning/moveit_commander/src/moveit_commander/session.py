@@ -154,7 +154,7 @@ class Action:
             if gone > 2.0:
                 rospy.logerr("the action server %s has gone away", rospy.resolve_name(self.name))
                 return None
-        return self._goal.get_result()
+        return self._goal.get_result() if self._goal is not None else None
 
     def text(self) -> str:
         """What the server said about the last goal, unless it succeeded."""

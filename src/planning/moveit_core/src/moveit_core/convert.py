@@ -148,7 +148,7 @@ def shapes(message, owner: str) -> Tuple[list, List[motion.Pose]]:
                 found.append(make(entry))
             except ValueError as error:
                 raise ValueError(f"{owner}: {error}") from error
-            poses.append(pose(given[index], owner) if index < len(given) else motion.Pose(*IDENTITY))
+            poses.append(pose(given[index], owner) if index < len(given) else motion.Pose.identity())
     return found, poses
 
 

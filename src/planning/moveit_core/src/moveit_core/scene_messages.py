@@ -2,7 +2,7 @@
 and diffs."""
 from __future__ import annotations
 
-from typing import Callable, List, Optional, Sequence
+from typing import Callable, Iterable, List, Optional
 
 import motion
 from geometry_msgs.msg import TransformStamped
@@ -67,7 +67,7 @@ class SceneEditor:
             raise ValueError("it has no shape: give it primitives, meshes or planes")
         pose = convert.pose(message.pose, f"object '{message.id}'")
         if len(shapes) == 1 and _is_zero(message.pose):  # messages of older clients: the pose is that of the only shape
-            pose, poses = poses[0], [motion.Pose(*convert.IDENTITY)]
+            pose, poses = poses[0], [motion.Pose.identity()]
         if len(message.subframe_names) != len(message.subframe_poses):
             raise ValueError(f"it has {len(message.subframe_names)} subframe_names and "
                              f"{len(message.subframe_poses)} subframe_poses")
@@ -347,9 +347,9 @@ def _is_zero(pose) -> bool:
     return (at.x, at.y, at.z, turn.x, turn.y, turn.z) == (0, 0, 0, 0, 0, 0)
 
 
-def _list(names: Sequence[str]) -> str:
-    names = sorted(names)
-    return ", ".join(names[:8]) + (f" and {len(names) - 8} more" if len(names) > 8 else "") if names else "none"
+def _list(names: Iterable[str]) -> str:
+    known = sorted(names)
+    return ", ".join(known[:8]) + (f" and {len(known) - 8} more" if len(known) > 8 else "") if known else "none"
 
 
 # --- to messages ---

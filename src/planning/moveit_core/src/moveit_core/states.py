@@ -53,7 +53,7 @@ def apply_robot_state(scene, state: motion.RobotState, message: RobotState, atta
 
 
 def _frame_of_joints(scene, state: motion.RobotState, multi: MultiDOFJointState) -> motion.Pose:
-    here = motion.Pose((0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0))
+    here = motion.Pose.identity()
     if not multi.joint_names or convert.strip(multi.header.frame_id) in ("", state.model.frame):
         return here
     try:
@@ -165,7 +165,7 @@ def trajectory_message(trajectory: Optional[motion.Trajectory]) -> RobotTrajecto
             for rows in (trajectory.positions, trajectory.velocities, trajectory.accelerations))
         for i, stamp in enumerate(stamps):
             joints.points.append(JointTrajectoryPoint(
-                positions=positions[i], velocities=velocities[i] if velocities else [],
+                positions=positions[i] if positions else [], velocities=velocities[i] if velocities else [],
                 accelerations=accelerations[i] if accelerations else [], time_from_start=stamp))
     if multi:
         message.multi_dof_joint_trajectory.joint_names = multi

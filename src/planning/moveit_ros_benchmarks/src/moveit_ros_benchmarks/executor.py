@@ -83,7 +83,7 @@ class Executor:
         :raises OptionsError: the scene is not there, or there is nothing to solve.
         """
         options = self.options
-        if options.scene:
+        if options.scene and warehouse is not None:
             self._load_scene(warehouse)
         starts = self._stored(warehouse, "states", options.start_states)
         paths = self._stored(warehouse, "constraints", options.path_constraints)
@@ -91,6 +91,7 @@ class Executor:
         for name, goal in self._stored(warehouse, "constraints", options.goal_constraints).items():
             found += self._combined(name, self._request(goal_constraints=[self._shifted(goal)]), starts, paths)
         for name in self._queries(warehouse):
+            assert warehouse is not None  # it has the queries
             request = warehouse.requests.load(name, scene=options.scene)
             self._complete(request)
             found += self._combined(name, request, starts, paths)
@@ -210,7 +211,7 @@ class Executor:
 
     def run(self, problems: List[Problem]) -> List[str]:
         """Run everything; the log files, one for each problem."""
-        files = []
+        files: List[str] = []
         for number, problem in enumerate(problems, 1):
             rospy.loginfo("Benchmarking query '%s' (%d of %d)", problem.name, number, len(problems))
             setup = f"Motion plan request:\n{problem.request}\nPlanning scene: \n{scene_message(self._scene)}"

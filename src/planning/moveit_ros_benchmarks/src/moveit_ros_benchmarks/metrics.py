@@ -42,7 +42,7 @@ def of_run(scene: motion.PlanningScene, result: Optional[motion.PlanResult], too
     """The properties of one run, by the names of the log. :param took: s, of the whole request."""
     solved = bool(result)
     run = {"time REAL": f"{took:.9g}", "solved BOOLEAN": str(int(solved))}
-    trajectory = result.trajectory if solved else None
+    trajectory = result.trajectory if result else None
     if trajectory is None or not len(trajectory):
         return run
     states = [trajectory.state(k) for k in range(len(trajectory))]
@@ -59,9 +59,9 @@ def of_run(scene: motion.PlanningScene, result: Optional[motion.PlanResult], too
 
 def add_similarity(runs: List[Run], trajectories: List[Optional[motion.Trajectory]]) -> None:
     """How far each path is from the others, on average, by way points: average_waypoint_distance."""
-    solved = [i for i, trajectory in enumerate(trajectories) if trajectory is not None and len(trajectory)]
-    for i in solved:
-        distances = [_between(trajectories[i], trajectories[j]) for j in solved if j != i]
+    solved = {i: trajectory for i, trajectory in enumerate(trajectories) if trajectory is not None and len(trajectory)}
+    for i, trajectory in solved.items():
+        distances = [_between(trajectory, other) for j, other in solved.items() if j != i]
         runs[i]["average_waypoint_distance REAL"] = f"{np.mean(distances) if distances else 0.0:.9g}"
 
 

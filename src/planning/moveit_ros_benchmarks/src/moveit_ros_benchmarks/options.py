@@ -136,8 +136,8 @@ def _old(content: str, file: str) -> Options:
     for name, _ in names:
         kind = parser[name].get("name", "")
         pipelines.append({"name": "ompl" if "ompl" in kind.lower() else kind, "planners": parser[name].get("planners", "").split()})
-    numbers = {key: yaml.safe_load(scene[key]) for key in ("runs", "timeout") if key in scene}
-    parameters = {
+    numbers: Dict[str, Any] = {key: yaml.safe_load(scene[key]) for key in ("runs", "timeout") if key in scene}
+    parameters: Dict[str, Any] = {
         "name": scene.get("name", ""),
         "group": scene.get("group", ""),
         "queries": scene.get("query", ".*"),

@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import time
-from typing import Dict, List, Optional, Sequence
+from typing import Any, Dict, List, Optional, Sequence
 
 import rosgraph
 import rospy
@@ -32,7 +32,7 @@ class ControlManager(ControllerManager):
         given = rospy.get_param(namespace + "ros_control_namespace",
                                 "/") if control_namespace is None else control_namespace
         self._ns = "/" + given.strip("/") + ("/" if given.strip("/") else "")
-        self._known: Dict[str, object] = {}
+        self._known: Dict[str, Any] = {}
         self._read = 0.0
         self._handles: Dict[str, ControllerHandle] = {}
         rospy.loginfo("Started moveit_ros_control_interface::MoveItControllerManager for namespace %s", self._ns)

@@ -67,15 +67,16 @@ class _Manipulate(ActionCapability):
         if plan_only:
             plan = self.plan(self.context.monitor.copy(options.planning_scene_diff), goal, result)
         else:
-            plan = self.context.plan_execution.plan_and_execute(
+            plan = self.plan_execution.plan_and_execute(
                 lambda scene: self.plan(scene, goal, result), options.planning_scene_diff, self.stop, options.replan,
                 options.replan_attempts, options.replan_delay, before=lambda: self.feedback("MONITOR"), stops=self.stops)
         result.error_code.val, result.planning_time = plan.code, plan.planning_time
-        trajectories = [segment.trajectory for segment in plan.segments]
+        stages = [(segment.trajectory, segment.description) for segment in plan.segments if segment.trajectory is not None]
+        trajectories = [trajectory for trajectory, _ in stages]
         if trajectories:
             result.trajectory_start = states.robot_state_message(trajectories[0].start)
         result.trajectory_stages = [states.trajectory_message(trajectory) for trajectory in trajectories]
-        result.trajectory_descriptions = [segment.description for segment in plan.segments]
+        result.trajectory_descriptions = [description for _, description in stages]
         return result_text(plan.code, plan.message, not trajectories, options.plan_only)
 
     def plan(self, scene, goal, result) -> Plan:
@@ -132,7 +133,7 @@ class _Manipulate(ActionCapability):
             last = self._try(planner, scene, make, entry)
             if last.segments:
                 setattr(result, field, entry)
-                self.context.display.trajectories([segment.trajectory for segment in last.segments])
+                self.context.display.trajectories([segment.trajectory for segment in last.segments if segment.trajectory is not None])
                 return Plan(MoveItErrorCodes.SUCCESS, "", last.segments, started - planner.left)
             rospy.loginfo("%s: %s", entry.id or "one way", last.message)
             if planner.left <= 0 or self.stop.is_set():

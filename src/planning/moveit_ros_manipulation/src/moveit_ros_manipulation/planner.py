@@ -1,6 +1,7 @@
 """Plans how an object is picked up and put down: free motion, straight approach, gripper, straight retreat."""
 from __future__ import annotations
 
+import math
 import time
 from dataclasses import dataclass, field
 from typing import Callable, Dict, List, Optional, Sequence, Tuple
@@ -158,6 +159,7 @@ class Manipulation:
 
     def _closer(self, scene, task: Task, state) -> np.ndarray:
         """Joint values of the hand moved along the approach, to a step before it meets something."""
+        assert task.allow_closer is not None  # asked for by tasks that have one
         near = self._loosened(scene, task.allow_closer)
         self._set_posture(near, task.open)
         rows = self._line(near, task, state, task.approach, _CLOSER)[0]
@@ -182,9 +184,9 @@ class Manipulation:
         here = state.pose(task.link)
         frame = convert.strip(move.direction.header.frame_id)
         rotation = here if frame == task.link else scene.frame_pose(frame,
-                                                                    state) if frame else motion.Pose(*convert.IDENTITY)
+                                                                    state) if frame else motion.Pose.identity()
         step = motion.Pose(np.zeros(3), rotation.quaternion) * motion.Pose(vector / length * distance,
-                                                                           convert.IDENTITY[1])
+                                                                           motion.Pose.identity().quaternion)
         goal = motion.Pose(np.asarray(here.position) + np.asarray(step.position), here.quaternion)
         found = motion.cartesian_path(scene, task.group, [goal], link=task.link, start=state, max_step=self._settings.step,
                                       jump_threshold=self._settings.jump,
@@ -214,7 +216,7 @@ class Manipulation:
 def moves(move: GripperTranslation) -> bool:
     """Whether a distance and a direction were given."""
     direction = move.direction.vector
-    return move.desired_distance > 0 and np.linalg.norm((direction.x, direction.y, direction.z)) > 1e-9
+    return move.desired_distance > 0 and math.hypot(direction.x, direction.y, direction.z) > 1e-9
 
 
 def check_motion(move: GripperTranslation, what: str) -> None:

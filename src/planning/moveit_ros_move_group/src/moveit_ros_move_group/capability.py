@@ -10,7 +10,7 @@ import rospy
 from moveit_msgs.msg import MoveItErrorCodes
 
 from moveit_core.errors import PlanningError, code_name, one_line
-from moveit_ros_planning.plan_execution import Stop
+from moveit_ros_planning.plan_execution import PlanExecution, Stop
 
 from .context import Context
 
@@ -23,11 +23,17 @@ class Capability:
     def __init__(self, context: Context):
         self.context = context
 
+    @property
+    def plan_execution(self) -> PlanExecution:
+        """What plans and executes, of a move_group that may execute."""
+        assert self.context.plan_execution is not None
+        return self.context.plan_execution
+
     def shutdown(self) -> None:
         """End what the capability is doing."""
 
 
-def serve(name: str, kind: type, handler: Callable[[Any, Any], None]) -> rospy.Service:
+def serve(name: str, kind: Any, handler: Callable[[Any, Any], None]) -> rospy.Service:
     """Offer a service: ``handler(request, response)`` fills the response.
 
     PlanningError puts its code into ``response.error_code`` (or that of ``motion_plan_response``), if there is one,

@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import math
-from typing import Optional, Tuple
+from typing import Optional, Sequence, Tuple
 
 import numpy as np
 import rospy
@@ -20,8 +20,8 @@ def depths(message: Image) -> np.ndarray:
     """
     if message.encoding not in _ENCODINGS:
         raise UpdaterError(f"Unexpected encoding type: '{message.encoding[:20]}' (known are {', '.join(_ENCODINGS)})")
-    kind, scale = _ENCODINGS[message.encoding]
-    kind = np.dtype((">" if message.is_bigendian else "<") + kind)
+    code, scale = _ENCODINGS[message.encoding]
+    kind = np.dtype((">" if message.is_bigendian else "<") + code)
     if message.step < message.width * kind.itemsize or len(message.data) < message.step * message.height:
         raise UpdaterError(f"an image of {message.width} x {message.height} pixels with {len(message.data)} bytes is not whole")
     rows = np.frombuffer(message.data, np.uint8, message.step * message.height).reshape(message.height, message.step)
@@ -99,10 +99,10 @@ class DepthImageUpdater(OccupancyMapUpdater):
         ends, beyond = directions[hit] * depth[hit, None], directions[depth > self.far] * self.far
         labels = self.monitor.see(message.header.frame_id, message.header.stamp, ends, beyond, 1.0, self._grown, self.shadow)
         if self._filtered.get_num_connections():
-            self._publish(message, ends[labels == 0], values.shape)
+            self._publish(message, self._info.K, ends[labels == 0], values.shape)
 
-    def _publish(self, message: Image, ends: np.ndarray, shape: Tuple[int, int]) -> None:
-        image, k = np.zeros(shape, "<u2"), self._info.K
+    def _publish(self, message: Image, k: Sequence[float], ends: np.ndarray, shape: Tuple[int, ...]) -> None:
+        image = np.zeros(shape, "<u2")
         u = np.rint(ends[:, 0] / ends[:, 2] * k[0] + k[2]).astype(int)
         v = np.rint(ends[:, 1] / ends[:, 2] * k[4] + k[5]).astype(int)
         image[np.clip(v, 0, shape[0] - 1), np.clip(u, 0, shape[1] - 1)] = np.clip(ends[:, 2] * 1e3 + 0.5, 0, 65535)

@@ -69,9 +69,10 @@ class PointCloudUpdater(OccupancyMapUpdater):
         labels = self.monitor.see(message.header.frame_id, message.header.stamp, ends, beyond, self.scale,
                                   lambda _distance: self.padding)
         if self._filtered is not None and self._filtered.get_num_connections():
-            self._publish(message, ends[labels == 0])
+            self._publish(self._filtered, message, ends[labels == 0])
 
-    def _publish(self, message: PointCloud2, kept: np.ndarray) -> None:
+    @staticmethod
+    def _publish(publisher: rospy.Publisher, message: PointCloud2, kept: np.ndarray) -> None:
         fields = [PointField(name, 4 * i, PointField.FLOAT32, 1) for i, name in enumerate("xyz")]
-        self._filtered.publish(PointCloud2(header=message.header, height=1, width=len(kept), fields=fields, point_step=12,
-                                           row_step=12 * len(kept), data=kept.astype("<f4").tobytes(), is_dense=True))
+        publisher.publish(PointCloud2(header=message.header, height=1, width=len(kept), fields=fields, point_step=12,
+                                      row_step=12 * len(kept), data=kept.astype("<f4").tobytes(), is_dense=True))

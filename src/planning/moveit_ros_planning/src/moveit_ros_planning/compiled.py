@@ -39,7 +39,7 @@ class CompiledPipeline:
     """
 
     def __init__(self, description, namespace: str):
-        from . import _pipelines  # heavy: for those who need it only
+        from . import _pipelines  # type: ignore[attr-defined]  # compiled, and heavy: for those who need it only
         self._description = description
         self._pipeline = _pipelines.CompiledPipeline(
             description.model, description.urdf, description.srdf, description=description.name,

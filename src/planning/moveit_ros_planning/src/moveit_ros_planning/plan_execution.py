@@ -4,7 +4,7 @@ from __future__ import annotations
 import threading
 import time
 from dataclasses import dataclass, field
-from typing import Callable, List, Optional
+from typing import Any, Callable, Dict, List, Optional
 
 import motion
 import rospy
@@ -79,7 +79,7 @@ class PlanExecution:
     def __init__(self, monitor: SceneMonitor, execution: TrajectoryExecution, namespace: str = "~"):
         self._monitor = monitor
         self._execution = execution
-        self.config = {}
+        self.config: Dict[str, Any] = {}
         self._server = Server(namespace + "plan_execution", _PARAMETERS, self._reconfigure)
         self._sensing = Server(namespace + "sense_for_plan", _SENSING, lambda config, level: None)
 

@@ -120,7 +120,7 @@ class Pipeline:
             result = self._generate(scene, self.request(scene, message), cancel)
         took = time.monotonic() - started
         self._warn(result.warnings)
-        if result:
+        if result and result.trajectory is not None:
             rospy.loginfo("Planned a motion of %.2f s with %d way points for group '%s' in %.3f s (%s)",
                           result.trajectory.duration,
                           len(result.trajectory), message.group_name, took, result.planner or self.title)

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import threading
 import time
-from typing import Callable, List, Optional, Set
+from typing import AbstractSet, Callable, List, Optional, Set
 
 import motion
 import rospy
@@ -142,7 +142,7 @@ class SceneMonitor:
 
     # --- writing ---
 
-    def edit(self, change: Callable[[SceneEditor], bool], kinds: int, objects: Set[str] = frozenset(),
+    def edit(self, change: Callable[[SceneEditor], bool], kinds: int, objects: AbstractSet[str] = frozenset(),
              whole: bool = False) -> bool:
         """Let ``change`` write into the scene, then tell everybody. ``objects`` are those of the world that it may
         touch."""

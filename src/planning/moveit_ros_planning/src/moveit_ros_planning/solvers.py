@@ -50,7 +50,7 @@ def _group(description, group: str, names: List[str], exported: Dict[str, Plugin
 
 
 def _install(description, group: str, name: str) -> None:
-    from . import _solvers  # heavy: for those who need it only
+    from . import _solvers  # type: ignore[attr-defined]  # compiled, and heavy: for those who need it only
     settings = description.kinematics[group]
     _solvers.install(description.model, description.urdf, description.srdf, group, name, description=description.name,
                      tips=settings.links, resolution=settings.resolution, timeout=settings.timeout,

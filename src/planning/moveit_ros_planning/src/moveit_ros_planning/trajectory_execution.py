@@ -7,7 +7,7 @@ import threading
 import time
 from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import Callable, Dict, Iterator, List, Optional, Sequence, Tuple
+from typing import Any, Callable, Dict, Iterator, List, Optional, Sequence, Tuple
 
 import rospy
 from moveit_msgs.msg import MoveItErrorCodes, RobotTrajectory
@@ -74,7 +74,7 @@ class TrajectoryExecution:
         self.stops = 0
         self._last_stop = (-math.inf, rospy.Time())  # when it came: monotonic and ROS time
         self._on_stop: List[Callable[[], None]] = []
-        self.config: Dict[str, object] = {}
+        self.config: Dict[str, Any] = {}
         self._server = Server(namespace + "trajectory_execution", _PARAMETERS, self._reconfigure)
         manage = bool(rospy.get_param(namespace + "moveit_manage_controllers", False))
         rospy.loginfo("MoveIt %s allowed to manage controllers", "is" if manage else "is not")
@@ -157,7 +157,7 @@ class TrajectoryExecution:
     def _step(self, trajectory: RobotTrajectory) -> _Step:
         if states.is_empty_trajectory(trajectory) or self._takes_no_time(trajectory):
             return _Step([], [], [])
-        if self.manager is None:
+        if self.manager is None or self.choice is None:
             raise ExecutionError(f"no controller manager is loaded: "
                                  f"{rospy.resolve_name(self.namespace + 'moveit_controller_manager')} "
                                  "names none that could be used, so nothing can be executed")
@@ -349,6 +349,7 @@ class Execution:
         if not step.parts:
             return ExecutionStatus.SUCCEEDED
         owner = self._owner
+        assert owner.choice is not None  # the step has parts
         if not owner.choice.activate(step.controllers):
             return self._fail(f"controllers {', '.join(step.controllers)} are not active, and could not be activated")
         started = rospy.Time.now()
@@ -366,13 +367,19 @@ class Execution:
         rospy.logerr("%s", reason)
         return status
 
+    @property
+    def _manager(self) -> ControllerManager:
+        assert self._owner.manager is not None  # without one no step has parts
+        return self._owner.manager
+
     def _send(self, step: _Step) -> str:
         self._handles = []
+        manager = self._manager
         for number, (name, part) in enumerate(zip(step.controllers, step.parts), 1):
-            handle = self._owner.manager.handle(name)
+            handle = manager.handle(name)
             if handle is None:
                 self._cancel()
-                return f"No controller handle for controller '{name}'. Aborting. {self._owner.manager.describe()}"
+                return f"No controller handle for controller '{name}'. Aborting. {manager.describe()}"
             if not handle.send(part):
                 self._cancel()
                 return (f"Failed to send trajectory part {number} of {len(step.parts)} to controller {name}: "
@@ -383,7 +390,7 @@ class Execution:
     def _allowed(self, step: _Step) -> float:
         longest = 0.0
         for name, part in zip(step.controllers, step.parts):
-            own = self._owner.manager.limits(name)
+            own = self._manager.limits(name)
             scaling = own.get("scaling", float(self._owner.config["allowed_execution_duration_scaling"]))
             margin = own.get("margin", float(self._owner.config["allowed_goal_duration_margin"]))
             delay = max(0.0, (part.joint_trajectory.header.stamp - rospy.Time.now()).to_sec())

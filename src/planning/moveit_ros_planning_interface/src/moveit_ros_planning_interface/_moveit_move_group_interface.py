@@ -194,14 +194,14 @@ class MoveGroupInterface:
     def pick(self, name: str, grasps: Union[bytes, Sequence[bytes], bool] = (), plan_only: bool = False) -> int:
         """With move_group's own grasps, one, or several; the error code."""
         if isinstance(grasps, bool):
-            grasps, plan_only = (), grasps
+            return self._group.pick(name, [], grasps)
         given = [grasps] if isinstance(grasps, bytes) else grasps
         return self._group.pick(name, [_message(Grasp, grasp) for grasp in given], plan_only)
 
     def place(self, name: str, location: Union[bytes, Sequence[float], bool, None] = None, plan_only: bool = False) -> bool:
         """Anywhere, at a PlaceLocation, or at [x, y, z, qx, qy, qz, qw] in the pose reference frame."""
         if isinstance(location, bool):
-            location, plan_only = None, location
+            return self._group.place(name, None, location)
         if location is None:
             return self._group.place(name, None, plan_only)
         if isinstance(location, bytes):

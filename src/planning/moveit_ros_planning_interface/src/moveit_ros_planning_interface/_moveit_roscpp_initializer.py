@@ -12,5 +12,6 @@ def roscpp_init(name: Union[str, List[str]] = "", args: Optional[List[str]] = No
     """``roscpp_init()``, ``roscpp_init(args)`` or ``roscpp_init(name, args)``: the name is taken for a remapping of the
     node's, which the first client makes if the program makes none."""
     if not isinstance(name, str):
-        name, args = "", name
+        roscpp_initialize(list(name))
+        return
     roscpp_initialize([*(args or []), *([f"__name:={name}"] if name else [])])

@@ -10,7 +10,7 @@ triangle, cross (Y, A)   the next and the last tip of the group; select, start: 
 from __future__ import annotations
 
 import threading
-from typing import Dict, List, Optional
+from typing import Any, Dict, FrozenSet, List, Optional
 from xml.etree import ElementTree
 
 import numpy as np
@@ -47,7 +47,7 @@ def groups_with_solver() -> List[str]:
     except ElementTree.ParseError:
         return []
     solvers = rospy.get_param("robot_description_kinematics", {})
-    return [name for name in (group.get("name") for group in root.findall("group")) if name in solvers]
+    return [name for name in (group.get("name", "") for group in root.findall("group")) if name in solvers]
 
 
 class Joystick:
@@ -57,7 +57,7 @@ class Joystick:
         self._link, self._group = link, 0
         self._markers: Dict[str, PoseStamped] = {}  # by link
         self._goal: Optional[PoseStamped] = None  # where it was sent last
-        self._before = frozenset()
+        self._before: FrozenSet[Any] = frozenset()
         self._time = self._moved = rospy.Time()
         self._lock = threading.Lock()
         self._poses: Dict[str, rospy.Publisher] = {}

@@ -322,8 +322,9 @@ def _broadcast_scenes(arguments, warehouse: Warehouse) -> None:
             if requests:
                 rospy.loginfo("Publishing query '%s'", query)
                 requests.publish(warehouse.requests.load(query, scene=name))
-            for result in warehouse.results_of(name, query) if results else ():
-                results.publish(result)
+            if results:
+                for result in warehouse.results_of(name, query):
+                    results.publish(result)
         time.sleep(arguments.delay)
 
 

@@ -111,7 +111,8 @@ class ActionHandle(ControllerHandle):
     def cancel(self) -> bool:
         if self._completion.finish(ExecutionStatus.PREEMPTED):
             rospy.loginfo("Cancelling execution for %s", self.name)
-            self._goal.cancel()
+            if self._goal is not None:
+                self._goal.cancel()
         return True
 
     def wait(self, timeout: Optional[float] = None) -> bool:

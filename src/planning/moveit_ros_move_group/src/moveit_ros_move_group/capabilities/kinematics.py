@@ -104,7 +104,7 @@ class Kinematics(Capability):
         state = scene.state
         merge_state(scene, state, request.robot_state)
         frame = convert.strip(request.header.frame_id) or scene.frame
-        to_frame = motion.Pose(*convert.IDENTITY)
+        to_frame = motion.Pose.identity()
         if frame != scene.frame:
             try:
                 to_frame = scene.frame_pose(frame, state).inverse()

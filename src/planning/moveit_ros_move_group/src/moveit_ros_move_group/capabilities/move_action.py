@@ -77,7 +77,7 @@ class MoveAction(ActionCapability):
                       "pipeline.")
         options, request = goal.planning_options, current_state_only(goal.request)
         diff = without_robot_state(options.planning_scene_diff)
-        return self.context.plan_execution.plan_and_execute(
+        return self.plan_execution.plan_and_execute(
             lambda scene: self._plan(scene, request), diff, self.stop, options.replan, options.replan_attempts,
             options.replan_delay, before=lambda: self.feedback("MONITOR"), stops=self.stops)
 

@@ -103,12 +103,12 @@ class SequenceAction(ActionCapability):
             plan = self._plan(self.context.monitor.copy(options.planning_scene_diff), goal.request)
         else:
             _start_where_the_robot_is(goal.request)
-            plan = self.context.plan_execution.plan_and_execute(
+            plan = self.plan_execution.plan_and_execute(
                 lambda scene: self._plan(scene, goal.request), without_robot_state(options.planning_scene_diff),
                 self.stop, options.replan, options.replan_attempts, options.replan_delay,
                 before=lambda: self.feedback("MONITOR"), stops=self.stops)
         result.response.error_code.val, result.response.planning_time = plan.code, plan.planning_time
-        _fill(result.response, [segment.trajectory for segment in plan.segments])
+        _fill(result.response, [segment.trajectory for segment in plan.segments if segment.trajectory is not None])
         return result_text(plan.code, plan.message, not plan.segments, options.plan_only)
 
     def _plan(self, scene, request: MotionSequenceRequest) -> Plan:
