@@ -1,7 +1,12 @@
 """What all tests of this folder need."""
 import os
+import pathlib
+import shutil
+import time
 
 import pytest
+from lab_check import group, sandbox
+from teachers import WHO, Teacher
 
 _MODE = "RAY_AUTH_MODE"  # set once per process by who connects to a cluster; each test is a process of its own in that
 
@@ -14,3 +19,20 @@ def no_cluster_is_remembered():
         os.environ.pop(_MODE, None)
     else:
         os.environ[_MODE] = before
+
+
+@pytest.fixture(params=WHO)
+def teacher(request):
+    if os.getuid() != 0 and request.param != "a user":
+        pytest.skip("these tests do not run as root")
+    try:
+        sandbox.check()
+    except sandbox.SandboxError as error:
+        pytest.skip(str(error))
+    with group.bounded(10, 1e9) as place:
+        if request.param == "root" and not group.counts_memory(place):
+            pytest.skip("no control group can be made here")
+    place = pathlib.Path(f"/tmp/lab_check_walls.{os.getpid()}.{time.monotonic_ns()}")  # pytest's own folder is closed to other users
+    place.mkdir()
+    yield Teacher(request.param, place)
+    shutil.rmtree(place)

@@ -21,7 +21,7 @@ def master(monkeypatch, tmp_path):
         port = s.getsockname()[1]
     monkeypatch.setenv("ROS_MASTER_URI", f"http://localhost:{port}")
     process = subprocess.Popen(
-        [sys.executable, "-m", "lab_check.held_master", str(port)], env={**os.environ, "ROS_LOG_DIR": str(tmp_path)}
+        [sys.executable, "-m", "lab_check.held_master", str(port), "1000000000"], env={**os.environ, "ROS_LOG_DIR": str(tmp_path)}
     )
     end = time.monotonic() + 60
     while not rosgraph.is_master_online():

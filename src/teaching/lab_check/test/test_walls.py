@@ -2,13 +2,11 @@
 import json
 import os
 import pathlib
-import shutil
 import subprocess
-import sys
 import time
 
 import pytest
-from lab_check import group, sandbox
+from teachers import CHECK, MANIFEST, reasons
 
 pytestmark = pytest.mark.slow
 
@@ -20,63 +18,7 @@ limits: {disk: 60 MB, memory: 400 MB, processes: 100, log: 5 MB, time: 60}
 tasks:
   - {name: A file, points: 5, launch: "", expect: [{file: {path: evil/package.xml}}]}
 """
-MANIFEST = (
-    "<package format='2'><name>evil</name><version>1.0.0</version><description>x</description>"
-    "<maintainer email='mallory@example.org'>x</maintainer><license>x</license><buildtool_depend>catkin</buildtool_depend></package>"
-)
-NOBODY = 65534
-CHECK = [sys.executable, "-P", "-c", "import sys; from lab_check.cli import check; sys.exit(check())"]
 SECRET = "the-teachers-token-4711"
-
-
-class Teacher:
-    """Who examines. ``name``: root, root without control groups, or a user."""
-
-    def __init__(self, name: str, place: pathlib.Path):
-        self.name, self.place = name, place
-
-    def words(self, words):
-        if self.name == "a user" and os.getuid() == 0:
-            shutil.chown(self.place, NOBODY, NOBODY)
-            return ["setpriv", f"--reuid={NOBODY}", f"--regid={NOBODY}", "--clear-groups", "env", f"HOME={self.place}", *words]
-        if self.name == "root without control groups":
-            hide = 'mount -t tmpfs none /sys/fs/cgroup && exec "$@"'
-            return ["unshare", "--mount", "sh", "-c", hide, "sh", *words]
-        return words
-
-    def check(self, script: str, cwd=None, **environment):
-        """Examines a package whose configuration runs ``script`` in Python. Returns the report and what was printed while it was built."""
-        package = self.place / "mallory" / "evil"
-        package.mkdir(parents=True)
-        (self.place / "spec.yaml").write_text(SPEC)
-        (package / "package.xml").write_text(MANIFEST)
-        (package / "attack.py").write_text(script)
-        (package / "CMakeLists.txt").write_text(
-            "cmake_minimum_required(VERSION 3.10)\nproject(evil)\nfind_package(catkin REQUIRED)\ncatkin_package()\n"
-            "execute_process(COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/attack.py)\n"
-        )
-        out = self.place / "out"
-        words = self.words([*CHECK, str(self.place / "spec.yaml"), str(self.place / "mallory"), "--out", str(out)])
-        done = subprocess.run(words, capture_output=True, text=True, env={**os.environ, **environment}, cwd=cwd, timeout=600)
-        assert done.returncode in (0, 1), done.stdout + done.stderr
-        return json.loads((out / "report.json").read_text()), (out / "build.log").read_text()
-
-
-@pytest.fixture(params=["root", "root without control groups", "a user"])
-def teacher(request):
-    if os.getuid() != 0 and request.param != "a user":
-        pytest.skip("these tests do not run as root")
-    try:
-        sandbox.check()
-    except sandbox.SandboxError as error:
-        pytest.skip(str(error))
-    with group.bounded(10, 1e9) as place:
-        if request.param == "root" and not group.counts_memory(place):
-            pytest.skip("no control group can be made here")
-    place = pathlib.Path(f"/tmp/lab_check_walls.{os.getpid()}.{time.monotonic_ns()}")  # pytest's own folder is closed to other users
-    place.mkdir()
-    yield Teacher(request.param, place)
-    shutil.rmtree(place)
 
 
 PROBES = r'''
@@ -139,7 +81,7 @@ print("looked")
 
 def test_nothing_of_the_machine_can_be_written_and_no_room_is_without_bound(teacher):
     """What is expected is the promise: nothing below /proc and /sys, no file outside of its own folders, no capability, no namespace."""
-    result, log = teacher.check(PROBES.replace("SECRET", SECRET), LAB_SECRET=SECRET)
+    result, log = teacher.check(SPEC, PROBES.replace("SECRET", SECRET), LAB_SECRET=SECRET)
     assert "looked" in log, log
     for word in ("WRITABLE", "WROTE", "MADE A FOLDER", "SECRET OF"):
         assert word not in log, [line for line in log.splitlines() if word in line]
@@ -200,11 +142,10 @@ for _ in range(20):
 
 @pytest.mark.parametrize("what", HELD)
 def test_memory_is_bounded_in_whatever_way_it_is_held(teacher, what):
-    result, log = teacher.check(HELD[what] + "\nimport time\ntime.sleep(5)\nprint('it held all of it', flush=True)\n")
-    reasons = " ".join(verdict["reason"] for task in result["tasks"] for verdict in task["verdicts"])
+    result, log = teacher.check(SPEC, HELD[what] + "\nimport time\ntime.sleep(5)\nprint('it held all of it', flush=True)\n")
     if what == "sockets" and "it held all of it" in log:
         pytest.skip("sockets of this machine hold less than the limit")
-    assert "of memory" in reasons, (reasons, log[-2000:])
+    assert "of memory" in reasons(result), (reasons(result), log[-2000:])
     assert "it held all of it" not in log
 
 
@@ -215,7 +156,7 @@ def test_a_submission_has_a_user_of_its_own_where_root_examines(teacher):
     package = teacher.place / "mallory" / "evil"
     package.mkdir(parents=True)
     (teacher.place / "spec.yaml").write_text(SPEC)
-    (package / "package.xml").write_text(MANIFEST)
+    (package / "package.xml").write_text(MANIFEST.format("evil", ""))
     (package / "CMakeLists.txt").write_text(f"execute_process(COMMAND sleep {nap})\n")
     words = teacher.words([*CHECK, str(teacher.place / "spec.yaml"), str(teacher.place / "mallory"), "--out", str(teacher.place / "out")])
     driver = subprocess.Popen(words, stdout=subprocess.DEVNULL)

@@ -185,8 +185,3 @@ class Bench:
             return [(str(what), str(who), int(count), float(first)) for what, who, count, first in self._ask("changed")]
         except (TypeError, ValueError) as error:
             raise Gone(f"the simulator does not answer any more: {error}") from error
-
-    def own_code(self, folder: str) -> List[str]:
-        """Files below ``folder`` whose code the simulator has loaded."""
-        found = self._ask("own_code", folder)
-        return [str(path) for path in found] if isinstance(found, list) else []

@@ -2,13 +2,12 @@
 from __future__ import annotations
 
 import os
-import shutil
 import time
 from dataclasses import dataclass, field
 from typing import Dict, List
 
 from .explain import error_lines, excerpt, meaning, timeless
-from .job import Job
+from .job import Job, NoRoom
 from .supervise import STRETCH, Guard
 
 
@@ -29,10 +28,11 @@ def build(job: Job) -> Built:
     start = time.monotonic()
     built = Built()
     timeout = job.spec["build"]["timeout"]
+    order = _order(job)
     everything = _make(job, built, timeout, [])
     if not everything and not built.broke:
         # One CMake run holds all packages: one bad CMakeLists.txt takes the others down. Leave the culprits out, one by one.
-        _one_by_one(job, built, timeout)
+        _one_by_one(job, built, timeout, order)
     if built.broke:
         for name in job.packages:
             built.failed.setdefault(name, f"the build was stopped: {built.broke}")
@@ -41,10 +41,17 @@ def build(job: Job) -> Built:
 
 
 def _make(job: Job, built: Built, timeout: float, only: List[str]) -> bool:
+    """:param only: these packages, from the beginning; otherwise all"""
     chosen = f"-DCATKIN_WHITELIST_PACKAGES='{';'.join(only)}'" if only else ""
-    line = (f"cd {job.workspace} && catkin_make -j2 -DCMAKE_BUILD_TYPE=Release -DCATKIN_ENABLE_TESTING=OFF "
+    # The folder is the submission's: it may lead anywhere by now, and is removed from where it leads nowhere.
+    anew = f"rm -rf {job.workspace}/build; " if only else ""
+    line = (f"{anew}cd {job.workspace} && catkin_make -j2 -DCMAKE_BUILD_TYPE=Release -DCATKIN_ENABLE_TESTING=OFF "
             f"-DPYTHON_EXECUTABLE=/usr/bin/python3 {chosen}")
-    program = job.start(line, built=False)
+    try:
+        program = job.start(line, built=False)
+    except NoRoom as error:
+        built.broke = str(error)
+        return False
     guard = Guard(lambda: [program], {**job.limits, "time": timeout}, job.group, job.written, not job.unsafe)
     guard.start()
     program.wait(STRETCH * timeout)
@@ -59,12 +66,11 @@ def _make(job: Job, built: Built, timeout: float, only: List[str]) -> bool:
     return program.code == 0
 
 
-def _one_by_one(job: Job, built: Built, timeout: float) -> None:
+def _one_by_one(job: Job, built: Built, timeout: float, order: List[str]) -> None:
     """Each package with those before it that built; dependencies come first."""
     good: List[str] = []
     end = built.spent + timeout
-    for name in _order(job):
-        shutil.rmtree(os.path.join(job.home, "catkin_ws", "build"), ignore_errors=True)
+    for name in order:
         before = len(built.log)
         if built.spent > end:
             built.failed[name] = "the time for building was over"
@@ -75,7 +81,6 @@ def _one_by_one(job: Job, built: Built, timeout: float) -> None:
             cause = f"it was stopped: {built.broke}" if built.broke else cause
             built.failed[name] = f"{timeless(cause)[:300]}{'. ' + meaning(cause) if meaning(cause) else ''}"
             built.broke = ""
-    shutil.rmtree(os.path.join(job.home, "catkin_ws", "build"), ignore_errors=True)
     if good:
         _make(job, built, max(end - built.spent, 30.0), good)
 
@@ -87,6 +92,7 @@ def _ended(code: int) -> str:
 
 
 def _order(job: Job) -> List[str]:
+    """Of the manifests as they were handed in: before any program of the submission has run."""
     import xml.etree.ElementTree as ET
     needs = {}
     for name, folder in job.packages.items():

@@ -1,11 +1,13 @@
 """One submission from the outside: makes the job, starts the examiner behind the wall, writes the reports."""
 from __future__ import annotations
 
+import errno
 import importlib.util
 import json
 import os
 import pathlib
-import shutil
+import re
+import resource
 import signal
 import socket
 import subprocess
@@ -14,6 +16,7 @@ from dataclasses import asdict
 from typing import List, Optional
 
 from . import group, report, sandbox, scratch
+from .errors import LabError
 from .job import Job, most_tasks
 from .outcome import Result
 from .spec import Spec
@@ -21,6 +24,15 @@ from .supervise import STRETCH, die_with_parent
 
 _KEPT = ("lab_check.probe", "lab_check.session", "lab_check.held_launch", "gazebo_ros_control.plugin", "gazebo_plugins.ros_camera",
          "gazebo_plugins.diff_drive", "ode_sim.rendering.portrait", "ode_sim.rendering.renderer", "joint_state_controller", "xacro")
+
+
+_LARGEST = 200_000_000  # bytes of a file of the report: films are the largest
+_OURS = re.compile(r"report\.(html|json)|results?\.json|\.result\.json|junit\.xml|build\.log|launch_\d+\.log|pictures|\.examiner\.log"
+                   r"|\.job(\.json)?|\.session_\d+\.json")
+
+
+class NoPlace(LabError, RuntimeError):
+    """Reports cannot be written there; a sentence for whoever examines."""
 
 
 def free_port(first: int = 0) -> int:
@@ -50,18 +62,42 @@ def keep_bytecode() -> None:
             subprocess.run([*sandbox.isolated(), "-c", f"import {module}"], env=environment, cwd="/", capture_output=True)
 
 
+def _place_of(out: pathlib.Path, submission: pathlib.Path) -> pathlib.Path:
+    """
+    :raises NoPlace: it is a link of the submission, in which it lies
+    """
+    wanted, mine = os.path.abspath(out), {os.path.abspath(submission), os.path.realpath(submission)}
+    for place in [wanted, *map(str, pathlib.Path(wanted).parents)]:
+        if os.path.islink(place) and any(place.startswith(f"{folder}/") for folder in mine):
+            raise NoPlace(f"{out}: {place} is a link that the submission brings; name another folder by --out")
+    return out.resolve()
+
+
+def _clear(out: pathlib.Path) -> None:
+    """Away with the reports of an earlier examination, and with whatever else has their names: ``out`` may lie in the submission.
+
+    :raises NoPlace: it cannot be made, or written to
+    """
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+        for entry in list(os.scandir(out)):
+            if _OURS.fullmatch(entry.name):
+                scratch.remove(pathlib.Path(entry.path))
+        if not os.access(out, os.W_OK):
+            raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
+    except OSError as error:
+        raise NoPlace(f"{out}: {error.strerror}") from error
+
+
 def check(spec: Spec, submission: pathlib.Path, out: pathlib.Path, unsafe: bool = False, films: bool = True, port: int = 0) -> Result:
     """
     :param out: reports go there; what an earlier examination left there goes
     :raises sandbox.SandboxError: this machine cannot shut it in
+    :raises NoPlace: reports cannot be written there
     """
-    out = out.resolve()
+    out = _place_of(out, submission)
     sandbox.Platform.here()  # complains before the reports of an earlier examination go
-    if out.is_dir():
-        for name in ("result.json", "report.html", "report.json", "junit.xml", "results.json", "build.log", "pictures", ".examiner.log"):
-            path = out / name
-            shutil.rmtree(path) if path.is_dir() else path.unlink(missing_ok=True)
-    out.mkdir(parents=True, exist_ok=True)
+    _clear(out)
     keep_bytecode()
     limits = {name: spec.limit(name) for name in spec.data["limits"]}
     # Its files lie in memory: the kernel's bound holds for both together, the Guard tells one from the other.
@@ -89,10 +125,16 @@ def _examine(job: Job, spec: Spec, submission: pathlib.Path, out: pathlib.Path) 
             (out / name).unlink(missing_ok=True)
 
 
+def _in_bounds() -> None:
+    """For the examiner: what it says of a submission that makes it say the same thing for ever fills no disk."""
+    die_with_parent()
+    resource.setrlimit(resource.RLIMIT_FSIZE, (_LARGEST, resource.getrlimit(resource.RLIMIT_FSIZE)[1]))
+
+
 def _run(words: List[str], unsafe: bool, out: pathlib.Path, patience: float) -> str:
     """'' or why there is no result."""
     with open(out / ".examiner.log", "w", encoding="utf-8") as log:
-        streams = dict(stdout=log, stderr=log, start_new_session=True, preexec_fn=die_with_parent, env=sandbox.own_environment(), cwd="/")
+        streams = dict(stdout=log, stderr=log, start_new_session=True, preexec_fn=_in_bounds, env=sandbox.own_environment(), cwd="/")
         process = subprocess.Popen(words, stdin=subprocess.DEVNULL, **streams) if unsafe else sandbox.shut_in(words, **streams)
         try:
             code = process.wait(patience)

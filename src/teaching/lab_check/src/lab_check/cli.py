@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 import pathlib
 import sys
 from typing import List, Optional
@@ -40,8 +41,20 @@ def allowed(unsafe: bool) -> None:
         raise SystemExit(3) from None
 
 
+class Parser(argparse.ArgumentParser):
+    """Of words among which there may be names of submissions: with ``*`` the shell makes an option of a file that is called so."""
+
+    def parse_args(self, args=None, namespace=None):
+        for word in sys.argv[1:] if args is None else args:
+            if word == "--":
+                break
+            if word.startswith("-") and os.path.lexists(word):
+                self.error(f"'{word}' is the name of a file here; write ./{word} for it (./* for all), and the option in another folder")
+        return super().parse_args(args, namespace)
+
+
 def parser_for(name: str, text: str) -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(prog=f"rosrun lab_check {name}", description=text)
+    parser = Parser(prog=f"rosrun lab_check {name}", description=text)
     parser.add_argument("spec", help="YAML: what is asked for; docs/grading.md")
     return parser
 
@@ -53,7 +66,8 @@ def sandbox_options(parser: argparse.ArgumentParser) -> None:
 
 
 def check(arguments: Optional[List[str]] = None) -> int:
-    """Exit code 0 full marks, 1 less, 2 the spec is faulty, 3 no sandbox, 4 the checker itself failed."""
+    """Exit code 0 full marks, 1 less, 2 the spec is faulty, 3 no sandbox, 4 the checker itself failed, 5 no reports can be written."""
+    from .check import NoPlace
     from .check import check as examine
 
     parser = parser_for("check", "Mark one submission; reports in --out.")
@@ -72,7 +86,11 @@ def check(arguments: Optional[List[str]] = None) -> int:
         return 0
     allowed(options.unsafe)
     out = options.out or pathlib.Path("lab_check", options.submission.name or "submission")
-    result = examine(spec, options.submission, out, options.unsafe, not options.no_films, options.port)
+    try:
+        result = examine(spec, options.submission, out, options.unsafe, not options.no_films, options.port)
+    except NoPlace as error:
+        print(f"lab_check: {error}", file=sys.stderr)
+        return 5
     for task in result.tasks:
         print(f"{task.points:6g} of {task.of:<5g} {task.name}")
         for verdict in task.verdicts:

@@ -14,8 +14,9 @@ from .build import Built, build
 from .checks import make
 from .checks.base import Context
 from .explain import first_cause
+from .inside import walk
 from .job import Job
-from .outcome import Result, TaskResult, Verdict, failed_task, rounded, share, task_from
+from .outcome import Result, TaskResult, Verdict, failed_task, rounded, sentence, share, task_from
 from .sandbox import Platform, isolated, make_world, own_environment, own_network, student
 from .spec import kind_of
 from .staging import StagingError, stage, within_bounds
@@ -55,6 +56,7 @@ REFUSED = (
 )
 
 
+_MOST_FORGED = 10  # that are noted
 _REPORTS = frozenset(("result.json", ".result.json", "report.json", "report.html", "results.json", "junit.xml"))
 
 
@@ -78,17 +80,15 @@ class Examiner:
             needed = self.job.spec["packages"] or any(task["launch"] for task in self.job.spec["tasks"])
             self._tasks(self._build() if needed else Built())
             self._look_through_logs()
-            for path in sorted(self._forged() - own):
+            for path in sorted(self._forged() - own)[:_MOST_FORGED]:
                 self.result.notes.append(f"{path} was written, which has the name of a report; only the examiner's own reports count")
+        self.result.notes = [sentence(note) for note in self.result.notes]
         self.result.seconds = time.monotonic() - start
         return self.result
 
     def _forged(self) -> Set[str]:
         """Files of the submission's home that are named as the examiner's are."""
-        found = set()
-        for folder, _, names in os.walk(self.job.home):
-            found |= {os.path.relpath(os.path.join(folder, name), self.job.home) for name in _REPORTS.intersection(names)}
-        return found
+        return {path for path, _ in walk(self.job.home) if path.rpartition("/")[2] in _REPORTS}
 
     def _teachers(self) -> List[str]:
         """Folders of the spec and of the submissions, as nobody in the sandbox knows them who does not look for them."""
@@ -195,6 +195,7 @@ class Examiner:
         job = self.job
         context = Context(
             pathlib.Path(job.spec_folder),
+            pathlib.Path(job.home),
             pathlib.Path(job.home, "catkin_ws", "src"),
             {name: pathlib.Path(job.home, folder) for name, folder in job.packages.items()},
         )

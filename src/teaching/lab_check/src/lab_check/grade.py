@@ -98,6 +98,9 @@ def main(arguments: Optional[List[str]] = None) -> int:
     if not options.address:
         allowed(options.unsafe)
     out = options.out.resolve()
+    inside = next((path for path in options.submissions if out.is_relative_to(path.resolve())), None)
+    if inside is not None:  # whoever wrote it could have put a class.sqlite of his own there
+        parser.error(f"the results would lie in {inside}, which is a submission: name another folder by --out, or leave that one out")
     try:
         return _examine(spec, out, options)
     except KeyboardInterrupt:

@@ -6,14 +6,16 @@ pages of a tmpfs), and the Guard looks ten times a second: by then much is taken
 from __future__ import annotations
 
 import contextlib
+import fcntl
 import os
 import pathlib
 import time
 import uuid
-from typing import Dict, Iterator, List, Optional
+from typing import Dict, Iterator, List, Optional, Tuple
 
 # Version 1 of control groups has a hierarchy for each resource, version 2 one for all.
 HIERARCHIES = ("/sys/fs/cgroup/pids", "/sys/fs/cgroup/memory", "/sys/fs/cgroup")
+_PREFIX = "lab_check_"  # versions that locked none called theirs lab_check.
 _LEAVING = 5.0  # s that killed processes may take to be gone
 _BOUNDS = {"pids.max": "processes", "memory.max": "memory", "memory.limit_in_bytes": "memory"}
 _NO_SWAP = ("memory.swap.max", "memory.swappiness")
@@ -26,7 +28,8 @@ def bounded(most: int, memory: float = 0.0) -> Iterator[str]:
     """:param most: processes and threads, of all that enter it together.
     :param memory: bytes, of all that enter it together; 0: no bound
     :return: folders for :func:`enter`, joined by ``:``; '' where no group can be made here."""
-    places = _make({"processes": str(most), **({"memory": str(int(memory))} if memory else {})})
+    locks = _make({"processes": str(most), **({"memory": str(int(memory))} if memory else {})})
+    places = list(locks)
     try:
         yield os.pathsep.join(places)
     finally:
@@ -35,6 +38,8 @@ def bounded(most: int, memory: float = 0.0) -> Iterator[str]:
             places = [place for place in places if not _removed(place)]
             if places:
                 time.sleep(0.05)
+        for lock in locks.values():
+            os.close(lock)
 
 
 def enter(place: str) -> None:
@@ -74,23 +79,70 @@ def ended_for_memory(place: str) -> int:
     return 0
 
 
-def _make(bounds: Dict[str, str]) -> List[str]:
-    """Folders that together keep the bounds, as far as this machine lets us make them."""
-    places: List[str] = []
+def _make(bounds: Dict[str, str]) -> Dict[str, int]:
+    """Folders that together keep the bounds, as far as this machine lets us make them, each with the descriptor of its lock."""
+    places: Dict[str, int] = {}
     kept: set = set()
     for hierarchy in HIERARCHIES:
-        place = os.path.join(hierarchy, f"lab_check.{uuid.uuid4().hex}")
+        _sweep(hierarchy)
         try:
-            os.mkdir(place)
+            place, lock = _new(hierarchy)
         except OSError:  # not mounted, read-only, or this user may not
             continue
         mine = _write(place, {name: bounds[kind] for name, kind in _BOUNDS.items() if kind in bounds and kind not in kept})
         if mine:
             kept |= {_BOUNDS[name] for name in mine}
-            places.append(place)
+            places[place] = lock
         else:
             _removed(place)  # nothing is counted in this hierarchy
+            os.close(lock)
     return places
+
+
+def _new(hierarchy: str) -> Tuple[str, int]:
+    """A group, and the descriptor of its lock, which whoever makes a group holds as long as it lives.
+
+    :raises OSError: none can be made there
+    """
+    while True:
+        place = os.path.join(hierarchy, f"{_PREFIX}{uuid.uuid4().hex}")
+        os.mkdir(place)
+        lock = _lock(place)
+        if lock is not None and os.path.isdir(place):  # nobody took it for one that was left behind, before it was locked
+            return place, lock
+        if lock is not None:
+            os.close(lock)
+
+
+def _lock(place: str) -> Optional[int]:
+    """None where somebody holds it, or it is not there any more."""
+    try:
+        number = os.open(place, os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
+    except FileNotFoundError:
+        return None
+    try:
+        fcntl.flock(number, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        os.close(number)
+        return None
+    except OSError:
+        os.close(number)
+        raise
+    return number
+
+
+def _sweep(hierarchy: str) -> None:
+    """Away with what those left behind that were killed. Processes that are still in a group keep it."""
+    try:
+        left = [entry.path for entry in os.scandir(hierarchy) if entry.name.startswith(_PREFIX)]
+    except OSError:
+        return
+    for place in left:
+        with contextlib.suppress(OSError):
+            lock = _lock(place)
+            if lock is not None:
+                _removed(place)
+                os.close(lock)
 
 
 def _write(place: str, values: Dict[str, str]) -> List[str]:

@@ -1,4 +1,4 @@
-"""The ROS master of an examination: ``python3 -m lab_check.held_master PORT``
+"""The ROS master of an examination: ``python3 -m lab_check.held_master PORT MEMORY``
 
 A node that offers a topic and publishes at once is heard by those subscribers whose connection was quicker than its next line; which
 ones these are differs from run to run. Here subscribers hear of new publishers when the examiner calls ``release``, that is when
@@ -22,7 +22,7 @@ from rosgraph.xmlrpc import SilenceableXMLRPCRequestHandler
 from rosmaster.main import rosmaster_main
 from rosmaster.master_api import ROSMasterHandler
 
-from lab_check.supervise import descendants
+from lab_check.supervise import bound, descendants
 
 _held: List[Tuple[ROSMasterHandler, str, List[str], List[str]]] = []
 _lock = threading.Lock()
@@ -179,6 +179,7 @@ def main() -> None:
         setattr(master, name, _watched(getattr(master, name), _watch_name))
     for name in ("unregisterService", "unregisterPublisher", "unregisterSubscriber"):
         setattr(master, name, _watched(getattr(master, name), _watch_end))
+    bound(float(sys.argv[2]))  # parameters and names are the submission's
     rosmaster_main(["rosmaster", "--core", "-p", sys.argv[1]])
 
 

@@ -22,8 +22,9 @@ class Interference:
 
     def notes(self) -> List[str]:
         """A sentence each."""
-        changes = [f"the node {who} used /gazebo/{what} {count} times, for the first time at {first:.3f} s of simulation: "
-                   "it changed the world by hand" for (what, who), (count, first) in sorted(self._changes.items())]
+        changes = [f"{'the node ' if who.startswith('/') else ''}{who} used /gazebo/{what} {count} times, for the first time at "
+                   f"{first:.3f} s of simulation: it changed the world by hand"
+                   for (what, who), (count, first) in sorted(self._changes.items())]
         return changes + sorted(self.names) + sorted(self.twice)
 
     def first(self) -> str:

@@ -10,7 +10,12 @@ from dataclasses import asdict, dataclass, field
 from typing import Any, Dict, List, Optional, Sequence
 
 from . import sandbox
+from .errors import LabError
 from .supervise import Program, Streams
+
+
+class NoRoom(LabError, RuntimeError):
+    """No program of the submission can be started any more: its disk is full. A sentence for the student."""
 
 
 @dataclass
@@ -51,6 +56,11 @@ class Job:
         return self.home if self.unsafe else sandbox.HOME
 
     @property
+    def logs(self) -> str:
+        """Folder for logs of the checker's own nodes."""
+        return self.scratch if self.unsafe else str(sandbox.checkers_own(self.scratch))
+
+    @property
     def workspace(self) -> str:
         return f"{self.inner_home}/catkin_ws"
 
@@ -73,13 +83,17 @@ class Job:
         """One of the submission's programs, inside the inner wall.
 
         :param streams: its standard streams; by default what it says is kept
+        :raises NoRoom: see there
         """
         environment = {**environment, self.mark.partition("=")[0]: self.mark.partition("=")[2]}
         if self.unsafe:
             return Program(words, self.limits, environment, self.home, self.group, streams=streams, pass_fds=pass_fds)
         platform, place = sandbox.Platform(**self.platform), os.path.join(self.scratch, "programs", uuid.uuid4().hex)
-        for folder in ("tmp", "run", "shm"):
-            sandbox.own_folder(pathlib.Path(place, folder), self.user)
+        try:
+            for folder in ("tmp", "run", "shm"):
+                sandbox.own_folder(pathlib.Path(place, folder), self.user)
+        except OSError as error:
+            raise NoRoom(f"no program can be started any more, as the disk that a submission gets is full ({error.strerror})") from error
         most = ["prlimit", f"--nproc={most_tasks(self.limits)}", "--"]
         refused = os.open(sandbox.filter_file(self.scratch), os.O_RDONLY)
         try:

@@ -87,6 +87,14 @@ def rounded(points: float) -> float:
     return round(points + 0.0, 6)
 
 
+_LONGEST_SENTENCE, _MOST_FIGURES = 2000, 20_000  # characters of a reason or note; of all figures of a verdict
+
+
+def sentence(text: str) -> str:
+    """Names of nodes, topics and files stand in it, which a submission makes as long as it likes."""
+    return text if len(text) <= _LONGEST_SENTENCE else f"{text[:_LONGEST_SENTENCE]} ..."
+
+
 def share(task: Dict[str, Any], verdicts: List[Verdict]) -> TaskResult:
     """Deals a task's points out to its verdicts.
 
@@ -95,6 +103,8 @@ def share(task: Dict[str, Any], verdicts: List[Verdict]) -> TaskResult:
     weights = [float(expectation.get("points", 1.0)) for expectation in task["expect"]]
     total = sum(weights) or 1.0
     for weight, verdict in zip(weights, verdicts):
+        verdict.reason = sentence(verdict.reason)
+        verdict.figures = verdict.figures if len(repr(verdict.figures)) <= _MOST_FIGURES else {}
         verdict.of = rounded(task["points"] * weight / total)
         verdict.points = verdict.of if verdict.passed else 0.0
     met = all(verdict.passed for verdict in verdicts)

@@ -36,7 +36,10 @@ def pack(path: pathlib.Path, most: float = float("inf")) -> bytes:
 
     stream = io.BytesIO()
     with tarfile.open(fileobj=stream, mode="w") as archive:
-        archive.add(resolved, path.name, filter=counted)
+        try:
+            archive.add(resolved, path.name, filter=counted)
+        except RecursionError:
+            raise TooLarge(f"{path.name} has too many folders in each other") from None
     return stream.getvalue()
 
 

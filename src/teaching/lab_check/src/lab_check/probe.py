@@ -1,4 +1,5 @@
-"""The simulator of an examination: ``python3 -m lab_check.probe DESCRIPTOR OPTIONS...`` is gzserver's own, which also answers the examiner.
+"""The simulator of an examination: ``python3 -m lab_check.probe DESCRIPTOR PIPE HOME OPTIONS...`` is gzserver's own, which also answers the
+examiner, and tells it through the pipe of the submission's code that it loads.
 
 Question and answer pass through a pair of sockets that the examiner made before it started this process: nobody else has an end of it, so
 that no node can answer in the simulator's place. See :mod:`lab_check.simulator` for the other end.
@@ -14,13 +15,15 @@ import subprocess
 import sys
 import threading
 from multiprocessing.connection import Connection
-from typing import Any, Dict, List, Optional, Set, Tuple
+from typing import Any, Callable, Dict, List, Optional, Set, Tuple
 
 import numpy as np
 import rospy
-from gazebo_ros import node
+from gazebo_ros import compiled, node
 from gazebo_ros.api.clock import ClockPublisher
 from gazebo_ros.server import Server
+
+from lab_check import own_code
 
 _MOST_PAIRS = 200
 _MOST_NOTES = 100
@@ -28,6 +31,7 @@ _LONGEST_QUESTION = 100_000  # bytes
 # Services of the simulator that only tell, let it come up, or are the examiner's own business; all others change what is measured.
 _TELLING = ("get_", "describe_", "save_", "take_", "spawn_", "clear_", "pause_physics", "unpause_physics", "set_logger_level",
             "tf2_frames")
+_ORDERS = {"reset": "reset_simulation", "reset_time": "reset_time", "reset_poses": "reset_world"}  # of the transport -> service
 _TOPICS = ("set_model_state", "set_link_state")
 
 
@@ -134,13 +138,6 @@ class Probe:
         """[service or topic, who, how often, s of simulation of the first time], since the beginning."""
         return self._changes.told()
 
-    def _own_code(self, folder: str) -> List[str]:
-        """Modules and libraries below ``folder`` that are loaded here."""
-        modules = {getattr(module, "__file__", None) or "" for module in list(sys.modules.values())}
-        with open("/proc/self/maps", encoding="utf-8", errors="replace") as maps:
-            libraries = {line.split(None, 5)[-1].strip() for line in maps if line.count(" ") >= 5}
-        return sorted(path for path in modules | libraries if path.startswith(f"{folder}/"))[:_MOST_NOTES]
-
 
 class Changes:
     """Who has called services of the simulator that change what is measured, or published what does."""
@@ -168,6 +165,24 @@ class Changes:
                 super().__init__(name, kind, callback, *arguments, **more)
 
         rospy.Service, rospy.Subscriber = Service, Subscriber
+        self._watch_transport("_remove", lambda model: "delete_model")
+        self._watch_transport("_order", _ORDERS.get)
+        self._watch_transport("_parameter", lambda name: "set_physics_properties")
+
+    def _watch_transport(self, method: str, service: Callable[[str], Optional[str]]) -> None:
+        """What clients of Gazebo's own topics, and compiled plugins, have the server do.
+
+        :param service: that does the same, None for what changes nothing
+        """
+        do, changes = getattr(compiled.Bridge, method), self
+
+        def noted(bridge, order, *arguments):
+            what = service(order)
+            if what is not None:
+                changes._note(what, "a client of Gazebo's transport, or a compiled plugin,")
+            return do(bridge, order, *arguments)
+
+        setattr(compiled.Bridge, method, noted)
 
     def _noting(self, what: str, handler):
         def noted(message, *arguments):
@@ -212,8 +227,9 @@ class QuantumClock(ClockPublisher):
 
 def main(arguments: Optional[List[str]] = None) -> None:
     """gzserver's own, with a probe in it."""
-    number, *options = sys.argv[1:] if arguments is None else arguments
+    number, pipe, home, *options = sys.argv[1:] if arguments is None else arguments
     os.set_inheritable(int(number), False)
+    own_code.tell(int(pipe), home)
     sys.argv[:] = ["gzserver", *options]
     wire, make, changes = Connection(int(number)), node.make_server, Changes()
     node.ClockPublisher = QuantumClock

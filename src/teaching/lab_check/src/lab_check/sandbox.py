@@ -38,6 +38,7 @@ _BORN = 20.0  # s in which a process has to reach its user namespace
 
 _CLONE_NEWNET = 0x40000000
 _CONNECTIONS = 512  # entries in the kernel's table of connections
+_OWN = 32_000_000  # bytes of the checker's own files in there
 _MOST_FILES = 200_000  # of a submission, with what its programs write
 
 
@@ -217,8 +218,16 @@ def make_world(platform: Platform, world: str, size: int, user: int) -> None:
         place = pathlib.Path(world, "roots", str(number))
         place.mkdir(parents=True)
         subprocess.run(["mount", "--rbind", root, str(place)], check=True)
+    own = checkers_own(world)
+    own.mkdir(mode=0o700)
+    subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={_OWN},mode=0700,nosuid,nodev", "lab_check", str(own)], check=True)
     filter_file(world).write_bytes(syscalls.program())
     own_folder(pathlib.Path(world, "home"), user)
+
+
+def checkers_own(world: "str | os.PathLike") -> pathlib.Path:
+    """For what the checker writes down meanwhile: the submission's disk may be full."""
+    return pathlib.Path(world, "checker")
 
 
 def filter_file(world: "str | os.PathLike") -> pathlib.Path:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import http.client
 import json
 import os
@@ -23,24 +24,24 @@ import genpy
 import rosgraph
 import rospy
 
-from . import checks, connections, film, sandbox
+from . import checks, connections, film, own_code, sandbox
 from .bench import Bench, Gone
 from .checks.base import Context
 from .commands import Actor, CommandError
 from .explain import excerpt, first_cause
 from .interference import Interference
-from .job import Job
+from .job import Job, NoRoom
 from .lockstep import Nodes
-from .outcome import TaskResult, Verdict, failed_task, share
+from .outcome import TaskResult, Verdict, failed_task, sentence, share
 from .simulator import Lost, Starter
 from .spec import kind_of
-from .supervise import Guard, Program
+from .supervise import Guard, Program, bound
 
 # What reading from the submission's nodes, or from a master that they have led astray, can raise.
 UNREADABLE = (OSError, ValueError, TypeError, KeyError, IndexError, AttributeError, RecursionError, MemoryError, ArithmeticError,
               xmlrpc.client.Error, ExpatError, http.client.HTTPException, rosgraph.MasterException, rospy.ROSException,
               genpy.MessageException)
-_MOST_MEMORY = 4e9  # bytes that messages of the submission can make this process take
+_MORE_MEMORY = 1e9  # bytes over the submission's own limit that its messages can make this process take
 _READY_REST = 0.35  # s of rest that show a start-up to be over: spawners look for services every few tenths
 _READY_PATIENCE = 10.0  # s of work without rest after which a node of the launch is waited for no more
 _READY_STEP = 0.1  # s of simulated time between two looks at what has come
@@ -62,11 +63,11 @@ class Session:
 
     def run(self) -> List[TaskResult]:
         core = self.core = subprocess.Popen(
-            [*sandbox.isolated(), "-m", "lab_check.held_master", str(self.job.port)],
+            [*sandbox.isolated(), "-m", "lab_check.held_master", str(self.job.port), str(int(self.job.limits["memory"]))],
             stdin=subprocess.DEVNULL,
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,
-            env={**sandbox.own_environment(), "ROS_LOG_DIR": self.job.scratch},
+            env={**sandbox.own_environment(), "ROS_LOG_DIR": self.job.logs},
             cwd="/",
         )
         try:
@@ -92,12 +93,13 @@ class Session:
         launch = self.tasks[0]["launch"]
         # What roscore's launcher does: roslaunch would otherwise make one of its own, and a second would not fit.
         rosgraph.Master("/lab_check").setParam("/run_id", str(uuid.uuid4()))
-        self._launch(launch.split(" + ")[0])
         self.guard.start()
         try:
+            self._launch(launch.split(" + ")[0])
             self._get_ready(self.tasks[0]["ready"])
         except (Gone, *UNREADABLE) as error:
             why = self._in_words(error)
+            self._remarks()
             return [self._with_log(failed_task(task, f"'roslaunch {launch}': {why}"), ()) for task in self.tasks]
         results = []
         for index, task in enumerate(self.tasks):
@@ -114,8 +116,7 @@ class Session:
                 results.append(self._with_log(failed_task(task, why), mark))
                 results += [failed_task(later, f"not tried: {why}") for later in self.tasks[index + 1 :]]
                 break
-        if self.bench is not None:
-            self._remarks()
+        self._remarks()
         return results
 
     @staticmethod
@@ -127,6 +128,10 @@ class Session:
         return f"what your nodes said could not be read ({type(error).__name__}: {str(error)[:200]})"
 
     def _remarks(self) -> None:
+        if self.bench is None:
+            return
+        with contextlib.suppress(Gone, *UNREADABLE):  # it has ended
+            self._look_who_interferes()
         self.notes += self.interference.notes()
         if not self.job.spec["own_plugins"]:
             self.notes += [f"{path}, code of the submission, ran inside the simulator, where it could have changed what was measured"
@@ -139,7 +144,10 @@ class Session:
     # ------------------------------------------------------------------------------------------ programs
 
     def start(self, line: str, keys: bool = False, launch: bool = False) -> Program:
-        program = self.job.start(line, keys, {"LAB_CHECK_SIMULATOR": self.starter.address} if launch else {})
+        try:
+            program = self.job.start(line, keys, {"LAB_CHECK_SIMULATOR": self.starter.address} if launch else {})
+        except NoRoom as error:
+            raise Gone(str(error)) from error
         self.programs.append(program)
         return program
 
@@ -228,10 +236,7 @@ class Session:
         self.bench.simulator = simulator["uri"]
 
     def _own_code(self) -> List[str]:
-        try:
-            return self.bench.own_code(self.job.inner_home)
-        except (Gone, *UNREADABLE):
-            return []
+        return [] if self.starter.loaded is None else own_code.told(self.starter.loaded)
 
     def _look_who_interferes(self, actor: Optional[Actor] = None) -> None:
         """What was done since the launch to the world, and to the simulator's own names."""
@@ -271,6 +276,7 @@ class Session:
         actor = Actor(bench, self.start)
         context = Context(
             pathlib.Path(job.spec_folder),
+            pathlib.Path(job.home),
             pathlib.Path(job.home, "catkin_ws", "src"),
             {name: pathlib.Path(job.home, folder) for name, folder in job.packages.items()},
             log=lambda: self._log(mark) if task["do"] else self._log(),
@@ -314,7 +320,7 @@ class Session:
         stem = os.path.join(job.out, "pictures", f"session{self.number}_task{self.tasks.index(task)}")
         result.pictures = film.picture(bench, task.get("model", ""), stem)
         result.film = filming.write(stem + ".mp4") if filming else ""
-        result.commands = [*_typed(task["launch"]), *actor.by_hand]
+        result.commands = [*_typed(task["launch"]), *map(sentence, actor.by_hand)]
         actor.end()
         bench.settle(0.05)
         return self._with_log(result, mark) if result.points < result.of else result
@@ -357,14 +363,14 @@ def main() -> None:
     signal.signal(signal.SIGTERM, lambda number, frame: sys.exit(1))
     os.umask(0o022)
     os.environ["LAB_CHECK_WORD"] = uuid.uuid4().hex  # by which the master knows this process
-    hard = resource.getrlimit(resource.RLIMIT_DATA)[1]
-    resource.setrlimit(resource.RLIMIT_DATA, (int(_MOST_MEMORY), hard))
     job, number = Job.load(sys.argv[1]), int(sys.argv[2])
-    os.environ.update(ROS_MASTER_URI=f"http://localhost:{job.port}", ROS_HOSTNAME="localhost", ROS_LOG_DIR=job.scratch)
+    bound(job.limits["memory"] + _MORE_MEMORY)
+    os.environ.update(ROS_MASTER_URI=f"http://localhost:{job.port}", ROS_HOSTNAME="localhost", ROS_LOG_DIR=job.logs)
     launches = list(dict.fromkeys(task["launch"] for task in job.spec["tasks"]))
     tasks = [task for task in job.spec["tasks"] if task["launch"] == launches[number]]
     session = Session(job, tasks, number)
     results = session.run()
+    resource.setrlimit(resource.RLIMIT_DATA, (resource.getrlimit(resource.RLIMIT_DATA)[1],) * 2)  # to write down what was seen
     log = session._log()
     pathlib.Path(job.out, f"launch_{number}.log").write_text(log, encoding="utf-8")
     answer = {

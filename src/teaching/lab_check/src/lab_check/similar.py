@@ -5,7 +5,6 @@ are those of any language: names, numbers and signs, without comments, blanks an
 """
 from __future__ import annotations
 
-import argparse
 import os
 import pathlib
 import re
@@ -16,7 +15,7 @@ from dataclasses import dataclass
 from itertools import combinations
 from typing import Dict, List, Optional, Set
 
-from .inside import read_regular
+from .inside import read_regular, walk
 from .staging import Staged, StagingError, unpack, within_bounds
 
 _ENDINGS = {".cpp", ".cc", ".c", ".h", ".hpp", ".py", ".launch", ".xacro", ".urdf", ".yaml", ".world", ".sdf"}
@@ -52,17 +51,15 @@ def prints(submission: pathlib.Path) -> Set[int]:
 def _of_folder(folder: pathlib.Path) -> Set[int]:
     found: Set[int] = set()
     left = _MOST_OF_SOURCE
-    for place, folders, files in os.walk(folder):
-        folders[:] = sorted(name for name in folders if name not in (".git", "build", "devel"))
-        for name in sorted(files):
-            if os.path.splitext(name)[1] in _ENDINGS and left > 0:
-                try:
-                    data = read_regular(place, name, _LARGEST)
-                except OSError:  # a link, a pipe, or not ours to read
-                    continue
-                if len(data) < _LARGEST:
-                    left -= len(data)
-                    found |= of_text(data.decode("utf-8", "replace"))
+    for name, _ in walk(folder, left_out=(".git", "build", "devel")):
+        if os.path.splitext(name)[1] in _ENDINGS and left > 0:
+            try:
+                data = read_regular(folder, name, _LARGEST)
+            except OSError:  # a link, a pipe, or not ours to read
+                continue
+            if len(data) < _LARGEST:
+                left -= len(data)
+                found |= of_text(data.decode("utf-8", "replace"))
     return found
 
 
@@ -89,7 +86,9 @@ def pairs(submissions: Dict[str, pathlib.Path], near: float = NEAR) -> List[Pair
 
 
 def main(arguments: Optional[List[str]] = None) -> int:
-    parser = argparse.ArgumentParser(prog="rosrun lab_check similar", description="Point out near-identical submissions.")
+    from .cli import Parser
+
+    parser = Parser(prog="rosrun lab_check similar", description="Point out near-identical submissions.")
     parser.add_argument("submissions", type=pathlib.Path, nargs="+")
     parser.add_argument("--least", type=float, default=NEAR, help="share in common that counts; default %(default)s")
     options = parser.parse_args(arguments)

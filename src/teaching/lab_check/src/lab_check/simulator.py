@@ -11,6 +11,7 @@ import select
 import socket
 import sysconfig
 import threading
+import time
 import uuid
 from multiprocessing.connection import Connection
 from typing import Any, Callable, Dict, List, Optional
@@ -22,6 +23,7 @@ from .supervise import Program, descendants, processor_time
 
 _LONGEST = 64_000_000  # bytes of an answer
 _LONGEST_WISH = 200_000  # bytes
+_MOST_WISHES = 8  # that are heard at a time
 _LOOK = 0.2  # s
 _TAKEN = 255  # exit code of Gazebo beside another one
 _LEAVING = 5.0  # s that the simulator gets for its end
@@ -122,10 +124,12 @@ class Starter:
         self.address = f"lab_check.{uuid.uuid4().hex}"  # without a file: of this network alone
         self.program: Optional[Program] = None
         self.wire: Optional[Wire] = None
+        self.loaded: Optional[int] = None  # a pipe, see lab_check.own_code
         self._job, self._seed, self._started, self._alive = job, seed, started, alive
         self._listens = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         self._listens.bind(f"\0{self.address}")
         self._listens.listen(4)
+        self._room = threading.BoundedSemaphore(_MOST_WISHES)
         threading.Thread(target=self._serve, daemon=True).start()
 
     def seconds(self) -> float:
@@ -134,8 +138,15 @@ class Starter:
 
     def _serve(self) -> None:
         while True:
-            wish, _ = self._listens.accept()
-            threading.Thread(target=self._answer, args=(wish,), daemon=True).start()
+            try:
+                wish, _ = self._listens.accept()
+            except OSError:  # too many files are open at the moment
+                time.sleep(_LOOK)
+                continue
+            if self._room.acquire(blocking=False):
+                threading.Thread(target=self._answer, args=(wish,), daemon=True).start()
+            else:
+                wish.close()
 
     def _answer(self, wish: socket.socket) -> None:
         files: List[int] = []
@@ -144,29 +155,35 @@ class Starter:
             data, files, _, _ = socket.recv_fds(wish, _LONGEST_WISH, 3)
             code = self._fulfil(json.loads(data), files, wish)
             wish.send(b"%d" % code)
-        except (OSError, ValueError, TypeError, KeyError, AttributeError):  # not what the platform's own script says
+        except Exception:  # not what the platform's own script says
             pass
         finally:
             for number in files:
                 os.close(number)
             wish.close()
+            self._room.release()
 
     def _fulfil(self, wished: Dict[str, Any], files: List[int], wish: socket.socket) -> int:
         if self.program is not None and self.program.running:
             os.write(files[2], b"gzserver: a simulator runs already and goes on; models are spawned into that world\n")
             return _TAKEN
         mine, its = socket.socketpair()
-        words = [*sandbox.isolated(), "-m", "lab_check.probe", str(its.fileno()), "--pause", "--lockstep", "--seed", str(self._seed)]
+        loaded, loads = os.pipe2(os.O_CLOEXEC | os.O_NONBLOCK)
+        words = [*sandbox.isolated(), "-m", "lab_check.probe", str(its.fileno()), str(loads), self._job.inner_home]
+        words += ["--pause", "--lockstep", "--seed", str(self._seed)]
         words[0] = "/usr/bin/python3"
         words += _without_seed([str(word) for word in wished["arguments"]])
         folder = str(wished["folder"])
         inside = folder if folder.startswith(f"{self._job.inner_home}/") else self._job.inner_home
         words = ["env", "-C", inside, *words]
         try:
-            program = self._job.program(words, self._environment(wished["environment"]), (files[0], files[1], files[2]), [its.fileno()])
+            streams = (files[0], files[1], files[2])
+            program = self._job.program(words, self._environment(wished["environment"]), streams, [its.fileno(), loads])
         finally:
             its.close()
+            os.close(loads)
         self._started(program)
+        self.loaded = loaded
         self.wire, self.program = Wire(Connection(mine.detach()), self._alive), program
         return self._follow(program, wish)
 

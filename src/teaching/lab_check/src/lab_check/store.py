@@ -10,6 +10,7 @@ import sqlite3
 import time
 from typing import Collection, Dict, List, Optional
 
+from .inside import walk
 from .outcome import Result
 
 _TABLE = """CREATE TABLE IF NOT EXISTS submissions (
@@ -93,9 +94,7 @@ def fingerprint(path: pathlib.Path, spec_text: str) -> str:
         information = path.stat()
         digest.update(f"{information.st_size} {information.st_mtime_ns}".encode())
     elif path.is_dir() and path.resolve() != pathlib.Path("/"):
-        files = [os.path.join(folder, name) for folder, _, names in os.walk(path) for name in names]
-        for file in sorted(files)[:20000]:
-            information = os.lstat(file)
-            text = f"{os.path.relpath(file, path)} {information.st_size} {information.st_mtime_ns}"
+        for name, information in sorted(walk(path), key=lambda found: found[0])[:20000]:
+            text = f"{name} {information.st_size} {information.st_mtime_ns}"
             digest.update(text.encode("utf-8", "surrogateescape"))
     return digest.hexdigest()

@@ -13,6 +13,7 @@ from typing import Callable, Dict, List, Optional, Sequence, Tuple
 from . import group, sockets
 
 _HEAD, _TAIL = 400_000, 200_000  # bytes of output that are kept
+_MOST_FILES = 4096  # that are open, of one process
 _LOOK = 0.1  # s between two looks at memory and processes
 Streams = Tuple[int, int, int]  # descriptors of standard input, output and error
 STRETCH = 10.0  # wall time, in limits of time, after which a submission is ended even on the busiest machine
@@ -70,7 +71,7 @@ class Program:
         group.enter(self._place)
         signal.signal(signal.SIGINT, signal.SIG_DFL)
         for what, most in ((resource.RLIMIT_CORE, 0), (resource.RLIMIT_FSIZE, int(self._limits.get("disk", 1e9))),
-                           (resource.RLIMIT_NOFILE, 4096)):
+                           (resource.RLIMIT_NOFILE, _MOST_FILES)):
             hard = resource.getrlimit(what)[1]
             most = most if hard == resource.RLIM_INFINITY else min(most, hard)
             resource.setrlimit(what, (most, most))
@@ -158,6 +159,14 @@ def die_with_parent() -> None:
     _LIBC.prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
 
 
+def bound(memory: float) -> None:
+    """This process, which answers to nodes of a submission, takes no more than that for them, and keeps no more connections than one of
+    their programs can."""
+    for what, most in ((resource.RLIMIT_DATA, int(memory)), (resource.RLIMIT_NOFILE, _MOST_FILES)):
+        soft, hard = resource.getrlimit(what)
+        resource.setrlimit(what, (most if soft == resource.RLIM_INFINITY else min(most, soft), hard))
+
+
 def _parents() -> Dict[int, int]:
     found = {}
     for name in os.listdir("/proc"):
@@ -242,7 +251,8 @@ class Guard(threading.Thread):
 
     def stop(self) -> None:
         self._over.set()
-        self.join(5.0)
+        if self.is_alive():
+            self.join(5.0)
 
 
 def processor_time(pid: int) -> Tuple[float, bool]:

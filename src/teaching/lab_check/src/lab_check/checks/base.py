@@ -16,7 +16,8 @@ class Context:
     """What a check may look at. ``log()`` is what was printed since the task began."""
 
     spec_folder: pathlib.Path
-    source: pathlib.Path  # the submission's packages
+    home: pathlib.Path  # of the submission; below it, its programs may have put links in the place of anything: see lab_check.inside
+    source: pathlib.Path  # its packages
     packages: Dict[str, pathlib.Path]
     log: Callable[[], str] = lambda: ""
     bench: Optional[Bench] = None

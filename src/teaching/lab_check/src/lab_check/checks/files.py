@@ -2,7 +2,6 @@
 from __future__ import annotations
 
 import math
-import pathlib
 import xml.etree.ElementTree as ET
 from typing import Any, Dict, List, Tuple
 
@@ -19,30 +18,30 @@ class FileCheck(Check):
 
     def verdict(self) -> Tuple[bool, str, Dict[str, Any]]:
         path = self.wanted["path"]
-        found = self._find(path)  # (folder, path below it)
+        found = self._find(path)
         if self.wanted.get("absent"):
             return not found, f"{path} is {'still there' if found else 'not there, as it should be'}", {}
         if not found:
             return False, f"there is no file {path} in your submission", {}
         contains = self.wanted.get("contains")
         if contains:
-            if not any(self._holds(contains, folder, name) for folder, name in found):
+            if not any(self._holds(contains, name) for name in found):
                 return False, f"{path} is there, but holds nothing like '{contains}'", {}
         return True, f"{path} is there" + (f" and holds '{contains}'" if contains else ""), {}
 
-    @staticmethod
-    def _holds(pattern: str, folder: pathlib.Path, name: str) -> bool:
+    def _holds(self, pattern: str, name: str) -> bool:
         try:
-            return bool(search(pattern, read_regular(folder, name, _LARGEST).decode("utf-8", "replace")))
+            return bool(search(pattern, read_regular(self.context.home, name, _LARGEST).decode("utf-8", "replace")))
         except OSError:  # something else stands there by now
             return False
 
-    def _find(self, path: str) -> List[Tuple[pathlib.Path, str]]:
+    def _find(self, path: str) -> List[str]:
+        """Below the submission's home."""
         package, _, rest = path.partition("/")
-        if package in self.context.packages and rest:
-            folder = self.context.packages[package]
-            return [(folder, name) for name in matching(folder, rest)]
-        return [(self.context.source, name) for name in matching(self.context.source, path, anywhere=True)]
+        mine = package in self.context.packages and rest
+        folder = (self.context.packages[package] if mine else self.context.source).relative_to(self.context.home)
+        found = matching(self.context.home, rest if mine else path, anywhere=not mine, below=folder)
+        return [str(folder / name) for name in found]
 
 
 class UrdfCheck(Check):

@@ -166,6 +166,7 @@ class ControllersCheck(Check):
             return False, (f"there is no controller manager{which}: is the gazebo_ros_control plugin in the URDF? "
                            f"(there are: {names(s[:-len('/list_controllers')] for s in services)})"), {}
         try:
+            self._doubt(mine)
             found = {c.name: c for service in mine for c in rospy.ServiceProxy(service, ListControllers)().controller}
         except (rospy.ServiceException, rospy.ROSException) as error:
             return False, f"the controller manager does not answer: {error}", {}
@@ -183,6 +184,14 @@ class ControllersCheck(Check):
             if wrong:
                 return False, f"{names(wrong)}, not {kind}", figures
         return True, f"running: {names(running)}", figures
+
+
+    def _doubt(self, services: List[str]) -> None:
+        """A node of the submission that is a controller manager, of a robot of its own say, tells what it likes."""
+        owners = {node for service, nodes in master().getSystemState()[2] if service in services for node in nodes}
+        for node in sorted(owners):
+            if master().lookupNode(node) != self.context.bench.simulator:
+                self.doubts.add(f"a controller manager that was asked is the node {node}'s, not the simulator's: it tells what it likes")
 
 
 class NoErrorsCheck(Check):
