@@ -13,8 +13,8 @@ def value(expression):
     builtin = vars(builtins)
     symbols = {
         **{name: builtin[name] for name in (
-            "list dict map len str float int bool min max round sorted range abs all any divmod enumerate filter frozenset hash isinstance "
-            "issubclass ord repr reversed slice set sum tuple type zip complex").split()},
+            "list dict map len str float int bool min max round sorted range abs all any divmod enumerate filter frozenset hash "
+            "isinstance issubclass ord repr reversed slice set sum tuple type zip complex").split()},
         "math": SimpleNamespace(**vars(math)),
         "prod": math.prod,
         "lcm": math.lcm,

@@ -9,7 +9,8 @@ from motion.cartesian import CartesianResult, cartesian_path, explain, is_valid,
 from motion.files import find_package, load_mesh
 from motion.kinematics import IkResult, ik
 from motion.model import load_model
-from motion.pilz import CartesianLimits, SequenceResult, pilz_plan, pilz_sequence
+from motion.pilz import CartesianLimits, pilz_plan
+from motion.pilz_sequence import SequenceResult, pilz_sequence
 from motion.pipeline import Pipeline
 from motion.planning import CODES, AuxiliaryPoint, MotionRequest, PlanResult, joint_goal, named_goal, plan, planner_problem, pose_goal
 from motion.pose import Pose

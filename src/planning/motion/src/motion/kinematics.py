@@ -83,8 +83,7 @@ def ik(scene_or_model: Union[_core.PlanningScene, _core.RobotModel], group: str,
     if scene is None and (avoid_collisions or constraints is not None):
         raise _core.InvalidInputError("inverse kinematics: collisions and constraints need a planning scene, not a model alone")
     targets = [_on_robot(start, name, p) for name, p in _targets(model, model.group(group), pose, link)]
-    if random_seed is None:
-        random_seed = random.getrandbits(63)
+    random_seed = random.getrandbits(63) if random_seed is None else random_seed
     found = _core._ik(start, group, targets, timeout, tolerance, position_only, solutions, max_restarts,
                       return_approximate, consistency, valid, random_seed, scene if avoid_collisions else None,
                       scene, constraints)

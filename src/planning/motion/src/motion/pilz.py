@@ -2,21 +2,19 @@
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass, field, replace
-from typing import Callable, List, Optional, Sequence, Tuple
+from dataclasses import dataclass, replace
+from typing import Callable, Optional, Sequence, Tuple
 
 import numpy as np
 
 from motion import _core
-from motion.cartesian import explain, path_valid
 from motion.kinematics import ik
 from motion.planning import AuxiliaryPoint, MotionRequest, PlanResult
 from motion.pose import Pose
 from motion.timing import above_zero
 from motion.trajectory import Trajectory
 
-Planner = Callable[[_core.PlanningScene, MotionRequest, Optional[_core.CancelToken]], PlanResult]
-_SAMPLING = 0.1  # s, as upstream
+SAMPLING = 0.1  # s, as upstream
 _RADII = 1e-2    # m by which the distances of start and goal from a circle's centre may differ, as upstream
 _UNSET = 1.0     # rad/s, rad/s^2 where the robot says nothing
 
@@ -31,7 +29,7 @@ class CartesianLimits:
     max_rot_vel: float = 1.57
 
 
-class _Refused(Exception):
+class Refused(Exception):
     def __init__(self, status: str, message: str):
         super().__init__(message)
         self.status = status
@@ -42,7 +40,7 @@ class _Trapeze:
 
     def __init__(self, length: float, speed: float, up: float, down: float):
         if not (speed > 0 and up > 0 and down > 0):
-            raise _Refused("failed", "the velocity and acceleration limits must be above 0")
+            raise Refused("failed", "the velocity and acceleration limits must be above 0")
         top = min(speed, float(np.sqrt(2 * length * up * down / (up + down))))
         self.length, self.top, self.up, self.down = length, top, up, down
         self.t_up, self.t_down = top / up, top / down
@@ -62,8 +60,8 @@ class _Trapeze:
 
     def times(self) -> np.ndarray:
         """0, every sampling time, and the end; the last interval is never so short that rounding would count in it."""
-        steps = np.arange(0.0, self.duration, _SAMPLING)
-        if len(steps) > 1 and self.duration - steps[-1] < 0.2 * _SAMPLING:
+        steps = np.arange(0.0, self.duration, SAMPLING)
+        if len(steps) > 1 and self.duration - steps[-1] < 0.2 * SAMPLING:
             steps = steps[:-1]
         return np.append(steps, self.duration)
 
@@ -72,17 +70,17 @@ def _scalings(request: MotionRequest) -> Tuple[float, float]:
     scalings = request.velocity_scaling, request.acceleration_scaling
     for value in scalings:
         if not 0.0001 <= value <= 1.0:
-            raise _Refused("invalid_plan", f"velocity and acceleration scaling must be in [0.0001, 1], not {value:g}")
+            raise Refused("invalid_plan", f"velocity and acceleration scaling must be in [0.0001, 1], not {value:g}")
     return scalings
 
 
 def _goal(scene: _core.PlanningScene, request: MotionRequest) -> _core.Constraints:
     goals = [goal for goal in request.goals if not goal.empty()]
     if len(goals) != 1:
-        raise _Refused("no_goal", f"{request.planner} needs exactly one goal, not {len(goals)}")
+        raise Refused("no_goal", f"{request.planner} needs exactly one goal, not {len(goals)}")
     goal, = goals
     if goal.joint and (goal.position or goal.orientation):
-        raise _Refused("no_goal", f"{request.planner} needs a goal of joint values or of a pose, not of both")
+        raise Refused("no_goal", f"{request.planner} needs a goal of joint values or of a pose, not of both")
     for constraint in goal.joint:
         _check_joint(scene.model, request.group, constraint)
     return goal
@@ -90,10 +88,10 @@ def _goal(scene: _core.PlanningScene, request: MotionRequest) -> _core.Constrain
 
 def _check_joint(model: _core.RobotModel, group: str, constraint: _core.JointConstraint) -> None:
     if constraint.joint not in model.group(group).variables:
-        raise _Refused("no_goal", f"joint '{constraint.joint}' of the goal does not belong to group '{group}'")
+        raise Refused("no_goal", f"joint '{constraint.joint}' of the goal does not belong to group '{group}'")
     limits = model.variable_limits(constraint.joint)
     if limits.has_position and not limits.min_position - 1e-6 <= constraint.position <= limits.max_position + 1e-6:
-        raise _Refused("no_goal", f"the goal is outside the limits of '{constraint.joint}': {constraint.position:.4g} is not within "
+        raise Refused("no_goal", f"the goal is outside the limits of '{constraint.joint}': {constraint.position:.4g} is not within "
                                   f"{limits.min_position:.4g} to {limits.max_position:.4g}")
 
 
@@ -117,24 +115,24 @@ def _tool(scene: _core.PlanningScene, start: _core.RobotState, request: MotionRe
     if goal.joint:
         link = link or group.tip_link
         if not link:
-            raise _Refused("failed", f"group '{group.name}' is no chain: its end, which {request.planner} moves, is not known")
+            raise Refused("failed", f"group '{group.name}' is no chain: its end, which {request.planner} moves, is not known")
         if not start.has_frame(link):
-            raise _Refused("invalid_link", f"the robot has no link '{link}', which {request.planner} is to move")
+            raise Refused("invalid_link", f"the robot has no link '{link}', which {request.planner} is to move")
         state = start.copy()
         state.set({c.joint: c.position for c in goal.joint})
         return _Tool(link, Pose.identity(), state.pose(link))
     if len(goal.position) != 1 or len(goal.orientation) != 1 or goal.position[0].link != goal.orientation[0].link:
-        raise _Refused("no_goal", f"{request.planner} needs a goal of joint values, or one position and one orientation of one link")
+        raise Refused("no_goal", f"{request.planner} needs a goal of joint values, or one position and one orientation of one link")
     position, orientation = goal.position[0], goal.orientation[0]
     if not position.region:
-        raise _Refused("no_goal", "the position constraint of the goal has no region")
+        raise Refused("no_goal", "the position constraint of the goal has no region")
     point = scene.frame_pose(position.frame, start) * position.region[0][1].position
     turn = scene.frame_pose(orientation.frame, start) * Pose(np.zeros(3), np.asarray(orientation.quaternion))
     in_link = Pose(np.asarray(position.offset, float), np.array((0.0, 0.0, 0.0, 1.0)))
     return _Tool(position.link, in_link, Pose(point, turn.quaternion))
 
 
-def _slerp(a: Pose, b: Pose) -> Tuple[float, Callable[[float], np.ndarray]]:
+def slerp(a: Pose, b: Pose) -> Tuple[float, Callable[[float], np.ndarray]]:
     """(angle between, quaternion at a share of the way)."""
     qa, qb = np.asarray(a.quaternion), np.asarray(b.quaternion)
     cosine = float(np.dot(qa, qb))
@@ -160,7 +158,7 @@ def _joint_limits(scene: _core.PlanningScene, group: str, unset: float) -> Tuple
             np.array([limit.max_acceleration if limit.has_acceleration else unset for limit in limits]))
 
 
-def _check_limits(scene: _core.PlanningScene, trajectory: Trajectory, what: str) -> None:
+def check_limits(scene: _core.PlanningScene, trajectory: Trajectory, what: str) -> None:
     """Refuse what is too fast for the joints between or at its points; what has no limit may be as fast as it likes."""
     velocity, acceleration = _joint_limits(scene, trajectory.group, np.inf)
     assert trajectory.times is not None and trajectory.velocities is not None and trajectory.accelerations is not None
@@ -170,11 +168,11 @@ def _check_limits(scene: _core.PlanningScene, trajectory: Trajectory, what: str)
         worst = np.abs(rows).max(axis=0, initial=0.0)
         if (worst > limits * 1.001).any():
             joint = int(np.argmax(worst / limits))
-            raise _Refused("failed", f"{what} would move joint '{trajectory.variables[joint]}' with {worst[joint]:.3g}, above its "
+            raise Refused("failed", f"{what} would move joint '{trajectory.variables[joint]}' with {worst[joint]:.3g}, above its "
                                      f"{name} limit {limits[joint]:.3g}; a smaller {name} scaling helps")
 
 
-def _trajectory(scene, group: str, start: _core.RobotState, at: Sequence[float], points: Sequence[np.ndarray]) -> Trajectory:
+def trajectory_of(scene, group: str, start: _core.RobotState, at: Sequence[float], points: Sequence[np.ndarray]) -> Trajectory:
     """Velocities and accelerations are those of the differences; it starts and ends at rest."""
     times, positions = np.asarray(at, float), np.asarray(points, float)
     velocities, accelerations = np.zeros_like(positions), np.zeros_like(positions)
@@ -209,14 +207,14 @@ def _ptp(scene: _core.PlanningScene, start: _core.RobotState, request: MotionReq
             solutions=8,
         )
         if not found:
-            raise _Refused("no_ik_solution", found.message)
+            raise Refused("no_ik_solution", found.message)
         last = found.solutions[0]
     velocity, acceleration = _joint_limits(scene, request.group, _UNSET)
     v_scale, a_scale = _scalings(request)
     # As upstream the strictest limits hold for all joints, and all arrive together.
     way = float(np.abs(last - first).max(initial=0.0))
     if way < 1e-9:
-        return _trajectory(scene, request.group, start, [0.0], [first])
+        return trajectory_of(scene, request.group, start, [0.0], [first])
     profile = _Trapeze(way, velocity.min() * v_scale, acceleration.min() * a_scale, acceleration.min() * a_scale)
     times = profile.times()
     direction = (last - first) / way
@@ -234,28 +232,28 @@ def _along(scene: _core.PlanningScene, start: _core.RobotState, request: MotionR
     way = max(length, angle * limits.max_trans_vel / limits.max_rot_vel)
     values = start.get_group(request.group)
     if way < 1e-9:
-        return _trajectory(scene, request.group, start, [0.0], [values])
+        return trajectory_of(scene, request.group, start, [0.0], [values])
     profile = _Trapeze(way, limits.max_trans_vel * v_scale, limits.max_trans_acc * a_scale, abs(limits.max_trans_dec) * a_scale)
     times = profile.times()
     positions = [values]
     seed = start.copy()
     for now in times[1:]:
         share = profile.at(now)[0] / way
-        values = _follow(scene, request.group, tool.link, tool.link_at(pose_at(share)), seed,
+        values = follow(scene, request.group, tool.link, tool.link_at(pose_at(share)), seed,
                          f"the {request.planner} motion cannot be followed beyond {share:.0%} of its way")
         positions.append(values)
-    trajectory = _trajectory(scene, request.group, start, list(times), positions)
-    _check_limits(scene, trajectory, f"the {request.planner} motion")
+    trajectory = trajectory_of(scene, request.group, start, list(times), positions)
+    check_limits(scene, trajectory, f"the {request.planner} motion")
     return trajectory
 
 
-def _follow(scene: _core.PlanningScene, group: str, link: str, pose: Pose, seed: _core.RobotState, problem: str) -> np.ndarray:
+def follow(scene: _core.PlanningScene, group: str, link: str, pose: Pose, seed: _core.RobotState, problem: str) -> np.ndarray:
     """Joint values near those of ``seed``, which is put there: no joint is turned back from its limit."""
     size = scene.model.group(group).size
     found = ik(scene, group, pose, link=link, seed=seed, timeout=0.1, max_restarts=0, tolerance=1e-6,
                consistency=[0.99 * np.pi] * size)
     if not found:
-        raise _Refused("no_ik_solution", f"{problem}: {found.message}")
+        raise Refused("no_ik_solution", f"{problem}: {found.message}")
     seed.set_group(group, found.solutions[0])
     return found.solutions[0]
 
@@ -263,7 +261,7 @@ def _follow(scene: _core.PlanningScene, group: str, link: str, pose: Pose, seed:
 def _lin(scene: _core.PlanningScene, start: _core.RobotState, request: MotionRequest, limits: CartesianLimits) -> Trajectory:
     tool = _tool(scene, start, request)
     origin = start.pose(tool.link) * tool.in_link
-    angle, turn = _slerp(origin, tool.goal)
+    angle, turn = slerp(origin, tool.goal)
     way = tool.goal.position - origin.position
     return _along(scene, start, request, tool, float(np.linalg.norm(way)), angle,
                   lambda share: Pose(origin.position + share * way, turn(share)), limits)
@@ -275,7 +273,7 @@ def _circle(start: np.ndarray, goal: np.ndarray, point: np.ndarray, kind: str) -
         a, b = point - start, goal - start
         normal = np.cross(a, b)
         if np.linalg.norm(normal) < 1e-9:
-            raise _Refused("invalid_plan", "start, interim point and goal of the circle lie on one line")
+            raise Refused("invalid_plan", "start, interim point and goal of the circle lie on one line")
         centre = start + (np.dot(b, b) * np.cross(np.cross(a, b), a) + np.dot(a, a) * np.cross(b, np.cross(a, b))) / (
             2 * np.dot(normal, normal)
         )
@@ -284,9 +282,9 @@ def _circle(start: np.ndarray, goal: np.ndarray, point: np.ndarray, kind: str) -
         normal = np.cross(start - centre, goal - centre)
         apart = abs(np.linalg.norm(start - centre) - np.linalg.norm(goal - centre))
         if apart > _RADII:
-            raise _Refused("invalid_plan", f"start and goal of the circle are not equally far from its centre: by {apart:.4g} m")
+            raise Refused("invalid_plan", f"start and goal of the circle are not equally far from its centre: by {apart:.4g} m")
         if np.linalg.norm(normal) < 1e-9:
-            raise _Refused("invalid_plan", "start, centre and goal of the circle lie on one line: give an interim point instead")
+            raise Refused("invalid_plan", "start, centre and goal of the circle lie on one line: give an interim point instead")
     radius, last = (float(np.linalg.norm(place - centre)) for place in (start, goal))
     x = (start - centre) / radius
     y = np.cross(normal / np.linalg.norm(normal), x)
@@ -309,13 +307,13 @@ def with_auxiliary_point(request: MotionRequest) -> MotionRequest:
 def _circ(scene: _core.PlanningScene, start: _core.RobotState, request: MotionRequest, limits: CartesianLimits) -> Trajectory:
     auxiliary = with_auxiliary_point(request).auxiliary
     if auxiliary is None:
-        raise _Refused("invalid_plan", "CIRC needs path constraints named 'interim' or 'center' with one position constraint that has "
+        raise Refused("invalid_plan", "CIRC needs path constraints named 'interim' or 'center' with one position constraint that has "
                                        "one pose: its auxiliary point")
     tool = _tool(scene, start, request, auxiliary.link)
     point = scene.frame_pose(auxiliary.frame, start) * np.asarray(auxiliary.position, float)
     origin = start.pose(tool.link) * tool.in_link
     length, place = _circle(origin.position, tool.goal.position, point, auxiliary.kind)
-    angle, turn = _slerp(origin, tool.goal)
+    angle, turn = slerp(origin, tool.goal)
     return _along(scene, start, request, tool, length, angle, lambda share: Pose(place(share), turn(share)), limits)
 
 
@@ -333,9 +331,9 @@ def pilz_plan(scene: _core.PlanningScene, request: MotionRequest, cancel: Option
     try:
         motion = _MOTIONS.get(request.planner)
         if motion is None:
-            raise _Refused("unknown_planner", f"there is no planner '{request.planner[:40]}' (there is: {', '.join(_MOTIONS)})")
+            raise Refused("unknown_planner", f"there is no planner '{request.planner[:40]}' (there is: {', '.join(_MOTIONS)})")
         trajectory = motion(scene, start, request, limits)
-    except _Refused as refused:
+    except Refused as refused:
         return PlanResult(
             refused.status, message=str(refused), start=start, planner=request.planner, planning_time=time.perf_counter() - begun
         )
@@ -357,142 +355,3 @@ def pilz_plan(scene: _core.PlanningScene, request: MotionRequest, cancel: Option
 
 
 # ---------------------------------------------------------------- sequences
-
-@dataclass
-class SequenceResult:
-    """One motion after the other; true in a condition if all were planned."""
-
-    status: str
-    message: str = ""
-    trajectories: List[Trajectory] = field(default_factory=list)
-    planning_time: float = 0.0
-    warnings: List[str] = field(default_factory=list)
-    contacts: List[_core.Contact] = field(default_factory=list)
-
-    @property
-    def code(self) -> int:
-        return PlanResult(self.status).code
-
-    def __bool__(self) -> bool:
-        return self.status == "solved"
-
-
-def _blend(
-    scene: _core.PlanningScene, first: Trajectory, second: Trajectory, link: str, radius: float
-) -> Trajectory:
-    """One trajectory that leaves the first where it enters the ball about its end, and joins the second where that leaves it."""
-    places = [np.array([t.state(i).pose(link).position for i in range(len(t))]) for t in (first, second)]
-    corner = places[0][-1]
-    inside = [np.linalg.norm(p - corner, axis=1) <= radius for p in places]
-    if inside[0].all() or inside[1].all():
-        raise _Refused("failed", f"the blend radius {radius:g} m is larger than a motion that it joins")
-    enter = int(np.flatnonzero(~inside[0])[-1])
-    leave = int(np.flatnonzero(~inside[1])[0])
-    assert first.times is not None and second.times is not None  # planned motions are timed
-    t_enter, t_leave = first.times[enter], second.times[leave]
-    duration = max(first.duration - t_enter, t_leave)
-    steps = max(2, int(np.ceil(duration / _SAMPLING)))
-    seed = first.state(enter)
-    times, positions = list(first.times[:enter + 1]), list(first.positions[:enter + 1])
-    for k in range(1, steps + 1):
-        t = duration * k / steps
-        share = k / steps
-        alpha = share ** 3 * (10 - 15 * share + 6 * share * share)
-        a = first.state_at(min(first.duration, t_enter + t)).pose(link)
-        b = second.state_at(min(t_leave, max(0.0, t_leave - duration + t))).pose(link)
-        _, turn = _slerp(a, b)
-        pose = Pose((1 - alpha) * a.position + alpha * b.position, turn(alpha))
-        times.append(t_enter + t)
-        positions.append(_follow(scene, first.group, link, pose, seed, "the blend between two motions cannot be followed"))
-    times += list(times[-1] + second.times[leave + 1:] - t_leave)
-    positions += list(second.positions[leave + 1:])
-    blended = _trajectory(scene, first.group, first.start, times, positions)
-    _check_limits(scene, blended, "the blend between two motions")
-    return blended
-
-
-def pilz_sequence(scene: _core.PlanningScene, items: Sequence[Tuple[MotionRequest, float]], cancel: Optional[_core.CancelToken] = None,
-                  limits: CartesianLimits = CartesianLimits(), plan: Optional[Planner] = None) -> SequenceResult:
-    """Motions one after the other, each from where the one before ends.
-
-    :param items: (request, blend radius in m to the next one); the last radius must be 0. Only the first motion of a group may
-        have a start. Motions of one group that follow each other become one trajectory.
-    :param plan: what plans each of them; default :func:`pilz_plan`. The result is looked at for collisions where motions are blended.
-    """
-    begun = time.perf_counter()
-    plan = plan or (lambda scene, request, cancel: pilz_plan(scene, request, cancel, limits))
-    result = SequenceResult("solved")
-    try:
-        radii = _radii(scene.model, items, result.warnings)
-        _plan_all(scene, items, radii, cancel, plan, result)
-    except _Refused as refused:
-        result.status, result.message, result.trajectories = refused.status, str(refused), []
-    except _core.MotionError as error:
-        result.status, result.message, result.trajectories = "invalid_request", str(error), []
-    result.planning_time = time.perf_counter() - begun
-    return result
-
-
-def _radii(model: _core.RobotModel, items: Sequence[Tuple[MotionRequest, float]], warnings: List[str]) -> List[float]:
-    """The blend radii that count.
-
-    :raises _Refused: what cannot be, before anything is planned.
-    """
-    radii = [float(radius) for _, radius in items]
-    if not all(0.0 <= radius < np.inf for radius in radii):
-        raise _Refused("invalid_plan", f"blend radii must be 0 or more (m), not {', '.join(f'{radius:g}' for radius in radii)}")
-    if radii and radii[-1] > 0:
-        raise _Refused("invalid_plan", "the last motion of a sequence cannot be blended: its blend radius must be 0")
-    groups = [request.group for request, _ in items]
-    for index, (request, _) in enumerate(items):
-        if request.start is not None and request.group in groups[:index]:
-            raise _Refused("invalid_state", f"motion {index + 1} of the sequence has a start state: only the first of its group may")
-        if index + 1 < len(items) and radii[index] > 0 and (groups[index + 1] != groups[index] or not model.group(groups[index]).tip_link):
-            why = "they are of two groups" if groups[index + 1] != groups[index] else f"group '{groups[index]}' is no chain"
-            warnings.append(f"motions {index + 1} and {index + 2} of the sequence are not blended: {why}")
-            radii[index] = 0.0
-    return radii
-
-
-def _plan_all(scene: _core.PlanningScene, items: Sequence[Tuple[MotionRequest, float]], radii: Sequence[float],
-              cancel: Optional[_core.CancelToken], plan: Planner, result: SequenceResult) -> None:
-    state, out, before = scene.state, result.trajectories, None
-    for index, (request, _) in enumerate(items):
-        where = f"motion {index + 1} of the sequence"
-        planned = plan(scene, replace(request, start=state if request.start is None else request.start), cancel)
-        result.warnings += planned.warnings
-        if not planned or planned.trajectory is None:
-            result.contacts = planned.contacts
-            raise _Refused(planned.status, f"{where}: {planned.message}")
-        trajectory, radius = planned.trajectory, radii[index - 1] if index else 0.0
-        state = trajectory.state(len(trajectory) - 1)
-        if before is None or before.group != trajectory.group:
-            out.append(trajectory)
-        elif radius > 0:
-            _check_overlap(before, trajectory, radius, radii[index], index)
-            out[-1] = _blended(scene, out[-1], trajectory, radius, where, result)
-        else:
-            out[-1] = out[-1].append(trajectory)
-        before = trajectory
-
-
-def _check_overlap(first: Trajectory, second: Trajectory, radius: float, later: float, index: int) -> None:
-    link = second.model.group(second.group).tip_link
-    corner, end = (t.state(len(t) - 1).pose(link).position for t in (first, second))
-    if later > 0 and np.linalg.norm(end - corner) <= radius + later:
-        raise _Refused("invalid_plan", f"the blend radii {radius:g} m and {later:g} m at both ends of motion {index + 1} of the sequence "
-                                       f"overlap: they are {np.linalg.norm(end - corner):.3g} m apart")
-
-
-def _blended(scene: _core.PlanningScene, first: Trajectory, second: Trajectory, radius: float, where: str,
-             result: SequenceResult) -> Trajectory:
-    try:
-        trajectory = _blend(scene, first, second, scene.model.group(first.group).tip_link, radius)
-    except _Refused as refused:
-        raise _Refused(refused.status, f"{where}: {refused}") from None
-    bad = path_valid(scene, first.start, trajectory.group, trajectory.positions)
-    if bad and bad != [0]:
-        state = trajectory.state(bad[0])
-        result.contacts = scene.check(state, group=trajectory.group, contacts=100).contacts
-        raise _Refused("invalid_plan", f"{where}: the blend with the one before it is not free: {explain(scene, state, trajectory.group)}")
-    return trajectory

@@ -167,8 +167,8 @@ def result_text(code: int, message: str, empty: bool, plan_only: bool) -> str:
             return "Requested path and goal constraints are already met."
         return "Motion plan was computed succesfully." if plan_only else "Solution was found and executed."
     texts = {codes.INVALID_GROUP_NAME: "Invalid group in motion plan request",
-             codes.UNABLE_TO_AQUIRE_SENSOR_DATA: "Motion plan was found but it seems to be too costly and looking "
-             "around did not help.",
+             codes.UNABLE_TO_AQUIRE_SENSOR_DATA: "Motion plan was found but it seems to be too costly and "
+             "looking around did not help.",
              codes.MOTION_PLAN_INVALIDATED_BY_ENVIRONMENT_CHANGE:
                  "Solution found but the environment changed during execution and the path was aborted"}
     if code in (codes.PLANNING_FAILED, codes.INVALID_MOTION_PLAN):

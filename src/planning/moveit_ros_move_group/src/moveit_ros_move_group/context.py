@@ -14,7 +14,7 @@ from moveit_core import convert, states
 from moveit_core.errors import PlanningError
 from moveit_ros_occupancy_map_monitor.monitor import OccupancyMapMonitor
 from moveit_ros_planning.plan_execution import PlanExecution
-from moveit_ros_planning.planning_pipeline import Pipelines
+from moveit_ros_planning.pipelines import Pipelines
 from moveit_ros_planning.robot_model import RobotDescription
 from moveit_ros_planning.scene_monitor import SceneMonitor
 from moveit_ros_planning.trajectory_execution import TrajectoryExecution

@@ -14,7 +14,8 @@ from moveit_core.errors import one_line
 from moveit_ros_occupancy_map_monitor.monitor import OccupancyMapMonitor
 from moveit_ros_planning import robot_model
 from moveit_ros_planning.plan_execution import PlanExecution
-from moveit_ros_planning.planning_pipeline import PipelineError, Pipelines
+from moveit_ros_planning.pipelines import Pipelines
+from moveit_ros_planning.planning_pipeline import PipelineError
 from moveit_ros_planning.scene_monitor import SceneMonitor
 from moveit_ros_planning.trajectory_execution import TrajectoryExecution
 from plugin_loader import PluginError, find_plugins

@@ -157,6 +157,12 @@ def own_network() -> None:
         subprocess.run(["ip", "route", "change", "local", *loopback.split(), "quickack", "1"], check=False)
 
 
+_ALONE = ("bwrap --unshare-user --disable-userns --unshare-pid --unshare-ipc --unshare-uts --unshare-cgroup-try --die-with-parent "
+          "--new-session --hostname lab --uid 1000 --gid 1000 --cap-drop ALL --ro-bind /usr /usr")
+_OF_ETC = ("alternatives ros ld.so.cache ld.so.conf ld.so.conf.d fonts sgml xml ssl/certs python3 python3.11 python3.13 debian_version "
+           "os-release lsb-release OpenCL glvnd localtime catkin")
+
+
 def inner_words(platform: Platform, world: str, place: str, environment: Dict[str, str], filter_fd: int) -> List[str]:
     """Before a program of the submission.
 
@@ -164,17 +170,14 @@ def inner_words(platform: Platform, world: str, place: str, environment: Dict[st
     :param place: of this program alone, with folders ``tmp``, ``run`` and ``shm``; with its home the only ones that it can write to
     :param filter_fd: a file that holds :func:`lab_check.syscalls.program`
     """
-    words = ["bwrap", "--unshare-user", "--disable-userns", "--unshare-pid", "--unshare-ipc", "--unshare-uts", "--unshare-cgroup-try",
-             "--die-with-parent", "--new-session", "--hostname", "lab", "--uid", "1000", "--gid", "1000", "--cap-drop", "ALL",
-             "--ro-bind", "/usr", "/usr"]
+    words = _ALONE.split()
     words += ["--seccomp", str(filter_fd)] if os.fstat(filter_fd).st_size else []
     for link in ("bin", "sbin", "lib", "lib32", "lib64", "libx32"):
         if os.path.islink(f"/{link}"):
             words += ["--symlink", os.readlink(f"/{link}"), f"/{link}"]
         elif os.path.isdir(f"/{link}"):
             words += ["--ro-bind", f"/{link}", f"/{link}"]
-    for path in ("alternatives", "ros", "ld.so.cache", "ld.so.conf", "ld.so.conf.d", "fonts", "sgml", "xml", "ssl/certs", "python3",
-                 "python3.11", "python3.13", "debian_version", "os-release", "lsb-release", "OpenCL", "glvnd", "localtime", "catkin"):
+    for path in _OF_ETC.split():
         words += ["--ro-bind-try", f"/etc/{path}", f"/etc/{path}"]
     words += ["--dev", "/dev", "--bind", f"{place}/shm", "/dev/shm", "--remount-ro", "/dev", "--proc", "/proc"]
     for path in _SHUT:
