@@ -1,4 +1,5 @@
 """The base of capabilities, and what keeps a bad request from harming the node."""
+
 from __future__ import annotations
 
 import functools
@@ -7,9 +8,8 @@ from typing import Any, Callable, List
 import actionlib
 import motion
 import rospy
-from moveit_msgs.msg import MoveItErrorCodes
-
 from moveit_core.errors import PlanningError, code_name, one_line
+from moveit_msgs.msg import MoveItErrorCodes
 from moveit_ros_planning.plan_execution import PlanExecution, Stop
 
 from .context import Context
@@ -40,6 +40,7 @@ def serve(name: str, kind: Any, handler: Callable[[Any, Any], None]) -> rospy.Se
     and is logged as one line; so is any other exception, with FAILURE. A response that has no place for a failure is none then: the
     call fails, as where upstream's handler returns false.
     """
+
     @functools.wraps(handler)
     def answer(request):
         response = kind._response_class()
@@ -106,8 +107,9 @@ class ActionCapability(Capability):
         #: of the goal that runs: whether it is to end, and how often it had been said to stop before it came
         self.stop, self.stops = Stop(), 0
         execution = context.execution
-        self._server = _Server(self.action_name, self.action, self._execute,
-                               execution.stops_before if execution is not None else lambda stamp: 0)
+        self._server = _Server(
+            self.action_name, self.action, self._execute, execution.stops_before if execution is not None else lambda stamp: 0
+        )
         self._server.register_preempt_callback(self.preempt)
         self._server.start()
 
@@ -159,6 +161,9 @@ class ActionCapability(Capability):
         return message
 
 
+_CHANGED = "Solution found but the environment changed during execution and the path was aborted"
+
+
 def result_text(code: int, message: str, empty: bool, plan_only: bool) -> str:
     """The text of a goal's status, as upstream words it, with the reason of a failure."""
     codes = MoveItErrorCodes
@@ -166,14 +171,17 @@ def result_text(code: int, message: str, empty: bool, plan_only: bool) -> str:
         if empty:
             return "Requested path and goal constraints are already met."
         return "Motion plan was computed succesfully." if plan_only else "Solution was found and executed."
-    texts = {codes.INVALID_GROUP_NAME: "Invalid group in motion plan request",
-             codes.UNABLE_TO_AQUIRE_SENSOR_DATA: "Motion plan was found but it seems to be too costly and "
-             "looking around did not help.",
-             codes.MOTION_PLAN_INVALIDATED_BY_ENVIRONMENT_CHANGE:
-                 "Solution found but the environment changed during execution and the path was aborted"}
+    texts = {
+        codes.INVALID_GROUP_NAME: "Invalid group in motion plan request",
+        codes.UNABLE_TO_AQUIRE_SENSOR_DATA: "Motion plan was found but it seems to be too costly and looking around did not help.",
+        codes.MOTION_PLAN_INVALIDATED_BY_ENVIRONMENT_CHANGE: _CHANGED,
+    }
     if code in (codes.PLANNING_FAILED, codes.INVALID_MOTION_PLAN):
-        text = ("No motion plan found. No execution attempted." if empty else
-                "Motion plan was found but it seems to be invalid (possibly due to postprocessing). Not executing.")
+        text = (
+            "No motion plan found. No execution attempted."
+            if empty
+            else "Motion plan was found but it seems to be invalid (possibly due to postprocessing). Not executing."
+        )
     else:
         text = texts.get(code, code_name(code))
     return f"{text}: {message}" if message else text
