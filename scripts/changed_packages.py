@@ -1,4 +1,5 @@
 """Which packages a change can break: those it is in, those that need them, and those whose tests use any of these."""
+
 import subprocess
 from pathlib import Path
 
@@ -16,6 +17,7 @@ class UnknownCommit(Exception):
 def workspace(root=ROOT):
     """The packages of src/ and of docs/: {folder relative to ``root``: package}."""
     from catkin_pkg.packages import find_packages  # here: --help must do before anything is installed
+
     return {Path(place) / folder: package for place in ("src", "docs") for folder, package in find_packages(str(root / place)).items()}
 
 
@@ -31,6 +33,7 @@ def changed_files(commit, root=ROOT):
 
     :raises UnknownCommit:
     """
+
     def git(*arguments):
         return subprocess.run(["git", *arguments], cwd=root, capture_output=True, text=True)
 

@@ -2,6 +2,7 @@
 
 A package's ``__init__.py`` is not counted: catkin's relay of the devel space executes it as a text without a name.
 """
+
 from __future__ import annotations
 
 import json
@@ -31,14 +32,29 @@ disable_warnings = no-data-collected,module-not-imported
 _HOOK = "import coverage\n\ncoverage.process_startup()\n"
 
 
-
 def install() -> None:
     """The tool, in a folder of its own, when it is not there yet. :raises subprocess.CalledProcessError: pip could not"""
     noted = TOOL / REQUIREMENTS.name
     if noted.is_file() and noted.read_bytes() == REQUIREMENTS.read_bytes():
         return
-    subprocess.run([sys.executable, "-m", "pip", "install", "-q", "--disable-pip-version-check", "--root-user-action=ignore",
-                    "--no-deps", "--upgrade", "--target", str(TOOL), "-r", str(REQUIREMENTS)], check=True)
+    subprocess.run(
+        [
+            sys.executable,
+            "-m",
+            "pip",
+            "install",
+            "-q",
+            "--disable-pip-version-check",
+            "--root-user-action=ignore",
+            "--no-deps",
+            "--upgrade",
+            "--target",
+            str(TOOL),
+            "-r",
+            str(REQUIREMENTS),
+        ],
+        check=True,
+    )
     noted.write_bytes(REQUIREMENTS.read_bytes())
 
 
@@ -75,12 +91,17 @@ def report(folder: Path, out: Path, packages: List[str]) -> List[str]:
     """Pages with every line in ``out``, and what to print: a line for each package."""
     command = [sys.executable, "-m", "coverage"]
     options = [f"--rcfile={folder / 'settings'}"]
-    calls = (["combine", "-q", *options], ["html", "-q", *options, "-d", str(out)],
-             ["json", "-q", *options, "-o", str(out / "coverage.json")])
+    calls = (
+        ["combine", "-q", *options],
+        ["html", "-q", *options, "-d", str(out)],
+        ["json", "-q", *options, "-o", str(out / "coverage.json")],
+    )
     for call in calls:
         if subprocess.run(command + call, cwd=ROOT, env=dict(os.environ, PYTHONPATH=str(TOOL))).returncode:
             return ["no line of Python was seen that could be counted"]
     rows = list(table(json.loads((out / "coverage.json").read_text())["files"], packages))
     run, lines = sum(row[1] for row in rows), sum(row[2] for row in rows)
-    return [f"{name:40} {done:6} of {most:6} lines  {100.0 * done / max(most, 1):5.1f} %"
-            for name, done, most in [*rows, ("all of these", run, lines)]]
+    return [
+        f"{name:40} {done:6} of {most:6} lines  {100.0 * done / max(most, 1):5.1f} %"
+        for name, done, most in [*rows, ("all of these", run, lines)]
+    ]

@@ -1,4 +1,5 @@
 """The arm lab's main job from outside, as a student does it with three terminals: launch, command, watch, look."""
+
 from __future__ import annotations
 
 import argparse
@@ -67,12 +68,13 @@ def save_camera(path: Path) -> bool:
     import rospy
     from PIL import Image as Picture
     from sensor_msgs.msg import Image
+
     try:
         message = rospy.wait_for_message("/camera/image_raw", Image, timeout=20)
     except rospy.ROSException:
         say("no picture came from /camera/image_raw")
         return False
-    pixels = np.frombuffer(message.data, np.uint8).reshape(message.height, message.step)[:, :message.width * 3]
+    pixels = np.frombuffer(message.data, np.uint8).reshape(message.height, message.step)[:, : message.width * 3]
     Picture.fromarray(np.ascontiguousarray(pixels.reshape(message.height, message.width, 3))).save(path)
     return True
 
@@ -82,6 +84,7 @@ def save_rviz(out: Path, name: str) -> list:
     import rospkg
     from rviz_offscreen.cli import ScreenshotError, take
     from rviz_offscreen.views import parse_view
+
     config = os.path.join(rospkg.RosPack().get_path("arm_description"), "manipulator.rviz")
     views = [parse_view(f"{view}:distance=0.75,x=0,y=0,z=0.17") for view in ("iso", "front")]
     try:
@@ -93,8 +96,10 @@ def save_rviz(out: Path, name: str) -> list:
 
 def save_plot(path: Path, rows, target) -> None:
     import matplotlib
+
     matplotlib.use("Agg")
     from matplotlib import pyplot
+
     figure, axes = pyplot.subplots(figsize=(9, 4.5))
     for column, name in enumerate(JOINTS):
         axes.plot([row[0] for row in rows], [row[2 + column] for row in rows], label=name, linewidth=6 - 1.4 * column)
@@ -158,12 +163,12 @@ def run(options: argparse.Namespace, out: Path, environment: dict, window: bool)
     import rospy
     from launch_gallery.session import running
     from sensor_msgs.msg import JointState
+
     target = options.target
     begin = time.monotonic()
     say("roslaunch arm_gazebo arm_gazebo.launch")
     port = environment["ROS_MASTER_URI"].rsplit(":", 1)[1]
-    with running(["roslaunch", "-p", port, "arm_gazebo", "arm_gazebo.launch", "gui:=false"], environment,
-                 out / "launch.log") as launch:
+    with running(["roslaunch", "-p", port, "arm_gazebo", "arm_gazebo.launch", "gui:=false"], environment, out / "launch.log") as launch:
         while not rosgraph.is_master_online():
             if launch.poll() is not None or time.monotonic() - begin > 60:
                 raise DemoError("the ROS master did not start; see launch.log")

@@ -1,4 +1,5 @@
 """Motion planning from outside, as a student does it: launch, a scene, plan, execute, a straight line, pick and place."""
+
 from __future__ import annotations
 
 import argparse
@@ -36,6 +37,7 @@ class Recorder:
         import rospy
         from control_msgs.msg import FollowJointTrajectoryActionGoal
         from sensor_msgs.msg import JointState
+
         self.rows, self.planned = [], []
         self._lock = threading.Lock()
         rospy.Subscriber("/joint_states", JointState, self._state, queue_size=100)
@@ -49,8 +51,12 @@ class Recorder:
 
     def _goal(self, message) -> None:
         names, start = message.goal.trajectory.joint_names, message.header.stamp.to_sec()
-        self.planned.append([(start + point.time_from_start.to_sec(), *(point.positions[names.index(name)] for name in JOINTS))
-                             for point in message.goal.trajectory.points])
+        self.planned.append(
+            [
+                (start + point.time_from_start.to_sec(), *(point.positions[names.index(name)] for name in JOINTS))
+                for point in message.goal.trajectory.points
+            ]
+        )
 
     def since(self, moment: float) -> list:
         """Rows from a sim time on."""
@@ -68,11 +74,12 @@ def save_picture(path: Path, title: str, pictures: list) -> None:
     import rospy
     from PIL import Image as Picture
     from sensor_msgs.msg import Image
+
     try:
         message = rospy.wait_for_message("/spectator/image_raw", Image, timeout=30)
     except rospy.ROSException:
         return say("no picture came from /spectator/image_raw")
-    pixels = np.frombuffer(message.data, np.uint8).reshape(message.height, message.step)[:, :message.width * 3]
+    pixels = np.frombuffer(message.data, np.uint8).reshape(message.height, message.step)[:, : message.width * 3]
     Picture.fromarray(np.ascontiguousarray(pixels.reshape(message.height, message.width, 3))).save(path)
     pictures.append((path, title))
 
@@ -82,6 +89,7 @@ def save_rviz(path: Path, title: str, pictures: list) -> None:
     import rospkg
     from rviz_offscreen.cli import ScreenshotError, take
     from rviz_offscreen.views import parse_view
+
     config = os.path.join(rospkg.RosPack().get_path("myur5_moveit_config"), "launch", "moveit.rviz")
     try:
         taken = take(config, [parse_view("yaw=-0.7,pitch=0.45,distance=2.4,x=0.35,y=0,z=1.05")], str(path), size="960x720")
@@ -93,11 +101,13 @@ def save_rviz(path: Path, title: str, pictures: list) -> None:
 def save_plot(path: Path, recorder: Recorder, marks: list) -> None:
     """Planned way points on the curves of what the joints did."""
     import matplotlib
+
     matplotlib.use("Agg")
     from matplotlib import pyplot
+
     figure, axes = pyplot.subplots(figsize=(12, 5.5))
     for column, name in enumerate(JOINTS):
-        line, = axes.plot([row[0] for row in recorder.rows], [row[1 + column] for row in recorder.rows], linewidth=1.2, label=name)
+        (line,) = axes.plot([row[0] for row in recorder.rows], [row[1 + column] for row in recorder.rows], linewidth=1.2, label=name)
         for part in recorder.planned:
             axes.plot([row[0] for row in part], [row[1 + column] for row in part], ".", color=line.get_color(), markersize=5)
     for moment, text in marks:
@@ -121,6 +131,7 @@ class Show:
 
     def __init__(self, out: Path, recorder: Recorder):
         import moveit_commander
+
         self.out, self.figures, self.pictures, self.marks = out, {}, [], []
         self.recorder = recorder
         try:
@@ -134,6 +145,7 @@ class Show:
     def now(self, text: str) -> float:
         """Begin an act; the sim time."""
         import rospy
+
         say(text)
         moment = rospy.get_time()
         self.marks.append((moment, text))
@@ -159,8 +171,10 @@ class Show:
         demand(good, "no way round the post was found")
         save_rviz(self.out / "rviz-plan.png", "RViz: the planning scene, before the way round the post", self.pictures)
         demand(self.arm.execute(plan, wait=True), "the way round the post was not executed")
-        self.figures["round the post"] = (f"planned in {seconds * 1e3:.0f} ms, {len(plan.joint_trajectory.points)} way points, "
-                                          f"{plan.joint_trajectory.points[-1].time_from_start.to_sec():.2f} s of motion")
+        self.figures["round the post"] = (
+            f"planned in {seconds * 1e3:.0f} ms, {len(plan.joint_trajectory.points)} way points, "
+            f"{plan.joint_trajectory.points[-1].time_from_start.to_sec():.2f} s of motion"
+        )
         self.arrived("round the post")
 
     def straight_line(self) -> None:
@@ -168,6 +182,7 @@ class Show:
         import motion
         import numpy as np
         import rospy
+
         moment = self.now("a straight line")
         pose = self.arm.get_current_pose().pose
         start = np.array((pose.position.x, pose.position.y, pose.position.z))
@@ -188,6 +203,7 @@ class Show:
 
     def pick(self) -> None:
         from myur5_pick_place import table
+
         self.now("pick")
         self.arm.set_support_surface_name("table")
         before = table.position(table.model_pose("block"))
@@ -202,6 +218,7 @@ class Show:
     def place(self) -> None:
         import numpy as np
         from myur5_pick_place import table
+
         self.now("place")
         demand(self.arm.place("block", table.places(*PLACE)), "the block could not be placed")
         off = float(np.linalg.norm(table.position(table.model_pose("block"))[:2] - PLACE[:2]))
@@ -219,6 +236,7 @@ def run(options: argparse.Namespace, out: Path, environment: dict, window: bool)
     import rospy
     from launch_gallery.session import running
     from myur5_pick_place import table
+
     begin = time.monotonic()
     say("roslaunch myur5_pick_place pick_place.launch")
     port = environment["ROS_MASTER_URI"].rsplit(":", 1)[1]
@@ -245,8 +263,12 @@ def run(options: argparse.Namespace, out: Path, environment: dict, window: bool)
         writer.writerow(["sim_time", *JOINTS])
         writer.writerows([f"{row[0]:.3f}", *(f"{q:.9f}" for q in row[1:])] for row in show.recorder.rows)
     save_plot(out / "joints.png", show.recorder, show.marks)
-    save_report(out, show.figures, [(out / "joints.png", "Planned way points on what the joints did"), *show.pictures],
-                "The UR5 plans, moves, picks and places")
+    save_report(
+        out,
+        show.figures,
+        [(out / "joints.png", "Planned way points on what the joints did"), *show.pictures],
+        "The UR5 plans, moves, picks and places",
+    )
     for key, value in show.figures.items():
         say(f"{key}: {value}")
     say(f"report: {out / 'report.html'}")

@@ -1,4 +1,5 @@
 """What the demonstrations share: options, a ROS master and a display of their own, the report."""
+
 from __future__ import annotations
 
 import argparse
@@ -36,8 +37,9 @@ def check_folder(parser: argparse.ArgumentParser, out: str) -> None:
 def save_report(out: Path, figures: dict, pictures: list, title: str) -> None:
     """``out/report.html``: figures (name: text), then pictures (path, caption); the first one is wide."""
     rows = "\n".join(f"<tr><td>{html.escape(k)}</td><td>{html.escape(v)}</td></tr>" for k, v in figures.items())
-    images = "\n".join(f'<figure><img src="{p.name}" alt="{html.escape(t)}"><figcaption>{html.escape(t)}</figcaption></figure>'
-                       for p, t in pictures)
+    images = "\n".join(
+        f'<figure><img src="{p.name}" alt="{html.escape(t)}"><figcaption>{html.escape(t)}</figcaption></figure>' for p, t in pictures
+    )
     (out / "report.html").write_text(f"""<!doctype html>
 <html lang="en"><meta charset="utf-8"><title>{html.escape(title)}</title>
 <style>body {{font: 15px sans-serif; max-width: 1100px; margin: 2em auto; padding: 0 1em}} img {{max-width: 100%; border: 1px solid #ccc}}
@@ -68,6 +70,7 @@ def _run(name: str, options: argparse.Namespace, run: Callable[[argparse.Namespa
     from launch_gallery.session import free_port
     from rviz_offscreen.display import private_display
     from rviz_offscreen.errors import DisplayError
+
     environment = dict(os.environ, ROS_MASTER_URI=f"http://localhost:{free_port()}", ROS_HOME=str(out / "ros_home"))
     try:
         with contextlib.ExitStack() as stack:

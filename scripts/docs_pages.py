@@ -3,6 +3,7 @@
 On GitHub the pages are read as they stand. On the site README is the first page, and links to files that are no pages lead to the
 repository's own address, or are words where it has none.
 """
+
 import os
 import re
 import shutil
@@ -21,8 +22,18 @@ ORDER = [
     ("Windows", ["docs/windows.md", "docs/other_tools.md"]),
     ("Teaching", ["docs/grading.md"]),
     ("Hardware", ["docs/hardware.md"]),
-    ("Differences", ["docs/differences.md", "docs/differences/simulation.md", "docs/differences/control.md", "docs/differences/planning.md",
-                     "docs/differences/windows.md", "docs/differences/hardware.md", "docs/differences/tools.md"]),
+    (
+        "Differences",
+        [
+            "docs/differences.md",
+            "docs/differences/simulation.md",
+            "docs/differences/control.md",
+            "docs/differences/planning.md",
+            "docs/differences/windows.md",
+            "docs/differences/hardware.md",
+            "docs/differences/tools.md",
+        ],
+    ),
     ("Measured", ["docs/performance.md", "docs/parity.md"]),
     ("For developers", ["CONTRIBUTING.md", "docs/architecture.md", "docs/fuzzing.md", "CHANGELOG.md"]),
 ]
@@ -81,8 +92,13 @@ def write(folder):
     """Lays the pages, pictures and mkdocs.yml out in ``folder``, which is made anew."""
     shutil.rmtree(folder, ignore_errors=True)
     content = folder / "pages"
-    tracked = subprocess.run(["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard", "docs"], cwd=ROOT, check=True,
-                             capture_output=True, text=True)
+    tracked = subprocess.run(
+        ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard", "docs"],
+        cwd=ROOT,
+        check=True,
+        capture_output=True,
+        text=True,
+    )
     beside = {Path(name) for name in tracked.stdout.split("\0") if name.endswith((".png", ".jpg", ".svg", ".gif", ".html"))}
     known, address = {*pages(), *beside}, repository()
     for path in sorted(known):
@@ -97,10 +113,19 @@ def write(folder):
     if (ROOT / "out/reference").is_dir():
         shutil.copytree(ROOT / "out/reference", content / "reference")
         nav.insert(-1, {"Reference": "reference/index.html"})
-    site = {"site_name": "noetic_labs", "docs_dir": "pages", "use_directory_urls": False, "nav": nav, "plugins": ["search"],
-            "theme": {"name": "material", "font": False, "features": ["navigation.sections", "navigation.top", "toc.follow",
-                                                                       "search.highlight", "search.suggest"]},
-            "markdown_extensions": ["tables", "attr_list", "sane_lists", {"toc": {"permalink": True}}, "fenced_code"]}
+    site = {
+        "site_name": "noetic_labs",
+        "docs_dir": "pages",
+        "use_directory_urls": False,
+        "nav": nav,
+        "plugins": ["search"],
+        "theme": {
+            "name": "material",
+            "font": False,
+            "features": ["navigation.sections", "navigation.top", "toc.follow", "search.highlight", "search.suggest"],
+        },
+        "markdown_extensions": ["tables", "attr_list", "sane_lists", {"toc": {"permalink": True}}, "fenced_code"],
+    }
     (folder / "mkdocs.yml").write_text(yaml.safe_dump(site, sort_keys=False))
 
 

@@ -16,7 +16,7 @@ def forget_moved(build: pathlib.Path) -> list:
     names = []
     for cache in sorted(build.glob("*/CMakeCache.txt")):
         lines = cache.read_text(errors="replace").splitlines()
-        home = next((line[len(_HOME):] for line in lines if line.startswith(_HOME)), "")
+        home = next((line[len(_HOME) :] for line in lines if line.startswith(_HOME)), "")
         if home and not pathlib.Path(home, "CMakeLists.txt").exists():
             shutil.rmtree(cache.parent)
             names.append(cache.parent.name)

@@ -2,6 +2,7 @@
 
 What only tests need is left out; so is what --without names, and what that alone would bring.
 """
+
 import argparse
 from pathlib import Path
 
@@ -10,8 +11,16 @@ ROOT = Path(__file__).resolve().parent.parent
 
 def needed_by_code(package):
     """Names of what a package is built with and runs with, in the workspace or not; what only its tests need is left out."""
-    return {depend.name for depend in (package.buildtool_depends + package.build_depends + package.build_export_depends
-                                       + package.buildtool_export_depends + package.exec_depends)}
+    return {
+        depend.name
+        for depend in (
+            package.buildtool_depends
+            + package.build_depends
+            + package.build_export_depends
+            + package.buildtool_export_depends
+            + package.exec_depends
+        )
+    }
 
 
 def needed(names, without=()):
@@ -20,6 +29,7 @@ def needed(names, without=()):
     :raises KeyError: one of ``names`` is no package of the workspace
     """
     from catkin_pkg.packages import find_packages  # here, so that others can have needed_by_code before anything is installed
+
     packages = {package.name: package for package in find_packages(str(ROOT / "src")).values()}
     found, waiting = set(), list(names)
     while waiting:

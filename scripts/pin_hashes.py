@@ -4,6 +4,7 @@
 pip is asked which file it would take on Debian 12 and 13 (Python 3.11 and 3.13) on x86-64 and arm64; the hash of each becomes a line
 below its requirement, and from then on pip takes no other file (``--require-hashes``). Comments and order stay.
 """
+
 import argparse
 import json
 import re
@@ -18,8 +19,19 @@ MACHINES = ("x86_64", "aarch64")
 GLIBC = (36, 35, 34, 31, 28, 27, 26, 24, 17, 12, 5)  # minor versions that Debian 12 can run
 LEGACY = ("manylinux2014", "manylinux2010", "manylinux1")
 _REQUIREMENT = re.compile(r"^([A-Za-z0-9._-]+==[^\s\\#]+)")
-_PIP = [sys.executable, "-m", "pip", "--disable-pip-version-check", "install", "-q", "--dry-run", "--ignore-installed", "--no-deps",
-        "--report", "-"]
+_PIP = [
+    sys.executable,
+    "-m",
+    "pip",
+    "--disable-pip-version-check",
+    "install",
+    "-q",
+    "--dry-run",
+    "--ignore-installed",
+    "--no-deps",
+    "--report",
+    "-",
+]
 
 
 def wheel(requirement: str, python: str, machine: str) -> Optional[str]:

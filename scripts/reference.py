@@ -2,6 +2,7 @@
 
 PACKAGE is a Python package of the workspace; without any, those that people write controllers, plugins, checks and programs with.
 """
+
 import html
 import importlib
 import inspect
@@ -13,11 +14,33 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 OUT = ROOT / "out" / "reference"
-PACKAGES = ("ode_sim", "motion", "building_editor", "gazebo_ros", "gazebo_plugins", "gazebo_ros_control", "controller_interface",
-            "controller_manager", "hardware_interface", "joint_limits_interface", "transmission_interface", "control_toolbox",
-            "realtime_tools", "urdf_geometry_parser", "forward_command_controller", "diff_drive_controller", "joint_trajectory_controller",
-            "moveit_commander", "lab_check", "plugin_loader", "dynamic_parameters", "image_pixels", "lenient_xml", "node_signals",
-            "test_support")
+PACKAGES = (
+    "ode_sim",
+    "motion",
+    "building_editor",
+    "gazebo_ros",
+    "gazebo_plugins",
+    "gazebo_ros_control",
+    "controller_interface",
+    "controller_manager",
+    "hardware_interface",
+    "joint_limits_interface",
+    "transmission_interface",
+    "control_toolbox",
+    "realtime_tools",
+    "urdf_geometry_parser",
+    "forward_command_controller",
+    "diff_drive_controller",
+    "joint_trajectory_controller",
+    "moveit_commander",
+    "lab_check",
+    "plugin_loader",
+    "dynamic_parameters",
+    "image_pixels",
+    "lenient_xml",
+    "node_signals",
+    "test_support",
+)
 _HEAD = """<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8"><title>{title}</title><style>
 body {{ font: 15px/1.45 sans-serif; max-width: 60em; margin: 2em auto; padding: 0 1em; color: #222 }}
@@ -83,8 +106,14 @@ def module_page(name):
     module = importlib.import_module(name)
     classes = [class_page(*entry) for entry in own(inspect.isclass, module)]
     functions = [member(*entry) for entry in own(inspect.isroutine, module)]
-    return (_HEAD.format(title=name) + f'<p><a href="index.html">all modules</a></p>\n<h1>{name}</h1>\n{doc(module)}'
-            + "".join(classes) + ("<h2>functions</h2>\n" if any(functions) else "") + "".join(functions) + "</body></html>\n")
+    return (
+        _HEAD.format(title=name)
+        + f'<p><a href="index.html">all modules</a></p>\n<h1>{name}</h1>\n{doc(module)}'
+        + "".join(classes)
+        + ("<h2>functions</h2>\n" if any(functions) else "")
+        + "".join(functions)
+        + "</body></html>\n"
+    )
 
 
 def write(packages, out):
@@ -105,8 +134,9 @@ def write(packages, out):
             (out / f"{name}.html").write_text(module_page(name), encoding="utf-8")
             first = (pydoc.getdoc(importlib.import_module(name)).splitlines() or [""])[0]
             rows.append(f'<p><a href="{name}.html"><code>{name}</code></a> {html.escape(first)}</p>\n')
-    (out / "index.html").write_text(_HEAD.format(title="Reference") + "<h1>Reference</h1>\n" + "".join(rows) + "</body></html>\n",
-                                    encoding="utf-8")
+    (out / "index.html").write_text(
+        _HEAD.format(title="Reference") + "<h1>Reference</h1>\n" + "".join(rows) + "</body></html>\n", encoding="utf-8"
+    )
     return missing
 
 

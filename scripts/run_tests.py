@@ -13,6 +13,7 @@ With --since COMMIT only what a change since that commit can break is tested: th
 whose tests use any of these, and the scripts.
 With --coverage the lines of Python that were run are counted, in nodes as well; the pages are in out/coverage.
 """
+
 from __future__ import annotations
 
 import argparse
@@ -252,9 +253,14 @@ def run(job: Job, scratch: Path) -> Result:
 
 
 def _environment(job: Job, home: Path, temporary: str) -> Dict[str, str]:
-    environment = dict(os.environ, ROS_HOME=str(home), ROS_TEST_RESULTS_DIR=str(home / "results"), TMPDIR=temporary,
-                       GAZEBO_MASTER_URI=f"http://localhost:{_gazebo_port()}",
-                       PYTHONUNBUFFERED="1")  # tests read what nodes print, as it is printed
+    environment = dict(
+        os.environ,
+        ROS_HOME=str(home),
+        ROS_TEST_RESULTS_DIR=str(home / "results"),
+        TMPDIR=temporary,
+        GAZEBO_MASTER_URI=f"http://localhost:{_gazebo_port()}",
+        PYTHONUNBUFFERED="1",
+    )  # tests read what nodes print, as it is printed
     environment.pop("PYTHONDONTWRITEBYTECODE", None)  # every node of every test would compile all messages anew
     if ROOT / "docs" in job.package.parents:  # an example to copy, which is not built here
         environment["ROS_PACKAGE_PATH"] = f"{job.package}:{environment.get('ROS_PACKAGE_PATH', '')}"
@@ -273,9 +279,18 @@ def _run_in(job: Job, scratch: Path, temporary: str) -> Result:
     """:param temporary: the folder for what its processes, which may be killed, would leave in /tmp"""
     home = Path(tempfile.mkdtemp(prefix=job.package.name + "_", dir=scratch))
     start = time.monotonic()
-    process = subprocess.Popen(_command(job, scratch, home), cwd=home, env=_environment(job, home, temporary), text=True,
-                               errors="replace", stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                               start_new_session=True, preexec_fn=_listen_to_ctrl_c)
+    process = subprocess.Popen(
+        _command(job, scratch, home),
+        cwd=home,
+        env=_environment(job, home, temporary),
+        text=True,
+        errors="replace",
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        start_new_session=True,
+        preexec_fn=_listen_to_ctrl_c,
+    )
     try:
         output, _ = process.communicate(timeout=job.time_limit)
     except subprocess.TimeoutExpired:

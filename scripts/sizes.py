@@ -1,4 +1,5 @@
 """Names files of more than 500 lines and functions of more than 60; scripts/lint calls it. Exit code: 0 none, 1 some."""
+
 import ast
 import re
 import subprocess

@@ -1,4 +1,5 @@
 """scripts/changed_packages.py: which packages are tested after which change, and that the manifests it reads are complete."""
+
 import contextlib
 import re
 import subprocess
@@ -19,9 +20,14 @@ MANIFEST = """<package format="2"><name>{name}</name><version>0.0.0</version><de
 @pytest.fixture
 def root(tmp_path):
     """core <- face <- lab; bench's tests use face; helper is used by core's tests, and needs face."""
-    uses = {"core": "<export><tests_use>helper</tests_use></export>", "face": "<build_depend>core</build_depend>",
-            "room/lab": "<exec_depend>face</exec_depend>", "bench": "<test_depend>face</test_depend>",
-            "helper": "<depend>face</depend>", "alone": ""}
+    uses = {
+        "core": "<export><tests_use>helper</tests_use></export>",
+        "face": "<build_depend>core</build_depend>",
+        "room/lab": "<exec_depend>face</exec_depend>",
+        "bench": "<test_depend>face</test_depend>",
+        "helper": "<depend>face</depend>",
+        "alone": "",
+    }
     for place, used in uses.items():
         folder = tmp_path / "src" / place
         folder.mkdir(parents=True)

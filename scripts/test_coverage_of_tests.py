@@ -1,4 +1,5 @@
 """scripts/coverage_of_tests.py: what a process and those it starts have run, however they end."""
+
 import os
 import subprocess
 import sys
@@ -44,8 +45,11 @@ def test_lines_count_for_their_package():
     def entry(run, lines):
         return {"summary": {"covered_lines": run, "num_statements": lines}}
 
-    files = {"src/simulation/ode_sim/src/ode_sim/world.py": entry(3, 4), "src/simulation/ode_sim/src/ode_sim/math3.py": entry(1, 6),
-             "src/common/test_support/src/test_support/cases.py": entry(5, 5)}
+    files = {
+        "src/simulation/ode_sim/src/ode_sim/world.py": entry(3, 4),
+        "src/simulation/ode_sim/src/ode_sim/math3.py": entry(1, 6),
+        "src/common/test_support/src/test_support/cases.py": entry(5, 5),
+    }
     assert list(coverage_of_tests.table(files, [])) == [("ode_sim", 4, 10), ("test_support", 5, 5)]
     assert list(coverage_of_tests.table(files, ["test_support"])) == [("test_support", 5, 5)]
     assert coverage_of_tests.package_of(Path("scripts/run_tests.py")) == "scripts"

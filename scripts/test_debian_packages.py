@@ -1,4 +1,5 @@
 """What scripts/debian-packages.txt must hold is derived: from manifests and CMake files, by rosdep's rules and apt's dependencies."""
+
 import functools
 import re
 import subprocess
@@ -14,11 +15,20 @@ import needed_packages  # noqa: E402
 
 pytestmark = pytest.mark.skipif(not Path("/usr/share/python3-rosdep2/debian.yaml").exists(), reason="rosdep's rules are not installed")
 #: what CMake's own modules look for, and who has it in Debian
-CMAKE_MODULES = {"Boost": "libboost-dev", "OpenGL": "libgl-dev", "PkgConfig": "pkgconf|pkg-config", "Python": "python3-dev",
-                 "Threads": "libc6-dev", "X11": "libx11-dev", "SQLite3": "libsqlite3-dev"}
+CMAKE_MODULES = {
+    "Boost": "libboost-dev",
+    "OpenGL": "libgl-dev",
+    "PkgConfig": "pkgconf|pkg-config",
+    "Python": "python3-dev",
+    "Threads": "libc6-dev",
+    "X11": "libx11-dev",
+    "SQLite3": "libsqlite3-dev",
+}
 #: packages whose own exec_depends the Debian package does not bring, and why
-NOT_FOR_USERS = {"rqt_testing": "clicks through windows in the workspace's own tests",
-                 "roslint": "runs while something is compiled, and what compiles comes with ros-noetic-desktop-full"}
+NOT_FOR_USERS = {
+    "rqt_testing": "clicks through windows in the workspace's own tests",
+    "roslint": "runs while something is compiled, and what compiles comes with ros-noetic-desktop-full",
+}
 FIND = re.compile(r"\bfind_package\(\s*(\w+)(?=[\s)])([^)]*)\)", re.S)
 SET = re.compile(r"\bset\(\s*(\w+)\s+([^)]*)\)", re.S)
 MODULES = re.compile(r"\bpkg_check_modules\(\s*\w+\s+([^)]*)\)", re.S)
@@ -55,8 +65,9 @@ def owner(pattern):
 def brought(*names):
     """What apt installs for the sections ``names``, without recommendations: names, virtual ones among them."""
     wanted = [package for name in names for package in sections()[name]]
-    said = subprocess.run(["apt-cache", "depends", "--recurse", "--important", *wanted], capture_output=True, text=True, check=True,
-                          timeout=120).stdout
+    said = subprocess.run(
+        ["apt-cache", "depends", "--recurse", "--important", *wanted], capture_output=True, text=True, check=True, timeout=120
+    ).stdout
     return frozenset(word.strip("<>") for word in re.findall(r"^\s*\|?(?:Depends: |PreDepends: |)(\S+)$", said, re.M))
 
 
@@ -98,7 +109,7 @@ def asked_by_cmake(name, compiled):
         if "REQUIRED" not in words:
             continue
         if found == "catkin":
-            yield from (word for word in words[words.index("COMPONENTS") + 1:] if "$" not in word) if "COMPONENTS" in words else ()
+            yield from (word for word in words[words.index("COMPONENTS") + 1 :] if "$" not in word) if "COMPONENTS" in words else ()
         else:
             yield found
     for rest in MODULES.findall(text):
@@ -162,8 +173,9 @@ def test_everything_can_be_configured_and_run_with_what_scripts_setup_installs()
 
 
 def test_the_debian_package_depends_on_what_its_programs_run_with():
-    platform = [name for name, (_, path) in workspace().items()
-                if "labs" not in path.relative_to(ROOT / "src").parts and name not in NOT_FOR_USERS]
+    platform = [
+        name for name, (_, path) in workspace().items() if "labs" not in path.relative_to(ROOT / "src").parts and name not in NOT_FOR_USERS
+    ]
     assert lacking(platform, run_with, "run", brought("demo", "run", "planning", "windows")) == []
 
 
@@ -174,6 +186,7 @@ def test_a_missing_name_is_seen(monkeypatch):
     brought.cache_clear()
     try:
         assert "gazebo_ros_control: angles wants libangles-dev" in lacking(
-            demo_packages(), lambda name: asked_by_cmake(name, compiled=False), "build", brought("build"))
+            demo_packages(), lambda name: asked_by_cmake(name, compiled=False), "build", brought("build")
+        )
     finally:
         brought.cache_clear()

@@ -1,4 +1,5 @@
 """The documentation: links lead somewhere, every page has its place on the site, what a student looks for is found by its words."""
+
 import re
 import shutil
 import subprocess
@@ -11,9 +12,17 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 import docs_pages
 
 ROOT = docs_pages.ROOT
-READ_ON_GITHUB = [Path(name) for name in subprocess.run(
-    ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard", "*.md"], cwd=ROOT, check=True, capture_output=True,
-    text=True).stdout.split("\0") if name and (ROOT / name).is_file()]
+READ_ON_GITHUB = [
+    Path(name)
+    for name in subprocess.run(
+        ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard", "*.md"],
+        cwd=ROOT,
+        check=True,
+        capture_output=True,
+        text=True,
+    ).stdout.split("\0")
+    if name and (ROOT / name).is_file()
+]
 
 
 def anchors(text):
@@ -43,14 +52,26 @@ def test_a_page_keeps_its_links_on_the_site():
     known = {Path("README.md"), Path("docs/start.md"), Path("docs/pictures/arm.png")}
     text = "[start](docs/start.md#the-labs) ![arm](docs/pictures/arm.png) [code](src/a.py) [out](https://ros.org) [up](#top)"
     assert docs_pages.on_the_site(Path("README.md"), text, known, None) == (
-        "[start](start.md#the-labs) ![arm](pictures/arm.png) code [out](https://ros.org) [up](#top)")
+        "[start](start.md#the-labs) ![arm](pictures/arm.png) code [out](https://ros.org) [up](#top)"
+    )
     assert docs_pages.on_the_site(Path("docs/start.md"), "[top](../README.md) [code](../src/a.py)", known, "https://host/us/labs") == (
-        "[top](index.md) [code](https://host/us/labs/blob/main/src/a.py)")
+        "[top](index.md) [code](https://host/us/labs/blob/main/src/a.py)"
+    )
 
 
-@pytest.mark.parametrize("words", [
-    "my joint does not move", "RViz crashes", "TF_REPEATED_DATA", "roscore is not running", "No p gain specified for pid",
-    "Could not load controller", "unable to contact my own server", "No module named"])
+@pytest.mark.parametrize(
+    "words",
+    [
+        "my joint does not move",
+        "RViz crashes",
+        "TF_REPEATED_DATA",
+        "roscore is not running",
+        "No p gain specified for pid",
+        "Could not load controller",
+        "unable to contact my own server",
+        "No module named",
+    ],
+)
 def test_what_a_student_looks_for_stands_in_the_guide(words):
     assert words in (ROOT / "docs/guide.md").read_text()
 
@@ -59,8 +80,11 @@ def test_what_a_student_looks_for_stands_in_the_guide(words):
 @pytest.mark.skipif(not shutil.which("mkdocs"), reason="mkdocs is not installed (apt install mkdocs mkdocs-material)")
 def test_the_site_is_built_without_a_warning_and_asks_nobody_for_anything(tmp_path):
     docs_pages.write(tmp_path / "pages")
-    built = subprocess.run(["mkdocs", "build", "--strict", "--config-file", tmp_path / "pages/mkdocs.yml", "--site-dir", tmp_path / "site"],
-                           capture_output=True, text=True)
+    built = subprocess.run(
+        ["mkdocs", "build", "--strict", "--config-file", tmp_path / "pages/mkdocs.yml", "--site-dir", tmp_path / "site"],
+        capture_output=True,
+        text=True,
+    )
     assert built.returncode == 0, built.stderr
     index = (tmp_path / "site/index.html").read_text()
     assert re.findall(r'(?:src|href)="(?:https?:)?//(?!squidfunk)[^"]*\.(?:js|css|woff2?)', index) == []

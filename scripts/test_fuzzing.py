@@ -1,4 +1,5 @@
 """scripts/fuzz sees what it is there to see, and a short run of every kind finds nothing."""
+
 import os
 import re
 import signal
@@ -42,7 +43,7 @@ class Trap(Kind):
     def smaller(self, case):
         words = case.split()
         for i in range(len(words)):
-            yield b" ".join(words[:i] + words[i + 1:])
+            yield b" ".join(words[:i] + words[i + 1 :])
 
     def well(self):
         pass
@@ -79,10 +80,20 @@ def pool(tmp_path):
         yield pool
 
 
-@pytest.mark.parametrize("case, what", [
-    (b"abort", "process ended by SIGABRT"), (b"leave", "process ended by exit code 3"), (b"hang", "hang"),
-    (b"undeclared", "undeclared KeyError"), (b"hog", "undeclared MemoryError"), (b"found", "silent NaN"),
-    (b"prints", "output on the terminal"), (b"chatter", "message is not one line"), (b"nonsense", "undeclared AttributeError")])
+@pytest.mark.parametrize(
+    "case, what",
+    [
+        (b"abort", "process ended by SIGABRT"),
+        (b"leave", "process ended by exit code 3"),
+        (b"hang", "hang"),
+        (b"undeclared", "undeclared KeyError"),
+        (b"hog", "undeclared MemoryError"),
+        (b"found", "silent NaN"),
+        (b"prints", "output on the terminal"),
+        (b"chatter", "message is not one line"),
+        (b"nonsense", "undeclared AttributeError"),
+    ],
+)
 def test_what_goes_wrong_is_found_and_the_run_goes_on(pool, case, what):
     assert pool.one(case).what == what
     assert pool.one(b"well") is None
@@ -114,6 +125,7 @@ def test_the_same_seed_makes_the_same_cases():
     class Xml(Trap):
         def generate(self, random):
             return mutator.case(random)
+
     cases = [case_of(Xml(), 5, number) for number in range(50)]
     assert cases == [case_of(Xml(), 5, number) for number in range(50)]
     assert len(set(cases)) > 40 and cases != [case_of(Xml(), 6, number) for number in range(50)]
@@ -133,8 +145,9 @@ def test_numbers_in_texts_are_replaced():
 
 def fuzz(*arguments, timeout=280):
     """:return: exit code and output. Everything that it started ends with it."""
-    process = subprocess.Popen([ROOT / "scripts/fuzz", *map(str, arguments)], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                               start_new_session=True)
+    process = subprocess.Popen(
+        [ROOT / "scripts/fuzz", *map(str, arguments)], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, start_new_session=True
+    )
     try:
         output, _ = process.communicate(timeout=timeout)
     except subprocess.TimeoutExpired:
@@ -166,8 +179,13 @@ def test_a_replay_says_what_it_cannot_read(tmp_path):
 
 
 def test_ctrl_c_ends_a_run_and_its_workers(tmp_path):
-    process = subprocess.Popen([ROOT / "scripts/fuzz", "--kind", "api", "--cases", "100000", "--output", tmp_path], stdout=subprocess.PIPE,
-                               stderr=subprocess.STDOUT, text=True, start_new_session=True)
+    process = subprocess.Popen(
+        [ROOT / "scripts/fuzz", "--kind", "api", "--cases", "100000", "--output", tmp_path],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        start_new_session=True,
+    )
     process.stdout.readline()
     time.sleep(1.0)
     process.send_signal(signal.SIGINT)

@@ -1,4 +1,5 @@
 """A short run of the kinds of scripts/fuzz that start nodes finds nothing."""
+
 import pytest
 from test_fuzzing import CORPUS, fuzz
 

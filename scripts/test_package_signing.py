@@ -1,4 +1,5 @@
 """What scripts/package writes into a repository: an index that apt takes by its signature alone, and licences; requirements by hash."""
+
 import os
 import re
 import shutil
@@ -51,9 +52,15 @@ def update(folder: Path, line: str) -> "subprocess.CompletedProcess[str]":
     for name in ("state/lists/partial", "cache", "parts"):
         (folder / name).mkdir(parents=True, exist_ok=True)
     (folder / "sources.list").write_text(line + "\n")
-    options = {"Dir::State": folder / "state", "Dir::Cache": folder / "cache", "Dir::Etc::sourcelist": folder / "sources.list",
-               "Dir::Etc::sourceparts": folder / "parts", "Dir::State::status": "/dev/null", "APT::Sandbox::User": "root",
-               "Debug::NoLocking": "1"}
+    options = {
+        "Dir::State": folder / "state",
+        "Dir::Cache": folder / "cache",
+        "Dir::Etc::sourcelist": folder / "sources.list",
+        "Dir::Etc::sourceparts": folder / "parts",
+        "Dir::State::status": "/dev/null",
+        "APT::Sandbox::User": "root",
+        "Debug::NoLocking": "1",
+    }
     words = ["apt-get", "update", *(f"-o{name}={value}" for name, value in options.items())]
     return subprocess.run(words, capture_output=True, text=True)
 

@@ -1,4 +1,5 @@
 """scripts/reference.py: pages hold what the docstrings say, and every link leads somewhere."""
+
 import html
 import re
 

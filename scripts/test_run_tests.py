@@ -1,4 +1,5 @@
 """scripts/run_tests.py: what a file that fails once, or each time, makes of the whole run."""
+
 import sys
 import threading
 from pathlib import Path
@@ -12,6 +13,7 @@ import run_tests
 @pytest.fixture
 def whole_run(monkeypatch, tmp_path, capsys):
     """Run with these results: {file: [failures of the first try, of the second ...]}; (exit code, lines printed)."""
+
     def run(results, *options):
         jobs = [run_tests.Job(tmp_path, "pytest", tmp_path / name) for name in results]
         tries = {name: list(failures) for name, failures in results.items()}
@@ -54,11 +56,15 @@ def test_what_fails_three_times_fails_the_run(whole_run):
 
 def test_what_passed_does_not_run_once_more(package, tmp_path):
     """One test fails the first time, another always."""
-    package({"test_a.py": "import pathlib\nran = pathlib.Path(__file__).parent / 'ran'\n"
-                          "def test_good():\n    assert not ran.exists()\n"
-                          "def test_unsteady():\n    before = ran.exists()\n    ran.touch()\n    assert before\n"
-                          "def test_bad():\n    assert False\n"})
-    job, = run_tests.find_jobs({"box"}, "all", scripts=False, slow=True)
+    package(
+        {
+            "test_a.py": "import pathlib\nran = pathlib.Path(__file__).parent / 'ran'\n"
+            "def test_good():\n    assert not ran.exists()\n"
+            "def test_unsteady():\n    before = ran.exists()\n    ran.touch()\n    assert before\n"
+            "def test_bad():\n    assert False\n"
+        }
+    )
+    (job,) = run_tests.find_jobs({"box"}, "all", scripts=False, slow=True)
     first = run_tests.run(job, tmp_path)
     assert (first.passed, first.failed) == (1, 2), first.output
     results = {job.path: first}
@@ -94,6 +100,7 @@ def package(monkeypatch, tmp_path):
     def write(files):
         for name, text in files.items():
             (tmp_path / "src" / "box" / "test" / name).write_text(text)
+
     return write
 
 
@@ -106,22 +113,23 @@ def test_slow_files_of_rostest_are_left_out(package):
 @pytest.mark.parametrize("slow, counts", [(False, (1, 1)), (True, (2, 0))])
 def test_slow_tests_of_pytest_are_left_out(package, tmp_path, slow, counts):
     package({"test_a.py": "import pytest\ndef test_fast(): pass\n@pytest.mark.slow\ndef test_slow(): pass\n"})
-    job, = run_tests.find_jobs({"box"}, "all", scripts=False, slow=slow)
+    (job,) = run_tests.find_jobs({"box"}, "all", scripts=False, slow=slow)
     result = run_tests.run(job, tmp_path)
     assert (result.passed, result.left_out) == counts and not result.failed, result.output
 
 
-@pytest.mark.parametrize("slow, text", [
-    (True, "import pytest\n"), (False, "import pytest\n"), (True, "syntax error"), (False, "syntax error")])
+@pytest.mark.parametrize(
+    "slow, text", [(True, "import pytest\n"), (False, "import pytest\n"), (True, "syntax error"), (False, "syntax error")]
+)
 def test_a_folder_without_tests_fails_if_they_are_not_left_out_but_missing(package, tmp_path, slow, text):
     package({"test_a.py": text})
-    job, = run_tests.find_jobs({"box"}, "all", scripts=False, slow=slow)
+    (job,) = run_tests.find_jobs({"box"}, "all", scripts=False, slow=slow)
     assert run_tests.run(job, tmp_path).failed == 1
 
 
 def test_a_folder_of_slow_tests_does_not_fail(package, tmp_path):
     package({"test_a.py": "import pytest\n@pytest.mark.slow\ndef test_slow(): pass\n"})
-    job, = run_tests.find_jobs({"box"}, "all", scripts=False, slow=False)
+    (job,) = run_tests.find_jobs({"box"}, "all", scripts=False, slow=False)
     result = run_tests.run(job, tmp_path)
     assert (result.passed, result.failed, result.left_out) == (0, 0, 1)
 
@@ -137,8 +145,10 @@ def test_who_asks_for_all_or_for_a_package_gets_what_is_slow(monkeypatch, option
 
 def test_of_one_package_one_rostest_is_at_work(tmp_path, monkeypatch):
     """The others go on with other packages; pytest runs beside it."""
-    jobs = [run_tests.Job(tmp_path / package, kind, tmp_path / package / f"{number}")
-            for package, kind, number in [("a", "rostest", 1), ("a", "rostest", 2), ("a", "pytest", 3), ("b", "rostest", 4)]]
+    jobs = [
+        run_tests.Job(tmp_path / package, kind, tmp_path / package / f"{number}")
+        for package, kind, number in [("a", "rostest", 1), ("a", "rostest", 2), ("a", "pytest", 3), ("b", "rostest", 4)]
+    ]
     waiting = run_tests.Queue(jobs)
     first, second, third = waiting.take(0), waiting.take(0), waiting.take(0)
     assert [first, second, third] == [jobs[0], jobs[3], jobs[2]]

@@ -1,4 +1,5 @@
 """scripts/setup on a copy that needs no packages, with programs of apt and catkin that only play their parts."""
+
 import os
 import shutil
 import subprocess
@@ -8,8 +9,10 @@ import pytest
 
 SCRIPTS = Path(__file__).resolve().parent
 SETUP = SCRIPTS / "setup"
-TOOLS = ("awk bash cat chmod comm cp cut df dirname env find flock grep head id ls mkdir mktemp mv python3 realpath rm sed seq sleep sort "
-         "tail touch true uname wc").split()
+TOOLS = (
+    "awk bash cat chmod comm cp cut df dirname env find flock grep head id ls mkdir mktemp mv python3 realpath rm sed seq sleep sort "
+    "tail touch true uname wc"
+).split()
 
 
 def copy_of_setup(folder: Path, packages: str = "# none\n") -> Path:
@@ -38,8 +41,9 @@ def test_other_folders_are_taken(tmp_path, name):
 
 def test_a_second_setup_says_that_it_waits_and_goes_on_when_the_first_has_ended(tmp_path):
     setup = copy_of_setup(tmp_path)
-    with subprocess.Popen(["flock", str(tmp_path / "scripts"), "sh", "-c", "echo locked; cat"], stdin=subprocess.PIPE,
-                          stdout=subprocess.PIPE, text=True) as first:
+    with subprocess.Popen(
+        ["flock", str(tmp_path / "scripts"), "sh", "-c", "echo locked; cat"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+    ) as first:
         assert first.stdout.readline() == "locked\n"
         with subprocess.Popen([setup, "--no-build"], stdout=subprocess.PIPE, text=True) as second:
             line = second.stdout.readline()
@@ -62,13 +66,16 @@ class Machine:
         self.play("dpkg-query", f"cat {folder}/installed 2>/dev/null || true")
         self.play("apt-cache", "printf 'g++\\nrviz\\n'")
         # what is installed is there from then on
-        self.play("apt-get", f"""
+        self.play(
+            "apt-get",
+            f"""
             case "$*" in
               *--download-only*) echo download >> {self.events} ;;
               *" install "*) echo install >> {self.events}
                   for name in "$@"; do echo "$name install ok installed" >> {folder}/installed; done ;;
               *update*) echo update >> {self.events} ;;
-            esac""")
+            esac""",
+        )
         self.play("catkin", f"echo 'build begins' >> {self.events}; echo 'build ends' >> {self.events}")
         self.setup = copy_of_setup(folder / "clone", "# section: build\ng++\n# section: demo\nrviz\n")
         (folder / "clone/scripts/needed_packages.py").write_text("print('arm')\n")
@@ -86,8 +93,14 @@ class Machine:
         path.chmod(0o755)
 
     def run(self, *arguments, before=(), **environment):
-        return subprocess.run([*before, self.setup, *arguments], capture_output=True, text=True, timeout=60, stdin=subprocess.DEVNULL,
-                              env={"PATH": str(self.bin), "HOME": str(self.folder), **environment})
+        return subprocess.run(
+            [*before, self.setup, *arguments],
+            capture_output=True,
+            text=True,
+            timeout=60,
+            stdin=subprocess.DEVNULL,
+            env={"PATH": str(self.bin), "HOME": str(self.folder), **environment},
+        )
 
     def builds(self):
         return self.seen().count("build")
@@ -103,12 +116,14 @@ def machine(tmp_path):
 
 def changes(clone):
     """What a user does that the next build has to see."""
-    return {"a file written": lambda: (clone / "src/arm/robot.cpp").write_text("int i;"),
-            "a file removed": lambda: (clone / "src/arm/more.cpp").unlink(),
-            "a package added": lambda: (clone / "src/hand").mkdir(),
-            "options of the build": lambda: (clone / ".catkin_tools/profiles/default/config.yaml").write_text("cmake_args: []\n"),
-            "catkin clean arm": lambda: (clone / "build/arm").rmdir(),
-            "catkin clean": lambda: [(clone / "build/arm").rmdir(), (clone / "build").rmdir()]}
+    return {
+        "a file written": lambda: (clone / "src/arm/robot.cpp").write_text("int i;"),
+        "a file removed": lambda: (clone / "src/arm/more.cpp").unlink(),
+        "a package added": lambda: (clone / "src/hand").mkdir(),
+        "options of the build": lambda: (clone / ".catkin_tools/profiles/default/config.yaml").write_text("cmake_args: []\n"),
+        "catkin clean arm": lambda: (clone / "build/arm").rmdir(),
+        "catkin clean": lambda: [(clone / "build/arm").rmdir(), (clone / "build").rmdir()],
+    }
 
 
 @pytest.mark.parametrize("what", ["nothing", "what Python compiles", *changes(Path())])
@@ -144,15 +159,18 @@ def test_a_build_that_failed_and_that_of_the_demo_are_no_whole_build(machine):
 
 @pytest.mark.parametrize("arguments", [["--demo"], []])
 def test_nothing_is_installed_while_the_build_is_at_work(machine, arguments):
-    machine.play("catkin", f"""
+    machine.play(
+        "catkin",
+        f"""
         echo 'build begins' >> {machine.events}
         for _ in $(seq {100 if arguments else 0}); do grep -q download {machine.events} && break; sleep 0.05; done
         sleep 0.2
-        echo 'build ends' >> {machine.events}""")
+        echo 'build ends' >> {machine.events}""",
+    )
     ended = machine.run(*arguments)
     assert ended.returncode == 0, ended.stderr
     events = machine.seen()
-    while_building = events[events.index("build begins"):events.index("build ends")]
+    while_building = events[events.index("build begins") : events.index("build ends")]
     assert "install" not in while_building and "update" not in while_building
     if arguments:
         assert "download" in events and events[-1] == "install"
@@ -165,20 +183,29 @@ def test_a_second_run_asks_apt_for_nothing(machine):
     assert machine.seen() == ["build begins", "build ends"]
 
 
-NO_NETWORK = ("echo 'Err:1 http://deb.debian.org/debian bookworm InRelease'; "
-              "echo \"W: Failed to fetch http://deb.debian.org/debian/dists/bookworm/InRelease  \"; "
-              "echo \"W: Temporary failure resolving 'deb.debian.org'\"; ")
+NO_NETWORK = (
+    "echo 'Err:1 http://deb.debian.org/debian bookworm InRelease'; "
+    'echo "W: Failed to fetch http://deb.debian.org/debian/dists/bookworm/InRelease  "; '
+    "echo \"W: Temporary failure resolving 'deb.debian.org'\"; "
+)
 
 
-@pytest.mark.parametrize("program, script, said", [
-    ("apt-get", NO_NETWORK + "exit 100", ["apt-get update", "Temporary failure resolving", "http_proxy is not set"]),
-    # apt-get itself is content with lists that it could not renew
-    ("apt-get", NO_NETWORK + "exit 0", ["apt-get update", "Temporary failure resolving"]),
-    ("apt-cache", "true", ["package lists do not have: g++", "Debian 12 and 13 do", "/etc/os-release says"]),
-    ("df", "printf 'Filesystem\\nx 100 90 12 90%% /\\n'", ["has 12 MB free and what has to be installed needs about"]),
-    ("id", "echo 1000", ["not root and no sudo", "g++"]),
-    ("apt-get", "case \"$*\" in *install*) echo 'E: Unable to correct problems, you have held broken packages.'; exit 100 ;; esac",
-     ["apt-get install", "held broken packages"])])
+@pytest.mark.parametrize(
+    "program, script, said",
+    [
+        ("apt-get", NO_NETWORK + "exit 100", ["apt-get update", "Temporary failure resolving", "http_proxy is not set"]),
+        # apt-get itself is content with lists that it could not renew
+        ("apt-get", NO_NETWORK + "exit 0", ["apt-get update", "Temporary failure resolving"]),
+        ("apt-cache", "true", ["package lists do not have: g++", "Debian 12 and 13 do", "/etc/os-release says"]),
+        ("df", "printf 'Filesystem\\nx 100 90 12 90%% /\\n'", ["has 12 MB free and what has to be installed needs about"]),
+        ("id", "echo 1000", ["not root and no sudo", "g++"]),
+        (
+            "apt-get",
+            "case \"$*\" in *install*) echo 'E: Unable to correct problems, you have held broken packages.'; exit 100 ;; esac",
+            ["apt-get install", "held broken packages"],
+        ),
+    ],
+)
 def test_a_fault_before_the_compiler_is_told_in_at_most_five_lines(machine, program, script, said):
     if program == "apt-get" and script.endswith("exit 0"):
         machine.play("apt-cache", "true")
@@ -210,12 +237,15 @@ def test_proxies_reach_apt_through_sudo(machine, name):
 
 
 def test_apt_in_other_hands_is_waited_for(machine):
-    machine.play("apt-get", f"""
+    machine.play(
+        "apt-get",
+        f"""
         echo "$*" >> {machine.events}
         if [ "$(wc -l < {machine.events})" = 1 ]; then
           echo 'E: Could not get lock /var/lib/dpkg/lock-frontend. It is held by process 4711 (unattended-upgr)'
           exit 100
-        fi""")
+        fi""",
+    )
     ended = machine.run("--demo", "--no-build")
     assert ended.returncode == 0 and "held by process 4711 (unattended-upgr); waiting up to 600 s" in ended.stdout
     ended = machine.run("--demo", "--no-build", NOETIC_LABS_LOCK_SECONDS="0")
@@ -226,12 +256,15 @@ def test_apt_in_other_hands_is_waited_for(machine):
 
 
 def test_a_mirror_that_breaks_off_is_tried_once_more(machine):
-    machine.play("apt-get", f"""
+    machine.play(
+        "apt-get",
+        f"""
         echo "$*" >> {machine.events}
         if [ "$(wc -l < {machine.events})" = 2 ]; then
           echo 'E: Failed to fetch http://deb.debian.org/debian/pool/g++.deb  Connection reset by peer'
           exit 100
-        fi""")
+        fi""",
+    )
     ended = machine.run("--demo", "--no-build")
     assert ended.returncode == 0 and "Connection reset by peer; trying once more" in ended.stdout
 
@@ -239,8 +272,17 @@ def test_a_mirror_that_breaks_off_is_tried_once_more(machine):
 @pytest.mark.skipif(os.geteuid() != 0, reason="mounting read-only needs root; others are refused by the same line")
 def test_a_read_only_checkout_is_one_line(machine):
     clone = machine.setup.parent.parent
-    ended = machine.run("--demo", before=["/usr/bin/unshare", "-m", "/bin/sh", "-c", f"/bin/mount --bind {clone} {clone} && "
-                                          f"/bin/mount -o remount,ro,bind {clone} && exec \"$@\"", "-"])
+    ended = machine.run(
+        "--demo",
+        before=[
+            "/usr/bin/unshare",
+            "-m",
+            "/bin/sh",
+            "-c",
+            f'/bin/mount --bind {clone} {clone} && /bin/mount -o remount,ro,bind {clone} && exec "$@"',
+            "-",
+        ],
+    )
     assert ended.returncode == 1 and ended.stderr.count("\n") == 1 and "cannot be written to" in ended.stderr
 
 
@@ -253,23 +295,34 @@ CMake Error at CMakeLists.txt:12 (find_package):
 """
 
 
-@pytest.mark.parametrize("log, error", [
-    (CMAKE_LOG, "The package 'angles' is not here"),
-    ("/a/b.cpp: In function 'int f()':\n/a/b.cpp:3:5: error: 'x' was not declared\nmake: *** [all] Error 2\n",
-     "error: 'x' was not declared"),
-    ("Traceback (most recent call last):\n  File \"x\"\nAttributeError: module 'numpy' has no attribute 'float32'\n",
-     "AttributeError: module"),
-    ("/usr/bin/ld: x.o: undefined reference to `f()'\ncollect2: error: ld returned 1\n", "undefined reference to"),
-    ("g++: fatal error: cannot write: No space left on device\n", "No space left")])
+@pytest.mark.parametrize(
+    "log, error",
+    [
+        (CMAKE_LOG, "The package 'angles' is not here"),
+        (
+            "/a/b.cpp: In function 'int f()':\n/a/b.cpp:3:5: error: 'x' was not declared\nmake: *** [all] Error 2\n",
+            "error: 'x' was not declared",
+        ),
+        (
+            "Traceback (most recent call last):\n  File \"x\"\nAttributeError: module 'numpy' has no attribute 'float32'\n",
+            "AttributeError: module",
+        ),
+        ("/usr/bin/ld: x.o: undefined reference to `f()'\ncollect2: error: ld returned 1\n", "undefined reference to"),
+        ("g++: fatal error: cannot write: No space left on device\n", "No space left"),
+    ],
+)
 def test_a_build_that_fails_ends_with_package_error_log_and_what_to_run(machine, log, error):
     own = machine.folder / "build.cmake.000.log"
     own.write_text(log)
-    machine.play("catkin", f"""
+    machine.play(
+        "catkin",
+        f"""
         echo 'Starting     >>> gazebo_ros_control'
         for line in $(seq 300); do echo "Abandoned    <<< package_$line"; done
         echo 'Errors     << gazebo_ros_control:cmake {own}'
         echo 'Failed     << gazebo_ros_control:cmake [ Exited with code 1 ]'
-        exit 1""")
+        exit 1""",
+    )
     ended = machine.run("--demo", NOETIC_LABS_AGAIN="scripts/demo")
     assert ended.returncode == 1
     lines = ended.stderr.splitlines()
@@ -279,11 +332,14 @@ def test_a_build_that_fails_ends_with_package_error_log_and_what_to_run(machine,
 
 
 def test_a_compiler_that_was_ended_for_want_of_memory_is_tried_alone(machine):
-    machine.play("catkin", f"""
+    machine.play(
+        "catkin",
+        f"""
         echo "$*" >> {machine.events}
         case "$*" in *"-p 1 -j 1"*) exit 0 ;; esac
         echo 'c++: fatal error: Killed signal terminated program cc1plus'
-        exit 1""")
+        exit 1""",
+    )
     ended = machine.run("--demo")
     assert ended.returncode == 0 and "one at a time" in ended.stdout
     again = machine.seen()[-2] if machine.seen()[-1] == "install" else machine.seen()[-1]

@@ -1,4 +1,5 @@
 """scripts/sizes.py: what is too long is named, by file and line."""
+
 import sizes
 
 CPP = """namespace
@@ -33,8 +34,10 @@ def test_functions_of_cpp_have_their_lengths():
 def test_complaints_name_file_line_and_what_to_do(tmp_path):
     path = tmp_path / "long.py"
     path.write_text("class A:\n    def long(self):\n" + "        pass\n" * 60 + "\n\ndef short():\n" + "    pass\n" * 59 + "x = 1\n" * 380)
-    assert list(sizes.complaints(path)) == [f"{path}: 504 lines; split it, the most is 500",
-                                            f"{path}:2: long() has 61 lines; split it, the most is 60"]
+    assert list(sizes.complaints(path)) == [
+        f"{path}: 504 lines; split it, the most is 500",
+        f"{path}:2: long() has 61 lines; split it, the most is 60",
+    ]
     page = tmp_path / "long.md"
     page.write_text("x\n" * 1000)
     assert list(sizes.complaints(page)) == []

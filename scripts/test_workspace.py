@@ -1,4 +1,5 @@
 """The house rules that a machine can check: import directions, launch arguments, node script sizes, manifests."""
+
 import ast
 import builtins
 import importlib.util
@@ -10,24 +11,34 @@ import pytest
 
 ROOT = Path(__file__).resolve().parent.parent
 #: what stands in a test/ folder is some student's or stranger's package, and made to be as they are
-PACKAGES = {path.parent.name: path.parent for path in sorted((ROOT / "src").rglob("package.xml"))
-            if "test" not in path.relative_to(ROOT).parts}
+PACKAGES = {
+    path.parent.name: path.parent for path in sorted((ROOT / "src").rglob("package.xml")) if "test" not in path.relative_to(ROOT).parts
+}
 ROS_MODULES = {"rospy", "roslib", "rosgraph", "rospkg", "tf", "tf2_ros", "genpy", "catkin"}
 
 
 def tracked(pattern):
     """Files that git knows below src/, so that build products and caches do not count."""
-    out = subprocess.run(["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard", "--", pattern], cwd=ROOT,
-                         capture_output=True, text=True, check=True).stdout
+    out = subprocess.run(
+        ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard", "--", pattern],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        check=True,
+    ).stdout
     return [ROOT / name for name in out.split("\0") if name and (ROOT / name).is_file()]
 
 
-@pytest.mark.parametrize("arguments, said", [
-    (["--oot"], "unrecognized arguments: --oot"),
-    (["--out", "/dev/null/demo"], "cannot write into --out /dev/null/demo: Not a directory"),
-    (["--out", "/proc/demo"], "cannot write into --out /proc/demo"),
-    (["1", "1", "1"], "expected four joint positions"),
-    (["1", "1", "1", "nan"], "expected four joint positions")])
+@pytest.mark.parametrize(
+    "arguments, said",
+    [
+        (["--oot"], "unrecognized arguments: --oot"),
+        (["--out", "/dev/null/demo"], "cannot write into --out /dev/null/demo: Not a directory"),
+        (["--out", "/proc/demo"], "cannot write into --out /proc/demo"),
+        (["1", "1", "1"], "expected four joint positions"),
+        (["1", "1", "1", "nan"], "expected four joint positions"),
+    ],
+)
 def test_demo_judges_its_options_before_it_sets_anything_up(tmp_path, arguments, said):
     ended = subprocess.run([ROOT / "scripts/demo", *arguments], cwd=tmp_path, capture_output=True, text=True, timeout=60)
     assert ended.returncode == 2 and said in ended.stderr.splitlines()[-1]
@@ -62,8 +73,13 @@ def test_ode_sim_imports_no_ros():
 @pytest.mark.parametrize("package", sorted(PACKAGES))
 def test_imports_point_one_way(package):
     """Control knows neither the simulator nor hardware; tools know none of them; nobody imports a lab."""
-    forbidden = {"control": {"simulation", "hardware", "labs"}, "tools": {"simulation", "control", "hardware", "labs"},
-                 "simulation": {"hardware", "labs"}, "hardware": {"simulation", "labs"}, "labs": set()}
+    forbidden = {
+        "control": {"simulation", "hardware", "labs"},
+        "tools": {"simulation", "control", "hardware", "labs"},
+        "simulation": {"hardware", "labs"},
+        "hardware": {"simulation", "labs"},
+        "labs": set(),
+    }
     own = room(package)
     for path in python_files(package):
         for name in imports(path) & set(PACKAGES):
@@ -81,15 +97,36 @@ def test_manifest_is_complete(package):
 
 #: Roots of the trees of errors (ode_sim.errors, hardware_interface.errors, moveit_core.errors, qt_gui.errors ... draw them), and
 #: packages small enough to have one error of their own.
-ROOTS = {"ode_sim": "SimulationError", "hardware_interface": "ControlError", "node_signals": "ParameterError",
-         "plugin_loader": "PluginError", "moveit_core": "MoveItError", "qt_gui": "WindowError", "lab_check": "LabError",
-         "launch_gallery": "GalleryError", "rviz_offscreen": "OffscreenError", "rosmon_core": "RosmonError",
-         "arbotix_python": "ArbotiXException", "srdfdom": "ParseError", "qt_dotgraph": "LayoutError", "turtlesim": "WorldError",
-         "moveit_setup_assistant": "AssistantError", "laser_filters": "FilterError", "topic_tools": "ExpressionError",
-         "robot_localization": "FrameMissing", "turtle_actionlib": "PolygonError", "xacro": "PackageNotFoundError",
-         "web_video_server": "VideoError", "image_pixels": "ImageError",
-         "bag_tools": "BagError", "rosbridge_library": "RosbridgeError", "noetic_environment": "EditorError",
-         "foxglove_bridge": "BridgeError", "lenient_xml": "XmlError", "urdfdom_py": "ParseError"}
+ROOTS = {
+    "ode_sim": "SimulationError",
+    "hardware_interface": "ControlError",
+    "node_signals": "ParameterError",
+    "plugin_loader": "PluginError",
+    "moveit_core": "MoveItError",
+    "qt_gui": "WindowError",
+    "lab_check": "LabError",
+    "launch_gallery": "GalleryError",
+    "rviz_offscreen": "OffscreenError",
+    "rosmon_core": "RosmonError",
+    "arbotix_python": "ArbotiXException",
+    "srdfdom": "ParseError",
+    "qt_dotgraph": "LayoutError",
+    "turtlesim": "WorldError",
+    "moveit_setup_assistant": "AssistantError",
+    "laser_filters": "FilterError",
+    "topic_tools": "ExpressionError",
+    "robot_localization": "FrameMissing",
+    "turtle_actionlib": "PolygonError",
+    "xacro": "PackageNotFoundError",
+    "web_video_server": "VideoError",
+    "image_pixels": "ImageError",
+    "bag_tools": "BagError",
+    "rosbridge_library": "RosbridgeError",
+    "noetic_environment": "EditorError",
+    "foxglove_bridge": "BridgeError",
+    "lenient_xml": "XmlError",
+    "urdfdom_py": "ParseError",
+}
 
 
 @pytest.mark.parametrize("package", sorted(PACKAGES))
@@ -105,8 +142,12 @@ def test_errors_grow_on_one_tree(package):
 
 def _modules():
     """Dotted name -> file of each Python module in a package's src/."""
-    return {".".join(path.relative_to(home / "src").with_suffix("").parts).removesuffix(".__init__"): path
-            for home in PACKAGES.values() if (home / "src").is_dir() for path in tracked(f"{home.relative_to(ROOT)}/src/*.py")}
+    return {
+        ".".join(path.relative_to(home / "src").with_suffix("").parts).removesuffix(".__init__"): path
+        for home in PACKAGES.values()
+        if (home / "src").is_dir()
+        for path in tracked(f"{home.relative_to(ROOT)}/src/*.py")
+    }
 
 
 def _imported_at_once(path, name):
@@ -118,7 +159,7 @@ def _imported_at_once(path, name):
         if isinstance(node, ast.Import):
             yield from (alias.name for alias in node.names)
         elif isinstance(node, ast.ImportFrom):
-            above = home.split(".")[:len(home.split(".")) - node.level + 1] if node.level else []
+            above = home.split(".")[: len(home.split(".")) - node.level + 1] if node.level else []
             base = ".".join([*above, *filter(None, [node.module])])
             yield from (f"{base}.{alias.name}" for alias in node.names)
         elif isinstance(node, ast.Try) or isinstance(node, ast.If) and "TYPE_CHECKING" not in ast.dump(node.test):
@@ -155,8 +196,9 @@ def test_launch_arguments_are_documented():
         if "/test/" in str(path):
             continue
         for arg in ET.parse(path).getroot().findall("arg"):
-            assert arg.get("value") is not None or (arg.get("default") is not None and arg.get("doc")), \
+            assert arg.get("value") is not None or (arg.get("default") is not None and arg.get("doc")), (
                 f"{path}: argument {arg.get('name')} needs a default and a doc"
+            )
 
 
 @pytest.mark.parametrize("package", sorted(PACKAGES))
@@ -176,8 +218,11 @@ def test_what_scripts_import_of_packages_is_there(path):
     for node in ast.walk(ast.parse(path.read_text(), str(path))):
         if isinstance(node, ast.ImportFrom) and node.level == 0 and node.module.split(".")[0] in PACKAGES:
             module = importlib.import_module(node.module)
-            missing = [alias.name for alias in node.names
-                       if not hasattr(module, alias.name) and importlib.util.find_spec(f"{node.module}.{alias.name}") is None]
+            missing = [
+                alias.name
+                for alias in node.names
+                if not hasattr(module, alias.name) and importlib.util.find_spec(f"{node.module}.{alias.name}") is None
+            ]
             assert not missing, f"line {node.lineno}: {node.module} has no {', '.join(missing)}"
 
 

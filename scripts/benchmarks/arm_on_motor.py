@@ -5,6 +5,7 @@ Position 0.0 for four seconds, then velocity 3.1415 for six, each run with a ros
 
     scripts/benchmarks/arm_on_motor.py --picture out/arm_on_motor.png
 """
+
 import argparse
 import os
 import signal
@@ -20,8 +21,9 @@ import numpy
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 
-POSITION, VELOCITY, STATES = (f"controllers/{name}" for name in (
-    "joint1_position_controller", "joint1_velocity_controller", "joint_state_controller"))
+POSITION, VELOCITY, STATES = (
+    f"controllers/{name}" for name in ("joint1_position_controller", "joint1_velocity_controller", "joint_state_controller")
+)
 POSITION_SECONDS, VELOCITY_SECONDS = 4.0, 6.0
 RUNS = {"simulation": ["load_gazebo.launch", "gui:=false"], "motor bench": ["load_rm_hw.launch", "interface:=slcan"]}
 
@@ -41,8 +43,11 @@ def record(path):
 
     rospy.init_node("arm_on_motor")
     samples = []
-    rospy.Subscriber("/joint_states", JointState, lambda m: samples.append(
-        (m.header.stamp.to_sec(), m.position[m.name.index("joint1")], m.velocity[m.name.index("joint1")])))
+    rospy.Subscriber(
+        "/joint_states",
+        JointState,
+        lambda m: samples.append((m.header.stamp.to_sec(), m.position[m.name.index("joint1")], m.velocity[m.name.index("joint1")])),
+    )
     publishers = {name: rospy.Publisher(f"/{name}/command", Float64, queue_size=1) for name in (POSITION, VELOCITY)}
     rospy.wait_for_service("/controller_manager/switch_controller", 30)
     switch = rospy.ServiceProxy("/controller_manager/switch_controller", SwitchController)
@@ -56,6 +61,7 @@ def record(path):
         while not samples or samples[-1][0] < begun + seconds:
             rospy.sleep(0.05)
         return begun
+
     assert switch([STATES], [""], 1, True, 0.0).ok
     begun = run(POSITION, VELOCITY, 0.0, POSITION_SECONDS)
     run(VELOCITY, POSITION, 3.1415, VELOCITY_SECONDS)
@@ -65,8 +71,7 @@ def record(path):
 
 def run(name, arguments, folder):
     """Samples of one run."""
-    environment = {**os.environ, "RM_BENCH_DIR": folder, "ROS_MASTER_URI": f"http://localhost:{free_port()}",
-                   "ROS_HOME": folder}
+    environment = {**os.environ, "RM_BENCH_DIR": folder, "ROS_MASTER_URI": f"http://localhost:{free_port()}", "ROS_HOME": folder}
     quiet, log = {"env": environment}, open(os.path.join(folder, f"{name}.log"), "w")
     quiet.update(stdout=log, stderr=log)
     path = os.path.join(folder, f"{name}.npy")
@@ -106,8 +111,10 @@ def main():
         seconds, position, velocity = samples.T
         held = (seconds > POSITION_SECONDS - 1.0) & (seconds < POSITION_SECONDS)
         turning = seconds > POSITION_SECONDS + 1.0
-        print(f"{name}: rests at {position[held].mean():+.4f} rad; turns at {velocity[turning].min():.2f} to "
-              f"{velocity[turning].max():.2f} rad/s, mean {velocity[turning].mean():.2f}")
+        print(
+            f"{name}: rests at {position[held].mean():+.4f} rad; turns at {velocity[turning].min():.2f} to "
+            f"{velocity[turning].max():.2f} rad/s, mean {velocity[turning].mean():.2f}"
+        )
         above.plot(seconds, position, label=name)
         below.plot(seconds, velocity, label=name)
     above.set(ylabel="joint1, rad", title="position 0.0, then velocity 3.1415")

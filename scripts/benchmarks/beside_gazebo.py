@@ -74,9 +74,14 @@ def figures_of(text: str, launched: float) -> dict:
     first = next(float(r[1]) for r in rows if r[0] == "first")
     steps, dt, wall, thread, process = (float(v) for v in next(r[1:] for r in rows if r[0] == "steps"))
     memory = next(int(r[1]) for r in rows if r[0] == "VmHWM") / 1024
-    return {"us of the stepping thread a step": thread / steps * 1e6, "us of all threads a step": process / steps * 1e6,
-            "real-time factor, uncapped": steps * dt / wall, "s from start to the first step": first - launched, "memory, MB": memory,
-            "ms to make a model, median of five": 1e3 * statistics.median(float(r[1]) for r in rows if r[0] == "spawn")}
+    return {
+        "us of the stepping thread a step": thread / steps * 1e6,
+        "us of all threads a step": process / steps * 1e6,
+        "real-time factor, uncapped": steps * dt / wall,
+        "s from start to the first step": first - launched,
+        "memory, MB": memory,
+        "ms to make a model, median of five": 1e3 * statistics.median(float(r[1]) for r in rows if r[0] == "spawn"),
+    }
 
 
 def ended(process) -> float:

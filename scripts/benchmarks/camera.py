@@ -7,6 +7,7 @@
 ``frame`` is a colour picture of the renderer, ``bare draw`` the same triangles in one colour each, without light, drawn
 and read back by the shortest program that does it: the floor that no renderer on this machine can go below.
 """
+
 import argparse
 import json
 import math
@@ -48,14 +49,14 @@ def arm_scene():
     from ode_sim.description import ResourceFinder, read_urdf
     from ode_sim.description.model import Light, Link, Material, Model, Plane, Pose, Visual
     from ode_sim.rendering import Camera, arrange, look_at
+
     pack = rospkg.RosPack()
     file = os.path.join(pack.get_path("arm_description"), "urdf", "arm.urdf.xacro")
     text = subprocess.run(["xacro", file], check=True, capture_output=True, text=True).stdout
     arm, _ = read_urdf(text, finder=ResourceFinder([], [], pack.get_path))
     grey = Material(ambient=(0.3, 0.3, 0.3, 1.0), diffuse=(0.7, 0.7, 0.7, 1.0))
     floor = Model("ground_plane", links=(Link("link", visuals=(Visual("floor", Pose(), Plane(size=(100, 100)), grey),)),))
-    sun = Light("sun", "directional", Pose((0, 0, 10)), diffuse=(0.8, 0.8, 0.8, 1.0), direction=(-0.5, 0.1, -0.9),
-                cast_shadows=True)
+    sun = Light("sun", "directional", Pose((0, 0, 10)), diffuse=(0.8, 0.8, 0.8, 1.0), direction=(-0.5, 0.1, -0.9), cast_shadows=True)
     scene, poses = arrange([floor, arm], [sun])
     camera = Camera(width=SIZE, height=SIZE, hfov=0.5, near=0.02, far=300, pose=look_at((0.7, -0.6, 0.45), (0, 0, 0.2)))
     return scene, poses, camera
@@ -68,12 +69,13 @@ class BareDraw:
         from ode_sim.rendering import create_context
         from ode_sim.rendering.assets import Assets
         from ode_sim.rendering.renderer import Renderer, pose_matrices
+
         self.ctx = create_context()
         program = self.ctx.program(
             vertex_shader="#version 330\nin vec3 p; uniform mat4 m; void main() { gl_Position = m * vec4(p, 1.0); }",
-            fragment_shader="#version 330\nuniform vec4 c; out vec4 o; void main() { o = c; }")
-        clip = Renderer._projection(camera, SIZE, SIZE) @ np.linalg.inv(
-            pose_matrices(np.array(camera.pose.p + camera.pose.q))[0])
+            fragment_shader="#version 330\nuniform vec4 c; out vec4 o; void main() { o = c; }",
+        )
+        clip = Renderer._projection(camera, SIZE, SIZE) @ np.linalg.inv(pose_matrices(np.array(camera.pose.p + camera.pose.q))[0])
         assets, self.draws = Assets(), []
         for seen in scene.visuals:
             for part in assets.parts(seen.visual, seen.name):
@@ -81,13 +83,11 @@ class BareDraw:
                 matrix = clip @ pose_matrices(poses[seen.link])[0] @ local
                 mesh = assets.meshes[part.key]
                 vertices = self.ctx.buffer(mesh.vertices.astype("f4").tobytes())
-                array = self.ctx.vertex_array(program, [(vertices, "3f", "p")],
-                                              self.ctx.buffer(mesh.triangles.astype("u4").tobytes()))
+                array = self.ctx.vertex_array(program, [(vertices, "3f", "p")], self.ctx.buffer(mesh.triangles.astype("u4").tobytes()))
                 self.draws.append((array, matrix.T.astype("f4").tobytes(), (*part.look.diffuse, 1.0)))
         self.program = program
         self.triangles = sum(array.vertices // 3 for array, _, _ in self.draws)
-        self.frame = self.ctx.framebuffer([self.ctx.renderbuffer((SIZE, SIZE))],
-                                          self.ctx.depth_renderbuffer((SIZE, SIZE)))
+        self.frame = self.ctx.framebuffer([self.ctx.renderbuffer((SIZE, SIZE))], self.ctx.depth_renderbuffer((SIZE, SIZE)))
 
     def __call__(self):
         with self.ctx:
@@ -105,6 +105,7 @@ class BareDraw:
 def draw_costs():
     """Milliseconds of a frame, with and without shadows, and of a bare draw; taken in turns, medians."""
     from ode_sim.rendering import Renderer
+
     scene, poses, camera = arm_scene()
     renderers = {"frame": Renderer(shadows="off"), "frame with shadow": Renderer(shadows="on")}
     for renderer in renderers.values():
@@ -114,8 +115,7 @@ def draw_costs():
     for number in range(FRAMES + 5):
         moved = poses.copy()
         moved[1:, 2] += 1e-4 * math.sin(number)  # or the shadow would be drawn only once
-        for name, draw in (*((name, lambda r=r: r.color(camera, moved)) for name, r in renderers.items()),
-                           ("bare draw", bare)):
+        for name, draw in (*((name, lambda r=r: r.color(camera, moved)) for name, r in renderers.items()), ("bare draw", bare)):
             start = time.perf_counter()
             draw()
             times[name].append(1e3 * (time.perf_counter() - start))
@@ -130,17 +130,17 @@ def draw_costs():
 
 def process_rate():
     """Frames per second from the render process with noise, each waited for."""
-    import rospkg
     import ode_sim
+    import rospkg
     from ode_sim.description import ResourceFinder
     from ode_sim.rendering import Camera, RenderProcess, look_at
+
     pack = rospkg.RosPack()
     file = os.path.join(pack.get_path("arm_description"), "urdf", "arm.urdf.xacro")
     text = subprocess.run(["xacro", file], check=True, capture_output=True, text=True).stdout
     world = ode_sim.World(finder=ResourceFinder([], [], pack.get_path))
     world.spawn_urdf(text, name="arm")
-    camera = Camera(width=SIZE, height=SIZE, hfov=0.5, near=0.02, far=300, noise_stddev=0.007,
-                    pose=look_at((0.7, -0.6, 0.45), (0, 0, 0.2)))
+    camera = Camera(width=SIZE, height=SIZE, hfov=0.5, near=0.02, far=300, noise_stddev=0.007, pose=look_at((0.7, -0.6, 0.45), (0, 0, 0.2)))
     studio = RenderProcess(world, print)
     key = studio.add_camera(camera)
     studio.draw(key, ("image",), lambda frame: None, wait=True)
@@ -163,8 +163,9 @@ def real_time_factor(seconds):
         command = ["roslaunch", "-p", str(port), "arm_gazebo", "arm_gazebo.launch", "gui:=false", "rviz:=false"]
         launch = subprocess.Popen(command, env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         try:
-            out = subprocess.run([sys.executable, "-c", SUBSCRIBER, str(seconds)], env=environment, capture_output=True,
-                                 text=True, timeout=90 + seconds)
+            out = subprocess.run(
+                [sys.executable, "-c", SUBSCRIBER, str(seconds)], env=environment, capture_output=True, text=True, timeout=90 + seconds
+            )
             factor, rate = (float(word) for word in out.stdout.split()[-2:])
         finally:
             launch.send_signal(signal.SIGINT)

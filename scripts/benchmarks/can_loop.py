@@ -5,6 +5,7 @@ Starts a roscore of its own, the bench, rm_hw with a position controller on ever
 
     scripts/benchmarks/can_loop.py --seconds 20 --picture out/can_loop.png
 """
+
 import argparse
 import json
 import os
@@ -39,45 +40,69 @@ def free_port():
 def parameters(joints, log):
     """Everything rm_hw and the controllers need, as one mapping."""
     robot = "<robot name='bench'><link name='base'/>" + "".join(JOINT.format(joint) for joint in joints) + "</robot>"
-    controllers = {f"{joint}_controller": {"type": "effort_controllers/JointPositionController", "joint": joint,
-                                           "pid": {"p": 3.0, "i": 0.0, "d": 0.05}} for joint in joints}
+    controllers = {
+        f"{joint}_controller": {
+            "type": "effort_controllers/JointPositionController",
+            "joint": joint,
+            "pid": {"p": 3.0, "i": 0.0, "d": 0.05},
+        }
+        for joint in joints
+    }
     controllers["joint_state_controller"] = {"type": "joint_state_controller/JointStateController", "publish_rate": 50}
-    return {"robot_description": robot, **controllers,
-            "rm_hw": {"bus": ["can0"], "interface": "slcan", "loop_frequency": 1000,
-                      "cycle_time_error_threshold": 0.001, "cycle_time_log": log, "actuators": {
-                          f"{joint}_motor": {"bus": "can0", "id": 0x201 + i, "type": "rm_3508"}
-                          for i, joint in enumerate(joints)}}}
+    return {
+        "robot_description": robot,
+        **controllers,
+        "rm_hw": {
+            "bus": ["can0"],
+            "interface": "slcan",
+            "loop_frequency": 1000,
+            "cycle_time_error_threshold": 0.001,
+            "cycle_time_log": log,
+            "actuators": {f"{joint}_motor": {"bus": "can0", "id": 0x201 + i, "type": "rm_3508"} for i, joint in enumerate(joints)},
+        },
+    }
 
 
 def run(motors, seconds, folder):
     """Cycle times in ms, without the first second."""
     joints = [f"joint{i + 1}" for i in range(motors)]
     log, port = os.path.join(folder, f"{motors}.npy"), free_port()
-    environment = {**os.environ, "RM_BENCH_DIR": folder, "ROS_HOME": folder,
-                   "ROS_MASTER_URI": f"http://localhost:{port}"}
+    environment = {**os.environ, "RM_BENCH_DIR": folder, "ROS_HOME": folder, "ROS_MASTER_URI": f"http://localhost:{port}"}
     quiet = {"env": environment, "stdout": subprocess.DEVNULL}
-    files = {"bench.yaml": {"motors": {f"{joint}_motor": {"bus": "can0", "id": 0x201 + i, "type": "rm_3508"}
-                                       for i, joint in enumerate(joints)}},
-             "parameters.yaml": parameters(joints, log)}
+    files = {
+        "bench.yaml": {"motors": {f"{joint}_motor": {"bus": "can0", "id": 0x201 + i, "type": "rm_3508"} for i, joint in enumerate(joints)}},
+        "parameters.yaml": parameters(joints, log),
+    }
     for name, content in files.items():
         with open(os.path.join(folder, name), "w") as file:
             yaml.safe_dump(content, file)
     processes = [subprocess.Popen(["roscore", "-p", str(port)], **quiet)]
     try:
-        while subprocess.run(["rosparam", "load", os.path.join(folder, "parameters.yaml")], stderr=subprocess.DEVNULL,
-                             **quiet).returncode:
+        while subprocess.run(["rosparam", "load", os.path.join(folder, "parameters.yaml")], stderr=subprocess.DEVNULL, **quiet).returncode:
             time.sleep(0.2)
-        processes.append(subprocess.Popen(["rosrun", "rm_hw", "motor_bench", "--no-ros", "--config",
-                                           os.path.join(folder, "bench.yaml")], **quiet))
+        processes.append(
+            subprocess.Popen(["rosrun", "rm_hw", "motor_bench", "--no-ros", "--config", os.path.join(folder, "bench.yaml")], **quiet)
+        )
         processes.append(subprocess.Popen(["rosrun", "rm_hw", "rm_hw", "__name:=rm_hw"], **quiet))
-        subprocess.run(["rosrun", "controller_manager", "controller_manager", "spawn", "joint_state_controller",
-                        *(f"{joint}_controller" for joint in joints)], check=True, timeout=60, **quiet)
+        subprocess.run(
+            [
+                "rosrun",
+                "controller_manager",
+                "controller_manager",
+                "spawn",
+                "joint_state_controller",
+                *(f"{joint}_controller" for joint in joints),
+            ],
+            check=True,
+            timeout=60,
+            **quiet,
+        )
         time.sleep(seconds)
     finally:
         for process in reversed(processes):
             process.send_signal(signal.SIGINT)
             process.wait()
-    return numpy.load(log)[-int(seconds * 1000):] * 1000.0
+    return numpy.load(log)[-int(seconds * 1000) :] * 1000.0
 
 
 def main():
@@ -94,11 +119,17 @@ def main():
             cycles = run(motors, options.seconds, folder)
         p50, p99, p999 = numpy.percentile(cycles, [50, 99, 99.9])
         worst = max(worst, p99)
-        text = (f"{motors} motor{'s' * (motors > 1)}: {len(cycles)} cycles, median {p50:.3f} ms, p99 {p99:.3f} ms, "
-                f"p99.9 {p999:.3f} ms, longest {cycles.max():.3f} ms")
+        text = (
+            f"{motors} motor{'s' * (motors > 1)}: {len(cycles)} cycles, median {p50:.3f} ms, p99 {p99:.3f} ms, "
+            f"p99.9 {p999:.3f} ms, longest {cycles.max():.3f} ms"
+        )
         print(text, flush=True)
-        figures.update({f"rm_hw at 1 kHz, {motors} motors: {name} cycle, ms": value for name, value in (
-            ("median", p50), ("p99", p99), ("p99.9", p999), ("longest", cycles.max()))})
+        figures.update(
+            {
+                f"rm_hw at 1 kHz, {motors} motors: {name} cycle, ms": value
+                for name, value in (("median", p50), ("p99", p99), ("p99.9", p999), ("longest", cycles.max()))
+            }
+        )
         axis.hist(numpy.clip(cycles, BINS_MS[0], BINS_MS[-1]), BINS_MS, log=True)
         axis.axvline(p99, color="red", linewidth=1)
         axis.set(title=text, xlabel="cycle time in ms (longer ones in the last bin)", ylabel="cycles")

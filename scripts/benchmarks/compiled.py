@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """What a compiled controller and a compiled model plugin cost in a step, beside what they do themselves; see scripts/bench."""
+
 import argparse
 import json
 import os
@@ -50,8 +51,14 @@ def loop(cycles: int) -> list:
         try:
             spawn = ["rosrun", "controller_manager", "controller_manager", "spawn", *yaml.safe_load(LOOP)]
             subprocess.run(spawn, check=True, timeout=60, **quiet)
-            echo = subprocess.run(["rostopic", "echo", "-n1", "/lateness/data"], env=environment, stdout=subprocess.PIPE, text=True,
-                                  check=True, timeout=60 + cycles / 500)
+            echo = subprocess.run(
+                ["rostopic", "echo", "-n1", "/lateness/data"],
+                env=environment,
+                stdout=subprocess.PIPE,
+                text=True,
+                check=True,
+                timeout=60 + cycles / 500,
+            )
         finally:
             robot.terminate()
             robot.wait(timeout=30)

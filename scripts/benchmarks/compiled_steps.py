@@ -3,6 +3,7 @@
 
 usage: compiled_steps.py STEPS CONTROLLERS ROUNDS PLUGINS
 """
+
 import sys
 
 import robots

@@ -4,6 +4,7 @@
 On a private X server, drawn by the processor, without anti-aliasing (as scripts/offscreen and rviz_offscreen have it) and with it (as
 RViz has it on a desktop); the 3-D view has 800 x 600 pixels.
 """
+
 import argparse
 import ctypes
 import json
@@ -24,12 +25,25 @@ CIRCLE = 40  # pixels, the radius of the goal's way, once in three seconds
 CONFIG = {
     "Panels": [],
     "Visualization Manager": {
-        "Class": "", "Name": "root", "Enabled": True, "Value": True,
-        "Displays": [{"Class": "rviz/Grid", "Name": "Grid", "Enabled": True, "Value": True},
-                     {"Class": "moveit_rviz_plugin/MotionPlanning", "Name": "MotionPlanning", "Enabled": True, "Value": True,
-                      "JointsTab_Use_Radians": True, "Planning Request": {"Planning Group": "manipulator", "Goal State Alpha": 0.6}}],
+        "Class": "",
+        "Name": "root",
+        "Enabled": True,
+        "Value": True,
+        "Displays": [
+            {"Class": "rviz/Grid", "Name": "Grid", "Enabled": True, "Value": True},
+            {
+                "Class": "moveit_rviz_plugin/MotionPlanning",
+                "Name": "MotionPlanning",
+                "Enabled": True,
+                "Value": True,
+                "JointsTab_Use_Radians": True,
+                "Planning Request": {"Planning Group": "manipulator", "Goal State Alpha": 0.6},
+            },
+        ],
         "Global Options": {"Fixed Frame": "world", "Frame Rate": 60},
-        "Tools": [{"Class": "rviz/Interact"}]}}
+        "Tools": [{"Class": "rviz/Interact"}],
+    },
+}
 
 
 def window(config, smooth):
@@ -98,8 +112,7 @@ def open_window(desktop, config, *options):
         if program is not None:
             program.end()
         begin = time.monotonic()
-        program = desktop.run([os.path.abspath(__file__), "--window", config, *options],
-                              DRI_NO_MSAA="0" if "--smooth" in options else "1")
+        program = desktop.run([os.path.abspath(__file__), "--window", config, *options], DRI_NO_MSAA="0" if "--smooth" in options else "1")
         program.wait(lambda: program.ask("text", "figures") and json.loads(program.ask("text", "figures"))[3] == "Status: Ok")
         least = min(least, time.monotonic() - begin)
     return least, program
@@ -118,8 +131,9 @@ def drag(desktop, program, seconds, how):
     way = []
     for step in range(int(seconds * MOUSE)):
         angle = 2 * math.pi * step / MOUSE / 3
-        way.append(f"mousemove {round(x - CIRCLE + CIRCLE * math.cos(angle))} {round(y + CIRCLE * math.sin(angle))}\n"
-                   f"sleep {1 / MOUSE:.4f}\n")
+        way.append(
+            f"mousemove {round(x - CIRCLE + CIRCLE * math.cos(angle))} {round(y + CIRCLE * math.sin(angle))}\nsleep {1 / MOUSE:.4f}\n"
+        )
     before, begin, pictures = json.loads(program.text("figures"))[0], time.monotonic(), []
     times = psutil.Process(program.process.pid).cpu_times
     spent = sum(times()[:2])
@@ -134,19 +148,23 @@ def drag(desktop, program, seconds, how):
     desktop.xdotool("mouseup", 1)
     mean = sum(pictures[1:]) / max(1, len(pictures) - 1)
     name = f"goal dragged, 800x600, UR5{how}: "
-    return {name + "pictures a second": mean, name + "answers of inverse kinematics a second": answers,
-            name + "processor ms of RViz a picture, all threads": 1000 * (sum(times()[:2]) - spent) / max(1.0, mean * passed)}
+    return {
+        name + "pictures a second": mean,
+        name + "answers of inverse kinematics a second": answers,
+        name + "processor ms of RViz a picture, all threads": 1000 * (sum(times()[:2]) - spent) / max(1.0, mean * passed),
+    }
 
 
 def measure(seconds):
     """All figures."""
-    from rqt_testing.desktop import Desktop
     import yaml
+    from rqt_testing.desktop import Desktop
 
     with tempfile.TemporaryDirectory() as folder:
         config = os.path.join(folder, "desk.rviz")
-        CONFIG["Visualization Manager"]["Views"] = {"Current": {"Class": "rviz/Orbit", "Distance": 2.2, "Focal Point": hand(),
-                                                                "Pitch": 0.3, "Yaw": 0.8}}
+        CONFIG["Visualization Manager"]["Views"] = {
+            "Current": {"Class": "rviz/Orbit", "Distance": 2.2, "Focal Point": hand(), "Pitch": 0.3, "Yaw": 0.8}
+        }
         with open(config, "w", encoding="utf-8") as file:
             yaml.safe_dump(CONFIG, file)
         with Desktop("1600x900x24") as desktop:
@@ -173,8 +191,12 @@ def main():
         port = probe.getsockname()[1]
     with tempfile.TemporaryDirectory() as home:
         os.environ.update(ROS_MASTER_URI=f"http://localhost:{port}", ROS_HOME=home)
-        demo = subprocess.Popen(["roslaunch", "-p", str(port), "myur5_moveit_config", "demo.launch", "use_rviz:=false"],
-                                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
+        demo = subprocess.Popen(
+            ["roslaunch", "-p", str(port), "myur5_moveit_config", "demo.launch", "use_rviz:=false"],
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+            start_new_session=True,
+        )
         try:
             while subprocess.run(["rosparam", "list"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode:
                 time.sleep(0.2)

@@ -3,6 +3,7 @@
 
 usage: gazebo_like.py [--json FILE]
 """
+
 import argparse
 import json
 import math
@@ -42,14 +43,22 @@ def moved(world, model, seconds):
 
 
 def rover(wheels, casters, radius, width, mass, wheel_mass, caster_mu, size, height=0.0):
-    balls = tuple(Collision(f"c{i}", Pose((x, y, 0.03 - radius)), Sphere(0.03), Surface(mu=caster_mu, mu2=caster_mu))
-                  for i, (x, y) in enumerate(casters))
+    balls = tuple(
+        Collision(f"c{i}", Pose((x, y, 0.03 - radius)), Sphere(0.03), Surface(mu=caster_mu, mu2=caster_mu))
+        for i, (x, y) in enumerate(casters)
+    )
     links = [Link("base", Pose((0, 0, radius)), box_inertia(mass, size, Pose((0, 0, height))), balls)]
     joints = []
     for i, (x, y) in enumerate(wheels):
-        spin, across = wheel_mass * radius ** 2 / 2, wheel_mass * (3 * radius ** 2 + width ** 2) / 12
-        links.append(Link(f"w{i}", Pose((x, y, radius)), Inertial(wheel_mass, Pose(), across, 0, 0, spin, 0, across),
-                          (Collision("tyre", TYRE, Cylinder(radius, width)),)))
+        spin, across = wheel_mass * radius**2 / 2, wheel_mass * (3 * radius**2 + width**2) / 12
+        links.append(
+            Link(
+                f"w{i}",
+                Pose((x, y, radius)),
+                Inertial(wheel_mass, Pose(), across, 0, 0, spin, 0, across),
+                (Collision("tyre", TYRE, Cylinder(radius, width)),),
+            )
+        )
         joints.append(Joint(f"w{i}", "revolute", "base", f"w{i}", axes=(Axis((0, 1, 0)),)))
     return Model("rover", Pose(), tuple(links), tuple(joints))
 
@@ -81,8 +90,9 @@ def rigid_casters(solver):
     """25 kg on two wheels between two rigid balls of the same friction."""
     wheels = ((0.0, 0.15), (0.0, -0.15))
     model = rover(wheels, ((-0.15, 0.0), (0.15, 0.0)), 0.1, 0.05, 15.0, 5.0, 1.0, (0.4, 0.2, 0.1), 0.1)
-    return driven(solver, model, wheels, 0.1, (("ahead", 0.3, 0.0), ("turn", 0.0, 1.0), ("ahead again", 0.3, 0.0),
-                                               ("standing, m", 0.0, 0.0)), 10.0)
+    return driven(
+        solver, model, wheels, 0.1, (("ahead", 0.3, 0.0), ("turn", 0.0, 1.0), ("ahead again", 0.3, 0.0), ("standing, m", 0.0, 0.0)), 10.0
+    )
 
 
 def light_finger(solver):
@@ -119,8 +129,11 @@ def proportional_wheels(solver):
             start = to_rpy(car.pose)[2]
         if k > 1000:
             chatter.append(wheels[0].velocity())
-    return {"speed, m/s": float(np.hypot(*car.twist().linear[:2])), "chatter of a wheel, rad/s": float(np.std(chatter)),
-            "heading drift in 5 s, rad": to_rpy(car.pose)[2] - start}
+    return {
+        "speed, m/s": float(np.hypot(*car.twist().linear[:2])),
+        "chatter of a wheel, rad/s": float(np.std(chatter)),
+        "heading drift in 5 s, rad": to_rpy(car.pose)[2] - start,
+    }
 
 
 def arm_at_ten_milliseconds(solver):

@@ -1,4 +1,5 @@
 """A class of arm homeworks with seeded faults: how long it takes, what a second worker brings, what the sandbox and a long queue cost."""
+
 import argparse
 import json
 import pathlib
@@ -21,8 +22,11 @@ def grade(folder, out, workers):
     """(wall seconds, processor seconds, marks by submission) of a class."""
     submissions = sorted(path for path in folder.iterdir() if path.is_dir())
     begin, before = time.monotonic(), processor_seconds()
-    done = subprocess.run(["rosrun", "lab_check", "grade", str(SPEC), *map(str, submissions), "--workers", str(workers), "--no-films",
-                           "--out", str(out)], capture_output=True, text=True)
+    done = subprocess.run(
+        ["rosrun", "lab_check", "grade", str(SPEC), *map(str, submissions), "--workers", str(workers), "--no-films", "--out", str(out)],
+        capture_output=True,
+        text=True,
+    )
     if done.returncode:
         raise SystemExit(f"grading.py: {done.stdout[-300:]}{done.stderr[-300:]}")
     took, used = time.monotonic() - begin, processor_seconds() - before
@@ -65,7 +69,7 @@ def sandbox_cost(scratch, runs=10):
 
 def queue(count, scratch):
     """Grades ``count`` submissions whose examination takes no time; for a process of its own, which prints its peak memory, MB."""
-    from lab_check import gradebook, grade, spec
+    from lab_check import grade, gradebook, spec
     from lab_check.engines import Engine
     from lab_check.outcome import TaskResult, Verdict
     from lab_check.store import Store
@@ -103,8 +107,13 @@ def queue_memory(count, scratch):
     for number in (count, 10):
         place = scratch / f"queue{number}"
         place.mkdir()
-        done = subprocess.run([sys.executable, "-c", words, str(number), str(place)], cwd=pathlib.Path(__file__).parent, check=True,
-                              capture_output=True, text=True)
+        done = subprocess.run(
+            [sys.executable, "-c", words, str(number), str(place)],
+            cwd=pathlib.Path(__file__).parent,
+            check=True,
+            capture_output=True,
+            text=True,
+        )
         found.append(float(done.stdout))
     return found
 
@@ -117,8 +126,9 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         scratch = pathlib.Path(folder)
         figures = {"sandbox: seconds for a submission": sandbox_cost(scratch)}
-        figures["class: driver's memory for a queue of 10000, MB"], figures["class: driver's memory for a queue of 10, MB"] = \
-            queue_memory(10000, scratch)
+        figures["class: driver's memory for a queue of 10000, MB"], figures["class: driver's memory for a queue of 10, MB"] = queue_memory(
+            10000, scratch
+        )
         faults.make(ARM, scratch / "class", options.count)
         two, _, first = grade(scratch / "class", scratch / "two", 2)
         figures[f"{options.count} arm homeworks, 2 workers: seconds"] = two
@@ -137,7 +147,8 @@ def main():
             figures[f"class: wall seconds of a submission, {name}"] = wall / equal
             figures[f"class: processor seconds of a submission, {name}"] = used / equal
         figures["class: share of submissions with the same marks by 1 and 2 workers"] = sum(
-            alone[name] == first[name] for name in alone) / len(alone)
+            alone[name] == first[name] for name in alone
+        ) / len(alone)
     with open(options.json, "w", encoding="utf-8") as out:
         json.dump(figures, out)
 

@@ -3,6 +3,7 @@
 
 usage: launched.py arm|ur5|ur5_effort SECONDS
 """
+
 import json
 import os
 import signal
@@ -30,8 +31,10 @@ from sensor_msgs.msg import JointState  # noqa: E402
 CASES = {
     "arm": ("arm", ["arm_gazebo", "arm_gazebo.launch", "gui:=false", "rviz:=false"]),
     "ur5": ("ur5", ["myur5_description", "myur5.launch", "gui:=false"]),
-    "ur5_effort": ("ur5", ["myur5_description", "myur5.launch", "gui:=false",
-                           "transmission_hw_interface:=hardware_interface/EffortJointInterface"]),
+    "ur5_effort": (
+        "ur5",
+        ["myur5_description", "myur5.launch", "gui:=false", "transmission_hw_interface:=hardware_interface/EffortJointInterface"],
+    ),
 }
 
 
@@ -84,8 +87,9 @@ def measure(robot, namespace, seconds):
     for name in robot.started:
         while not rospy.has_param(f"{namespace}/{name}/type"):
             time.sleep(0.1)
-    rospy.Subscriber("/arm_controller/state", JointTrajectoryControllerState,
-                     lambda message: errors.append(max(map(abs, message.error.positions))))
+    rospy.Subscriber(
+        "/arm_controller/state", JointTrajectoryControllerState, lambda message: errors.append(max(map(abs, message.error.positions)))
+    )
     time.sleep(3.0)  # the launch files' other nodes come up
     run_free()
     robot.command(namespace)
@@ -100,9 +104,14 @@ def measure(robot, namespace, seconds):
         factors.append(gone / (now - wall))
         rates.append((watch.count - count) / gone)
         costs.append((memory_and_time[1] - busy) / gone * 1e3)
-    return {**result, "real-time factor": statistics.median(factors),
-            "joint states": statistics.median(rates), "processor us per step": statistics.median(costs),
-            "memory": server_status()[0], "largest error": max(errors, default=0.0)}
+    return {
+        **result,
+        "real-time factor": statistics.median(factors),
+        "joint states": statistics.median(rates),
+        "processor us per step": statistics.median(costs),
+        "memory": server_status()[0],
+        "largest error": max(errors, default=0.0),
+    }
 
 
 def main():
@@ -110,8 +119,12 @@ def main():
     robot = ROBOTS[name]
     with tempfile.TemporaryDirectory() as home:
         start = time.monotonic()
-        launch = subprocess.Popen(["roslaunch", "-p", str(PORT), *arguments], env=dict(os.environ, ROS_HOME=home),
-                                  stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        launch = subprocess.Popen(
+            ["roslaunch", "-p", str(PORT), *arguments],
+            env=dict(os.environ, ROS_HOME=home),
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+        )
         try:
             wait_for_master()
             rospy.init_node("bench", disable_rostime=True, disable_signals=True, log_level=rospy.FATAL)

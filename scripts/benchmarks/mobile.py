@@ -7,6 +7,7 @@
 The server runs in a process of its own with the sensors' topics subscribed, the robot driving circles. The sensors are
 mbot's own, set to 10 Hz: 360 rays; 640x480 pixels of colour, depth and cloud. The world's step is set to 1 ms.
 """
+
 import argparse
 import contextlib
 import json
@@ -53,8 +54,7 @@ def world(folder, throttled):
 @contextlib.contextmanager
 def server(path):
     """The simulator on a world file. :returns: its process"""
-    process = subprocess.Popen(["rosrun", "gazebo_ros", "gzserver", path], stdout=subprocess.DEVNULL,
-                               stderr=subprocess.DEVNULL)
+    process = subprocess.Popen(["rosrun", "gazebo_ros", "gzserver", path], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     try:
         yield process
     finally:
@@ -85,6 +85,7 @@ def spawn(robots):
     import rospy
     from gazebo_msgs.srv import SpawnModel
     from geometry_msgs.msg import Point, Pose, Quaternion
+
     rospy.wait_for_service("/gazebo/spawn_urdf_model", 30)
     call = rospy.ServiceProxy("/gazebo/spawn_urdf_model", SpawnModel)
     for index, text in enumerate(robots):
@@ -99,6 +100,7 @@ class Count:
 
     def __init__(self, topic):
         import rospy
+
         self.number = 0
         self.subscriber = rospy.Subscriber(topic, rospy.AnyMsg, self._receive, buff_size=1 << 24)
 
@@ -109,8 +111,9 @@ class Count:
 def measure(path, robots, topics, commands=("/cmd_vel",)):
     """:returns: real-time factor, processor seconds per second of wall time and of sim time, rate of topics (sim Hz)"""
     import rospy
-    from geometry_msgs.msg import Twist
     from gazebo_msgs.srv import GetWorldProperties
+    from geometry_msgs.msg import Twist
+
     with server(path):
         spawn(robots)
         counts = [Count(topic) for topic in topics]
@@ -146,7 +149,8 @@ def playground(folder):
         for topic, rate in zip(topics, rates):
             figures[f"{title}: {topic}, per sim second"] = rate
     figures["mbot with 360 rays at 10 Hz: real-time factor, uncapped"] = measure(
-        world(folder, False), [robot("with_laser_")], SENSORS["laser"])[0]
+        world(folder, False), [robot("with_laser_")], SENSORS["laser"]
+    )[0]
     return figures
 
 
@@ -155,8 +159,12 @@ def scaling(folder):
     figures, one = {}, None
     for copies in (1, 2, 4, 8, 16):
         spaces = [f"/mbot{index}" for index in range(copies)]
-        cost = measure(write_world(os.path.join(folder, "empty.world")), [robot("", space) for space in spaces], (),
-                       [f"{space}/cmd_vel" for space in spaces])[2]
+        cost = measure(
+            write_world(os.path.join(folder, "empty.world")),
+            [robot("", space) for space in spaces],
+            (),
+            [f"{space}/cmd_vel" for space in spaces],
+        )[2]
         one = one or cost
         figures[f"{copies} mbots: processor time per step and robot, us"] = cost * 1e3 / copies
         if copies > 1:
@@ -171,6 +179,7 @@ def main(argv=None):
     with master() as environment, tempfile.TemporaryDirectory() as folder:
         os.environ.update(environment)  # before rospy reads it
         import rospy
+
         rospy.set_param("/use_sim_time", True)
         rospy.init_node("mobile_bench", disable_rostime=True, disable_signals=True, log_level=rospy.FATAL)
         figures = {**playground(folder), **scaling(folder)}

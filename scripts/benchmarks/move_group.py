@@ -3,6 +3,7 @@
 
 usage: move_group.py PLANS
 """
+
 import json
 import os
 import signal
@@ -62,9 +63,14 @@ def memory(pid):
 def launch(home):
     """(process, wall s until move_group says that planning may start, processor s of all nodes by then)."""
     start = time.monotonic()
-    process = subprocess.Popen(["roslaunch", "-p", str(PORT), "myur5_moveit_config", "demo.launch", "use_rviz:=false"],
-                               env=dict(os.environ, ROS_HOME=home, PYTHONUNBUFFERED="1"), stdout=subprocess.PIPE,
-                               stderr=subprocess.STDOUT, text=True, errors="replace")
+    process = subprocess.Popen(
+        ["roslaunch", "-p", str(PORT), "myur5_moveit_config", "demo.launch", "use_rviz:=false"],
+        env=dict(os.environ, ROS_HOME=home, PYTHONUNBUFFERED="1"),
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        errors="replace",
+    )
     said = []
     for line in process.stdout:
         said.append(line.strip())
@@ -80,12 +86,18 @@ def pid_of(node):
 
 
 def request(random):
-    message = MotionPlanRequest(group_name="manipulator", allowed_planning_time=5.0, num_planning_attempts=1,
-                                start_state=RobotState(is_diff=True), max_velocity_scaling_factor=1.0,
-                                max_acceleration_scaling_factor=1.0)
+    message = MotionPlanRequest(
+        group_name="manipulator",
+        allowed_planning_time=5.0,
+        num_planning_attempts=1,
+        start_state=RobotState(is_diff=True),
+        max_velocity_scaling_factor=1.0,
+        max_acceleration_scaling_factor=1.0,
+    )
     values = random.uniform((-3, -2.6, -2.2, -3, -3, -3), (3, -0.6, 2.2, 3, 3, 3))
-    message.goal_constraints = [Constraints(joint_constraints=[JointConstraint(name, value, 1e-4, 1e-4, 1.0)
-                                                               for name, value in zip(JOINTS, values)])]
+    message.goal_constraints = [
+        Constraints(joint_constraints=[JointConstraint(name, value, 1e-4, 1e-4, 1.0) for name, value in zip(JOINTS, values)])
+    ]
     return message
 
 
@@ -108,8 +120,13 @@ def main():
         try:
             rospy.init_node("bench", disable_rostime=True, disable_signals=True, log_level=rospy.FATAL)
             pid = pid_of("/move_group")
-            figures = {"ready": ready, "processor seconds of the launch": launched, "processor seconds": processor_seconds(pid),
-                       "memory": memory(pid), "plans": count}
+            figures = {
+                "ready": ready,
+                "processor seconds of the launch": launched,
+                "processor seconds": processor_seconds(pid),
+                "memory": memory(pid),
+                "plans": count,
+            }
             if count:
                 first, last, cost, solved = plan(count, pid)
                 figures.update({"memory after plans": last, "growth": last - first, "solved": solved, "ms per plan": cost})

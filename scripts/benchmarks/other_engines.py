@@ -4,6 +4,7 @@
 usage: other_engines.py pybullet|mujoco ROBOT STEPS
        other_engines.py mujoco pile STEPS        the 100 boxes of physics.py
 """
+
 import json
 import os
 import sys
@@ -15,8 +16,7 @@ import numpy
 from robots import ROBOTS
 
 BANDWIDTH = 10.0  # rad/s, of the PD: critically damped for the inertia of each joint, or it would shake light links
-NEARLY_NOTHING = ('<inertial><mass value="1e-6"/><inertia ixx="1e-9" iyy="1e-9" izz="1e-9" ixy="0" ixz="0" iyz="0"/>'
-                  '</inertial>')
+NEARLY_NOTHING = '<inertial><mass value="1e-6"/><inertia ixx="1e-9" iyy="1e-9" izz="1e-9" ixy="0" ixz="0" iyz="0"/></inertial>'
 ALLOWED = 0.2  # rad, of error at the end: more is no control, and no comparison
 
 
@@ -35,6 +35,7 @@ def bare_mechanism(text):
 def pybullet(file, joints, steps):
     """Array calls: one to read all joints, one to command them."""
     import pybullet as bullet
+
     bullet.connect(bullet.DIRECT)
     bullet.setGravity(0, 0, 0)  # costs the same, and a PD need not sag
     bullet.setTimeStep(0.001)
@@ -48,8 +49,7 @@ def pybullet(file, joints, steps):
     gains = [gain(inertia[movable.index(i)][movable.index(i)]) for i in indices]
 
     def step(target):
-        efforts = [p * (target - state[0]) - d * state[1]
-                   for (p, d), state in zip(gains, bullet.getJointStates(robot, indices))]
+        efforts = [p * (target - state[0]) - d * state[1] for (p, d), state in zip(gains, bullet.getJointStates(robot, indices))]
         bullet.setJointMotorControlArray(robot, indices, bullet.TORQUE_CONTROL, forces=efforts)
         bullet.stepSimulation()
 
@@ -58,6 +58,7 @@ def pybullet(file, joints, steps):
 
 def mujoco(file, joints, steps):
     import mujoco as engine
+
     model = engine.MjModel.from_xml_path(file)
     model.opt.timestep = 0.001
     model.opt.gravity = (0, 0, 0)
@@ -79,9 +80,11 @@ def mujoco(file, joints, steps):
 def mujoco_pile(steps):
     import mujoco as engine
     from physics import PILE
+
     bodies = "".join(f'<body pos="{x} {y} {z}"><freejoint/><geom type="box" size="0.05 0.05 0.05" mass="1"/></body>' for x, y, z in PILE)
-    model = engine.MjModel.from_xml_string('<mujoco><option timestep="0.001" gravity="0 0 -9.8"/><worldbody>'
-                                           f'<geom type="plane" size="10 10 1"/>{bodies}</worldbody></mujoco>')
+    model = engine.MjModel.from_xml_string(
+        f'<mujoco><option timestep="0.001" gravity="0 0 -9.8"/><worldbody><geom type="plane" size="10 10 1"/>{bodies}</worldbody></mujoco>'
+    )
     data, contacts, start = engine.MjData(model), 0, time.process_time()
     for _ in range(steps):
         engine.mj_step(model, data)
@@ -91,7 +94,7 @@ def mujoco_pile(steps):
 
 def gain(inertia):
     """(N m per rad, N m per rad/s). :param inertia: kg m2"""
-    return inertia * BANDWIDTH ** 2, 2.0 * inertia * BANDWIDTH
+    return inertia * BANDWIDTH**2, 2.0 * inertia * BANDWIDTH
 
 
 def timed(step, steps, positions):

@@ -1,4 +1,5 @@
 """Error of a free pendulum against its equation of motion solved to twelve digits, for several step sizes."""
+
 import math
 
 import ode_sim
@@ -15,7 +16,7 @@ URDF = f"""<robot name="pendulum"><link name="world"/><link name="bob"><inertial
 
 def reference(times):
     """Angle and rate at the times, by Runge-Kutta of order four in steps of 0.1 ms."""
-    factor = MASS * GRAVITY * LENGTH / (INERTIA + MASS * LENGTH ** 2)
+    factor = MASS * GRAVITY * LENGTH / (INERTIA + MASS * LENGTH**2)
     q, v, t, h, found = START, 0.0, 0.0, 1e-4, []
     for wanted in times:
         while t < wanted - h / 2:
@@ -30,7 +31,7 @@ def reference(times):
 
 def energy(q, v):
     """J, above the lowest point."""
-    return 0.5 * (INERTIA + MASS * LENGTH ** 2) * v * v + MASS * GRAVITY * LENGTH * (1.0 - math.cos(q))
+    return 0.5 * (INERTIA + MASS * LENGTH**2) * v * v + MASS * GRAVITY * LENGTH * (1.0 - math.cos(q))
 
 
 def simulate(dt, times):

@@ -3,6 +3,7 @@
 
 usage: physics.py [--json FILE]
 """
+
 import argparse
 import importlib.util
 import json
@@ -20,7 +21,6 @@ sys.path.insert(0, os.path.join(HERE, "..", "..", "src", "simulation", "ode_sim"
 
 import ode_sim  # noqa: E402
 from physics_models import arm, box, diff_drive, ground  # noqa: E402
-
 
 PILE = [(0.15 * (i % 3) + 0.01 * (i % 7), 0.15 * (i // 3 % 3), 0.1 + 0.12 * (i // 9)) for i in range(100)]  # m, of boxes of 1 kg, 0.1 m
 
@@ -106,12 +106,15 @@ def pile_elsewhere(ours, steps=1500):
     """The same boxes in MuJoCo, where scripts/setup --bench has installed it."""
     if importlib.util.find_spec("mujoco") is None:
         return {}
-    run = subprocess.run([sys.executable, os.path.join(HERE, "other_engines.py"), "mujoco", "pile", str(steps)], check=True,
-                         capture_output=True, text=True)
-    found = json.loads(run.stdout[run.stdout.rindex("{"):])
-    return {"100 falling boxes: MuJoCo (us/step)": found["us per step"],
-            "100 falling boxes: MuJoCo, contacts per step": found["contacts"],
-            "100 falling boxes: ode_sim / MuJoCo": ours / found["us per step"]}
+    run = subprocess.run(
+        [sys.executable, os.path.join(HERE, "other_engines.py"), "mujoco", "pile", str(steps)], check=True, capture_output=True, text=True
+    )
+    found = json.loads(run.stdout[run.stdout.rindex("{") :])
+    return {
+        "100 falling boxes: MuJoCo (us/step)": found["us per step"],
+        "100 falling boxes: MuJoCo, contacts per step": found["contacts"],
+        "100 falling boxes: ode_sim / MuJoCo": ours / found["us per step"],
+    }
 
 
 def main():

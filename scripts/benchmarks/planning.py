@@ -3,6 +3,7 @@
 
 usage: planning.py [--json FILE] [--quick]
 """
+
 import argparse
 import json
 import os
@@ -20,10 +21,20 @@ sys.path.insert(0, os.path.join(ROOT, "src", "planning", "motion", "test"))
 import motion  # noqa: E402
 import robots  # noqa: E402
 
-ADJACENT = [("pedestal", "base_link"), ("base_link", "shoulder_link"), ("shoulder_link", "upper_arm_link"),
-            ("forearm_link", "upper_arm_link"), ("forearm_link", "wrist_1_link"), ("wrist_1_link", "wrist_2_link"),
-            ("wrist_2_link", "wrist_3_link"), ("ee_link", "wrist_3_link"), ("ee_link", "wrist_1_link"),
-            ("ee_link", "wrist_2_link"), ("pedestal", "shoulder_link"), ("wrist_1_link", "wrist_3_link")]
+ADJACENT = [
+    ("pedestal", "base_link"),
+    ("base_link", "shoulder_link"),
+    ("shoulder_link", "upper_arm_link"),
+    ("forearm_link", "upper_arm_link"),
+    ("forearm_link", "wrist_1_link"),
+    ("wrist_1_link", "wrist_2_link"),
+    ("wrist_2_link", "wrist_3_link"),
+    ("ee_link", "wrist_3_link"),
+    ("ee_link", "wrist_1_link"),
+    ("ee_link", "wrist_2_link"),
+    ("pedestal", "shoulder_link"),
+    ("wrist_1_link", "wrist_3_link"),
+]
 
 
 def pedestal_ur5():
@@ -83,8 +94,12 @@ def bare_loop(folder, scene, states):
     for name, i in bodies:
         lines += shape_lines(model.link(name).shapes[i])
     moving = set(model.group("manipulator").updated_links)
-    pairs = [(i, j) for i, (a, _) in enumerate(bodies) for j, (b, _) in enumerate(bodies)
-             if i < j and a != b and (a in moving or b in moving) and not scene.acm.allowed(a, b)]
+    pairs = [
+        (i, j)
+        for i, (a, _) in enumerate(bodies)
+        for j, (b, _) in enumerate(bodies)
+        if i < j and a != b and (a in moving or b in moving) and not scene.acm.allowed(a, b)
+    ]
     lines += [str(len(pairs)), *(f"{i} {j}" for i, j in pairs), str(len(states))]
     state = model.state()
     for values in states:
@@ -103,14 +118,18 @@ def bare_loop(folder, scene, states):
         with open(data, encoding="utf-8") as file:
             us, touching = subprocess.run([program, "3"], stdin=file, check=True, capture_output=True, text=True).stdout.split()
         return float(us), int(touching)
+
     return run, len(pairs)
 
 
 def shape_lines(shape):
     """A shape as bare_fcl reads it."""
     if isinstance(shape, motion.Mesh):
-        return [f"mesh {len(shape.vertices)} {len(shape.triangles)}", *(" ".join(repr(float(v)) for v in row) for row in shape.vertices),
-                *(" ".join(str(int(v)) for v in row) for row in shape.triangles)]
+        return [
+            f"mesh {len(shape.vertices)} {len(shape.triangles)}",
+            *(" ".join(repr(float(v)) for v in row) for row in shape.vertices),
+            *(" ".join(str(int(v)) for v in row) for row in shape.triangles),
+        ]
     if isinstance(shape, motion.Box):
         return ["box " + " ".join(repr(float(v)) for v in shape.size)]
     return [f"cylinder {shape.radius} {shape.length}" if isinstance(shape, motion.Cylinder) else f"sphere {shape.radius}"]
@@ -131,10 +150,12 @@ def against_fcl(model, count):
             bare.append(us)
             hits = [int(np.sum(hit)), touching]
             ratios.append(own[-1] / us)
-    return {f"FCL's bare loop over {pairs} pairs, poses given: a random state, us": float(np.median(bare)),
-            "the same states, whole check from joint values, us": float(np.median(own)),
-            "whole-robot check / FCL's bare loop": float(np.median(ratios)),
-            "states that touch: whole check, bare loop differ by": float(abs(hits[0] - hits[1]))}
+    return {
+        f"FCL's bare loop over {pairs} pairs, poses given: a random state, us": float(np.median(bare)),
+        "the same states, whole check from joint values, us": float(np.median(own)),
+        "whole-robot check / FCL's bare loop": float(np.median(ratios)),
+        "states that touch: whole check, bare loop differ by": float(abs(hits[0] - hits[1])),
+    }
 
 
 def checks(model, count):
@@ -146,8 +167,10 @@ def checks(model, count):
     free = states[~hit]
     start = time.thread_time()
     scene.check_states("manipulator", free)
-    figures = {"pedestal UR5 with meshes: check of a random state, us": every,
-               "pedestal UR5 with meshes: check of a free state, us": (time.thread_time() - start) / len(free) * 1e6}
+    figures = {
+        "pedestal UR5 with meshes: check of a random state, us": every,
+        "pedestal UR5 with meshes: check of a free state, us": (time.thread_time() - start) / len(free) * 1e6,
+    }
     for number in range(1000):
         scene.add_object(f"o{number}", [motion.Sphere(0.02)], pose=((2, 0.01 * number, 0), (0, 0, 0, 1)))
     start = time.thread_time()
@@ -168,7 +191,8 @@ def furnished(model, seed):
     x, y, z = random.uniform((0.6, -0.2, 0.85), (0.7, 0.2, 0.95))
     if seed % 3 == 0:
         boxes = [((0.6, 1.2, 0.04), (x, y, z))] + [
-            (random.uniform(0.04, 0.15, 3), (x + dx, y + dy, z + 0.1)) for dx, dy in random.uniform((-0.25, -0.5), (0.25, 0.5), (8, 2))]
+            (random.uniform(0.04, 0.15, 3), (x + dx, y + dy, z + 0.1)) for dx, dy in random.uniform((-0.25, -0.5), (0.25, 0.5), (8, 2))
+        ]
     elif seed % 3 == 1:
         boxes = (
             [((0.3, 0.8, 0.03), (x + 0.1, y, z + 0.35 * level)) for level in range(3)]
@@ -180,8 +204,7 @@ def furnished(model, seed):
         )
     else:
         boxes = [
-            ((0.04, 0.04, 1.6), (0.55 * np.cos(a), 0.55 * np.sin(a), 1.3))
-            for a in np.arange(6) * np.pi / 3 + random.uniform(0.3, 0.7)
+            ((0.04, 0.04, 1.6), (0.55 * np.cos(a), 0.55 * np.sin(a), 1.3)) for a in np.arange(6) * np.pi / 3 + random.uniform(0.3, 0.7)
         ]
     for size, at in boxes:
         scene.add_object(f"box{len(scene.objects)}", [motion.Box(*size)], pose=(at, (0, 0, 0, 1)))
@@ -208,8 +231,11 @@ def plans(model, count, title, scene_for):
         times.append((time.thread_time() - start) * 1e3)
         solved += bool(result)
     title = f"{title}: pose goal to timed trajectory"
-    return {f"{title}: solved, %": 100.0 * solved / count, f"{title}: p50, ms": float(np.percentile(times, 50)),
-            f"{title}: p95, ms": float(np.percentile(times, 95))}
+    return {
+        f"{title}: solved, %": 100.0 * solved / count,
+        f"{title}: p50, ms": float(np.percentile(times, 50)),
+        f"{title}: p95, ms": float(np.percentile(times, 95)),
+    }
 
 
 def main():
@@ -225,12 +251,7 @@ def main():
         cluttered = scene_of(model)
         figures.update(plans(model, 20 if arguments.quick else 100, "pedestal UR5, table, post, 20 boxes", lambda number: cluttered))
         figures.update(
-            plans(
-                model,
-                21 if arguments.quick else 100,
-                "pedestal UR5, tables, shelves, cages",
-                lambda number: furnished(model, number),
-            )
+            plans(model, 21 if arguments.quick else 100, "pedestal UR5, tables, shelves, cages", lambda number: furnished(model, number))
         )
     for name, value in figures.items():
         print(f"{name:80} {value:10.4g}")

@@ -5,6 +5,7 @@ usage: step_parts.py ROBOT STEPS [COPIES], in an environment whose ROS master ru
 Times are processor time of the physics thread, so that other load on the machine does not count. What looking at the clock costs, a
 call into the kernel, is measured as well and taken off.
 """
+
 import gc
 import json
 import os
@@ -39,11 +40,13 @@ class Part:
             finally:
                 self.ns += clock() - start
                 self.calls += 1
+
         return wrapper
 
 
 def cost_of_looking(calls=20000):
     """(ns of a timed call that count as its own, ns that it takes beside them)"""
+
     def nothing():
         pass
 
@@ -78,8 +81,9 @@ def main():
     thread.start()
 
     for index, space in enumerate(spaces):
-        model, _ = ode_sim.description.read_urdf(text.replace("<robotNamespace>/arm", f"<robotNamespace>/{space}"),
-                                                 name=space, finder=server.finder)
+        model, _ = ode_sim.description.read_urdf(
+            text.replace("<robotNamespace>/arm", f"<robotNamespace>/{space}"), name=space, finder=server.finder
+        )
         model = replace(model, pose=ode_sim.Pose((2.0 * index, 0.0, 0.0)))
         resolved = server.resolve(model)
         server.call(lambda: server.spawn(model, resolved))

@@ -7,6 +7,7 @@ soon a page is there.
 
 Times of processes are processor time, so that a loaded machine changes them little; seconds to the page are wall time.
 """
+
 import argparse
 import json
 import os
@@ -31,8 +32,10 @@ def world_text(count):
 </visual>
 <inertial><mass>1</mass><inertia><ixx>0.004</ixx><iyy>0.004</iyy><izz>0.004</izz></inertia></inertial></link></model>"""
     models = "".join(ball.format(i, i % 20, i // 20) for i in range(count))
-    return ("<sdf version='1.6'><world name='default'><include><uri>model://sun</uri></include>"
-            f"<include><uri>model://ground_plane</uri></include>{models}</world></sdf>")
+    return (
+        "<sdf version='1.6'><world name='default'><include><uri>model://sun</uri></include>"
+        f"<include><uri>model://ground_plane</uri></include>{models}</world></sdf>"
+    )
 
 
 def processor(process):
@@ -76,20 +79,22 @@ def stream_figures(environment, folder, seconds):
         time.sleep(1.0)
         process = psutil.Process(server.pid)
         alone = server_load(process, seconds)
-        watcher = subprocess.Popen([sys.executable, "-c", WATCHER], env=environment, stdin=subprocess.PIPE,
-                                   stdout=subprocess.PIPE, text=True)
+        watcher = subprocess.Popen(
+            [sys.executable, "-c", WATCHER], env=environment, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+        )
         watcher.stdout.readline()
         watched = server_load(process, seconds)
         rate = float(watcher.communicate("\n", timeout=60)[0])
         time.sleep(0.5)
         after = server_load(process, seconds)
-        return {f"view, {BODIES} bodies: messages per second": rate,
-                f"view, {BODIES} bodies: part of a core in the server": watched - alone,
-                f"view, {BODIES} bodies: the same scaled to 60 messages per second":
-                    (watched - alone) * 60.0 / max(rate, 1.0),
-                "view, nobody looks any more: part of a core in the server": max(0.0, after - alone),
-                "view, from a hand's move to the pose in the stream: median ms": hand_latency(environment),
-                **page_figures(environment)}
+        return {
+            f"view, {BODIES} bodies: messages per second": rate,
+            f"view, {BODIES} bodies: part of a core in the server": watched - alone,
+            f"view, {BODIES} bodies: the same scaled to 60 messages per second": (watched - alone) * 60.0 / max(rate, 1.0),
+            "view, nobody looks any more: part of a core in the server": max(0.0, after - alone),
+            "view, from a hand's move to the pose in the stream: median ms": hand_latency(environment),
+            **page_figures(environment),
+        }
     finally:
         server.send_signal(signal.SIGINT)
         server.wait(timeout=30)
@@ -118,19 +123,27 @@ print(1e3 * sorted(took)[len(took) // 2], flush=True)
 
 def hand_latency(environment):
     """What of the way from the gizmo to the page is not the browser's: service, world, stream."""
-    return float(subprocess.run([sys.executable, "-c", HAND], env=environment, stdout=subprocess.PIPE, text=True,
-                                timeout=60, check=True).stdout)
+    return float(
+        subprocess.run([sys.executable, "-c", HAND], env=environment, stdout=subprocess.PIPE, text=True, timeout=60, check=True).stdout
+    )
 
 
 def page_figures(environment):
     """Seconds from the command to the whole page, the least of three, and what of the processor gzclient takes until it has an address."""
     import urllib.request
+
     times, idle = [], []
     plain = {name: value for name, value in environment.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY")}
     for _ in range(3):
         begin = time.monotonic()
-        client = subprocess.Popen(["rosrun", "gazebo_ros", "gzclient", "--port", "0"], env=plain, text=True,
-                                  stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, start_new_session=True)
+        client = subprocess.Popen(
+            ["rosrun", "gazebo_ros", "gzclient", "--port", "0"],
+            env=plain,
+            text=True,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            start_new_session=True,
+        )
         try:
             address = client.stdout.readline().split()[-1]
             process = psutil.Process(client.pid)
@@ -141,8 +154,10 @@ def page_figures(environment):
         finally:
             os.killpg(client.pid, signal.SIGINT)
             client.wait(timeout=30)
-    return {"view: first page served, s after the command": min(times),
-            "view: processor s of gzclient until it says its address": min(idle)}
+    return {
+        "view: first page served, s after the command": min(times),
+        "view: processor s of gzclient until it says its address": min(idle),
+    }
 
 
 def drawing_figures():
@@ -150,6 +165,7 @@ def drawing_figures():
     import numpy as np
     from ode_sim import World
     from ode_sim.viewer import LocalSimulation, Page
+
     world = World.load(world_text(200))
     page = Page(LocalSimulation(world, paused=True), port=0)
     try:
@@ -165,8 +181,10 @@ def drawing_figures():
         per_frame = (time.thread_time() - before) / moves
     finally:
         page.close()
-    return {"view, 200 models: processor seconds until they are drawn": drawn,
-            "view, 200 models that all move: processor ms per frame in gzclient": per_frame * 1e3}
+    return {
+        "view, 200 models: processor seconds until they are drawn": drawn,
+        "view, 200 models that all move: processor ms per frame in gzclient": per_frame * 1e3,
+    }
 
 
 def main():

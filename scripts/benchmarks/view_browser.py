@@ -10,6 +10,7 @@ once, a slow network, broken meshes.
 Wanted: chromium, chromium-driver and the Python package selenium. Seconds are wall time of this machine as it is: the load is
 among the figures.
 """
+
 import argparse
 import contextlib
 import json
@@ -41,8 +42,7 @@ class Bench:
 
     @contextlib.contextmanager
     def run(self, *words, **options):
-        process = subprocess.Popen(words, env=self.environment, text=True, start_new_session=True,
-                                   stderr=subprocess.DEVNULL, **options)
+        process = subprocess.Popen(words, env=self.environment, text=True, start_new_session=True, stderr=subprocess.DEVNULL, **options)
         try:
             yield process
         finally:
@@ -79,6 +79,7 @@ def processor(process):
 
 # ---------------------------------------------------------------------------------------------- what is measured
 
+
 def usable(bench):
     """A browser that is open already goes to the address as soon as it is printed."""
     figures = {}
@@ -109,9 +110,12 @@ def reconnects(bench):
             times.append(time.monotonic() - begin)
             memory.append(psutil.Process(process.pid).memory_info().rss / 1e6)
         bench.shot(page, "reconnects")
-        return {"ten reconnects: slowest, s": max(times[:10]), "twenty reconnects: memory of gzclient, MB": memory[19],
-                "20 more reconnects: memory of gzclient grew by, MB": memory[39] - memory[19],
-                "reconnects: errors on the page": len(page.complaints())}
+        return {
+            "ten reconnects: slowest, s": max(times[:10]),
+            "twenty reconnects: memory of gzclient, MB": memory[19],
+            "20 more reconnects: memory of gzclient grew by, MB": memory[39] - memory[19],
+            "reconnects: errors on the page": len(page.complaints()),
+        }
 
 
 def heavy(bench):
@@ -130,11 +134,13 @@ def heavy(bench):
         played = time.monotonic() - begin
         with contextlib.suppress(Exception):  # without a graphics card one picture may take longer than the driver waits
             bench.shot(page, "heavy")
-        return {"200 models, 1 000 000 triangles: listed, s": listed,
-                "200 models, 1 000 000 triangles: a model picked by search, s": picked,
-                "200 models, 1 000 000 triangles: from Play to the time that runs, s": played,
-                "200 models, 1 000 000 triangles: processor s of gzclient": processor(psutil.Process(process.pid)),
-                "200 models, 1 000 000 triangles: errors on the page": len(page.complaints())}
+        return {
+            "200 models, 1 000 000 triangles: listed, s": listed,
+            "200 models, 1 000 000 triangles: a model picked by search, s": picked,
+            "200 models, 1 000 000 triangles: from Play to the time that runs, s": played,
+            "200 models, 1 000 000 triangles: processor s of gzclient": processor(psutil.Process(process.pid)),
+            "200 models, 1 000 000 triangles: errors on the page": len(page.complaints()),
+        }
 
 
 def factor(page):
@@ -159,9 +165,12 @@ def pages(bench):
         shown[0].click("Pause")
         for page in shown:
             page.see("paused")
-        return {"3 pages: mean real-time factor of 8 s": sum(factors) / len(factors),
-                "3 pages: least of them": min(factors), "3 pages: part of a core in gzclient": load,
-                "3 pages: errors": sum(len(page.complaints()) for page in shown)}
+        return {
+            "3 pages: mean real-time factor of 8 s": sum(factors) / len(factors),
+            "3 pages: least of them": min(factors),
+            "3 pages: part of a core in gzclient": load,
+            "3 pages: errors": sum(len(page.complaints()) for page in shown),
+        }
 
 
 def arm(bench):
@@ -170,8 +179,9 @@ def arm(bench):
     options = {"env": environment, "stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL, "start_new_session": True}
     lab = [subprocess.Popen(["roslaunch", "arm_gazebo", "arm_gazebo.launch", "gui:=false", "rviz:=false"], **options)]
     try:
-        subprocess.run(["rostopic", "echo", "-n1", "/camera/image_raw/header"], env=environment, stdout=subprocess.DEVNULL, timeout=120,
-                       check=True)
+        subprocess.run(
+            ["rostopic", "echo", "-n1", "/camera/image_raw/header"], env=environment, stdout=subprocess.DEVNULL, timeout=120, check=True
+        )
         lab.append(subprocess.Popen(["rostopic", "hz", "/camera/image_raw"], **options))
         with bench.client() as (_, address), Browser(address, frames=10) as page:
             page.see("real-time factor", "arm")
@@ -180,8 +190,10 @@ def arm(bench):
             time.sleep(20.0)
             last, end = sim_time(environment), time.monotonic()
             bench.shot(page, "arm")
-            return {"arm lab, camera and one page: real-time factor": (last - first) / (end - begin),
-                    "arm lab, camera and one page: errors on the page": len(page.complaints())}
+            return {
+                "arm lab, camera and one page: real-time factor": (last - first) / (end - begin),
+                "arm lab, camera and one page: errors on the page": len(page.complaints()),
+            }
     finally:
         for process in reversed(lab):
             os.killpg(process.pid, signal.SIGINT)
@@ -208,9 +220,13 @@ def slow(bench):
                 page.see("paused")
                 answered = time.monotonic() - begin
                 bench.shot(page, "slow")
-                return {"2 Mbit/s: page usable, s": loaded, "2 Mbit/s: carried until then, MB": carried / 1e6,
-                        "2 Mbit/s: stream, kB/s": rate / 1e3, "2 Mbit/s: from a click to what it did, s": answered,
-                        "2 Mbit/s: errors on the page": len(page.complaints())}
+                return {
+                    "2 Mbit/s: page usable, s": loaded,
+                    "2 Mbit/s: carried until then, MB": carried / 1e6,
+                    "2 Mbit/s: stream, kB/s": rate / 1e3,
+                    "2 Mbit/s: from a click to what it did, s": answered,
+                    "2 Mbit/s: errors on the page": len(page.complaints()),
+                }
 
 
 def broken(bench):
@@ -221,8 +237,11 @@ def broken(bench):
         page.click(PLAIN)
         page.see("Mass (kg)")
         bench.shot(page, "broken")
-        return {"6 broken meshes: models listed beside them": float(PLAIN in page.text()),
-                "6 broken meshes: real-time factor": factor(page) or 0.0, "6 broken meshes: errors on the page": len(page.complaints())}
+        return {
+            "6 broken meshes: models listed beside them": float(PLAIN in page.text()),
+            "6 broken meshes: real-time factor": factor(page) or 0.0,
+            "6 broken meshes: errors on the page": len(page.complaints()),
+        }
 
 
 PARTS = {f.__name__: f for f in (usable, arm, reconnects, heavy, pages, slow, broken)}

@@ -1,4 +1,5 @@
 """Windows: how soon they are there, how large a graph is drawn, whether fast topics block them. On a private X server."""
+
 import argparse
 import contextlib
 import json
@@ -64,10 +65,10 @@ def start_time(desktop, command, title):
 
 def graph_figures():
     """Seconds from a graph of 50 nodes and 300 topics to its drawing, here, on Qt's offscreen platform."""
-    from rqt_testing import in_process
     from rqt_graph.dotcode import NODE_NODE_GRAPH, NODE_TOPIC_ALL_GRAPH, Options, generate_dot
     from rqt_graph.graph_pane import GraphPane
     from rqt_graph.ros_state import State
+    from rqt_testing import in_process
 
     in_process.application()
     state = State({f"/ns{i % 5}/node_{i}" for i in range(50)})
@@ -89,12 +90,16 @@ def graph_figures():
 
 
 LOADS = {  # title: (what is published, its rate in Hz, the command)
-    "rqt_plot, 20 curves of one topic at 1 kHz": ("plot", 1000, ["rqt_plot", "/bench/data[0]:" + ":".join(
-        f"data[{i}]" for i in range(1, 20))]),
+    "rqt_plot, 20 curves of one topic at 1 kHz": (
+        "plot",
+        1000,
+        ["rqt_plot", "/bench/data[0]:" + ":".join(f"data[{i}]" for i in range(1, 20))],
+    ),
     "rqt_plot, 20 topics at 1 kHz": ("topics", 1000, ["rqt_plot", *(f"/bench_{i}/data" for i in range(20))]),
     "rqt_console, 2 000 messages/s": ("console", 2000, ["rqt_console"]),
     "rqt_image_view, 800x800 at 30 Hz": ("image", 30, ["rqt_image_view", "/bench_image"]),
-    "rqt_graph, refreshed every 2 s": (None, 0, ["rqt_graph"])}
+    "rqt_graph, refreshed every 2 s": (None, 0, ["rqt_graph"]),
+}
 
 
 @contextlib.contextmanager
@@ -104,8 +109,9 @@ def published(desktop, kind, rate):
     if kind is None:
         yield reached
         return
-    publisher = subprocess.Popen([sys.executable, "-c", PUBLISHER, kind, str(rate)], env=desktop.environment, text=True,
-                                 stdout=subprocess.PIPE)
+    publisher = subprocess.Popen(
+        [sys.executable, "-c", PUBLISHER, kind, str(rate)], env=desktop.environment, text=True, stdout=subprocess.PIPE
+    )
     try:
         yield reached
     finally:
@@ -126,8 +132,12 @@ def load(desktop, kind, rate, command, seconds):
         time.sleep(seconds)
         cores = (sum(process.cpu_times()[:2]) - before) / (time.monotonic() - begin)
         pause, processor = program.ask("pause")
-        figures = {"part of a core": cores, "longest pause of the window, ms": pause, "of its processor time, ms": processor,
-                   f"memory grown in {seconds} s, MB": (process.memory_info().rss - memory) / 1e6}
+        figures = {
+            "part of a core": cores,
+            "longest pause of the window, ms": pause,
+            "of its processor time, ms": processor,
+            f"memory grown in {seconds} s, MB": (process.memory_info().rss - memory) / 1e6,
+        }
         program.end()
     return {**figures, **({"rate that was published, Hz": reached[0]} if reached else {})}
 
@@ -159,8 +169,10 @@ def soak(desktop, minutes, only):
         for program in programs.values():
             program.end()
     settled = min(6, minutes)
-    return {f"{title}: memory grown from minute {settled / 2:g} to {minutes}, MB": values[-1] - values[settled]
-            for title, values in series.items()}
+    return {
+        f"{title}: memory grown from minute {settled / 2:g} to {minutes}, MB": values[-1] - values[settled]
+        for title, values in series.items()
+    }
 
 
 def all_figures(desktop, seconds, only):
@@ -193,8 +205,9 @@ def main():
             from rqt_testing.desktop import Desktop
 
             with Desktop("1000x900x24") as desktop:
-                figures.update(soak(desktop, arguments.soak, arguments.only) if arguments.soak
-                               else all_figures(desktop, seconds, arguments.only))
+                figures.update(
+                    soak(desktop, arguments.soak, arguments.only) if arguments.soak else all_figures(desktop, seconds, arguments.only)
+                )
         finally:
             master.terminate()
             master.wait()

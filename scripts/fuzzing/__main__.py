@@ -1,4 +1,5 @@
 """The command ``scripts/fuzz``."""
+
 from __future__ import annotations
 
 import argparse
@@ -44,8 +45,11 @@ def main() -> int:
 
 
 def _options(kinds: List[str]) -> argparse.Namespace:
-    parser = argparse.ArgumentParser(prog="scripts/fuzz", epilog="What a kind is and what counts as found: docs/fuzzing.md",
-                                     description="Hostile inputs for everything that reads or is told something.")
+    parser = argparse.ArgumentParser(
+        prog="scripts/fuzz",
+        epilog="What a kind is and what counts as found: docs/fuzzing.md",
+        description="Hostile inputs for everything that reads or is told something.",
+    )
     parser.add_argument("files", nargs="*", metavar="FILE", help="replay these cases, nothing else")
     parser.add_argument("-k", "--kind", action="append", choices=kinds, help="only this kind; may be repeated")
     parser.add_argument("-n", "--cases", type=int, default=1000, help="of each kind (%(default)s)")

@@ -1,4 +1,5 @@
 """What counts as found: a :class:`Finding` says what happened and where, and equal places are one finding."""
+
 from __future__ import annotations
 
 import re
@@ -59,12 +60,17 @@ def of_exception(error: BaseException) -> Finding:
 
 def of_stack(what: str, output: str) -> Finding:
     """An abort, a signal or a hang: the innermost frame of ours in what faulthandler wrote."""
-    place = next((f"{_short(file)}:{line} {name}" for file, line, name in
-                  re.findall(r'File "([^"]+)", line (\d+) in (\S+)', output) if _ours(file)), "unknown place")
+    place = next(
+        (f"{_short(file)}:{line} {name}" for file, line, name in re.findall(r'File "([^"]+)", line (\d+) in (\S+)', output) if _ours(file)),
+        "unknown place",
+    )
     if place == "unknown place" and "Traceback" in output:  # outside the case: the making of it, or this program
         place = output.strip().splitlines()[-1][:100]
-    said = [line for line in output.splitlines()
-            if "assertion" in line or "what():" in line or "terminate called" in line or line.startswith("Fatal Python")]
+    said = [
+        line
+        for line in output.splitlines()
+        if "assertion" in line or "what():" in line or "terminate called" in line or line.startswith("Fatal Python")
+    ]
     return Finding(what, place, shortened("; ".join(said)))
 
 
@@ -106,8 +112,7 @@ def at(finding: Finding, place: str) -> Finding:
 
 
 def _ours(file: str) -> bool:
-    return ("/src/" in file or "/devel/" in file) and "/fuzzing/" not in file and "site-packages" not in file \
-        and "/usr/" not in file
+    return ("/src/" in file or "/devel/" in file) and "/fuzzing/" not in file and "site-packages" not in file and "/usr/" not in file
 
 
 def _short(file: str) -> str:

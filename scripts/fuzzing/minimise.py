@@ -1,4 +1,5 @@
 """Cases made smaller as long as they find the same."""
+
 from __future__ import annotations
 
 import time

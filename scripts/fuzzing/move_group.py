@@ -1,4 +1,5 @@
 """A move_group of its own, with the arm of its tests: what it offers, and whether it still plans."""
+
 from __future__ import annotations
 
 import subprocess
@@ -25,6 +26,7 @@ class MoveGroup(Server):
     def __init__(self, folder: Path, number: int):
         super().__init__(folder, number)
         import yaml
+
         robot, rospy = seeds.ROOT / ROBOT, self._rospy
         rospy.set_param("/robot_description", (robot / "arm.urdf").read_text())
         rospy.set_param("/robot_description_semantic", (robot / "arm.srdf").read_text())
@@ -43,8 +45,12 @@ class MoveGroup(Server):
         self.start("rosrun", "moveit_ros_move_group", "move_group")
         if self._states is None:
             self._states = subprocess.Popen(
-                ["rosrun", "joint_state_publisher", "joint_state_publisher"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-                stdin=subprocess.DEVNULL, preexec_fn=end_with_parent)
+                ["rosrun", "joint_state_publisher", "joint_state_publisher"],
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.DEVNULL,
+                stdin=subprocess.DEVNULL,
+                preexec_fn=end_with_parent,
+            )
         self.wait("/get_planning_scene")
         self.wait("/move_group/trajectory_execution/set_parameters")
 
@@ -71,6 +77,7 @@ class MoveGroup(Server):
     def _check_plans(self) -> None:
         from moveit_msgs.msg import CollisionObject, PlanningScene, RobotState
         from sensor_msgs.msg import JointState
+
         empty = PlanningScene(is_diff=True)
         empty.robot_state.is_diff = True
         empty.world.collision_objects = [CollisionObject(operation=CollisionObject.REMOVE)]

@@ -1,4 +1,5 @@
 """Cases on some worker processes; one that dies or hangs is reported and replaced, the run goes on."""
+
 from __future__ import annotations
 
 import multiprocessing.connection

@@ -1,4 +1,5 @@
 """Runs node scripts as a shell would, but in a fork of this process, whose imports are done; and what they talk to."""
+
 from __future__ import annotations
 
 import faulthandler
@@ -16,11 +17,18 @@ from fuzzing.worker import end_with_parent
 
 _RUNS = 1.5  # wall s after which a program that goes on is ended by SIGINT
 _ENDS = 45.0  # wall s that it then has
-_SERVICES = {"spawn_urdf_model": "SpawnModel", "spawn_sdf_model": "SpawnModel", "delete_model": "DeleteModel",
-             "get_world_properties": "GetWorldProperties", "get_model_state": "GetModelState",
-             "get_model_properties": "GetModelProperties", "set_model_state": "SetModelState",
-             "set_model_configuration": "SetModelConfiguration", "get_physics_properties": "GetPhysicsProperties",
-             "set_physics_properties": "SetPhysicsProperties"}
+_SERVICES = {
+    "spawn_urdf_model": "SpawnModel",
+    "spawn_sdf_model": "SpawnModel",
+    "delete_model": "DeleteModel",
+    "get_world_properties": "GetWorldProperties",
+    "get_model_state": "GetModelState",
+    "get_model_properties": "GetModelProperties",
+    "set_model_state": "SetModelState",
+    "set_model_configuration": "SetModelConfiguration",
+    "get_physics_properties": "GetPhysicsProperties",
+    "set_physics_properties": "SetPhysicsProperties",
+}
 
 
 class Ended(NamedTuple):
@@ -88,6 +96,7 @@ def _awaited(pid: int) -> Tuple[int, bool, bool]:
 
 # ---------------------------------------------------------------------------------------------- what they talk to
 
+
 def start_masters(folder: Path, number: int) -> Tuple[str, str]:
     """Two ROS masters in a process of their own: one alone, one with a double of the simulator and of a controller manager.
 
@@ -121,6 +130,7 @@ def _serve(ports: Tuple[int, int]) -> None:
     from controller_manager_tests import ControllerManagerDummy
     from rosmaster.master import Master
     from std_srvs.srv import Empty, EmptyResponse
+
     for port in ports:
         master = Master(port, 3)
         master.start()

@@ -1,4 +1,5 @@
 """What kinds need that talk ROS: a master of their own, and what is logged."""
+
 from __future__ import annotations
 
 import logging
@@ -11,8 +12,10 @@ from typing import List
 from fuzzing.findings import Found, check_message
 
 _FIRST_PORT = 11850
-_BUILTIN_ERROR = re.compile(r"\b((?:Type|Value|Key|Index|Attribute|Overflow|ZeroDivision|Recursion|Assertion|Runtime|struct\.e|"
-                            r"UnicodeEncode|UnicodeDecode|Memory|Name|FloatingPoint)(?:Error|rror)): ")
+_BUILTIN_ERROR = re.compile(
+    r"\b((?:Type|Value|Key|Index|Attribute|Overflow|ZeroDivision|Recursion|Assertion|Runtime|struct\.e|"
+    r"UnicodeEncode|UnicodeDecode|Memory|Name|FloatingPoint)(?:Error|rror)): "
+)
 
 
 def free_port(number: int) -> int:
@@ -30,6 +33,7 @@ def free_port(number: int) -> int:
 def start_master(folder: Path, number: int) -> None:
     """A ROS master in this process; this process and those that it starts use it."""
     from rosmaster.master import Master
+
     port = free_port(number)
     os.environ.update(ROS_MASTER_URI=f"http://localhost:{port}", ROS_HOME=str(folder), ROS_LOG_DIR=str(folder / "log"))
     master = Master(port, 3)

@@ -1,4 +1,5 @@
 """The real inputs of the workspace that cases are made from."""
+
 from __future__ import annotations
 
 import contextlib
@@ -29,6 +30,7 @@ def packages() -> Dict[str, str]:
 @functools.lru_cache(maxsize=None)
 def finder():
     from ode_sim.description import ResourceFinder
+
     stock = packages()["gazebo_stock"]
     return ResourceFinder([f"{stock}/models"], [stock], lambda name: packages().get(name))
 
@@ -54,6 +56,7 @@ def _add(texts: Dict[str, bytes], path: Path, name: str, text: bytes) -> None:
 def expanded(path: Path) -> Optional[bytes]:
     """A xacro file as URDF, None if it is only a part of one."""
     import xacro
+
     with contextlib.redirect_stderr(io.StringIO()), contextlib.redirect_stdout(io.StringIO()):
         try:
             return xacro.process_file(os.fspath(path)).toxml().encode()

@@ -1,4 +1,5 @@
 """A simulator of its own with the labs' robots and controllers in it: what it offers, and whether it still does."""
+
 from __future__ import annotations
 
 import json
@@ -18,13 +19,19 @@ from fuzzing.findings import Found
 from fuzzing.worker import end_with_parent
 
 Target = Tuple[str, str, str]  # "service" or "topic", name, type
-_CONTROLLERS = {"/arm": ["joint_state_controller", *(f"joint{i}_position_controller" for i in range(4))],
-                "": ["joint_state_controller", "arm_controller"]}
-_ROBOTS = {"arm": ("arm/arm_description/urdf/arm.urdf.xacro", "/arm", 0.0),
-           "mbot": ("mbot/mbot_description/urdf/xacro/gazebo/mbot_with_laser_gazebo.xacro", "/", 2.0),
-           "ur5": ("universal_robot/ur_description/urdf/ur5_robot.urdf.xacro", "/", -2.0)}
-_PARAMETERS = {"/arm": ["arm/arm_control/config/arm_control.yaml"],
-               "": [f"universal_robot/ur_gazebo/controller/{name}.yaml" for name in ("arm_controller_ur5", "joint_state_controller")]}
+_CONTROLLERS = {
+    "/arm": ["joint_state_controller", *(f"joint{i}_position_controller" for i in range(4))],
+    "": ["joint_state_controller", "arm_controller"],
+}
+_ROBOTS = {
+    "arm": ("arm/arm_description/urdf/arm.urdf.xacro", "/arm", 0.0),
+    "mbot": ("mbot/mbot_description/urdf/xacro/gazebo/mbot_with_laser_gazebo.xacro", "/", 2.0),
+    "ur5": ("universal_robot/ur_description/urdf/ur5_robot.urdf.xacro", "/", -2.0),
+}
+_PARAMETERS = {
+    "/arm": ["arm/arm_control/config/arm_control.yaml"],
+    "": [f"universal_robot/ur_gazebo/controller/{name}.yaml" for name in ("arm_controller_ur5", "joint_state_controller")],
+}
 _SOLVER = dict(sor_pgs_iters=50, sor_pgs_w=1.3, contact_surface_layer=0.001, contact_max_correcting_vel=100.0, erp=0.2, max_contacts=20)
 
 
@@ -45,6 +52,7 @@ class Server:
         self._folder = folder
         ros.start_master(folder, number)
         import rospy
+
         self._rospy = rospy
         self._proxies: Dict[str, Any] = {}
         self._publishers: Dict[str, Any] = {}
@@ -57,8 +65,14 @@ class Server:
         self._log_path = self._folder / f"{self.program}.log"
         self._log = open(self._log_path, "wb")
         self._read = 0
-        self._process = subprocess.Popen(words, stdout=self._log, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL,
-                                         env=dict(os.environ, PYTHONUNBUFFERED="1"), preexec_fn=end_with_parent)
+        self._process = subprocess.Popen(
+            words,
+            stdout=self._log,
+            stderr=subprocess.STDOUT,
+            stdin=subprocess.DEVNULL,
+            env=dict(os.environ, PYTHONUNBUFFERED="1"),
+            preexec_fn=end_with_parent,
+        )
         for publisher in self._publishers.values():
             publisher.unregister()
         self._publishers.clear()
@@ -86,6 +100,7 @@ class Server:
                 answer.append(proxy(request))
             except Exception as error:  # handed on below
                 answer.append(error)
+
         asking = threading.Thread(target=ask, daemon=True)
         asking.start()
         asking.join(self.patience)
@@ -103,6 +118,7 @@ class Server:
     def _proxy(self, name: str) -> Any:
         if name not in self._proxies:
             import rosservice
+
             self._proxies[name] = self._rospy.ServiceProxy(name, rosservice.get_service_class_by_name(name), persistent=True)
         return self._proxies[name]
 
@@ -134,7 +150,8 @@ class Server:
         text = re.sub(r"\x1b\[[\d;]*m", "", text[:whole].decode("utf-8", "replace"))
         if "Traceback (most recent call last)" in text:
             from fuzzing import findings
-            raise Found.of(findings.of_output(text[text.index("Traceback (most"):]))
+
+            raise Found.of(findings.of_output(text[text.index("Traceback (most") :]))
         for line in text.splitlines():
             if re.match(r"\[(ERROR|FATAL|WARN)\]", line):
                 ros.check_line(re.sub(r"^\[\w+\] \[[\d., -]+\]: ", "", line))
@@ -143,10 +160,12 @@ class Server:
         """Services of the server and topics that it listens to."""
         import rosservice
         import rostopic
+
         publishers, subscribers, services = self._rospy.get_master().getSystemState()[2]
         found = [("service", name, rosservice.get_service_type(name)) for name, nodes in services if self.node in nodes]
-        found += [("topic", name, rostopic.get_topic_type(name)[0]) for name, nodes in subscribers
-                  if self.node in nodes and name != "/clock"]
+        found += [
+            ("topic", name, rostopic.get_topic_type(name)[0]) for name, nodes in subscribers if self.node in nodes and name != "/clock"
+        ]
         return sorted(target for target in found if target[2])
 
 
@@ -156,6 +175,7 @@ class Simulation(Server):
     def __init__(self, folder: Path, number: int):
         super().__init__(folder, number)
         import rospy
+
         self._texts = robot_texts()
         rospy.set_param("/use_sim_time", True)
         for namespace, files in _PARAMETERS.items():
@@ -168,6 +188,7 @@ class Simulation(Server):
         from gazebo_msgs.srv import SetPhysicsPropertiesRequest
         from rosgraph_msgs.msg import Clock
         from sensor_msgs.msg import JointState
+
         self._clocks, self._states = 0, {}  # type: int, Dict[str, Any]
         rospy.Subscriber("/clock", Clock, self._tick)
         for topic, kind in (("/gazebo/link_states", LinkStates), ("/arm/joint_states", JointState), ("/joint_states", JointState)):
@@ -180,6 +201,7 @@ class Simulation(Server):
 
     def _load_parameters(self, namespace: str, file: str) -> None:
         import yaml
+
         for name, value in yaml.safe_load((seeds.ROOT / "src/labs" / file).read_text()).items():
             self._rospy.set_param(f"{namespace}/{name}", value)
 
@@ -232,10 +254,16 @@ class Simulation(Server):
         )
 
     def _spawn(self, name: str, text: str) -> None:
-        from geometry_msgs.msg import Pose, Point, Quaternion
+        from geometry_msgs.msg import Point, Pose, Quaternion
+
         _, namespace, y = _ROBOTS[name]
-        answer = self.call("/gazebo/spawn_urdf_model", model_name=name, model_xml=text, robot_namespace=namespace,
-                           initial_pose=Pose(Point(0.0, y, 0.0), Quaternion(0.0, 0.0, 0.0, 1.0)))
+        answer = self.call(
+            "/gazebo/spawn_urdf_model",
+            model_name=name,
+            model_xml=text,
+            robot_namespace=namespace,
+            initial_pose=Pose(Point(0.0, y, 0.0), Quaternion(0.0, 0.0, 0.0, 1.0)),
+        )
         if not answer.success:
             raise Found("a robot of the labs cannot be spawned again", name, answer.status_message)
         self._proxies.clear()  # they would go on talking to what the robot before had
@@ -250,8 +278,11 @@ class Simulation(Server):
                     self.call(manager + "unload_controller", name=name)
                 self.call(manager + "load_controller", name=name)
             if stopped and not self.call(manager + "switch_controller", start_controllers=stopped, strictness=1, timeout=5.0).ok:
-                raise Found("controllers of the labs cannot be started again", f"{manager}switch_controller",
-                            f"{states} {self._log_path.read_text(errors='replace')[-400:]}")
+                raise Found(
+                    "controllers of the labs cannot be started again",
+                    f"{manager}switch_controller",
+                    f"{states} {self._log_path.read_text(errors='replace')[-400:]}",
+                )
 
     # ------------------------------------------------------------------------------------------ is all well?
 
@@ -277,15 +308,20 @@ class Simulation(Server):
 
     def _check_numbers(self) -> None:
         for topic, message in list(self._states.items()):
-            numbers = [*message.position, *message.velocity, *message.effort] if hasattr(message, "effort") else \
-                [getattr(pose.position, axis) for pose in message.pose for axis in "xyz"] + \
-                [getattr(twist.linear, axis) for twist in message.twist for axis in "xyz"]
+            numbers = (
+                [*message.position, *message.velocity, *message.effort]
+                if hasattr(message, "effort")
+                else [getattr(pose.position, axis) for pose in message.pose for axis in "xyz"]
+                + [getattr(twist.linear, axis) for twist in message.twist for axis in "xyz"]
+            )
             if not all(map(math.isfinite, numbers)):
                 raise Found("silent NaN", topic)
+
 
 def rospy_closed() -> type:
     """What a connection that was kept raises when the other side has gone."""
     from rospy.exceptions import TransportException
+
     return TransportException
 
 

@@ -1,4 +1,5 @@
 """YAML and JSON from YAML and JSON: values changed, dropped, doubled, replaced by others of the same document."""
+
 from __future__ import annotations
 
 import copy
@@ -57,15 +58,34 @@ def any_number(random: Random) -> Any:
     """A float or an int of any size."""
     chance = random.random()
     if chance < 0.15:
-        return random.choice((0, 1, -1, 2, 7, 255, 10 ** 6, 2 ** 31, -2 ** 31, 2 ** 32, 2 ** 63, -2 ** 63, 2 ** 64, 10 ** 400, -10 ** 400))
+        return random.choice((0, 1, -1, 2, 7, 255, 10**6, 2**31, -(2**31), 2**32, 2**63, -(2**63), 2**64, 10**400, -(10**400)))
     return values.number(random, 0.5)
 
 
 def odd_value(random: Random) -> Any:
     """Of any type that YAML has."""
-    return random.choice((None, True, False, "", [], {}, [[]], {"": None}, "nan", ".inf", "1e400", [None, "a"], [[1, 2], [3, 4]],
-                          any_number(random), [any_number(random)] * 3, {"p": any_number(random)}, random.choice(values.NAMES),
-                          random.choice(values.ODDITIES)))
+    return random.choice(
+        (
+            None,
+            True,
+            False,
+            "",
+            [],
+            {},
+            [[]],
+            {"": None},
+            "nan",
+            ".inf",
+            "1e400",
+            [None, "a"],
+            [[1, 2], [3, 4]],
+            any_number(random),
+            [any_number(random)] * 3,
+            {"p": any_number(random)},
+            random.choice(values.NAMES),
+            random.choice(values.ODDITIES),
+        )
+    )
 
 
 def smaller(tree: Any) -> Iterator[Any]:
@@ -88,5 +108,5 @@ def runs(items: List[Any]) -> Iterator[List[Any]]:
     size = len(items) // 2
     while size >= 1:
         for start in range(0, len(items), size):
-            yield items[:start] + items[start + size:]
+            yield items[:start] + items[start + size :]
         size //= 2

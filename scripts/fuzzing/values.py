@@ -1,4 +1,5 @@
 """What is put in the place of a number, a name or a text."""
+
 from __future__ import annotations
 
 import re
@@ -12,13 +13,26 @@ EXTREMES = """0 -0.0 1 -1 2 0.5 3.141592653589793 1000 1000000 1e-3 1e-6 1e-9 1e
 1e15 1e20 1e38 1e39 1e100 1e150 1e155 1e200 1e300 -1e300 1e308 -1e308 1e400 -1e400 nan -nan inf -inf 127 128 255 256 32768 65536
 2147483647 2147483648 -2147483649 4294967295 4294967296 9223372036854775807 9223372036854775808 18446744073709551616""".split()
 EXTREMES.append("9" * 400)
-ODDITIES = ["", " ", "1 2 3", "$(arg x)", "1 " * 50, "a" * 200, "0,1 0,2 0,3", "1.000,5", ",5",
-            *"true false x 0x10 1,5 1e --1 1_000 \u0663 \u221e None ${1/0} %s".split(),
-            *"\u00e4 world __default__ :: a::b / .. ~".split()]
+ODDITIES = [
+    "",
+    " ",
+    "1 2 3",
+    "$(arg x)",
+    "1 " * 50,
+    "a" * 200,
+    "0,1 0,2 0,3",
+    "1.000,5",
+    ",5",
+    *"true false x 0x10 1,5 1e --1 1_000 \u0663 \u221e None ${1/0} %s".split(),
+    *"\u00e4 world __default__ :: a::b / .. ~".split(),
+]
 NAMES = ["", " ", "a" * 200, *"world __model__ base_link link a::b :: /abs ../up \u00fc 0 nan %n%s __root__ default".split()]
-URIS = ["", *"""model:// model://sun model://ground_plane model://no_such model://../../etc model://coke_can model://unit_box/model.sdf
+URIS = [
+    "",
+    *"""model:// model://sun model://ground_plane model://no_such model://../../etc model://coke_can model://unit_box/model.sdf
 model://table_marble/meshes/table_lightmap.dae file:///etc/passwd file:///dev/zero package://arm_description/meshes/base_link.stl
-package://../x /dev/null /proc/self/mem http://example.org/x.dae . / \u00e4.stl""".split()]
+package://../x /dev/null /proc/self/mem http://example.org/x.dae . / \u00e4.stl""".split(),
+]
 NUMBERS: List[float] = [float(text) for text in EXTREMES if len(text) < 100]
 
 
@@ -45,7 +59,7 @@ def with_numbers_changed(random: Random, text: str) -> str:
     if not found or random.random() < 0.05:
         return number_text(random)
     chosen = random.choice(found)
-    return text[:chosen.start()] + number_text(random) + text[chosen.end():]
+    return text[: chosen.start()] + number_text(random) + text[chosen.end() :]
 
 
 def with_tokens_changed(random: Random, text: str) -> str:
@@ -78,13 +92,13 @@ def damaged(random: Random, data: bytes, times: int = 1) -> bytes:
         if change == 0:
             result[i] ^= 1 << random.randrange(8)
         elif change == 1:
-            del result[i:i + n]
+            del result[i : i + n]
         elif change == 2:
-            result[i:i] = result[i:i + n]
+            result[i:i] = result[i : i + n]
         elif change == 3:
             result[i:i] = bytes(random.randrange(256) for _ in range(min(n, 16)))
         elif change == 4:
-            result[i:i + n] = random.choice((b"\x00", b"\xff", b"\x7f")) * n
+            result[i : i + n] = random.choice((b"\x00", b"\xff", b"\x7f")) * n
         else:
             del result[i:]
     return bytes(result)

@@ -1,4 +1,5 @@
 """A process that runs cases, and what its parent knows of it."""
+
 from __future__ import annotations
 
 import ctypes
@@ -71,8 +72,7 @@ class Worker:
         wall = time.monotonic() - self._begun
         if not self.ready:
             return wall > _START_LIMIT
-        return self.job is not None and (wall > self.kind.wall_limit
-                                         or self._processor_time() - self._spent > self.kind.time_limit)
+        return self.job is not None and (wall > self.kind.wall_limit or self._processor_time() - self._spent > self.kind.time_limit)
 
     def hung(self) -> Finding:
         """End it, and say where it was."""
@@ -137,8 +137,10 @@ class Worker:
 
 # ---------------------------------------------------------------------------------------------- the process
 
-def _serve(kind: Kind, seed: int, number: int, connection: multiprocessing.connection.Connection, folder: Path, output: Path,
-           parent: int) -> None:
+
+def _serve(
+    kind: Kind, seed: int, number: int, connection: multiprocessing.connection.Connection, folder: Path, output: Path, parent: int
+) -> None:
     _become_worker(kind, folder, output, parent)
     kind.start(folder, number)
     connection.send("ready")

@@ -1,4 +1,5 @@
 """What must hold in every world, however it came about."""
+
 from __future__ import annotations
 
 from typing import Iterable

@@ -1,4 +1,5 @@
 """XML from XML: elements and attributes of real files changed, doubled, dropped, moved, nested; and made smaller again."""
+
 from __future__ import annotations
 
 import copy
@@ -12,15 +13,28 @@ from fuzzing import values
 _MOST_ELEMENTS = 120  # of a seed that is cut down before it is changed
 _MOST_GROWN = 4000  # elements that more are not added to
 _DEEP = re.compile(rb"@@deep:(\w+):(\d{1,4})@@")
-_RAW = {b"@@comments@@": b"<!--" * 20000, b"@@entity@@": b"&xxe;", b"@@cdata@@": b"<![CDATA[<x>]]>", b"@@null@@": b"\x00",
-        b"@@pi@@": b"<?x y?>",
-        # what TinyXML takes, and what it does not
-        b"@@ampersand@@": b"a=1&b=2 & c", b"@@bracket@@": b"<x y='a<b>&'/>", b"@@bare@@": b"<x y=1 z=a/>", b"@@slash@@": b"<x y=a/b/>",
-        b"@@twice@@": b"<x y='1' y='2'/>", b"@@less@@": b"1 < 2", b"@@unclosed@@": b"<x y='1>", b"@@character@@": b"&#xZZ;&#0;&#65;",
-        b"@@dashes@@": b"<!-- a -- b --->"}
+_RAW = {
+    b"@@comments@@": b"<!--" * 20000,
+    b"@@entity@@": b"&xxe;",
+    b"@@cdata@@": b"<![CDATA[<x>]]>",
+    b"@@null@@": b"\x00",
+    b"@@pi@@": b"<?x y?>",
+    # what TinyXML takes, and what it does not
+    b"@@ampersand@@": b"a=1&b=2 & c",
+    b"@@bracket@@": b"<x y='a<b>&'/>",
+    b"@@bare@@": b"<x y=1 z=a/>",
+    b"@@slash@@": b"<x y=a/b/>",
+    b"@@twice@@": b"<x y='1' y='2'/>",
+    b"@@less@@": b"1 < 2",
+    b"@@unclosed@@": b"<x y='1>",
+    b"@@character@@": b"&#xZZ;&#0;&#65;",
+    b"@@dashes@@": b"<!-- a -- b --->",
+}
 _ROOTS = (b"<x/>", b"<robot/>", b"<sdf version='1.6'/>", b"text", b"<!-- ", b"\xef\xbb\xbf", b"\n\n")  # before or behind the root
-_BOMB = (b'<!DOCTYPE x [<!ENTITY a "aaaaaaaaaa"><!ENTITY b "&a;&a;&a;&a;&a;&a;&a;&a;&a;&a;"><!ENTITY c "&b;&b;&b;&b;&b;&b;&b;&b;&b;&b;">'
-         b'<!ENTITY xxe SYSTEM "file:///etc/passwd">]>')
+_BOMB = (
+    b'<!DOCTYPE x [<!ENTITY a "aaaaaaaaaa"><!ENTITY b "&a;&a;&a;&a;&a;&a;&a;&a;&a;&a;"><!ENTITY c "&b;&b;&b;&b;&b;&b;&b;&b;&b;&b;">'
+    b'<!ENTITY xxe SYSTEM "file:///etc/passwd">]>'
+)
 
 
 class XmlMutator:
@@ -38,9 +52,21 @@ class XmlMutator:
                     self._pool.setdefault(element.tag, []).append(element)
         self._tags = sorted(self._pool)
         self._changes: List[Tuple[int, Callable[[Random, ET.Element], None]]] = [
-            (10, self._number), (3, self._tokens), (2, self._text), (4, self._delete), (3, self._double), (3, self._graft),
-            (3, self._snippet), (2, self._rename), (2, self._attribute), (2, self._move), (1, self._many), (1, self._raw),
-            (2, self._name), (1, self._swap)]
+            (10, self._number),
+            (3, self._tokens),
+            (2, self._text),
+            (4, self._delete),
+            (3, self._double),
+            (3, self._graft),
+            (3, self._snippet),
+            (2, self._rename),
+            (2, self._attribute),
+            (2, self._move),
+            (1, self._many),
+            (1, self._raw),
+            (2, self._name),
+            (1, self._swap),
+        ]
 
     def case(self, random: Random) -> bytes:
         root = self._seed(random)
@@ -98,8 +124,12 @@ class XmlMutator:
         return parent, random.randrange(len(parent))
 
     def _number(self, random: Random, root: ET.Element) -> None:
-        places = [(element, key) for element in root.iter() for key in [None, *element.attrib]
-                  if values.NUMBER.search((element.text if key is None else element.get(key)) or "")]
+        places = [
+            (element, key)
+            for element in root.iter()
+            for key in [None, *element.attrib]
+            if values.NUMBER.search((element.text if key is None else element.get(key)) or "")
+        ]
         if not places:
             return
         element, key = random.choice(places)
@@ -118,8 +148,9 @@ class XmlMutator:
 
     def _text(self, random: Random, root: ET.Element) -> None:
         element = self._pick(random, root)
-        element.text = random.choice((values.number_text(random), random.choice(values.NAMES), random.choice(values.URIS),
-                                      random.choice(values.ODDITIES)))
+        element.text = random.choice(
+            (values.number_text(random), random.choice(values.NAMES), random.choice(values.URIS), random.choice(values.ODDITIES))
+        )
 
     def _name(self, random: Random, root: ET.Element) -> None:
         """A name or a reference by name: another's, or none that is there."""
@@ -130,8 +161,9 @@ class XmlMutator:
             return
         element, key = random.choice(named)
         other, other_key = random.choice(named)
-        value = random.choice(((other.get(other_key) if other_key else other.text) or "", random.choice(values.NAMES),
-                               random.choice(values.URIS)))
+        value = random.choice(
+            ((other.get(other_key) if other_key else other.text) or "", random.choice(values.NAMES), random.choice(values.URIS))
+        )
         if key is None:
             element.text = value
         else:
@@ -219,6 +251,7 @@ def _shell(element: ET.Element) -> ET.Element:
 
 # ---------------------------------------------------------------------------------------------- smaller again
 
+
 def smaller(case: bytes) -> Iterator[bytes]:
     """Without elements, the large first; without attributes and texts; plain lines and bytes where it is no XML."""
     try:
@@ -236,9 +269,9 @@ def smaller(case: bytes) -> Iterator[bytes]:
         yield _written(root)
         parent.insert(index, child)
         if len(child):  # its children in its place
-            parent[index:index + 1] = list(child)
+            parent[index : index + 1] = list(child)
             yield _written(root)
-            parent[index:index + len(child)] = [child]
+            parent[index : index + len(child)] = [child]
     for element in list(root.iter()):
         for key in list(element.attrib):
             value = element.attrib.pop(key)
@@ -265,9 +298,9 @@ def smaller_bytes(case: bytes) -> Iterator[bytes]:
     """Pieces cut out: lines while there are many, then bytes."""
     pieces = case.splitlines(keepends=True)
     if len(pieces) < 3:
-        pieces = [case[i:i + 1] for i in range(len(case))] if len(case) < 4000 else [case[i:i + 256] for i in range(0, len(case), 256)]
+        pieces = [case[i : i + 1] for i in range(len(case))] if len(case) < 4000 else [case[i : i + 256] for i in range(0, len(case), 256)]
     size = len(pieces) // 2
     while size >= 1:
         for start in range(0, len(pieces), size):
-            yield b"".join(pieces[:start] + pieces[start + size:])
+            yield b"".join(pieces[:start] + pieces[start + size :])
         size //= 2

@@ -1,4 +1,5 @@
 """Debian packages from a tree, and the folder that apt takes for a repository."""
+
 from __future__ import annotations
 
 import gzip
@@ -68,8 +69,9 @@ def _output(command: List[str], **options) -> str:
 def _library_depends(tree: Path) -> List[str]:
     """Debian packages of the shared libraries that the tree's own libraries need, with versions."""
     libraries = [str(path) for path in tree.rglob("*.so*") if path.is_file() and not path.is_symlink()]
-    programs = [str(path) for path in (tree / "lib").rglob("*")
-                if path.is_file() and not path.suffix and path.open("rb").read(4) == b"\x7fELF"]
+    programs = [
+        str(path) for path in (tree / "lib").rglob("*") if path.is_file() and not path.suffix and path.open("rb").read(4) == b"\x7fELF"
+    ]
     with tempfile.TemporaryDirectory() as folder:
         (Path(folder) / "debian").mkdir()
         (Path(folder) / "debian/control").write_text("Source: noetic-labs\n\nPackage: noetic-labs\nArchitecture: any\n")
@@ -87,24 +89,46 @@ def _wrap(text: str) -> str:
     return "\n".join(f" {line}" for line in text.strip().splitlines())
 
 
-def _build(folder: Path, name: str, release: Release, architecture: str, depends: List[str], summary: str, text: str,
-           copyright_text: str, recommends: Tuple[str, ...] = (), suggests: Tuple[str, ...] = ()) -> Path:
+def _build(
+    folder: Path,
+    name: str,
+    release: Release,
+    architecture: str,
+    depends: List[str],
+    summary: str,
+    text: str,
+    copyright_text: str,
+    recommends: Tuple[str, ...] = (),
+    suggests: Tuple[str, ...] = (),
+) -> Path:
     """dpkg-deb of ``folder``, which holds the package's files already."""
     (folder / "DEBIAN").mkdir(exist_ok=True)
     about = folder / "usr/share/doc" / name
     about.mkdir(parents=True, exist_ok=True)
     (about / "copyright").write_text(copyright_text)
     size = sum(path.lstat().st_size for path in folder.rglob("*") if path.is_file()) // 1024 + 1
-    fields = {"Package": name, "Version": release.version, "Architecture": architecture, "Maintainer": MAINTAINER,
-              "Installed-Size": str(size), "Depends": ", ".join(depends), "Recommends": ", ".join(recommends),
-              "Suggests": ", ".join(suggests), "Section": "science", "Priority": "optional", "Description": f"{summary}\n{_wrap(text)}"}
+    fields = {
+        "Package": name,
+        "Version": release.version,
+        "Architecture": architecture,
+        "Maintainer": MAINTAINER,
+        "Installed-Size": str(size),
+        "Depends": ", ".join(depends),
+        "Recommends": ", ".join(recommends),
+        "Suggests": ", ".join(suggests),
+        "Section": "science",
+        "Priority": "optional",
+        "Description": f"{summary}\n{_wrap(text)}",
+    }
     (folder / "DEBIAN/control").write_text("".join(f"{key}: {value}\n" for key, value in fields.items() if value))
     for path in [folder, *folder.rglob("*")]:
         if not path.is_symlink():
             path.chmod(0o755 if path.is_dir() or path.stat().st_mode & 0o111 else 0o644)
     deb = folder.parent / f"{name}_{release.version}_{architecture}.deb"
-    _output(["dpkg-deb", "--root-owner-group", "-Zxz", "-z3", "--build", str(folder), str(deb)],
-            env={"SOURCE_DATE_EPOCH": str(release.time), "PATH": "/usr/sbin:/usr/bin:/sbin:/bin", "LC_ALL": "C.UTF-8"})
+    _output(
+        ["dpkg-deb", "--root-owner-group", "-Zxz", "-z3", "--build", str(folder), str(deb)],
+        env={"SOURCE_DATE_EPOCH": str(release.time), "PATH": "/usr/sbin:/usr/bin:/sbin:/bin", "LC_ALL": "C.UTF-8"},
+    )
     shutil.rmtree(folder)
     return deb
 
@@ -120,12 +144,19 @@ def platform(tree: Path, root: Path, release: Release) -> Path:
     shutil.copytree(tree, folder / PREFIX.lstrip("/"), symlinks=True)
     copyright_text = (root / "LICENSE").read_text() + _add_on_licences(tree)
     _copy_licences(tree, folder / "usr/share/doc/noetic-labs/licences")
-    return _build(folder, "noetic-labs", release, release.architecture,
-                  [*_python_range(), *sections(root, "demo", "run"), *_library_depends(tree)],
-                  "ROS 1 Noetic's other half: simulator, controllers, xacro, planning",
-                  "What Debian's ROS packages lack to run packages written for ROS Noetic, Gazebo Classic and ros_control,\n"
-                  f"under the same names, in {PREFIX}. In a new shell: source {PREFIX}/setup.bash",
-                  copyright_text, tuple(sections(root, "windows")), ("ros-noetic-desktop-full",))
+    return _build(
+        folder,
+        "noetic-labs",
+        release,
+        release.architecture,
+        [*_python_range(), *sections(root, "demo", "run"), *_library_depends(tree)],
+        "ROS 1 Noetic's other half: simulator, controllers, xacro, planning",
+        "What Debian's ROS packages lack to run packages written for ROS Noetic, Gazebo Classic and ros_control,\n"
+        f"under the same names, in {PREFIX}. In a new shell: source {PREFIX}/setup.bash",
+        copyright_text,
+        tuple(sections(root, "windows")),
+        ("ros-noetic-desktop-full",),
+    )
 
 
 def _add_on_licences(tree: Path) -> str:
@@ -186,9 +217,16 @@ def name_only(name: str, depends: List[str], stands_for: str, release: Release) 
     """A package without files that brings what an upstream name stands for."""
     folder = Path(tempfile.mkdtemp()) / name
     folder.mkdir()
-    return _build(folder, name, release, "all", [f"noetic-labs (= {release.version})", *dict.fromkeys(depends)],
-                  f"name for {stands_for}"[:79], f"Depends on {stands_for}.\nIt has no files of its own.",
-                  "Made by noetic_labs; BSD-3-Clause, see /usr/share/doc/noetic-labs/copyright.\n")
+    return _build(
+        folder,
+        name,
+        release,
+        "all",
+        [f"noetic-labs (= {release.version})", *dict.fromkeys(depends)],
+        f"name for {stands_for}"[:79],
+        f"Depends on {stands_for}.\nIt has no files of its own.",
+        "Made by noetic_labs; BSD-3-Clause, see /usr/share/doc/noetic-labs/copyright.\n",
+    )
 
 
 def repository(made: List[Path], out: Path) -> Path:
@@ -204,9 +242,13 @@ def repository(made: List[Path], out: Path) -> Path:
     index = _output(["dpkg-scanpackages", "--multiversion", "."], cwd=out) + "\n"
     (out / "Packages").write_text(index)
     (out / "Packages.gz").write_bytes(gzip.compress(index.encode(), mtime=0))
-    sums = "".join(f" {hashlib.sha256((out / name).read_bytes()).hexdigest()} {(out / name).stat().st_size} {name}\n"
-                   for name in ("Packages", "Packages.gz"))
+    sums = "".join(
+        f" {hashlib.sha256((out / name).read_bytes()).hexdigest()} {(out / name).stat().st_size} {name}\n"
+        for name in ("Packages", "Packages.gz")
+    )
     date = time.strftime("%a, %d %b %Y %H:%M:%S UTC", time.gmtime())
-    (out / "Release").write_text("Origin: noetic_labs\nLabel: noetic_labs\nSuite: local\n"
-                                 f"Architectures: all {_output(['dpkg', '--print-architecture'])}\nDate: {date}\nSHA256:\n{sums}")
+    (out / "Release").write_text(
+        "Origin: noetic_labs\nLabel: noetic_labs\nSuite: local\n"
+        f"Architectures: all {_output(['dpkg', '--print-architecture'])}\nDate: {date}\nSHA256:\n{sums}"
+    )
     return out

@@ -1,4 +1,5 @@
 """The platform as an installed tree: catkin's install space of everything but the labs, with the PyPI add-ons."""
+
 from __future__ import annotations
 
 import filecmp
@@ -46,8 +47,9 @@ def refuse_foreign(prefix: Path) -> None:
         raise PackagingError(f"{prefix} holds another installation; name another --prefix")
     owner = subprocess.run(["dpkg-query", "-S", str(prefix / MARK)], capture_output=True, text=True)
     if owner.returncode == 0:
-        raise PackagingError(f"{prefix} belongs to the Debian package {owner.stdout.split(':')[0]}; remove that with apt first, "
-                             "or name another --prefix")
+        raise PackagingError(
+            f"{prefix} belongs to the Debian package {owner.stdout.split(':')[0]}; remove that with apt first, or name another --prefix"
+        )
 
 
 def replace(prefix: Path, staged: Path) -> None:
@@ -113,24 +115,48 @@ def build(root: Path, prefix: Path) -> Path:
     export_sources(root, sources)
     shutil.rmtree(stage, ignore_errors=True)
     _lay_out(workspace, sources)
-    environment = {key: value for key, value in os.environ.items()
-                   if key not in ("CMAKE_PREFIX_PATH", "ROS_PACKAGE_PATH", "PYTHONPATH", "CPLUS_INCLUDE_PATH")}
+    environment = {
+        key: value
+        for key, value in os.environ.items()
+        if key not in ("CMAKE_PREFIX_PATH", "ROS_PACKAGE_PATH", "PYTHONPATH", "CPLUS_INCLUDE_PATH")
+    }
     environment["PATH"] = f"{sources}/src/tools/noetic_environment/debian_python:/usr/sbin:/usr/bin:/sbin:/bin"
-    run(["catkin", "config", "--init", "--workspace", workspace, "--install", "--install-space", prefix, "--cmake-args",
-         # catkin reads the one name on Debian 12, the other on 13; else it takes the first python3 of this build's own PATH
-         "-DPYTHON_EXECUTABLE=/usr/bin/python3", "-DPython_EXECUTABLE=/usr/bin/python3",
-         "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_FLAGS_RELEASE=-O2 -DNDEBUG", "-DCATKIN_ENABLE_TESTING=OFF"],
-        "catkin config", {**environment, "DESTDIR": str(stage)})
+    run(
+        [
+            "catkin",
+            "config",
+            "--init",
+            "--workspace",
+            workspace,
+            "--install",
+            "--install-space",
+            prefix,
+            "--cmake-args",
+            # catkin reads the one name on Debian 12, the other on 13; else it takes the first python3 of this build's own PATH
+            "-DPYTHON_EXECUTABLE=/usr/bin/python3",
+            "-DPython_EXECUTABLE=/usr/bin/python3",
+            "-DCMAKE_BUILD_TYPE=Release",
+            "-DCMAKE_CXX_FLAGS_RELEASE=-O2 -DNDEBUG",
+            "-DCATKIN_ENABLE_TESTING=OFF",
+        ],
+        "catkin config",
+        {**environment, "DESTDIR": str(stage)},
+    )
     run([sys.executable, root / "scripts/forget_moved.py", workspace / "build"], "scripts/forget_moved.py", environment)
-    run(["catkin", "build", "--workspace", workspace, "--no-notify", "--no-status", "--summarize"], "catkin build",
-        {**environment, "DESTDIR": str(stage)})
+    run(
+        ["catkin", "build", "--workspace", workspace, "--no-notify", "--no-status", "--summarize"],
+        "catkin build",
+        {**environment, "DESTDIR": str(stage)},
+    )
     tree = stage / prefix.relative_to("/")
     _install_add_ons(tree / "share/noetic_environment/python", sources / "scripts/requirements.txt")
     clean(tree)
     missing = not_installed(sources, tree)
     if missing:
-        raise PackagingError(f"{len(missing)} files have no install rule in their package's CMakeLists.txt: {', '.join(missing[:5])}"
-                             + (" ..." if len(missing) > 5 else ""))
+        raise PackagingError(
+            f"{len(missing)} files have no install rule in their package's CMakeLists.txt: {', '.join(missing[:5])}"
+            + (" ..." if len(missing) > 5 else "")
+        )
     return tree
 
 
@@ -146,8 +172,11 @@ def _lay_out(workspace: Path, sources: Path) -> None:
 
 def _install_add_ons(folder: Path, requirements: Path) -> None:
     options = "-q --disable-pip-version-check --root-user-action=ignore --no-deps --require-hashes --no-compile".split()
-    run([sys.executable, "-m", "pip", "install", *options, "--target", folder, "-r", requirements], "installing the PyPI add-ons",
-        {**os.environ, "PYTHONPATH": ""})
+    run(
+        [sys.executable, "-m", "pip", "install", *options, "--target", folder, "-r", requirements],
+        "installing the PyPI add-ons",
+        {**os.environ, "PYTHONPATH": ""},
+    )
 
 
 def clean(tree: Path) -> None:

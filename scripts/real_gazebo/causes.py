@@ -89,9 +89,7 @@ CAUSES: Tuple[Cause, ...] = (
 )
 
 # Not yet run beside real Gazebo: neither the tests nor a cause say anything of them.
-NOT_COMPARED: Tuple[str, ...] = (
-    "car_turns",
-)
+NOT_COMPARED: Tuple[str, ...] = ("car_turns",)
 
 
 def cause_of(solver: str, scene: str, quantity: str) -> str:

@@ -14,7 +14,6 @@ from real_gazebo.chroot import ChrootError
 from real_gazebo.records import Record, path_of
 from real_gazebo.scene import Row, Scene
 
-
 KEPT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "out", "truth")
 
 

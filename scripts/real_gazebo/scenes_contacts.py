@@ -74,15 +74,7 @@ def stands(name, what, angle, body, plate=None, yaw=0.0):
         plate,
         "Coulomb: friction holds",
         yaw=yaw,
-        rows=(
-            Row(
-                "way from 0.3 to 1.2 s, m",
-                lambda r: r.way("model:cube", 0.3, 1.2),
-                law=0.0,
-                gazebo=(0, 2e-3),
-                default=(0, 1e-5),
-            ),
-        ),
+        rows=(Row("way from 0.3 to 1.2 s, m", lambda r: r.way("model:cube", 0.3, 1.2), law=0.0, gazebo=(0, 2e-3), default=(0, 1e-5)),),
     )
 
 

@@ -4,9 +4,8 @@ import struct
 import zlib
 
 from real_gazebo.scene import Deed, Row
-from real_gazebo.sdf import axis, ball, box, collision, cube, ground, inertial, joint, link, model, surface, world
 from real_gazebo.scenes_worlds import FILES, scene
-
+from real_gazebo.sdf import axis, ball, box, collision, cube, ground, inertial, joint, link, model, surface, world
 
 # ---------------------------------------------------------------------------------------------------- fields of force, deeds between steps
 

@@ -3,9 +3,8 @@
 import math
 
 from real_gazebo.scene import Deed, Row
-from real_gazebo.sdf import axis, box, collision, cylinder_moments, inertial, joint, link, model, surface
 from real_gazebo.scenes_joints import CLOSE, FREE, NO_CONTACT, angles, one, rates
-
+from real_gazebo.sdf import axis, box, collision, cylinder_moments, inertial, joint, link, model, surface
 
 # ---------------------------------------------------------------------------------------------------- two and three axes
 

@@ -32,13 +32,7 @@ def wanders(body, time=4.9, near=(0, 0.03)):
 
 
 def falls(body, below, law=math.inf):
-    return Row(
-        f"{body} falls below {below:g} m after, s",
-        lambda r: r.falls_at(f"model:{body}", below),
-        law=law,
-        gazebo=SEEN,
-        default=SEEN,
-    )
+    return Row(f"{body} falls below {below:g} m after, s", lambda r: r.falls_at(f"model:{body}", below), law=law, gazebo=SEEN, default=SEEN)
 
 
 def stack(n, mass=1.0, side=0.2):

@@ -326,12 +326,7 @@ sensors(
             gazebo=(2e-2, 0.05),
             default=(2e-2, 0.05),
         ),
-        Row(
-            "normal z of the first point",
-            lambda r: r.last("sensor:m::l::s.")[7],
-            gazebo=(1e-3, 0),
-            default=(1e-3, 0),
-        ),
+        Row("normal z of the first point", lambda r: r.last("sensor:m::l::s.")[7], gazebo=(1e-3, 0), default=(1e-3, 0)),
     ),
 )
 sensors(

@@ -3,9 +3,8 @@
 import math
 
 from real_gazebo.scene import Deed, Row
-from real_gazebo.sdf import ball, collision, cube, link, model, surface
 from real_gazebo.scenes_contacts import G, contact
-
+from real_gazebo.sdf import ball, collision, cube, link, model, surface
 
 # ---------------------------------------------------------------------------------------------------- bounce, stiffness, overlap
 
@@ -35,13 +34,7 @@ def peak(height=1.0):
 
 
 def bounce(
-    name,
-    what,
-    body,
-    plate,
-    law=None,
-    words="a ball springs back to e^2 of its height, where max_vel lets it",
-    default=(2e-2, 2e-3),
+    name, what, body, plate, law=None, words="a ball springs back to e^2 of its height, where max_vel lets it", default=(2e-2, 2e-3)
 ):
     return drop(
         name,

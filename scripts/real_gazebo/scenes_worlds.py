@@ -12,11 +12,7 @@ def scene(name, what, law, text, rows, seconds=1.2, deeds=(), files=None, every=
 
 def value(kind, name, number, what, law=None, last=False, near=EQUAL, default=None):
     return Row(
-        f"{what} of {kind} {name}",
-        lambda r: float(r.value(kind, name, number, last)),
-        law=law,
-        gazebo=near,
-        default=default or near,
+        f"{what} of {kind} {name}", lambda r: float(r.value(kind, name, number, last)), law=law, gazebo=near, default=default or near
     )
 
 

@@ -1,4 +1,5 @@
 """The kinds of input. A kind makes cases (bytes) from a random generator, and runs one case."""
+
 from __future__ import annotations
 
 import abc
@@ -58,8 +59,20 @@ def all_kinds() -> Dict[str, Kind]:
     from fuzzing.kinds.messages import MessageKind, PlanningKind
     from fuzzing.kinds.plans import PlanKind
     from fuzzing.kinds.xacros import XacroKind
-    kinds: List[Kind] = [UrdfKind(), XacroKind(), SdfKind(), WorldKind(), PlanKind(), MeshKind(), ApiKind(), ControllerKind(),
-                         LaunchKind(), MessageKind(), PlanningKind()]
+
+    kinds: List[Kind] = [
+        UrdfKind(),
+        XacroKind(),
+        SdfKind(),
+        WorldKind(),
+        PlanKind(),
+        MeshKind(),
+        ApiKind(),
+        ControllerKind(),
+        LaunchKind(),
+        MessageKind(),
+        PlanningKind(),
+    ]
     return {kind.name: kind for kind in kinds}
 
 
@@ -72,8 +85,17 @@ def kind_of_file(path: Path) -> Optional[str]:
         return "planning"
     text = path.read_bytes()
     if path.suffix == ".json":
-        return "messages" if b'"messages"' in text else "mesh" if b'"mesh"' in text else "launch" if b'"program"' in text \
-            else "api" if b'"calls"' in text else None
+        return (
+            "messages"
+            if b'"messages"' in text
+            else "mesh"
+            if b'"mesh"' in text
+            else "launch"
+            if b'"program"' in text
+            else "api"
+            if b'"calls"' in text
+            else None
+        )
     if path.suffix in (".yaml", ".yml"):
         return "yaml" if b"type:" in text or b'"type"' in text or b"gazebo_ros_control" in text else "plan"
     return None

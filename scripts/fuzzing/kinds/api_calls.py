@@ -1,4 +1,5 @@
 """Calls of the simulator's Python API with numbers of every size, in every order, stepped after each."""
+
 from __future__ import annotations
 
 import json
@@ -14,10 +15,30 @@ _ROBOTS = ("arm.urdf", "rmrobot.urdf", "mbot_base.urdf", "mbot_with_laser.urdf",
 _MODELS = ("unit_box.sdf", "unit_sphere.sdf", "coke_can.sdf", "table.sdf", "car_wheel.sdf", "hokuyo.sdf")
 _STEPS = 3  # after each call
 _SURFACE = ("mu", "mu2", "kp", "kd", "max_vel", "slip1", "slip2", "min_depth", "restitution", "bounce_threshold")
-_PHYSICS = ("max_step_size", "max_contacts", "iters", "sor", "cfm", "erp", "contact_max_correcting_vel", "contact_surface_layer",
-            "real_time_update_rate")
-_PARAMETERS = ("fmax", "vel", "hi_stop", "lo_stop", "stop_erp", "stop_cfm", "friction", "damping", "thread_pitch", "gearbox_ratio",
-               "no_such")
+_PHYSICS = (
+    "max_step_size",
+    "max_contacts",
+    "iters",
+    "sor",
+    "cfm",
+    "erp",
+    "contact_max_correcting_vel",
+    "contact_surface_layer",
+    "real_time_update_rate",
+)
+_PARAMETERS = (
+    "fmax",
+    "vel",
+    "hi_stop",
+    "lo_stop",
+    "stop_erp",
+    "stop_cfm",
+    "friction",
+    "damping",
+    "thread_pitch",
+    "gearbox_ratio",
+    "no_such",
+)
 _DECLARED = (ValueError, KeyError)  # DescriptionError is a ValueError; KeyError: no such model
 
 
@@ -29,6 +50,7 @@ class Scene:
 
     def __init__(self, file: str):
         import ode_sim
+
         self.sim = ode_sim
         self.text = {**seeds.robots(), **seeds.models()}[file].decode()
         self.spawn_call = "spawn_urdf" if file.endswith(".urdf") else "spawn_sdf"
@@ -85,6 +107,7 @@ def _remove(s: Scene, a: int, v: List[float], b: int) -> None:
 
 def _inertial(s: Scene, a: int, v: List[float], b: int) -> None:
     from ode_sim.description.model import Inertial
+
     tensor = tuple(v[4:10]) if any(v[4:10]) else (0.1, 0.1, 0.1, 0.0, 0.0, 0.0)
     fields = dict(zip(("ixx", "iyy", "izz", "ixy", "ixz", "iyz"), tensor))
     s.link(b).set_inertial(Inertial(mass=v[0], pose=s.sim.Pose(tuple(v[1:4])), **fields))
@@ -135,7 +158,10 @@ def _gone(s: Scene, a: int, v: List[float], b: int) -> None:
     if s.gone:
         model = s.gone[a % len(s.gone)]
         actions: List[Callable[[], object]] = [
-            lambda: model.pose, lambda: setattr(model, "pose", s.pose(v)), lambda: model.set_twist(v[:3], v[3:6])]
+            lambda: model.pose,
+            lambda: setattr(model, "pose", s.pose(v)),
+            lambda: model.set_twist(v[:3], v[3:6]),
+        ]
         actions += [lambda link=link: link.add_force(v[:3]) for link in model.links.values()]
         actions += [lambda joint=joint: joint.position() if joint.axis_count else 0 for joint in model.joints.values()]
         refused(actions[b % len(actions)], RuntimeError, *_DECLARED)
@@ -146,8 +172,18 @@ def _axis(joint, a: int) -> int:
 
 
 CALLS: Dict[str, Callable[[Scene, int, List[float], int], object]] = {
-    "respawn": _respawn, "spawn": _spawn, "remove": _remove, "link.inertial": _inertial, "physics": _physics, "surface": _surface,
-    "attach": _attach, "restore": _restore, "rays": _rays, "feedback": _feedback, "views": _views, "gone": _gone,
+    "respawn": _respawn,
+    "spawn": _spawn,
+    "remove": _remove,
+    "link.inertial": _inertial,
+    "physics": _physics,
+    "surface": _surface,
+    "attach": _attach,
+    "restore": _restore,
+    "rays": _rays,
+    "feedback": _feedback,
+    "views": _views,
+    "gone": _gone,
     "model.pose": lambda s, a, v, b: setattr(s.model(b), "pose", s.pose(v)),
     "model.twist": lambda s, a, v, b: s.model(b).set_twist(v[:3], v[3:6]),
     "link.pose": lambda s, a, v, b: setattr(s.link(b), "pose", s.pose(v)),
@@ -174,8 +210,17 @@ CALLS: Dict[str, Callable[[Scene, int, List[float], int], object]] = {
     "detach": lambda s, a, v, b: s.held[a % len(s.held)].detach() if s.held else None,
     "step": lambda s, a, v, b: s.world.step(b % 40),
 }
-_NEEDS = {"joint": "joint", "feedback": "joint", "link": "link", "attach": "link", "surface": "collision", "watch": "collision",
-          "rays": "collision", "model": "model", "remove": "model"}
+_NEEDS = {
+    "joint": "joint",
+    "feedback": "joint",
+    "link": "link",
+    "attach": "link",
+    "surface": "collision",
+    "watch": "collision",
+    "rays": "collision",
+    "model": "model",
+    "remove": "model",
+}
 
 
 class ApiKind(Kind):
@@ -219,7 +264,9 @@ class ApiKind(Kind):
     @staticmethod
     def _check_handles(world) -> None:
         import numpy as np
+
         from fuzzing.findings import Found
+
         for model in world.models.values():
             numbers = [*model.pose.p, *model.pose.q, *model.twist().linear]
             for link in model.links.values():
@@ -228,8 +275,9 @@ class ApiKind(Kind):
                 if joint.axis_count:
                     numbers += [joint.effort(), *joint.anchor()]
             if not np.isfinite(numbers).all():
-                raise Found("silent NaN", "what the handles of a model say",
-                            f"{model.name}; world says: {(world.messages or ['nothing'])[0][:200]}")
+                raise Found(
+                    "silent NaN", "what the handles of a model say", f"{model.name}; world says: {(world.messages or ['nothing'])[0][:200]}"
+                )
 
     def smaller(self, case: bytes) -> Iterator[bytes]:
         told = json.loads(case)
@@ -238,5 +286,5 @@ class ApiKind(Kind):
         for i, (name, a, numbers, b) in enumerate(told["calls"]):
             for j, value in enumerate(numbers):
                 if value != 0.0:
-                    fewer = [name, a, [*numbers[:j], 0.0, *numbers[j + 1:]], b]
-                    yield json.dumps({**told, "calls": [*told["calls"][:i], fewer, *told["calls"][i + 1:]]}).encode()
+                    fewer = [name, a, [*numbers[:j], 0.0, *numbers[j + 1 :]], b]
+                    yield json.dumps({**told, "calls": [*told["calls"][:i], fewer, *told["calls"][i + 1 :]]}).encode()

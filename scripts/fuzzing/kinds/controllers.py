@@ -1,4 +1,5 @@
 """Parameters of controllers, through a controller manager, and of gazebo_ros_control, under a model in a world."""
+
 from __future__ import annotations
 
 import math
@@ -17,8 +18,7 @@ from fuzzing.kinds.plans import readable
 _CYCLES = 20
 _MODES = ["position", "velocity", "effort", "pos_vel", "pos_vel_acc"]
 _ROBOTS = [
-    f"{name}.urdf"
-    for name in ("diff_drive_robot", "ackermann_robot", "four_wheel_robot", "trajectory_robot", "gripper_robot", "arm")
+    f"{name}.urdf" for name in ("diff_drive_robot", "ackermann_robot", "four_wheel_robot", "trajectory_robot", "gripper_robot", "arm")
 ]
 _PLUGIN = """
 parameters:
@@ -56,6 +56,7 @@ class ControllerKind(Kind):
         import controller_manager  # noqa: F401
         import gazebo_ros_control.plugin  # noqa: F401
         import rosmaster.master  # noqa: F401
+
         self._controllers: List[Dict[str, Any]] = []
         for path in seeds.files(".yaml"):
             self._controllers += _controllers_in(readable(path.read_bytes()))
@@ -67,11 +68,16 @@ class ControllerKind(Kind):
         import rospy
         from control_test_robots.robot import TestRobot
         from controller_manager import ControllerManager
+
         rospy.init_node("fuzz", disable_signals=True, anonymous=True)
         self._log = ros.Log()
-        self._robot = TestRobot({"joints": {name: {"interfaces": _MODES} for name in self._joints},
-                                 "imus": {"imu": {"frame_id": "imu_link"}},
-                                 "force_torque_sensors": {"wrist": {"frame_id": "wrist_link"}}})
+        self._robot = TestRobot(
+            {
+                "joints": {name: {"interfaces": _MODES} for name in self._joints},
+                "imus": {"imu": {"frame_id": "imu_link"}},
+                "force_torque_sensors": {"wrist": {"frame_id": "wrist_link"}},
+            }
+        )
         self._manager = ControllerManager(self._robot, "/bench")
         self._time = 10.0
         self._texts = {name: seeds.robots()[name].decode() for name in _ROBOTS if name in seeds.robots()}
@@ -89,7 +95,7 @@ class ControllerKind(Kind):
             if isinstance(parameters, dict) and random.random() < 0.9:
                 parameters["type"] = kind
             tree = {"controller": parameters, "robot_description": random.choice(_ROBOTS)}
-        return yaml.safe_dump(_sendable(tree), default_flow_style=None, width=10 ** 6).encode()
+        return yaml.safe_dump(_sendable(tree), default_flow_style=None, width=10**6).encode()
 
     def smaller(self, case: bytes) -> Iterator[bytes]:
         tree = readable(case)
@@ -97,12 +103,13 @@ class ControllerKind(Kind):
             yield from xml_cases.smaller_bytes(case)
             return
         for candidate in tree_cases.smaller(tree):
-            yield yaml.safe_dump(candidate, default_flow_style=None, width=10 ** 6).encode()
+            yield yaml.safe_dump(candidate, default_flow_style=None, width=10**6).encode()
 
     # ------------------------------------------------------------------------------------------ running
 
     def run(self, case: bytes) -> None:
         import rospy
+
         tree = readable(case)
         if not isinstance(tree, dict):
             return
@@ -117,6 +124,7 @@ class ControllerKind(Kind):
 
     def _control(self, tree: Dict[str, Any]) -> None:
         import rospy
+
         rospy.set_param("/robot_description", self._texts.get(str(tree.get("robot_description")), ""))
         rospy.set_param("/bench/fuzzed", tree["controller"])
         if self._manager.load_controller("fuzzed"):
@@ -157,12 +165,14 @@ class ControllerKind(Kind):
                 raise Found("silent NaN", f"command of a {joint.mode} joint", f"{name}: {told}")
 
     def _simulate(self, told: Dict[str, Any]) -> None:
+        import xml.etree.ElementTree as ET
+
         import ode_sim
         import rospy
-        import xml.etree.ElementTree as ET
         from gazebo_ros.plugin import PluginError
         from gazebo_ros.sdf_element import SdfElement
         from gazebo_ros_control.plugin import GazeboRosControl
+
         text = _robot_text(told)
         world = ode_sim.World()
         model, error = refused(lambda: world.spawn_urdf(text, name="robot"), ode_sim.DescriptionError)
@@ -223,13 +233,16 @@ def _mapping(value: Any) -> Dict[str, Any]:
 
 def _robot_text(told: Dict[str, Any]) -> str:
     from xml.sax.saxutils import escape, quoteattr
+
     joints = transmissions = ""
     for i, (name, limit) in enumerate(_mapping(told.get("limits")).items()):
         limits = " ".join(f"{key}={quoteattr(str(value))}" for key, value in _mapping(limit).items() if str(key).isidentifier())
         joints += _JOINT.format(name=escape(str(name), {'"': "&quot;"}), y=i, limit=limits)
     for name, interfaces in _mapping(told.get("interfaces")).items():
-        tags = "".join(f"<hardwareInterface>{escape(str(interface))}</hardwareInterface>"
-                       for interface in (interfaces if isinstance(interfaces, list) else [interfaces]))
+        tags = "".join(
+            f"<hardwareInterface>{escape(str(interface))}</hardwareInterface>"
+            for interface in (interfaces if isinstance(interfaces, list) else [interfaces])
+        )
         name = escape(str(name), {'"': "&quot;"})
         transmissions += _TRANSMISSION.format(name=name, tags=tags, reduction=escape(str(told.get("reduction", 1))))
     return _ROBOT.format(joints=joints, transmissions=transmissions)
@@ -256,8 +269,18 @@ def _names_in(parameters: Any) -> List[str]:
     return []
 
 
-_JOINT_KEYS = ("joint", "joints", "left_wheel", "right_wheel", "front_wheel", "rear_wheel", "front_steering", "rear_steering",
-               "rear_steer", "front_steer")
+_JOINT_KEYS = (
+    "joint",
+    "joints",
+    "left_wheel",
+    "right_wheel",
+    "front_wheel",
+    "rear_wheel",
+    "front_steering",
+    "rear_steering",
+    "rear_steer",
+    "front_steer",
+)
 
 
 def _sendable(tree: Any) -> Any:
@@ -267,11 +290,9 @@ def _sendable(tree: Any) -> Any:
     if isinstance(tree, list):
         return [_sendable(value) for value in tree if value is not None]
     if isinstance(tree, int) and not isinstance(tree, bool):
-        return max(-2 ** 31, min(2 ** 31 - 1, tree))
+        return max(-(2**31), min(2**31 - 1, tree))
     return _text(tree) if isinstance(tree, str) else tree
 
 
 def _text(text: str) -> str:
     return "".join(character for character in text if character >= " ")
-
-

@@ -1,4 +1,5 @@
 """Descriptions: URDF and SDF that are spawned, worlds that are loaded."""
+
 from __future__ import annotations
 
 import os
@@ -10,8 +11,11 @@ from fuzzing import seeds, worlds, xml_cases
 from fuzzing.findings import Found, refused
 from fuzzing.kinds import Kind
 
-GROUND = ("<sdf version='1.6'><world name='w'><model name='ground'><static>1</static><link name='l'><collision name='c'>"
-          "<geometry><plane/></geometry></collision></link></model></world></sdf>")
+GROUND = (
+    "<sdf version='1.6'><world name='w'><model name='ground'><static>1</static><link name='l'><collision name='c'>"
+    "<geometry><plane/></geometry></collision></link></model></world></sdf>"
+)
+
 
 class _XmlKind(Kind):
     snippets = "snippets_sdf.xml"
@@ -26,6 +30,7 @@ class _XmlKind(Kind):
     def prepare(self) -> None:
         import ode_sim  # noqa: F401  (imported here, shared by all workers)
         import ode_sim.rendering.assets  # noqa: F401
+
         snippets = Path(__file__).parents[1] / self.snippets
         self._mutator = xml_cases.XmlMutator(self.seeds(), snippets.read_bytes())
         for text in self.seeds():
@@ -56,11 +61,14 @@ class WorldKind(_XmlKind):
     name, suffix = "world", ".world"
 
     def seeds(self) -> List[bytes]:
-        return [*seeds.worlds().values(), *(b"<sdf version='1.6'><world name='w'>" + _body(text) + b"</world></sdf>"
-                                            for text in seeds.models().values())]
+        return [
+            *seeds.worlds().values(),
+            *(b"<sdf version='1.6'><world name='w'>" + _body(text) + b"</world></sdf>" for text in seeds.models().values()),
+        ]
 
     def load(self, text: bytes):
         import ode_sim
+
         Path("case.world").write_bytes(text)
         file = os.path.abspath("case.world")
         world, _ = refused(lambda: ode_sim.World.load(file, finder=seeds.finder()), ode_sim.DescriptionError)
@@ -78,6 +86,7 @@ class SdfKind(_XmlKind):
 
     def load(self, text: bytes):
         import ode_sim
+
         world = ode_sim.World.load(GROUND, finder=seeds.finder())
         world.step(1)
         before = world.save()
@@ -109,13 +118,14 @@ def as_text(case: bytes) -> str:
 
 def _body(text: bytes) -> bytes:
     """What stands in the <sdf> of a file."""
-    return text[text.index(b">", text.index(b"<sdf")) + 1:text.rindex(b"</sdf>")]
+    return text[text.index(b">", text.index(b"<sdf")) + 1 : text.rindex(b"</sdf>")]
 
 
 def _draw(world) -> None:
     """What a camera would be told to draw: meshes and textures are read, nothing is rendered."""
     from ode_sim.rendering.assets import Assets
     from ode_sim.rendering.scene import describe
+
     assets = Assets()
     for seen in describe(world).visuals:
         for part in assets.parts(seen.visual, seen.name):

@@ -1,4 +1,5 @@
 """Command lines of the nodes and tools, and arguments of gazebo_ros' launch files."""
+
 from __future__ import annotations
 
 import json
@@ -14,8 +15,11 @@ from fuzzing import programs, ros, seeds, values
 from fuzzing.findings import Found, check_message, of_output, of_stack
 from fuzzing.kinds import Kind
 
-_SCRIPTS = {"gazebo_ros": ("gzserver", "spawn_model", "gz"), "building_editor": ("build_world",),
-            "controller_manager": ("spawner", "unspawner", "controller_manager", "controller_group")}
+_SCRIPTS = {
+    "gazebo_ros": ("gzserver", "spawn_model", "gz"),
+    "building_editor": ("build_world",),
+    "controller_manager": ("spawner", "unspawner", "controller_manager", "controller_group"),
+}
 _FILES = ["empty_world.launch", "shapes_world.launch", "range_world.launch", "elevator_world.launch"]
 _PROGRAM_CODES = (0, 1, 2, 255)
 
@@ -40,13 +44,14 @@ class LaunchKind(Kind):
         import node_signals  # noqa: F401
         import roslaunch.config  # noqa: F401
         import rosmaster.master  # noqa: F401
+
         told = yaml.safe_load((Path(__file__).parents[1] / "commands.yaml").read_text())
         self._lines, self._arguments, self._odd_words = told["lines"], told["launch_arguments"], told["odd"]
-        self._scripts = {name: programs.script_of(package, name, seeds.packages())
-                         for package, names in _SCRIPTS.items() for name in names}
+        self._scripts = {name: programs.script_of(package, name, seeds.packages()) for package, names in _SCRIPTS.items() for name in names}
 
     def start(self, folder: Path, number: int) -> None:
         from PIL import Image
+
         self._alone, self._with_doubles = programs.start_masters(folder, number)
         Path("robot.urdf").write_bytes(seeds.robots()["arm.urdf"])
         Path("model.sdf").write_bytes(seeds.models()["unit_box.sdf"])
@@ -92,7 +97,7 @@ class LaunchKind(Kind):
     def smaller(self, case: bytes) -> Iterator[bytes]:
         told = json.loads(case)
         for i in range(len(told["arguments"])):
-            yield _written({**told, "arguments": told["arguments"][:i] + told["arguments"][i + 1:]})
+            yield _written({**told, "arguments": told["arguments"][:i] + told["arguments"][i + 1 :]})
 
     # ------------------------------------------------------------------------------------------ running
 
@@ -108,6 +113,7 @@ class LaunchKind(Kind):
         import roslaunch
         import roslaunch.config
         import rospkg
+
         file = str(Path(seeds.packages()["gazebo_ros"]) / "launch" / arguments[0])
         try:
             config = roslaunch.config.load_config_default([(file, arguments[1:])], None, verbose=False)
@@ -134,7 +140,7 @@ class LaunchKind(Kind):
         if ended.code < 0 and not ended.interrupted:
             raise Found.of(of_stack(f"process ended by signal {-ended.code}", both))
         if "Traceback (most recent call last)" in both:
-            raise Found.of(of_output(both[both.index("Traceback (most"):]))
+            raise Found.of(of_output(both[both.index("Traceback (most") :]))
         if ended.code not in _PROGRAM_CODES and not ended.interrupted:
             raise Found("exit code", program, f"{ended.code}: {programs.last_line(both)}")
         if ended.code in (1, 2) and not ended.interrupted:

@@ -1,4 +1,5 @@
 """Mesh files, textures and height maps, damaged: read for collisions and for drawing, and put into a world."""
+
 from __future__ import annotations
 
 import base64
@@ -50,13 +51,23 @@ class MeshKind(Kind):
         import ode_sim.mesh  # noqa: F401
         import ode_sim.rendering.assets  # noqa: F401
         from PIL import Image
+
         self._files: Dict[str, List[bytes]] = {
-            kind: [path.read_bytes() for path in seeds.files(kind) if path.stat().st_size < _LARGEST] for kind in (".stl", ".dae", ".png")}
+            kind: [path.read_bytes() for path in seeds.files(kind) if path.stat().st_size < _LARGEST] for kind in (".stl", ".dae", ".png")
+        }
         self._files[".obj"], self._files[".mtl"] = [_OBJ], [_MTL]
         self._files[".stl"] += [_ascii_stl(), _ascii_stl().upper(), b" ".join(_ascii_stl().split())]
         self._collada = xml_cases.XmlMutator(self._files[".dae"])
-        for mode, size, form in (("L", 9, "PNG"), ("RGB", 5, "PNG"), ("I;16", 9, "PNG"), ("RGBA", 8, "PNG"), ("RGB", 16, "JPEG"),
-                                 ("P", 8, "GIF"), ("L", 17, "TIFF"), ("RGB", 8, "BMP")):
+        for mode, size, form in (
+            ("L", 9, "PNG"),
+            ("RGB", 5, "PNG"),
+            ("I;16", 9, "PNG"),
+            ("RGBA", 8, "PNG"),
+            ("RGB", 16, "JPEG"),
+            ("P", 8, "GIF"),
+            ("L", 17, "TIFF"),
+            ("RGB", 8, "BMP"),
+        ):
             stream = io.BytesIO()
             Image.new(mode, (size, size)).save(stream, form)
             self._files[".png"].append(stream.getvalue())
@@ -80,8 +91,14 @@ class MeshKind(Kind):
             files["skin.png"] = values.damaged(random, files["skin.png"], random.choice((1, 3)))
         scale = [1.0, 1.0, 1.0] if random.random() < 0.7 else [values.number(random) for _ in range(3)]
         files = {f"fuzzed{kind}": main, **(files if kind != ".png" else {})}
-        return json.dumps({"mesh": f"fuzzed{kind}", "scale": scale, "submesh": random.choice(("", "", "", "cube", "x")),
-                           "files": {name: base64.b64encode(data).decode() for name, data in files.items()}}).encode()
+        return json.dumps(
+            {
+                "mesh": f"fuzzed{kind}",
+                "scale": scale,
+                "submesh": random.choice(("", "", "", "cube", "x")),
+                "files": {name: base64.b64encode(data).decode() for name, data in files.items()},
+            }
+        ).encode()
 
     @staticmethod
     def _text_changed(random: Random, data: bytes) -> bytes:
@@ -107,6 +124,7 @@ class MeshKind(Kind):
     def run(self, case: bytes) -> None:
         from ode_sim import mesh
         from ode_sim.description.model import DescriptionError
+
         told = json.loads(case)
         for name, data in told["files"].items():
             Path(Path(name).name).write_bytes(base64.b64decode(data))
@@ -123,9 +141,11 @@ class MeshKind(Kind):
     def _drawn(told: dict, path: str) -> None:
         from ode_sim.description import model as d
         from ode_sim.rendering.assets import Assets
+
         assets = Assets()
-        shape = d.Heightmap(path, path, (4.0, 4.0, 1.0)) if path.endswith(".png") else \
-            d.Mesh(path, path, tuple(told["scale"]), told["submesh"])
+        shape = (
+            d.Heightmap(path, path, (4.0, 4.0, 1.0)) if path.endswith(".png") else d.Mesh(path, path, tuple(told["scale"]), told["submesh"])
+        )
         for part in assets.parts(d.Visual("v", d.Pose(), shape), "m::l::v"):
             if part.look.texture:
                 assets.texture(part.look.texture, "m::l::v")
@@ -137,13 +157,19 @@ class MeshKind(Kind):
     @staticmethod
     def _simulated(told: dict, path: str) -> None:
         import ode_sim
+
         scale = " ".join(map(repr, told["scale"]))
-        shape = f"<heightmap><uri>{path}</uri><size>4 4 1</size></heightmap>" if path.endswith(".png") else \
-            f"<mesh><uri>{path}</uri><scale>{scale}</scale></mesh>"
+        shape = (
+            f"<heightmap><uri>{path}</uri><size>4 4 1</size></heightmap>"
+            if path.endswith(".png")
+            else f"<mesh><uri>{path}</uri><scale>{scale}</scale></mesh>"
+        )
         static = "<static>1</static>" if path.endswith(".png") else ""
         world = ode_sim.World.load(GROUND)
-        text = f"<sdf version='1.6'><model name='m'>{static}<link name='l'><pose>0 0 0.3 0 0 0</pose><inertial><mass>1</mass>" \
-               f"</inertial><collision name='c'><geometry>{shape}</geometry></collision></link></model></sdf>"
+        text = (
+            f"<sdf version='1.6'><model name='m'>{static}<link name='l'><pose>0 0 0.3 0 0 0</pose><inertial><mass>1</mass>"
+            f"</inertial><collision name='c'><geometry>{shape}</geometry></collision></link></model></sdf>"
+        )
         _, error = refused(lambda: world.spawn_sdf(text), ode_sim.DescriptionError)
         if error is None:
             worlds.check_messages(world, world.problems, "problems of a mesh")
@@ -159,7 +185,7 @@ class MeshKind(Kind):
             yield json.dumps({**told, "scale": scale}).encode()
         for name, data in told["files"].items():
             raw = base64.b64decode(data)
-            for candidate in (xml_cases.smaller(raw) if name.endswith(".dae") else xml_cases.smaller_bytes(raw)):
+            for candidate in xml_cases.smaller(raw) if name.endswith(".dae") else xml_cases.smaller_bytes(raw):
                 yield _with(told, {**told["files"], name: base64.b64encode(candidate).decode()})
 
 

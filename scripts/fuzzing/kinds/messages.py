@@ -1,4 +1,5 @@
 """Service calls and topic messages with extreme fields, to a running simulator with the labs' robots and controllers."""
+
 from __future__ import annotations
 
 import json
@@ -12,8 +13,12 @@ from fuzzing import move_group, ros, seeds, simulation, tree_cases, values, xml_
 from fuzzing.findings import check_message
 from fuzzing.kinds import Kind
 
-_INTEGERS = {"byte": (-128, 127), "char": (0, 255), **{f"int{n}": (-2 ** (n - 1), 2 ** (n - 1) - 1) for n in (8, 16, 32, 64)},
-             **{f"uint{n}": (0, 2 ** n - 1) for n in (8, 16, 32, 64)}}
+_INTEGERS = {
+    "byte": (-128, 127),
+    "char": (0, 255),
+    **{f"int{n}": (-(2 ** (n - 1)), 2 ** (n - 1) - 1) for n in (8, 16, 32, 64)},
+    **{f"uint{n}": (0, 2**n - 1) for n in (8, 16, 32, 64)},
+}
 _FLOATS = (float("nan"), float("inf"), -3e38, 3e38, 1e-38, 1e9)  # of 32 bits
 
 
@@ -24,23 +29,34 @@ class MessageKind(Kind):
     time_limit = 120.0
     wall_limit = 240.0
     memory = 12 << 30
-    cases_per_worker = 10 ** 9
+    cases_per_worker = 10**9
     silent = False
 
     def prepare(self) -> None:
         self._targets = simulation.listed()
         texts = simulation.robot_texts()
-        names = {tag: [f"{model}::{name}" for model, text in texts.items()
-                       for name in re.findall(rf'<{tag} [^>]*?name="([^"]+)"', text)] for tag in ("link", "joint")}
+        names = {
+            tag: [f"{model}::{name}" for model, text in texts.items() for name in re.findall(rf'<{tag} [^>]*?name="([^"]+)"', text)]
+            for tag in ("link", "joint")
+        }
         plain = [name.split("::")[1] for name in names["joint"]]
         self._strings: Dict[str, List[str]] = {
-            "model_name": list(texts), "link_name": names["link"], "body_name": names["link"], "joint_names": plain,
-            "joint_name": names["joint"] + plain, "reference_frame": ["", "world", *names["link"]],
+            "model_name": list(texts),
+            "link_name": names["link"],
+            "body_name": names["link"],
+            "joint_names": plain,
+            "joint_name": names["joint"] + plain,
+            "reference_frame": ["", "world", *names["link"]],
             "name": ["joint0_position_controller", "arm_controller", "max_update_rate", "gravity_z", "time_step", "pause"],
             "start_controllers": ["joint0_position_controller", "joint_state_controller"],
-            "stop_controllers": ["joint1_position_controller"], "light_name": ["sun"], "frame_id": ["", "world", "base_link"]}
-        self._xml = {"urdf": xml_cases.XmlMutator([text for text in seeds.robots().values() if len(text) < 4000]),
-                     "sdf": xml_cases.XmlMutator([text for text in seeds.models().values() if len(text) < 4000])}
+            "stop_controllers": ["joint1_position_controller"],
+            "light_name": ["sun"],
+            "frame_id": ["", "world", "base_link"],
+        }
+        self._xml = {
+            "urdf": xml_cases.XmlMutator([text for text in seeds.robots().values() if len(text) < 4000]),
+            "sdf": xml_cases.XmlMutator([text for text in seeds.models().values() if len(text) < 4000]),
+        }
 
     def start(self, folder: Path, number: int) -> None:
         self._simulation = simulation.Simulation(folder, number)
@@ -64,6 +80,7 @@ class MessageKind(Kind):
 
     def _value(self, random: Random, name: str, slot: str, extreme: float) -> Any:
         import roslib.message
+
         array = re.match(r"(.*)\[(\d*)\]$", slot)
         if array:
             count = int(array[2]) if array[2] else random.choice((0, 1, 1, 2, 4, 6, 30))
@@ -80,8 +97,8 @@ class MessageKind(Kind):
         if slot == "string":
             return self._string(random, name, extreme)
         if slot in ("time", "duration"):
-            low = 0 if slot == "time" else -2 ** 31
-            return [random.choice((0, 0, 1, 2 ** 31 - 1, low, -1 if low else 7)), random.choice((0, 0, 1, 999999999))]
+            low = 0 if slot == "time" else -(2**31)
+            return [random.choice((0, 0, 1, 2**31 - 1, low, -1 if low else 7)), random.choice((0, 0, 1, 999999999))]
         return self._fields(random, roslib.message.get_message_class(slot), extreme)
 
     def _string(self, random: Random, name: str, extreme: float) -> str:
@@ -110,6 +127,7 @@ class MessageKind(Kind):
         import genpy
         import rospy
         import rosservice
+
         message = _filled(_message_class(what, kind), fields)
         if what == "topic":
             try:
@@ -158,13 +176,27 @@ class PlanningKind(MessageKind):
         things = ["box", "ball", "<octomap>"]
         links = ["hand", "base_link", "tool0"]
         self._strings = {
-            "group_name": list(move_group.GROUPS), "group": list(move_group.GROUPS), "name": [*move_group.JOINTS, "finger_joint"],
-            "joint_name": move_group.JOINTS, "joint_names": move_group.JOINTS, "frame_id": ["", "world", "base_link", "hand", "box"],
-            "link_name": links, "ik_link_name": links, "fk_link_names": links,
+            "group_name": list(move_group.GROUPS),
+            "group": list(move_group.GROUPS),
+            "name": [*move_group.JOINTS, "finger_joint"],
+            "joint_name": move_group.JOINTS,
+            "joint_names": move_group.JOINTS,
+            "frame_id": ["", "world", "base_link", "hand", "box"],
+            "link_name": links,
+            "ik_link_name": links,
+            "fk_link_names": links,
             "pipeline_id": ["", "ompl", "pilz_industrial_motion_planner"],
-            "planner_id": ["", "RRTConnect", "PTP", "LIN", "CIRC"], "planner_config": ["RRTConnect", "RRT"], "id": things,
-            "target_name": things, "attached_object_name": things, "support_surface_name": things, "touch_links": links,
-            "end_effector": ["hand", ""], "data": ["stop", ""], "filename": ["nowhere/map.bt"]}
+            "planner_id": ["", "RRTConnect", "PTP", "LIN", "CIRC"],
+            "planner_config": ["RRTConnect", "RRT"],
+            "id": things,
+            "target_name": things,
+            "attached_object_name": things,
+            "support_surface_name": things,
+            "touch_links": links,
+            "end_effector": ["hand", ""],
+            "data": ["stop", ""],
+            "filename": ["nowhere/map.bt"],
+        }
         self._xml = {}
 
     def start(self, folder: Path, number: int) -> None:
@@ -187,6 +219,7 @@ class PlanningKind(MessageKind):
 
 def _message_class(what: str, kind: str) -> type:
     import roslib.message
+
     if what == "service":
         return roslib.message.get_service_class(kind)._request_class
     return roslib.message.get_message_class(kind)
@@ -204,6 +237,7 @@ def _filled(kind: type, fields: Dict[str, Any]) -> Any:
 def _filled_value(slot: str, value: Any) -> Any:
     import genpy
     import roslib.message
+
     array = re.match(r"(.*)\[(\d*)\]$", slot)
     if array and array[1] in ("uint8", "char"):
         return bytes(value)

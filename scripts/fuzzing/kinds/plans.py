@@ -1,4 +1,5 @@
 """Plans of buildings, through the command build_world: read, built, drawn from above, and loaded as a world."""
+
 from __future__ import annotations
 
 import contextlib
@@ -30,8 +31,15 @@ _EXAMPLES = """
 - {image: vast.png, resolution: 0.1, wall: {height: 2.0}}
 - {walls: [{from: [0, 0], to: [1, 0]}]}
 """
-_PREFIXES = (b"[" * 2000, b"a: &a [*a]\n", b"!!python/object/apply:os.system [true]\n", b"x: {y: " * 500, b"\xff\xfe", b"- - - -\n",
-             b"a: &a [1,1,1,1,1,1]\nb: &b [*a,*a,*a,*a,*a,*a]\nwalls: &c [*b,*b,*b,*b,*b,*b]\nmodels: [*c,*c,*c]\n")
+_PREFIXES = (
+    b"[" * 2000,
+    b"a: &a [*a]\n",
+    b"!!python/object/apply:os.system [true]\n",
+    b"x: {y: " * 500,
+    b"\xff\xfe",
+    b"- - - -\n",
+    b"a: &a [1,1,1,1,1,1]\nb: &b [*a,*a,*a,*a,*a,*a]\nwalls: &c [*b,*b,*b,*b,*b,*b]\nmodels: [*c,*c,*c]\n",
+)
 
 
 class PlanKind(Kind):
@@ -42,19 +50,21 @@ class PlanKind(Kind):
     def prepare(self) -> None:
         import building_editor.build_world
         import ode_sim  # noqa: F401
+
         self._build = building_editor.build_world.main
         self._plans = yaml.safe_load(_EXAMPLES)
         self._plans += [yaml.safe_load(path.read_text()) for path in seeds.files(".yaml") if path.parent.name == "plans"]
 
     def start(self, folder: Path, number: int) -> None:
         from PIL import Image, ImageDraw
+
         image = Image.new("L", (60, 40), 255)
         pen = ImageDraw.Draw(image)
         pen.rectangle((5, 5, 50, 30), outline=0, width=2)
         pen.line((20, 5, 20, 30), fill=30)
         image.save("plan.png")
         data = Path("plan.png").read_bytes()
-        Path("broken.png").write_bytes(data[:len(data) // 2])
+        Path("broken.png").write_bytes(data[: len(data) // 2])
         Path("vast.png").write_bytes(data[:16] + b"\x00\x00\xff\xff\x00\x00\xff\xff" + data[24:])
 
     def generate(self, random: Random) -> bytes:
@@ -86,6 +96,7 @@ class PlanKind(Kind):
     @staticmethod
     def _use() -> None:
         import ode_sim
+
         built = str(Path("built.world").resolve())
         world, error = refused(lambda: ode_sim.World.load(built, finder=seeds.finder()), ode_sim.DescriptionError)
         if error is not None:
@@ -112,4 +123,4 @@ def readable(case: bytes) -> Any:
 
 
 def _dumped(plan: Any) -> bytes:
-    return yaml.safe_dump(plan, default_flow_style=None, allow_unicode=True, width=10 ** 6).encode()
+    return yaml.safe_dump(plan, default_flow_style=None, allow_unicode=True, width=10**6).encode()

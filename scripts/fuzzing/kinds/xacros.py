@@ -1,4 +1,5 @@
 """Xacro files, expanded by the command xacro."""
+
 from __future__ import annotations
 
 from pathlib import Path
@@ -59,7 +60,7 @@ class XacroKind(Kind):
         if ended.code < 0 and not ended.interrupted:
             raise Found.of(of_stack(f"process ended by signal {-ended.code}", ended.errors))
         if "Traceback (most recent call last)" in ended.errors:
-            raise Found.of(of_output(ended.errors[ended.errors.index("Traceback (most"):]))
+            raise Found.of(of_output(ended.errors[ended.errors.index("Traceback (most") :]))
         if ended.code not in (0, 2) and not ended.interrupted:
             raise Found("exit code", "xacro", f"{ended.code}: {programs.last_line(ended.errors)}")
         lines = [line for line in ended.errors.splitlines() if line.strip() and "warning" not in line]
