@@ -1,7 +1,7 @@
 """The plugin in the container, in this process, without display and master."""
-from rqt_testing.in_process import errors, find, open_plugin, rospy_without_master
 
 import pytest
+from rqt_testing.in_process import errors, find, open_plugin, rospy_without_master
 
 
 @pytest.fixture(autouse=True)

@@ -1,4 +1,5 @@
 """Swings one joint like a sine around the position where it was when the controller started."""
+
 from math import pi, sin
 
 from controller_interface import Controller
@@ -11,8 +12,8 @@ class SineController(Controller):
 
     def init(self, hw, root_nh, controller_nh):
         self.joint = hw.get_handle(controller_nh.get_param("joint", str))
-        self.amplitude = controller_nh.param("amplitude", 0.5)   # rad
-        self.frequency = controller_nh.param("frequency", 1.0)   # Hz
+        self.amplitude = controller_nh.param("amplitude", 0.5)  # rad
+        self.frequency = controller_nh.param("frequency", 1.0)  # Hz
         controller_nh.subscriber("amplitude", Float64, self.change_amplitude)
 
     def change_amplitude(self, message):

@@ -1,4 +1,5 @@
 """A model plugin: swings a joint, by forces. Its twin in C++ is ../swing.cpp."""
+
 import math
 
 from gazebo_ros.plugin import ModelPlugin, PluginError

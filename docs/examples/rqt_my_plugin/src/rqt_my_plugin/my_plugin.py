@@ -1,4 +1,5 @@
 """Shows the last text on a topic."""
+
 import rospy
 from python_qt_binding.QtCore import Signal
 from python_qt_binding.QtWidgets import QLabel, QLineEdit, QVBoxLayout, QWidget
