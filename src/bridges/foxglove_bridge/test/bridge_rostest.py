@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """The bridge, as a browser talks to it: the frames are those of https://github.com/foxglove/ws-protocol."""
+
 import io
 import json
 import os
@@ -86,16 +87,19 @@ class Bridge(unittest.TestCase):
     def test_who_it_is(self):
         client = Client(self)
         info = client.wait(lambda: client.op("serverInfo"), "serverInfo")[0]
-        self.assertEqual(set(info["capabilities"]) - {"parametersSubscribe"},
-                         {"clientPublish", "parameters", "services", "connectionGraph", "assets"})
+        self.assertEqual(
+            set(info["capabilities"]) - {"parametersSubscribe"}, {"clientPublish", "parameters", "services", "connectionGraph", "assets"}
+        )
         self.assertEqual(info["supportedEncodings"], ["ros1"])
 
     def test_a_topic_comes_and_goes_and_its_bytes_are_those_of_ros(self):
         client = Client(self)
         publisher = rospy.Publisher("/numbers", Float64, queue_size=10)
         channel = client.subscribe("/numbers", 7)
-        self.assertEqual((channel["encoding"], channel["schemaName"], channel["schemaEncoding"], channel["schema"].strip()),
-                         ("ros1", "std_msgs/Float64", "ros1msg", "float64 data"))
+        self.assertEqual(
+            (channel["encoding"], channel["schemaName"], channel["schemaEncoding"], channel["schema"].strip()),
+            ("ros1", "std_msgs/Float64", "ros1msg", "float64 data"),
+        )
         client.wait(publisher.get_num_connections, "the bridge as a subscriber")
         for number in range(5):
             publisher.publish(Float64(number / 3))
@@ -141,8 +145,10 @@ class Bridge(unittest.TestCase):
 
     def test_what_may_not_be_published_is_told(self):
         client = Client(self)
-        for number, (topic, kind, said) in enumerate((("/other", "std_msgs/String", "client_topic_whitelist"),
-                                                      ("/from_x", "no_such/Type", "no package here defines no_such/Type")), 10):
+        for number, (topic, kind, said) in enumerate(
+            (("/other", "std_msgs/String", "client_topic_whitelist"), ("/from_x", "no_such/Type", "no package here defines no_such/Type")),
+            10,
+        ):
             client.tell(op="advertise", channels=[{"id": number, "topic": topic, "encoding": "ros1", "schemaName": kind}])
             client.wait(lambda said=said: [m for m in client.op("status") if said in m["message"]], said)
 
@@ -151,12 +157,15 @@ class Bridge(unittest.TestCase):
             if request.data:
                 return SetBoolResponse(True, "on")
             raise ValueError("not off")
+
         service = rospy.Service("/switch", SetBool, answer)
         self.addCleanup(service.shutdown)
         client = Client(self)
         offer = client.wait(lambda: client.services.get("/switch"), "the service")
-        self.assertEqual((offer["type"], offer["request"]["encoding"], offer["request"]["schema"].strip().split()[:2]),
-                         ("std_srvs/SetBool", "ros1", ["bool", "data"]))
+        self.assertEqual(
+            (offer["type"], offer["request"]["encoding"], offer["request"]["schema"].strip().split()[:2]),
+            ("std_srvs/SetBool", "ros1", ["bool", "data"]),
+        )
         call = struct.pack("<BIII", 2, offer["id"], 77, 4) + b"ros1"
         client.socket.send(call + bytes_of(SetBoolRequest(True)))
         frame = client.wait(lambda: next((f for f in client.data if f[0] == 3), None), "the answer")
@@ -173,8 +182,11 @@ class Bridge(unittest.TestCase):
         client.tell(op="getParameters", parameterNames=[], id="all")
         values = client.wait(lambda: client.op("parameterValues", id="all"), "parameters")[0]["parameters"]
         self.assertEqual([(p["name"], p["value"]) for p in values], [("/bridged/number", 3)])
-        client.tell(op="setParameters", parameters=[{"name": "/bridged/list", "value": [1.5, 2.5]}, {"name": "/secret/word", "value": "x"}],
-                    id="set")
+        client.tell(
+            op="setParameters",
+            parameters=[{"name": "/bridged/list", "value": [1.5, 2.5]}, {"name": "/secret/word", "value": "x"}],
+            id="set",
+        )
         client.wait(lambda: client.op("parameterValues", id="set"), "what was set")
         self.assertEqual((rospy.get_param("/bridged/list"), rospy.get_param("/secret/word")), ([1.5, 2.5], "hidden"))
         client.tell(op="subscribeParameterUpdates", parameterNames=["/bridged/list"])
@@ -191,8 +203,11 @@ class Bridge(unittest.TestCase):
         client.tell(op="subscribeConnectionGraph")
 
         def told():
-            return any({"name": "/graph_topic", "publisherIds": [rospy.get_name()]} in m["publishedTopics"]
-                       for m in client.op("connectionGraphUpdate"))
+            return any(
+                {"name": "/graph_topic", "publisherIds": [rospy.get_name()]} in m["publishedTopics"]
+                for m in client.op("connectionGraphUpdate")
+            )
+
         client.wait(told, "the topic in the graph")
         publisher.unregister()
 
@@ -200,16 +215,24 @@ class Bridge(unittest.TestCase):
         """Its bytes, or the message of the failure. Frames: 4, request, 0 or 1, length of the message, message, bytes."""
         client.tell(op="fetchAsset", uri=uri, requestId=number)
         frame = client.wait(lambda: next((f for f in client.data if f[0] == 4 and struct.unpack("<I", f[1:5])[0] == number), None), uri)
-        length, = struct.unpack("<I", frame[6:10])
-        return frame[10:10 + length].decode() if frame[5] else frame[10 + length:]
+        (length,) = struct.unpack("<I", frame[6:10])
+        return frame[10 : 10 + length].decode() if frame[5] else frame[10 + length :]
 
     def test_files_of_packages(self):
         client = Client(self)
         inside = "meshes/base_link.stl"
         with open(os.path.join(rospkg.RosPack().get_path("arm_description"), inside), "rb") as file:
             self.assertEqual(self.asset(client, 1, f"package://arm_description/{inside}"), file.read())
-        for number, uri in enumerate(("package://foxglove_bridge/package.xml", "package://foxglove_bridge/../../README.stl",
-                                      "package://no_such/a.stl", "file:///etc/passwd", "package://foxglove_bridge/%2e%2e/%2e%2e/x.stl"), 2):
+        for number, uri in enumerate(
+            (
+                "package://foxglove_bridge/package.xml",
+                "package://foxglove_bridge/../../README.stl",
+                "package://no_such/a.stl",
+                "file:///etc/passwd",
+                "package://foxglove_bridge/%2e%2e/%2e%2e/x.stl",
+            ),
+            2,
+        ):
             self.assertIsInstance(self.asset(client, number, uri), str, uri)
 
     def test_clients_that_do_not_read_stop_nobody(self):
@@ -234,8 +257,14 @@ class Bridge(unittest.TestCase):
     def test_bad_words_leave_it_running(self):
         client = Client(self)
         try:
-            for frame in ("no json", json.dumps({"op": "subscribe"}), b"", b"\x01\x05", b"\xfe" * 50,
-                          json.dumps({"op": "subscribe", "subscriptions": [{"id": 1, "channelId": 999999}]})):
+            for frame in (
+                "no json",
+                json.dumps({"op": "subscribe"}),
+                b"",
+                b"\x01\x05",
+                b"\xfe" * 50,
+                json.dumps({"op": "subscribe", "subscriptions": [{"id": 1, "channelId": 999999}]}),
+            ):
                 client.socket.send(frame)
         except ConnectionClosed:
             pass  # as it may

@@ -1,4 +1,5 @@
 """The node's parameters and the files that it gives away."""
+
 import pytest
 from foxglove_bridge import assets
 from foxglove_bridge.settings import MESHES, SettingError, Settings, allowed, unknown
@@ -14,10 +15,18 @@ def test_nothing_said_is_this_machine_alone():
     assert allowed("/any/topic", settings.topic_whitelist)
 
 
-@pytest.mark.parametrize("values, said", [
-    ({"port": "x"}, "~port should be a whole number"), ({"port": 70000}, "~port is 70000: out of range"), ({"port": True}, "~port"),
-    ({"address": 5}, "~address should be a text"), ({"topic_whitelist": [1]}, "~topic_whitelist should be a list of texts"),
-    ({"param_whitelist": ["(", "a"]}, "is no regular expression"), ({"max_update_ms": 0}, "out of range")])
+@pytest.mark.parametrize(
+    "values, said",
+    [
+        ({"port": "x"}, "~port should be a whole number"),
+        ({"port": 70000}, "~port is 70000: out of range"),
+        ({"port": True}, "~port"),
+        ({"address": 5}, "~address should be a text"),
+        ({"topic_whitelist": [1]}, "~topic_whitelist should be a list of texts"),
+        ({"param_whitelist": ["(", "a"]}, "is no regular expression"),
+        ({"max_update_ms": 0}, "out of range"),
+    ],
+)
 def test_what_cannot_be_used_is_one_line(values, said):
     with pytest.raises(SettingError) as error:
         read(values)
@@ -35,8 +44,18 @@ def test_patterns_are_of_whole_names():
     assert allowed("/a/b", ("/a/.*",)) and not allowed("/x/a/b", ("/a/.*",)) and not allowed("/ab", ("/a",))
 
 
-@pytest.mark.parametrize("uri", ["package://foxglove_bridge/package.xml", "package://foxglove_bridge/../x/a.stl", "file:///etc/passwd",
-                                 "package://foxglove_bridge/%2e%2e/%2e%2e/x.stl", "package://no_such/a.stl", "package:///a.stl", ""])
+@pytest.mark.parametrize(
+    "uri",
+    [
+        "package://foxglove_bridge/package.xml",
+        "package://foxglove_bridge/../x/a.stl",
+        "file:///etc/passwd",
+        "package://foxglove_bridge/%2e%2e/%2e%2e/x.stl",
+        "package://no_such/a.stl",
+        "package:///a.stl",
+        "",
+    ],
+)
 def test_no_file_but_meshes_of_packages(uri):
     assert assets.fetch(uri, (MESHES,)) is None
 

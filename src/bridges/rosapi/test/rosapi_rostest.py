@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """What rosapi's services answer, and that they are upstream's by name and definition."""
+
 import json
 import unittest
 from concurrent.futures import ThreadPoolExecutor
@@ -13,19 +14,33 @@ from std_srvs.srv import SetBool
 from test_support.waiting import wait_until
 
 #: of rosbridge_suite 0.11.17's definitions
-SUMS = {"DeleteParam": "c1f3d28f1b044c871e6eff2e9fc3c667", "GetActionServers": "46807ba271844ac5ba4730a47556b236",
-        "GetParam": "e36fd90759dbac1c5159140a7fa8c644", "GetParamNames": "dc7ae3609524b18034e49294a4ce670e",
-        "GetTime": "556a4fb76023a469987922359d08a844", "HasParam": "ed3df286bd6dff9b961770f577454ea9",
-        "MessageDetails": "f9c88144f6f6bd888dd99d4e0411905d", "NodeDetails": "e1d0ced5ab8d5edb5fc09c98eb1d46f6",
-        "Nodes": "3d07bfda1268b4f76b16b7ba8a82665d", "Publishers": "cb37f09944e7ba1fc08ee38f7a94291d",
-        "SearchParam": "dfadc39f113c1cc6d7759508d8461d5a", "ServiceHost": "a1b60006f8ee69637c856c94dd192f5a",
-        "ServiceNode": "bd2a0a45fd7a73a86c8d6051d5a6db8a", "ServiceProviders": "f30b41d5e347454ae5483ee95eef5cc6",
-        "ServiceRequestDetails": "f9c88144f6f6bd888dd99d4e0411905d", "ServiceResponseDetails": "f9c88144f6f6bd888dd99d4e0411905d",
-        "ServiceType": "0e24a2dcdf70e483afc092a35a1f15f7", "Services": "e44a7e7bcb900acadbcc28b132378f0c",
-        "ServicesForType": "93e9fe8ae5a9136008e260fe510bd2b0", "SetParam": "bc6ccc4a57f61779c8eaae61e9f422e0",
-        "Subscribers": "cb387b68f5b29bc1456398ee8476b973", "TopicType": "0d30b3f53a0fd5036523a7141e524ddf",
-        "Topics": "d966d98fc333fa1f3135af765eac1ba8", "TopicsAndRawTypes": "e1432466c8f64316723276ba07c59d12",
-        "TopicsForType": "56f77ff6da756dd27c1ed16ec721072a"}
+SUMS = {
+    "DeleteParam": "c1f3d28f1b044c871e6eff2e9fc3c667",
+    "GetActionServers": "46807ba271844ac5ba4730a47556b236",
+    "GetParam": "e36fd90759dbac1c5159140a7fa8c644",
+    "GetParamNames": "dc7ae3609524b18034e49294a4ce670e",
+    "GetTime": "556a4fb76023a469987922359d08a844",
+    "HasParam": "ed3df286bd6dff9b961770f577454ea9",
+    "MessageDetails": "f9c88144f6f6bd888dd99d4e0411905d",
+    "NodeDetails": "e1d0ced5ab8d5edb5fc09c98eb1d46f6",
+    "Nodes": "3d07bfda1268b4f76b16b7ba8a82665d",
+    "Publishers": "cb37f09944e7ba1fc08ee38f7a94291d",
+    "SearchParam": "dfadc39f113c1cc6d7759508d8461d5a",
+    "ServiceHost": "a1b60006f8ee69637c856c94dd192f5a",
+    "ServiceNode": "bd2a0a45fd7a73a86c8d6051d5a6db8a",
+    "ServiceProviders": "f30b41d5e347454ae5483ee95eef5cc6",
+    "ServiceRequestDetails": "f9c88144f6f6bd888dd99d4e0411905d",
+    "ServiceResponseDetails": "f9c88144f6f6bd888dd99d4e0411905d",
+    "ServiceType": "0e24a2dcdf70e483afc092a35a1f15f7",
+    "Services": "e44a7e7bcb900acadbcc28b132378f0c",
+    "ServicesForType": "93e9fe8ae5a9136008e260fe510bd2b0",
+    "SetParam": "bc6ccc4a57f61779c8eaae61e9f422e0",
+    "Subscribers": "cb387b68f5b29bc1456398ee8476b973",
+    "TopicType": "0d30b3f53a0fd5036523a7141e524ddf",
+    "Topics": "d966d98fc333fa1f3135af765eac1ba8",
+    "TopicsAndRawTypes": "e1432466c8f64316723276ba07c59d12",
+    "TopicsForType": "56f77ff6da756dd27c1ed16ec721072a",
+}
 
 
 def ask(which, type_name, **fields):
@@ -80,21 +95,41 @@ class RosApi(unittest.TestCase):
 
     def test_types(self):
         first, *rest = ask("message_details", "MessageDetails", type="geometry_msgs/PoseWithCovarianceStamped").typedefs
-        self.assertEqual((first.type, first.fieldnames, first.fieldtypes, list(first.fieldarraylen), first.examples),
-                         ("geometry_msgs/PoseWithCovarianceStamped", ["header", "pose"],
-                          ["std_msgs/Header", "geometry_msgs/PoseWithCovariance"], [-1, -1], ["{}", "{}"]))
+        self.assertEqual(
+            (first.type, first.fieldnames, first.fieldtypes, list(first.fieldarraylen), first.examples),
+            (
+                "geometry_msgs/PoseWithCovarianceStamped",
+                ["header", "pose"],
+                ["std_msgs/Header", "geometry_msgs/PoseWithCovariance"],
+                [-1, -1],
+                ["{}", "{}"],
+            ),
+        )
         types = {part.type: part for part in rest}
-        self.assertEqual(set(types), {"std_msgs/Header", "time", "geometry_msgs/PoseWithCovariance", "geometry_msgs/Pose",
-                                      "geometry_msgs/Point", "geometry_msgs/Quaternion"})
-        self.assertEqual(dict(zip(types["geometry_msgs/PoseWithCovariance"].fieldnames,
-                                  types["geometry_msgs/PoseWithCovariance"].fieldarraylen)), {"pose": -1, "covariance": 36})
+        self.assertEqual(
+            set(types),
+            {
+                "std_msgs/Header",
+                "time",
+                "geometry_msgs/PoseWithCovariance",
+                "geometry_msgs/Pose",
+                "geometry_msgs/Point",
+                "geometry_msgs/Quaternion",
+            },
+        )
+        self.assertEqual(
+            dict(zip(types["geometry_msgs/PoseWithCovariance"].fieldnames, types["geometry_msgs/PoseWithCovariance"].fieldarraylen)),
+            {"pose": -1, "covariance": 36},
+        )
         status = ask("message_details", "MessageDetails", type="actionlib_msgs/GoalStatus").typedefs[0]
         constants = dict(zip(status.constnames, status.constvalues))
         self.assertEqual((constants["PENDING"], constants["LOST"], len(constants)), ("0", "9", 10))
-        request, = ask("service_request_details", "ServiceRequestDetails", type="std_srvs/SetBool").typedefs
-        self.assertEqual((request.type, request.fieldnames, request.fieldtypes, request.examples),
-                         ("std_srvs/SetBoolRequest", ["data"], ["bool"], ["False"]))
-        response, = ask("service_response_details", "ServiceResponseDetails", type="std_srvs/SetBool").typedefs
+        (request,) = ask("service_request_details", "ServiceRequestDetails", type="std_srvs/SetBool").typedefs
+        self.assertEqual(
+            (request.type, request.fieldnames, request.fieldtypes, request.examples),
+            ("std_srvs/SetBoolRequest", ["data"], ["bool"], ["False"]),
+        )
+        (response,) = ask("service_response_details", "ServiceResponseDetails", type="std_srvs/SetBool").typedefs
         self.assertEqual(response.fieldnames, ["success", "message"])
         self.assertEqual(ask("message_details", "MessageDetails", type="float64").typedefs, [])
         with self.assertRaisesRegex(rospy.ServiceException, "no package here defines the message no_such/Type"):
@@ -103,8 +138,9 @@ class RosApi(unittest.TestCase):
     def test_parameters(self):
         self.assertEqual(ask("get_param", "GetParam", name="/bridged/number", default="").value, "3")
         self.assertEqual(json.loads(ask("get_param", "GetParam", name="/bridged/list", default="").value), [1.5, None, {"deep": None}])
-        self.assertEqual([ask("get_param", "GetParam", name="/bridged/none", default=word).value for word in ("", "5", "word")],
-                         ["null", "5", '"word"'])
+        self.assertEqual(
+            [ask("get_param", "GetParam", name="/bridged/none", default=word).value for word in ("", "5", "word")], ["null", "5", '"word"']
+        )
         ask("set_param", "SetParam", name="/made", value='{"a": [1, true, "x"]}')
         self.assertEqual(rospy.get_param("/made"), {"a": [1, True, "x"]})
         self.assertTrue(ask("has_param", "HasParam", name="/made").exists)
@@ -115,9 +151,11 @@ class RosApi(unittest.TestCase):
         names = ask("get_param_names", "GetParamNames").names
         self.assertIn("/bridged/number", names)
         self.assertFalse([name for name in names if not name.startswith("/bridged")])
-        for name, type_name, fields, said in (("get_param", "GetParam", {"default": ""}, "params_glob"),
-                                              ("set_param", "SetParam", {"value": "1"}, "params_glob"),
-                                              ("delete_param", "DeleteParam", {}, "params_glob")):
+        for name, type_name, fields, said in (
+            ("get_param", "GetParam", {"default": ""}, "params_glob"),
+            ("set_param", "SetParam", {"value": "1"}, "params_glob"),
+            ("delete_param", "DeleteParam", {}, "params_glob"),
+        ):
             with self.assertRaisesRegex(rospy.ServiceException, said):
                 ask(name, type_name, name="/secret", **fields)
         self.assertFalse(ask("has_param", "HasParam", name="/secret").exists)
@@ -127,8 +165,14 @@ class RosApi(unittest.TestCase):
 
     def test_many_at_the_same_time(self):
         """As a page asks when it begins."""
-        calls = [("topics", "Topics"), ("services", "Services"), ("nodes", "Nodes"), ("action_servers", "GetActionServers"),
-                 ("get_param_names", "GetParamNames"), ("topics_and_raw_types", "TopicsAndRawTypes")] * 10
+        calls = [
+            ("topics", "Topics"),
+            ("services", "Services"),
+            ("nodes", "Nodes"),
+            ("action_servers", "GetActionServers"),
+            ("get_param_names", "GetParamNames"),
+            ("topics_and_raw_types", "TopicsAndRawTypes"),
+        ] * 10
         with ThreadPoolExecutor(len(calls)) as pool:
             for answer in [pool.submit(ask, *call) for call in calls]:
                 answer.result()

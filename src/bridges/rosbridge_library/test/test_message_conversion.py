@@ -1,4 +1,5 @@
 """Messages as JSON and CBOR, and back, by what upstream's own tests ask and by RFC 8746."""
+
 import base64
 import io
 import json
@@ -11,12 +12,26 @@ import pytest
 from rosbridge_library.internal import pngcompression, ros_loader
 from rosbridge_library.internal.cbor_conversion import extract_cbor_values
 from rosbridge_library.internal.exceptions import RosbridgeError
-from rosbridge_library.internal.message_conversion import (FieldTypeMismatchException, InvalidMessageException,
-                                                           NonexistentFieldException, extract_values, populate_instance)
+from rosbridge_library.internal.message_conversion import (
+    FieldTypeMismatchException,
+    InvalidMessageException,
+    NonexistentFieldException,
+    extract_values,
+    populate_instance,
+)
 
-BITS = [("Int8", -2**7, 2**7 - 1), ("Byte", -2**7, 2**7 - 1), ("Int16", -2**15, 2**15 - 1), ("Int32", -2**31, 2**31 - 1),
-        ("Int64", -2**63, 2**63 - 1), ("UInt8", 0, 2**8 - 1), ("Char", 0, 2**8 - 1), ("UInt16", 0, 2**16 - 1),
-        ("UInt32", 0, 2**32 - 1), ("UInt64", 0, 2**64 - 1)]
+BITS = [
+    ("Int8", -(2**7), 2**7 - 1),
+    ("Byte", -(2**7), 2**7 - 1),
+    ("Int16", -(2**15), 2**15 - 1),
+    ("Int32", -(2**31), 2**31 - 1),
+    ("Int64", -(2**63), 2**63 - 1),
+    ("UInt8", 0, 2**8 - 1),
+    ("Char", 0, 2**8 - 1),
+    ("UInt16", 0, 2**16 - 1),
+    ("UInt32", 0, 2**32 - 1),
+    ("UInt64", 0, 2**64 - 1),
+]
 
 
 def through(type_name, values):
@@ -37,24 +52,40 @@ def test_integers_to_their_bounds_and_not_beyond(name, least, most):
             through(f"std_msgs/{name}", {"data": value})
 
 
-@pytest.mark.parametrize("type_name, values", [
-    ("std_msgs/Bool", {"data": True}), ("std_msgs/String", {"data": "grüße"}), ("std_msgs/Float64", {"data": 0.1}),
-    ("std_msgs/Float64", {"data": 5}), ("std_msgs/Empty", {}),
-    ("std_msgs/Time", {"data": {"secs": 3, "nsecs": 5}}), ("std_msgs/Duration", {"data": {"secs": -3, "nsecs": 5}}),
-    ("rosbridge_library/TestTimeArray", {"times": [{"secs": n, "nsecs": 2 * n} for n in range(4)]}),
-    ("rosbridge_library/TestDurationArray", {"durations": [{"secs": n, "nsecs": 2 * n} for n in range(4)]}),
-    ("rosbridge_library/TestHeaderArray", {"header": [{"seq": 1, "stamp": {"secs": 12, "nsecs": 34}, "frame_id": "a"}] * 2}),
-    ("geometry_msgs/PoseWithCovariance", {"pose": {"position": {"x": 1.0, "y": 2.0, "z": 3.0},
-                                                   "orientation": {"x": 0.0, "y": 0.0, "z": 0.0, "w": 1.0}},
-                                          "covariance": [n / 4 for n in range(36)]}),
-    ("std_msgs/Float32MultiArray", {"layout": {"dim": [{"label": "x", "size": 2, "stride": 2}], "data_offset": 0}, "data": [0.5, -1.0]}),
-    ("std_msgs/ColorRGBA", {"r": 0.5, "g": 0.0, "b": 0.0, "a": 1.0})])
+@pytest.mark.parametrize(
+    "type_name, values",
+    [
+        ("std_msgs/Bool", {"data": True}),
+        ("std_msgs/String", {"data": "grüße"}),
+        ("std_msgs/Float64", {"data": 0.1}),
+        ("std_msgs/Float64", {"data": 5}),
+        ("std_msgs/Empty", {}),
+        ("std_msgs/Time", {"data": {"secs": 3, "nsecs": 5}}),
+        ("std_msgs/Duration", {"data": {"secs": -3, "nsecs": 5}}),
+        ("rosbridge_library/TestTimeArray", {"times": [{"secs": n, "nsecs": 2 * n} for n in range(4)]}),
+        ("rosbridge_library/TestDurationArray", {"durations": [{"secs": n, "nsecs": 2 * n} for n in range(4)]}),
+        ("rosbridge_library/TestHeaderArray", {"header": [{"seq": 1, "stamp": {"secs": 12, "nsecs": 34}, "frame_id": "a"}] * 2}),
+        (
+            "geometry_msgs/PoseWithCovariance",
+            {
+                "pose": {"position": {"x": 1.0, "y": 2.0, "z": 3.0}, "orientation": {"x": 0.0, "y": 0.0, "z": 0.0, "w": 1.0}},
+                "covariance": [n / 4 for n in range(36)],
+            },
+        ),
+        (
+            "std_msgs/Float32MultiArray",
+            {"layout": {"dim": [{"label": "x", "size": 2, "stride": 2}], "data_offset": 0}, "data": [0.5, -1.0]},
+        ),
+        ("std_msgs/ColorRGBA", {"r": 0.5, "g": 0.0, "b": 0.0, "a": 1.0}),
+    ],
+)
 def test_what_is_said_arrives(type_name, values):
     assert through(type_name, values) == values
 
 
-@pytest.mark.parametrize("type_name", ["rosbridge_library/TestUInt8", "rosbridge_library/TestChar",
-                                       "rosbridge_library/TestUInt8FixedSizeArray16"])
+@pytest.mark.parametrize(
+    "type_name", ["rosbridge_library/TestUInt8", "rosbridge_library/TestChar", "rosbridge_library/TestUInt8FixedSizeArray16"]
+)
 def test_bytes_are_base64_and_taken_as_lists_too(type_name):
     data = list(range(240, 256))
     text = base64.standard_b64encode(bytes(data)).decode()
@@ -77,20 +108,28 @@ def test_numbers_that_json_has_not_are_null():
     assert extract_values(many)["data"] == [1.0, None, None]
 
 
-@pytest.mark.parametrize("type_name, values, said", [
-    ("geometry_msgs/Twist", {"linear": {"x": "fast"}}, "geometry_msgs/Twist.linear.x should be float64, not a text"),
-    ("geometry_msgs/Twist", {"linear": {"x": None}}, "linear.x should be float64, not null"),
-    ("geometry_msgs/Twist", {"linear": {"x": True}}, "linear.x should be float64, not true or false"),
-    ("geometry_msgs/Twist", {"linear": 5}, r"linear should be geometry_msgs/Vector3 \(an object\), not a whole number"),
-    ("geometry_msgs/Twist", {"linear": {"speed": 1}}, "geometry_msgs/Twist has no field linear.speed; there are x, y, z"),
-    ("std_msgs/Empty", {"data": 1}, "std_msgs/Empty has no field data; it has none"),
-    ("std_msgs/Int32", {"data": 1.0}, "data should be int32, not a number"),
-    ("std_msgs/Int32", {"data": True}, "data should be int32"), ("std_msgs/Bool", {"data": 1}, "data should be bool"),
-    ("std_msgs/String", {"data": 1}, "data should be string"), ("std_msgs/Time", {"data": 5}, "an object with secs and nsecs"),
-    ("std_msgs/Time", {"data": {"secs": -1}}, "data.secs is -1"), ("std_msgs/Duration", {"data": "now"}, "an object with secs"),
-    ("geometry_msgs/PoseWithCovariance", {"covariance": [1.0]}, r"covariance has 1 elements, and a float64\[36\] 36"),
-    ("geometry_msgs/PoseArray", {"poses": {}}, r"poses should be list \(geometry_msgs/Pose\[\]\), not an object"),
-    ("geometry_msgs/PoseArray", {"poses": [{"x": 1}]}, "no field poses.x"), ("std_msgs/String", [], "should be std_msgs/String")])
+@pytest.mark.parametrize(
+    "type_name, values, said",
+    [
+        ("geometry_msgs/Twist", {"linear": {"x": "fast"}}, "geometry_msgs/Twist.linear.x should be float64, not a text"),
+        ("geometry_msgs/Twist", {"linear": {"x": None}}, "linear.x should be float64, not null"),
+        ("geometry_msgs/Twist", {"linear": {"x": True}}, "linear.x should be float64, not true or false"),
+        ("geometry_msgs/Twist", {"linear": 5}, r"linear should be geometry_msgs/Vector3 \(an object\), not a whole number"),
+        ("geometry_msgs/Twist", {"linear": {"speed": 1}}, "geometry_msgs/Twist has no field linear.speed; there are x, y, z"),
+        ("std_msgs/Empty", {"data": 1}, "std_msgs/Empty has no field data; it has none"),
+        ("std_msgs/Int32", {"data": 1.0}, "data should be int32, not a number"),
+        ("std_msgs/Int32", {"data": True}, "data should be int32"),
+        ("std_msgs/Bool", {"data": 1}, "data should be bool"),
+        ("std_msgs/String", {"data": 1}, "data should be string"),
+        ("std_msgs/Time", {"data": 5}, "an object with secs and nsecs"),
+        ("std_msgs/Time", {"data": {"secs": -1}}, "data.secs is -1"),
+        ("std_msgs/Duration", {"data": "now"}, "an object with secs"),
+        ("geometry_msgs/PoseWithCovariance", {"covariance": [1.0]}, r"covariance has 1 elements, and a float64\[36\] 36"),
+        ("geometry_msgs/PoseArray", {"poses": {}}, r"poses should be list \(geometry_msgs/Pose\[\]\), not an object"),
+        ("geometry_msgs/PoseArray", {"poses": [{"x": 1}]}, "no field poses.x"),
+        ("std_msgs/String", [], "should be std_msgs/String"),
+    ],
+)
 def test_what_is_wrong_is_said_with_its_place(type_name, values, said):
     with pytest.raises(RosbridgeError, match=said) as error:
         through(type_name, values)
@@ -106,9 +145,17 @@ def test_upstreams_names_of_errors():
         extract_values("text")
 
 
-@pytest.mark.parametrize("name, said", [("String", "is no type"), ("a/b/c", "is no type"), ("", "is no type"), (5, "is no type"),
-                                        ("no_such_package/Thing", "no package here defines"),
-                                        ("std_msgs/Spoon", "no package here defines")])
+@pytest.mark.parametrize(
+    "name, said",
+    [
+        ("String", "is no type"),
+        ("a/b/c", "is no type"),
+        ("", "is no type"),
+        (5, "is no type"),
+        ("no_such_package/Thing", "no package here defines"),
+        ("std_msgs/Spoon", "no package here defines"),
+    ],
+)
 def test_types_that_are_not_here(name, said):
     for loader in (ros_loader.get_message_class, ros_loader.get_service_class, ros_loader.get_service_request_instance):
         with pytest.raises(RosbridgeError, match=said):
@@ -123,8 +170,17 @@ def test_types_are_forgiven_their_slashes():
 # ---------------------------------------------------------------------------------------------- CBOR
 
 #: tags of RFC 8746, table 1 and 2, little-endian; letters of struct
-RFC = {"UInt16": (69, "H"), "UInt32": (70, "I"), "UInt64": (71, "Q"), "Int8": (72, "b"), "Int16": (77, "h"), "Int32": (78, "i"),
-       "Int64": (79, "q"), "Float32": (85, "f"), "Float64": (86, "d")}
+RFC = {
+    "UInt16": (69, "H"),
+    "UInt32": (70, "I"),
+    "UInt64": (71, "Q"),
+    "Int8": (72, "b"),
+    "Int16": (77, "h"),
+    "Int32": (78, "i"),
+    "Int64": (79, "q"),
+    "Float32": (85, "f"),
+    "Float64": (86, "d"),
+}
 
 
 @pytest.mark.parametrize("name", sorted(RFC))

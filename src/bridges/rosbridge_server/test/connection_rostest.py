@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """What one client is told and what it cannot do to others."""
+
 import json
 import os
 import socket
@@ -22,13 +23,16 @@ class Connection(Case):
     def test_fragments_of_a_client_in_any_order(self):
         _, got = self.listener("/cut", String)
         client = self.client()
-        text = json.dumps({"op": "publish", "topic": "/cut", "msg": {"data": "a{\"op\": 1}" * 50}})
-        parts = [text[place:place + 99] for place in range(0, len(text), 99)]
+        text = json.dumps({"op": "publish", "topic": "/cut", "msg": {"data": 'a{"op": 1}' * 50}})
+        parts = [text[place : place + 99] for place in range(0, len(text), 99)]
         for place in reversed(range(len(parts))):
             client.tell("fragment", id="m", num=place, total=len(parts), data=parts[place])
-        wait_until(lambda: [m.data for m in got] == ["a{\"op\": 1}" * 50], "the message")
-        for fields, said in (({"num": 0, "total": 2}, "a field 'data' is missing"), ({"num": 2, "total": 2, "data": ""}, "from 0 to 1"),
-                             ({"num": 0, "total": "x", "data": ""}, "'total' should be a whole number")):
+        wait_until(lambda: [m.data for m in got] == ['a{"op": 1}' * 50], "the message")
+        for fields, said in (
+            ({"num": 0, "total": 2}, "a field 'data' is missing"),
+            ({"num": 2, "total": 2, "data": ""}, "from 0 to 1"),
+            ({"num": 0, "total": "x", "data": ""}, "'total' should be a whole number"),
+        ):
             client.tell("fragment", id="bad", **fields)
             client.complaint("fragment: ", said)
 
@@ -60,15 +64,24 @@ class Connection(Case):
 
     def test_bad_words_leave_it_running(self):
         client = self.client()
-        for frame, said in (("no json", "is no JSON"), (b"\xff\xfe", "is no JSON"), ("[" * 100000, "is no JSON"), ("[]", "field 'op'"),
-                            ("5", "field 'op'"), ("{}", "field 'op'"),
-                            ('{"op": 5}', "no operation 5"), ('{"op": "fly"}', "no operation 'fly'"),
-                            ('{"op": "png", "data": "AAAA"}', "no picture"), ('{"op": "publish"}', "a field 'topic' is missing")):
+        for frame, said in (
+            ("no json", "is no JSON"),
+            (b"\xff\xfe", "is no JSON"),
+            ("[" * 100000, "is no JSON"),
+            ("[]", "field 'op'"),
+            ("5", "field 'op'"),
+            ("{}", "field 'op'"),
+            ('{"op": 5}', "no operation 5"),
+            ('{"op": "fly"}', "no operation 'fly'"),
+            ('{"op": "png", "data": "AAAA"}', "no picture"),
+            ('{"op": "publish"}', "a field 'topic' is missing"),
+        ):
             client.told.clear()
             client.socket.send(frame)
             client.complaint(said)
-        client.socket.send('{"op": "set_level", "level": "info"} '
-                           '{"op": "advertise_service", "service": "/two", "type": "std_srvs/Trigger"}')
+        client.socket.send(
+            '{"op": "set_level", "level": "info"} {"op": "advertise_service", "service": "/two", "type": "std_srvs/Trigger"}'
+        )
         client.complaint("advertised service /two")
 
     def test_a_client_that_leaves_takes_all_with_it(self):

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Who may connect, and what is open to them: patterns, codes, tokens, TLS, addresses that are taken; and BSON."""
+
 import hashlib
 import os
 import signal
@@ -41,8 +42,9 @@ class Doors(unittest.TestCase):
 
     def server(self, *words):
         """A server of its own; its process, with what it prints in ``lines``."""
-        process = subprocess.Popen(["rosrun", "rosbridge_server", "rosbridge_websocket", *words], stdout=subprocess.PIPE,
-                                   stderr=subprocess.STDOUT, text=True)
+        process = subprocess.Popen(
+            ["rosrun", "rosbridge_server", "rosbridge_websocket", *words], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
+        )
         self.addCleanup(process.kill)
         return process
 
@@ -63,10 +65,12 @@ class Doors(unittest.TestCase):
         wait_until(lambda: connected(publisher))
         publisher.publish(1.0)
         client.wait(lambda: client.heard("/open/numbers"), "the number")
-        for op, fields, said in (("subscribe", {"topic": "/closed"}, "topics_glob"),
-                                 ("advertise", {"topic": "/closed", "type": "std_msgs/String"}, "topics_glob"),
-                                 ("publish", {"topic": "/closed", "msg": {}}, "topics_glob"),
-                                 ("advertise_service", {"service": "/closed", "type": "std_srvs/Trigger"}, "services_glob")):
+        for op, fields, said in (
+            ("subscribe", {"topic": "/closed"}, "topics_glob"),
+            ("advertise", {"topic": "/closed", "type": "std_msgs/String"}, "topics_glob"),
+            ("publish", {"topic": "/closed", "msg": {}}, "topics_glob"),
+            ("advertise_service", {"service": "/closed", "type": "std_srvs/Trigger"}, "services_glob"),
+        ):
             client.tell(op, **fields)
             client.complaint(op, f"~{said} does not allow /closed")
         self.assertFalse(hidden.get_num_connections())
@@ -87,8 +91,14 @@ class Doors(unittest.TestCase):
         client.wait(lambda: client.heard("/picture"), "the picture")
         self.assertEqual((client.heard("/picture")[0]["data"], client.heard("/picture")[0]["width"]), (bytes(range(100)), 5))
         publisher.publish(Image(width=6, data=bytes(2000)))  # longer than max_message_size
-        parts = client.wait(lambda: len(client.ops("fragment")) > 1 and len(client.ops("fragment")) == client.ops("fragment")[0]["total"]
-                            and client.ops("fragment"), "the fragments")
+        parts = client.wait(
+            lambda: (
+                len(client.ops("fragment")) > 1
+                and len(client.ops("fragment")) == client.ops("fragment")[0]["total"]
+                and client.ops("fragment")
+            ),
+            "the fragments",
+        )
         self.assertEqual(bson.decode(b"".join(part["data"] for part in parts))["msg"]["data"], bytes(2000))
         got = []
         subscriber = rospy.Subscriber("/sent_picture", Image, got.append)
@@ -98,7 +108,7 @@ class Doors(unittest.TestCase):
         wait_until(lambda: [m.data for m in got] == [bytes(range(50))], "the picture")
         whole = bson.encode({"op": "publish", "topic": "/sent_picture", "msg": {"height": 9}})
         for place in (1, 0):
-            client.tell("fragment", id="x", num=place, total=2, data=whole[place * 20:(place + 1) * 20 if place == 0 else None])
+            client.tell("fragment", id="x", num=place, total=2, data=whole[place * 20 : (place + 1) * 20 if place == 0 else None])
         wait_until(lambda: got[-1].height == 9, "the picture in two parts")
         client.socket.send(b"no bson")
         client.complaint("are no BSON")
@@ -108,10 +118,14 @@ class Doors(unittest.TestCase):
     def test_codes(self):
         rospy.wait_for_service("/coded/authenticate", 30)
         now = int(time.time())
-        for fields, said in ((mac(now, secret="wrong wrong wron"), "no valid"),
-                             (mac(now - 30), "no valid"), (mac(now, end=now - 1), "no valid"),
-                             ({**mac(now), "level": "more"}, "no valid"), ({"mac": ""}, "a field 'client' is missing"),
-                             ({**mac(now), "t": "x"}, "auth: ")):
+        for fields, said in (
+            (mac(now, secret="wrong wrong wron"), "no valid"),
+            (mac(now - 30), "no valid"),
+            (mac(now, end=now - 1), "no valid"),
+            ({**mac(now), "level": "more"}, "no valid"),
+            ({"mac": ""}, "a field 'client' is missing"),
+            ({**mac(now), "t": "x"}, "auth: "),
+        ):
             client = Client(self, CODED)
             client.tell("auth", **fields)
             self.assertIn(said, self.closed(client))
@@ -152,10 +166,29 @@ class Doors(unittest.TestCase):
 
     def test_tls(self):
         import ssl
+
         port = free_port()
         with tempfile.TemporaryDirectory() as folder:
-            subprocess.run(["openssl", "req", "-x509", "-newkey", "rsa:2048", "-nodes", "-subj", "/CN=localhost", "-days", "2",
-                            "-keyout", f"{folder}/key", "-out", f"{folder}/cert"], check=True, capture_output=True)
+            subprocess.run(
+                [
+                    "openssl",
+                    "req",
+                    "-x509",
+                    "-newkey",
+                    "rsa:2048",
+                    "-nodes",
+                    "-subj",
+                    "/CN=localhost",
+                    "-days",
+                    "2",
+                    "-keyout",
+                    f"{folder}/key",
+                    "-out",
+                    f"{folder}/cert",
+                ],
+                check=True,
+                capture_output=True,
+            )
             self.server("--port", str(port), "--certfile", f"{folder}/cert", "--keyfile", f"{folder}/key", "__name:=with_tls")
             context = ssl.create_default_context(cafile=f"{folder}/cert")
             self.assertTrue(Client(self, port, ssl=context, server_hostname="localhost").call("/rosapi/get_time")["result"])
@@ -183,12 +216,14 @@ class Doors(unittest.TestCase):
         socket.create_connection(("127.0.0.2", port), 5).close()
 
     def test_what_cannot_be_used_is_one_line(self):
-        for words, said in ((["--port", "ninety"], "port should be a whole number, not 'ninety'"),
-                            (["--port", "99999"], "out of range"),
-                            (["--certfile", "/no/such", "--keyfile", "/no/such"], "No such file"),
-                            (["--certfile", "x"], "give both, or none"),
-                            (["--token_file", "/no/such"], "token_file: /no/such cannot be read"),
-                            (["_topics_glob:=5"], "list of patterns")):
+        for words, said in (
+            (["--port", "ninety"], "port should be a whole number, not 'ninety'"),
+            (["--port", "99999"], "out of range"),
+            (["--certfile", "/no/such", "--keyfile", "/no/such"], "No such file"),
+            (["--certfile", "x"], "give both, or none"),
+            (["--token_file", "/no/such"], "token_file: /no/such cannot be read"),
+            (["_topics_glob:=5"], "list of patterns"),
+        ):
             process = self.server(*words, "__name:=wrong")
             out, _ = process.communicate(timeout=60)
             self.assertEqual(process.returncode, 1, out)

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """A page with roslibjs in Debian's Chromium, as courses write them. The library comes from npm, where there is one."""
+
 import base64
 import hashlib
 import os

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Rosbridge's protocol, version 2, through a websocket: what upstream's own tests and its specification ask."""
+
 import base64
 import io
 import json
@@ -49,16 +50,22 @@ class Publishing(Case):
     def test_what_cannot_be_published(self):
         self.listener("/strings", String)
         client = self.client()
-        for fields, said in (({"type": "std_msgs/Float64"}, "/strings has messages of the type std_msgs/String, not std_msgs/Float64"),
-                             ({"type": "no_such/Type"}, "no package here defines the message no_such/Type"),
-                             ({"type": "std_msgs"}, "'std_msgs' is no type"), ({}, "a field 'type' is missing"),
-                             ({"type": 5}, "field 'type' should be a text, not 5"),
-                             ({"type": "std_msgs/String", "topic": None}, "field 'topic' should be a text"),
-                             ({"type": "std_msgs/String", "latch": "yes"}, "field 'latch' should be true or false")):
+        for fields, said in (
+            ({"type": "std_msgs/Float64"}, "/strings has messages of the type std_msgs/String, not std_msgs/Float64"),
+            ({"type": "no_such/Type"}, "no package here defines the message no_such/Type"),
+            ({"type": "std_msgs"}, "'std_msgs' is no type"),
+            ({}, "a field 'type' is missing"),
+            ({"type": 5}, "field 'type' should be a text, not 5"),
+            ({"type": "std_msgs/String", "topic": None}, "field 'topic' should be a text"),
+            ({"type": "std_msgs/String", "latch": "yes"}, "field 'latch' should be true or false"),
+        ):
             client.tell("advertise", **{"topic": "/strings", **fields})
             client.complaint("advertise: ", said)
-        for msg, said in (({"data": 5}, "std_msgs/String.data should be string, not a whole number (5)"),
-                          ({"text": ""}, "std_msgs/String has no field text; there is data"), ([], "std_msgs/String should be")):
+        for msg, said in (
+            ({"data": 5}, "std_msgs/String.data should be string, not a whole number (5)"),
+            ({"text": ""}, "std_msgs/String has no field text; there is data"),
+            ([], "std_msgs/String should be"),
+        ):
             client.tell("publish", topic="/strings", msg=msg)
             client.complaint("publish: ", said)
 
@@ -140,11 +147,16 @@ class Subscribing(Case):
     def test_what_cannot_be_subscribed(self):
         self.publisher("/typed", String)
         client = self.client()
-        for fields, said in (({"topic": "/not_there"}, "nobody publishes or reads /not_there"),
-                             ({"type": "std_msgs/Int32"}, "/typed has messages of the type std_msgs/String, not std_msgs/Int32"),
-                             ({"type": "no_such/Type"}, "no package here defines"), ({"compression": "zip"}, "no compression 'zip'"),
-                             ({"throttle_rate": -1}, "throttle_rate is -1"), ({"queue_length": "x"}, "'queue_length' should be a whole"),
-                             ({"fragment_size": -5}, "fragment_size is -5"), ({"topic": 7}, "field 'topic' should be a text, not 7")):
+        for fields, said in (
+            ({"topic": "/not_there"}, "nobody publishes or reads /not_there"),
+            ({"type": "std_msgs/Int32"}, "/typed has messages of the type std_msgs/String, not std_msgs/Int32"),
+            ({"type": "no_such/Type"}, "no package here defines"),
+            ({"compression": "zip"}, "no compression 'zip'"),
+            ({"throttle_rate": -1}, "throttle_rate is -1"),
+            ({"queue_length": "x"}, "'queue_length' should be a whole"),
+            ({"fragment_size": -5}, "fragment_size is -5"),
+            ({"topic": 7}, "field 'topic' should be a text, not 7"),
+        ):
             client.tell("subscribe", **{"topic": "/typed", **fields})
             client.complaint("subscribe: ", said)
 
@@ -156,8 +168,9 @@ class Subscribing(Case):
         publisher.publish(LaserScan(ranges=[1.0, float("inf"), float("nan"), -float("inf")], range_max=float("inf")))
         client.wait(lambda: client.heard("/scan"), "the scan")
         found = client.heard("/scan")[0]
-        self.assertEqual((found["ranges"], found["range_max"], found["header"]["stamp"]), ([1.0, None, None, None], None,
-                                                                                         {"secs": 0, "nsecs": 0}))
+        self.assertEqual(
+            (found["ranges"], found["range_max"], found["header"]["stamp"]), ([1.0, None, None, None], None, {"secs": 0, "nsecs": 0})
+        )
 
     def test_throttled(self):
         """A message at once, and then the first that comes 300 ms later."""
@@ -203,8 +216,9 @@ class Subscribing(Case):
         client.wait(lambda: client.heard("/odom") and client.heard("/image"), "both")
         odom = client.heard("/odom")[0]
         self.assertEqual((odom["child_frame_id"], odom["header"]["stamp"]), ("base", {"secs": 3, "nsecs": 4}))
-        self.assertEqual((odom["pose"]["covariance"].tag, struct.unpack("<36d", odom["pose"]["covariance"].value)),
-                         (86, tuple(n / 8 for n in range(36))))
+        self.assertEqual(
+            (odom["pose"]["covariance"].tag, struct.unpack("<36d", odom["pose"]["covariance"].value)), (86, tuple(n / 8 for n in range(36)))
+        )
         self.assertEqual(client.heard("/image")[0]["data"], bytes(range(200)))
         self.assertTrue(all(isinstance(frame, bytes) for frame in client.frames))
 
@@ -240,12 +254,15 @@ class Subscribing(Case):
         client.tell("subscribe", topic="/long", fragment_size=100)
         wait_until(lambda: connected(publisher))
         publisher.publish("ü" * 300)
-        parts = client.wait(lambda: len(client.ops("fragment")) == (client.ops("fragment") or [{"total": 1}])[0]["total"] and
-                            client.ops("fragment"), "all fragments")
+        parts = client.wait(
+            lambda: len(client.ops("fragment")) == (client.ops("fragment") or [{"total": 1}])[0]["total"] and client.ops("fragment"),
+            "all fragments",
+        )
         self.assertEqual([part["num"] for part in parts], list(range(parts[0]["total"])))
         self.assertTrue(all(len(part["data"]) <= 100 and part["id"] == parts[0]["id"] for part in parts))
-        self.assertEqual(json.loads("".join(part["data"] for part in parts)),
-                         {"op": "publish", "topic": "/long", "msg": {"data": "ü" * 300}})
+        self.assertEqual(
+            json.loads("".join(part["data"] for part in parts)), {"op": "publish", "topic": "/long", "msg": {"data": "ü" * 300}}
+        )
 
 
 class Calling(Case):
@@ -260,8 +277,9 @@ class Calling(Case):
         client.wait(lambda: client.ops("service_response", id="33", service="/add#33", values={"sum": 2}), "the answer")
 
     def test_nested(self):
-        service = rospy.Service("/nested", TestNestedService,
-                                lambda request: TestNestedServiceResponse(Float64(request.pose.position.x * 2)))
+        service = rospy.Service(
+            "/nested", TestNestedService, lambda request: TestNestedServiceResponse(Float64(request.pose.position.x * 2))
+        )
         self.addCleanup(service.shutdown)
         self.assertEqual(self.client().call("/nested", args={"pose": {"position": {"x": 1.5}}})["values"], {"data": {"data": 3.0}})
 
@@ -281,12 +299,17 @@ class Calling(Case):
     def test_what_fails(self):
         def refuse(request):
             raise rospy.ServiceException("not today")
+
         service = rospy.Service("/refuse", SetBool, refuse)
         self.addCleanup(service.shutdown)
         client = self.client()
-        for name, args, said in (("/no_such", [], "there is no service /no_such"), ("/refuse", [True], "not today"),
-                                 ("/refuse", [1], "data should be bool"), ("/refuse", {"x": 1}, "has no field x; there is data"),
-                                 ("/refuse", [True, 2], "/refuse takes 1 arguments, not 2")):
+        for name, args, said in (
+            ("/no_such", [], "there is no service /no_such"),
+            ("/refuse", [True], "not today"),
+            ("/refuse", [1], "data should be bool"),
+            ("/refuse", {"x": 1}, "has no field x; there is data"),
+            ("/refuse", [True, 2], "/refuse takes 1 arguments, not 2"),
+        ):
             answer = client.call(name, f"{name} {args}", args=args)
             self.assertEqual(answer["result"], False)
             self.assertIn(said, answer["values"])
@@ -319,6 +342,7 @@ class Offering(Case):
                 out.append(rospy.ServiceProxy(name, kind)(*args))
             except rospy.ServiceException as error:
                 out.append(str(error))
+
         before = len(client.ops("call_service"))
         threading.Thread(target=call, daemon=True).start()
         request = client.wait(lambda: client.ops("call_service")[before:], "the request")[0]
@@ -333,9 +357,11 @@ class Offering(Case):
 
     def test_a_page_that_fails_or_answers_wrongly(self):
         client = self.offered("/page_fails")
-        for fields, said in (({"result": False, "values": {"message": "no"}}, "the client says that it failed"),
-                             ({"result": True, "values": {"success": 5}}, "success should be bool"),
-                             ({"values": {"success": True}}, "the response needs a field 'result'")):
+        for fields, said in (
+            ({"result": False, "values": {"message": "no"}}, "the client says that it failed"),
+            ({"result": True, "values": {"success": 5}}, "success should be bool"),
+            ({"values": {"success": True}}, "the response needs a field 'result'"),
+        ):
             request, out = self.ask(client, "/page_fails", SetBool, True)
             client.tell("service_response", service="/page_fails", id=request["id"], **fields)
             wait_until(lambda out=out: out and said in out[0], said)  # noqa: B023
@@ -370,9 +396,11 @@ class Offering(Case):
 
     def test_what_cannot_be_offered(self):
         client = self.client()
-        for fields, said in (({"service": "/x"}, "a field 'type' is missing"),
-                             ({"service": None, "type": "std_srvs/SetBool"}, "should be a text"),
-                             ({"service": "/x", "type": "no_such/Type"}, "no package here defines the service no_such/Type")):
+        for fields, said in (
+            ({"service": "/x"}, "a field 'type' is missing"),
+            ({"service": None, "type": "std_srvs/SetBool"}, "should be a text"),
+            ({"service": "/x", "type": "no_such/Type"}, "no package here defines the service no_such/Type"),
+        ):
             client.tell("advertise_service", **fields)
             client.complaint("advertise_service: ", said)
 

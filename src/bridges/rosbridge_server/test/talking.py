@@ -1,4 +1,5 @@
 """A client of the websocket, for tests; by a library that is not the server's."""
+
 import json
 import time
 import unittest

@@ -1,4 +1,5 @@
 """Parameters and options."""
+
 import pytest
 from rosbridge_library.internal.globs import allowed
 from rosbridge_server.settings import SettingError, Settings
@@ -16,9 +17,18 @@ def test_nothing_said_is_this_machine_alone():
 
 
 def test_as_launch_files_and_command_lines_say_it():
-    settings = read({"port": 1, "max_message_size": "None", "topics_glob": "[/a, '/b*', ]", "websocket_external_port": "None",
-                     "services_glob": "[]", "fragment_timeout": 600, "use_compression": "true"},
-                    ["--port", "9091", "--delay_between_messages", "0.5", "--bson_only_mode", "--params_glob", "None"])
+    settings = read(
+        {
+            "port": 1,
+            "max_message_size": "None",
+            "topics_glob": "[/a, '/b*', ]",
+            "websocket_external_port": "None",
+            "services_glob": "[]",
+            "fragment_timeout": 600,
+            "use_compression": "true",
+        },
+        ["--port", "9091", "--delay_between_messages", "0.5", "--bson_only_mode", "--params_glob", "None"],
+    )
     assert (settings.port, settings.max_message_size, settings.fragment_timeout, settings.delay_between_messages) == (9091, 0, 600.0, 0.5)
     assert settings.bson_only_mode and settings.use_compression
     assert (settings.topics_glob, settings.services_glob, settings.params_glob) == (("/a", "/b*"), (), ())
@@ -26,14 +36,25 @@ def test_as_launch_files_and_command_lines_say_it():
     assert read(words=["--max_message_size", "100"]).max_message_size == 100
 
 
-@pytest.mark.parametrize("values, words, said", [
-    ({"port": "x"}, [], "port should be a whole number"), ({"port": 1.5}, [], "port should be a whole number"),
-    ({"port": -1}, [], "out of range"),
-    ({"port": True}, [], "port should be"), ({"fragment_timeout": "long"}, [], "fragment_timeout should be a number"),
-    ({"fragment_timeout": float("nan")}, [], "should be a number"), ({"retry_startup_delay": 0}, [], "out of range"),
-    ({"authenticate": "perhaps"}, [], "authenticate should be true or false"), ({"authenticate": 1.0}, [], "authenticate should be true"),
-    ({"address": 5}, [], "address should be a text"), ({"topics_glob": [1]}, [], "list of patterns"), ({"keyfile": "x"}, [], "give both"),
-    ({}, ["--port", "1e3"], "port should be a whole number, not '1e3'"), ({}, ["--websocket_ping_interval", "-1"], "out of range")])
+@pytest.mark.parametrize(
+    "values, words, said",
+    [
+        ({"port": "x"}, [], "port should be a whole number"),
+        ({"port": 1.5}, [], "port should be a whole number"),
+        ({"port": -1}, [], "out of range"),
+        ({"port": True}, [], "port should be"),
+        ({"fragment_timeout": "long"}, [], "fragment_timeout should be a number"),
+        ({"fragment_timeout": float("nan")}, [], "should be a number"),
+        ({"retry_startup_delay": 0}, [], "out of range"),
+        ({"authenticate": "perhaps"}, [], "authenticate should be true or false"),
+        ({"authenticate": 1.0}, [], "authenticate should be true"),
+        ({"address": 5}, [], "address should be a text"),
+        ({"topics_glob": [1]}, [], "list of patterns"),
+        ({"keyfile": "x"}, [], "give both"),
+        ({}, ["--port", "1e3"], "port should be a whole number, not '1e3'"),
+        ({}, ["--websocket_ping_interval", "-1"], "out of range"),
+    ],
+)
 def test_what_cannot_be_used_is_one_line(values, words, said):
     with pytest.raises(SettingError) as error:
         read(values, words)

@@ -1,4 +1,5 @@
 """Files of packages, for meshes of robot models."""
+
 from __future__ import annotations
 
 from pathlib import Path
@@ -6,6 +7,7 @@ from typing import Optional, Tuple
 from urllib.parse import unquote
 
 import rospkg
+
 from foxglove_bridge.settings import allowed
 
 MOST = 256 * 1024 * 1024  # bytes
@@ -15,7 +17,7 @@ def fetch(uri: str, patterns: Tuple[str, ...]) -> Optional[bytes]:
     """The file that ``package://NAME/PATH`` names; None if there is none, it is not allowed, or lies outside of its package."""
     if not allowed(uri, patterns) or not uri.startswith("package://"):
         return None
-    name, _, inside = unquote(uri[len("package://"):]).partition("/")
+    name, _, inside = unquote(uri[len("package://") :]).partition("/")
     try:
         home = Path(rospkg.RosPack().get_path(name)).resolve()
         path = (home / inside).resolve()

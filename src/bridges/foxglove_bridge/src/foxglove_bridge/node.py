@@ -1,4 +1,5 @@
 """``roslaunch foxglove_bridge foxglove_bridge.launch``"""
+
 from __future__ import annotations
 
 import logging
@@ -11,16 +12,21 @@ import foxglove
 import rosgraph
 import rospy
 from foxglove.websocket import Capability, ConnectionGraph, Parameter, ServerListener, StatusLevel
+from rosgraph_msgs.msg import Clock
+
 from foxglove_bridge import assets
 from foxglove_bridge.parameters import Parameters
 from foxglove_bridge.services import Services
 from foxglove_bridge.settings import SettingError, Settings, allowed, unknown
 from foxglove_bridge.topics import Published, Topics, now_ns
-from rosgraph_msgs.msg import Clock
 
 FIRST_LOOK, SLOWER = 0.2, 1.5  # s between looks at the graph, which grow while nothing changes
-_KNOWN = {"clientPublish": Capability.ClientPublish, "parameters": Capability.Parameters, "services": Capability.Services,
-          "connectionGraph": Capability.ConnectionGraph}
+_KNOWN = {
+    "clientPublish": Capability.ClientPublish,
+    "parameters": Capability.Parameters,
+    "services": Capability.Services,
+    "connectionGraph": Capability.ConnectionGraph,
+}
 
 
 class Bridge(ServerListener):
@@ -47,9 +53,16 @@ class Bridge(ServerListener):
             probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
             probe.bind((settings.address, settings.port))
         self.server = foxglove.start_server(
-            name="noetic_labs", host=settings.address, port=settings.port, capabilities=capabilities, server_listener=self,
-            supported_encodings=["ros1"], context=self._context, session_id=str(now_ns()),
-            asset_handler=(lambda uri: assets.fetch(uri, settings.asset_uri_allowlist)) if "assets" in has else None)
+            name="noetic_labs",
+            host=settings.address,
+            port=settings.port,
+            capabilities=capabilities,
+            server_listener=self,
+            supported_encodings=["ros1"],
+            context=self._context,
+            session_id=str(now_ns()),
+            asset_handler=(lambda uri: assets.fetch(uri, settings.asset_uri_allowlist)) if "assets" in has else None,
+        )
         self._services = Services(self.server) if "services" in has else None
         if simulated:
             self._clock = rospy.Subscriber("/clock", Clock, lambda m: self.server.broadcast_time(m.clock.to_nsec()), queue_size=1)
@@ -148,8 +161,12 @@ def main() -> int:
         rospy.logfatal("%s", error)
         return 1
     except (OSError, OverflowError) as error:
-        rospy.logfatal("%s port %d cannot be listened on: %s; set ~port to another", settings.address, settings.port,
-                       getattr(error, "strerror", None) or error)
+        rospy.logfatal(
+            "%s port %d cannot be listened on: %s; set ~port to another",
+            settings.address,
+            settings.port,
+            getattr(error, "strerror", None) or error,
+        )
         return 1
     rospy.loginfo("ws://%s:%d for Foxglove and Lichtblick", settings.address, bridge.server.port)
     stop = threading.Event()

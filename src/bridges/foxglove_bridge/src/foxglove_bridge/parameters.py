@@ -1,4 +1,5 @@
 """Parameters of the master, read and set by clients."""
+
 from __future__ import annotations
 
 import threading
@@ -14,8 +15,7 @@ class Parameters:
     :param changed: is told those that a client follows and that have another value now
     """
 
-    def __init__(self, allowed: Callable[[str], bool], changed: Callable[[List[Parameter]], None],
-                 complain: Callable[[str], None]) -> None:
+    def __init__(self, allowed: Callable[[str], bool], changed: Callable[[List[Parameter]], None], complain: Callable[[str], None]) -> None:
         self._allowed, self._changed, self._complain = allowed, changed, complain
         self._lock = threading.Lock()
         self._followed: Dict[str, Any] = {}  # name -> value that was told last

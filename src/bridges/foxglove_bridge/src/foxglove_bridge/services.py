@@ -1,4 +1,5 @@
 """Services, called with the bytes that a client sends."""
+
 from __future__ import annotations
 
 import io
@@ -8,6 +9,7 @@ import roslib.message
 import rospy
 import rosservice
 from foxglove.websocket import MessageSchema, Service, ServiceRequest, ServiceSchema
+
 from foxglove_bridge.settings import BridgeError
 from foxglove_bridge.topics import schema
 
@@ -32,8 +34,10 @@ def offered(name: str, type_name: str) -> Optional[Service]:
         kind = None
     if kind is None:
         return None
-    request, response = (MessageSchema(encoding="ros1", schema=schema(part, f"{type_name}_{end}"))
-                         for part, end in ((kind._request_class, "Request"), (kind._response_class, "Response")))
+    request, response = (
+        MessageSchema(encoding="ros1", schema=schema(part, f"{type_name}_{end}"))
+        for part, end in ((kind._request_class, "Request"), (kind._response_class, "Response"))
+    )
     return Service(name, schema=ServiceSchema(type_name, request=request, response=response), handler=lambda call: _call(name, kind, call))
 
 

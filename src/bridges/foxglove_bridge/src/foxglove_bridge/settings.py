@@ -1,4 +1,5 @@
 """The node's parameters, by upstream's names."""
+
 from __future__ import annotations
 
 import re

@@ -1,4 +1,5 @@
 """Topics as channels: the bytes of their messages as they are, with their definition; and topics that a client publishes."""
+
 from __future__ import annotations
 
 import threading
@@ -38,8 +39,10 @@ class Topic:
             self._readers.add(client)
             if self._subscriber is not None and not self._latched:
                 return
-            old, self._subscriber = self._subscriber, rospy.Subscriber(self.name, rospy.AnyMsg, self._take, queue_size=100,
-                                                                       buff_size=BUFFER, tcp_nodelay=True)
+            old, self._subscriber = (
+                self._subscriber,
+                rospy.Subscriber(self.name, rospy.AnyMsg, self._take, queue_size=100, buff_size=BUFFER, tcp_nodelay=True),
+            )
             if old is not None:
                 old.unregister()
 

@@ -1,4 +1,5 @@
 """``rosrun rosapi rosapi_node``: what is there, asked by services."""
+
 from __future__ import annotations
 
 import functools
@@ -7,15 +8,16 @@ import math
 from typing import Any, Callable, Dict, Iterable, List, Tuple
 
 import node_signals
-import rosapi.srv
 import rosgraph
 import rosnode
 import rospy
 import rosservice
-from rosapi import typedefs
 from rosbridge_library.internal import ros_loader
 from rosbridge_library.internal.exceptions import RosbridgeError
 from rosbridge_library.internal.globs import allowed, globs
+
+import rosapi.srv
+from rosapi import typedefs
 
 ACTION = {"cancel", "feedback", "goal", "result", "status"}  # topics of an action
 PUBLISHED, SUBSCRIBED, OFFERED = range(3)  # of the master's state
@@ -29,8 +31,9 @@ class Api:
     """
 
     def __init__(self, get: Callable[[str, Any], Any]) -> None:
-        self._topics, self._services, self._params = (globs(f"~{name}_glob", get(f"{name}_glob", ""))
-                                                      for name in ("topics", "services", "params"))
+        self._topics, self._services, self._params = (
+            globs(f"~{name}_glob", get(f"{name}_glob", "")) for name in ("topics", "services", "params")
+        )
 
     # ------------------------------------------------------------------------------------------ topics
 
@@ -138,8 +141,9 @@ class Api:
         try:
             value = json.loads(request.value)
         except ValueError as error:
-            raise rospy.ServiceException(f"{request.name}: the value {request.value!r:.60} is no JSON ({error}); a text has quotes of "
-                                         "its own") from None
+            raise rospy.ServiceException(
+                f"{request.name}: the value {request.value!r:.60} is no JSON ({error}); a text has quotes of its own"
+            ) from None
         rospy.set_param(request.name, value)
         return {}
 
@@ -193,21 +197,47 @@ def _finite(value: Any) -> Any:
 
 
 #: services under /rosapi, by the names of their types
-SERVICES = {"topics": "Topics", "topics_for_type": "TopicsForType", "topics_and_raw_types": "TopicsAndRawTypes", "topic_type": "TopicType",
-            "services": "Services", "services_for_type": "ServicesForType", "service_type": "ServiceType",
-            "service_providers": "ServiceProviders", "service_node": "ServiceNode", "service_host": "ServiceHost",
-            "publishers": "Publishers", "subscribers": "Subscribers", "nodes": "Nodes", "node_details": "NodeDetails",
-            "action_servers": "GetActionServers", "message_details": "MessageDetails",
-            "service_request_details": "ServiceRequestDetails", "service_response_details": "ServiceResponseDetails",
-            "set_param": "SetParam", "get_param": "GetParam", "has_param": "HasParam", "search_param": "SearchParam",
-            "delete_param": "DeleteParam", "get_param_names": "GetParamNames", "get_time": "GetTime"}
+SERVICES = {
+    "topics": "Topics",
+    "topics_for_type": "TopicsForType",
+    "topics_and_raw_types": "TopicsAndRawTypes",
+    "topic_type": "TopicType",
+    "services": "Services",
+    "services_for_type": "ServicesForType",
+    "service_type": "ServiceType",
+    "service_providers": "ServiceProviders",
+    "service_node": "ServiceNode",
+    "service_host": "ServiceHost",
+    "publishers": "Publishers",
+    "subscribers": "Subscribers",
+    "nodes": "Nodes",
+    "node_details": "NodeDetails",
+    "action_servers": "GetActionServers",
+    "message_details": "MessageDetails",
+    "service_request_details": "ServiceRequestDetails",
+    "service_response_details": "ServiceResponseDetails",
+    "set_param": "SetParam",
+    "get_param": "GetParam",
+    "has_param": "HasParam",
+    "search_param": "SearchParam",
+    "delete_param": "DeleteParam",
+    "get_param_names": "GetParamNames",
+    "get_time": "GetTime",
+}
 
 
 def _answer(work: Callable[[Any], Dict[str, Any]], kind: Any, request: Any) -> Any:
     try:
         return kind._response_class(**work(request))
-    except (RosbridgeError, rospy.ROSException, rosgraph.MasterException, rosnode.ROSNodeException, rosservice.ROSServiceException,
-            KeyError, OSError) as error:
+    except (
+        RosbridgeError,
+        rospy.ROSException,
+        rosgraph.MasterException,
+        rosnode.ROSNodeException,
+        rosservice.ROSServiceException,
+        KeyError,
+        OSError,
+    ) as error:
         raise rospy.ServiceException(" ".join(str(error).split())) from None
 
 

@@ -1,12 +1,14 @@
 """What fields a message has, and the messages in it."""
+
 from __future__ import annotations
 
 import inspect
 from typing import Any, List, Optional, Set
 
-from rosapi.msg import TypeDef
 from rosbridge_library.internal import ros_loader
 from rosbridge_library.internal.message_conversion import FLOATS, INTEGERS, TIMES, split_type
+
+from rosapi.msg import TypeDef
 
 ATOMIC = {*INTEGERS, *FLOATS, "bool", "string"}
 
@@ -48,11 +50,19 @@ def _own(name: str) -> Optional[TypeDef]:
 def _typedef(kind: Any) -> TypeDef:
     instance = kind()
     fields = [(name, *split_type(rostype)) for name, rostype in zip(kind.__slots__, kind._slot_types)]
-    constants = [(name, str(value)) for name, value in inspect.getmembers(kind)
-                 if name not in kind.__slots__ and not name.startswith("_") and not inspect.isroutine(value)]
-    return TypeDef(type=f"{kind.__module__.partition('.')[0]}/{kind.__name__}",
-                   fieldnames=[name for name, _, _ in fields], fieldtypes=[base for _, base, _ in fields],
-                   fieldarraylen=[-1 if length is None else length for _, _, length in fields],
-                   examples=["[]" if length is not None else str(getattr(instance, name)) if base in ATOMIC else "{}"
-                             for name, base, length in fields],
-                   constnames=[name for name, _ in constants], constvalues=[value for _, value in constants])
+    constants = [
+        (name, str(value))
+        for name, value in inspect.getmembers(kind)
+        if name not in kind.__slots__ and not name.startswith("_") and not inspect.isroutine(value)
+    ]
+    return TypeDef(
+        type=f"{kind.__module__.partition('.')[0]}/{kind.__name__}",
+        fieldnames=[name for name, _, _ in fields],
+        fieldtypes=[base for _, base, _ in fields],
+        fieldarraylen=[-1 if length is None else length for _, _, length in fields],
+        examples=[
+            "[]" if length is not None else str(getattr(instance, name)) if base in ATOMIC else "{}" for name, base, length in fields
+        ],
+        constnames=[name for name, _ in constants],
+        constvalues=[value for _, value in constants],
+    )

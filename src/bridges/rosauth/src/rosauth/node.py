@@ -1,4 +1,5 @@
 """``rosrun rosauth ros_mac_authentication _secret_file_location:=FILE``"""
+
 from __future__ import annotations
 
 import hashlib
@@ -6,6 +7,7 @@ import hmac
 
 import node_signals
 import rospy
+
 from rosauth.srv import Authentication, AuthenticationRequest
 
 LENGTH = 16  # characters of a secret

@@ -1,4 +1,5 @@
 """``roslaunch rosbridge_server rosbridge_websocket.launch``"""
+
 from __future__ import annotations
 
 import asyncio
@@ -19,12 +20,13 @@ import tornado.websocket
 from rosauth.srv import Authentication
 from rosbridge_library.internal.exceptions import RosbridgeError
 from rosbridge_msgs.msg import ConnectedClient, ConnectedClients
+from std_msgs.msg import Int32
+
 from rosbridge_server.outbox import Frame, Outbox
 from rosbridge_server.protocol import Client, Shared
 from rosbridge_server.services import Services
-from rosbridge_server.settings import Settings, SettingError
+from rosbridge_server.settings import SettingError, Settings
 from rosbridge_server.topics import Feeds, Publications
-from std_msgs.msg import Int32
 
 LARGEST = 128 * 1024 * 1024  # bytes of one message of a client
 REFUSED = 1008  # websocket: against a rule
@@ -80,8 +82,9 @@ class Connection(tornado.websocket.WebSocketHandler):
         self.set_nodelay(True)
         Connection.numbers += 1
         self._thread = ThreadPoolExecutor(1, "client")
-        outbox = Outbox(self._loop, self._write, lambda: self._loop.call_soon_threadsafe(self._cut),
-                        self._shared.settings.delay_between_messages)
+        outbox = Outbox(
+            self._loop, self._write, lambda: self._loop.call_soon_threadsafe(self._cut), self._shared.settings.delay_between_messages
+        )
         self._client = Client(Connection.numbers, self._shared, outbox)
         self._clients.come(self._client.number, address)
 
@@ -102,13 +105,13 @@ class Connection(tornado.websocket.WebSocketHandler):
 
     def _introduce(self, frame: Frame) -> None:
         """What comes first where clients have to authenticate; in the connection's thread."""
-        why = "authenticate first: {\"op\": \"auth\", ...}"
+        why = 'authenticate first: {"op": "auth", ...}'
         try:
             said = bson.decode(frame) if self._shared.settings.bson_only_mode else json.loads(frame)
             if isinstance(said, dict) and said.get("op") == "auth":
                 self._known = rospy.ServiceProxy("authenticate", Authentication)(
-                    said["mac"], said["client"], said["dest"], said["rand"], rospy.Time(said["t"]), said["level"],
-                    rospy.Time(said["end"])).authenticated
+                    said["mac"], said["client"], said["dest"], said["rand"], rospy.Time(said["t"]), said["level"], rospy.Time(said["end"])
+                ).authenticated
                 why = "it has no valid message authentication code"
         except rospy.ServiceException as error:
             why = f"the service {rospy.resolve_name('authenticate')} does not answer (rosrun rosauth ros_mac_authentication): {error}"
@@ -147,16 +150,24 @@ async def _serve(settings: Settings, stop: asyncio.Event) -> None:
     certificate = _certificate(settings)
     application = tornado.web.Application(
         [(r".*", Connection, {"shared": shared, "clients": Clients(), "token": settings.token()})],
-        websocket_max_message_size=LARGEST, websocket_ping_interval=settings.websocket_ping_interval or None,
-        websocket_ping_timeout=settings.websocket_ping_timeout, log_function=lambda handler: None)
+        websocket_max_message_size=LARGEST,
+        websocket_ping_interval=settings.websocket_ping_interval or None,
+        websocket_ping_timeout=settings.websocket_ping_timeout,
+        log_function=lambda handler: None,
+    )
     server = tornado.httpserver.HTTPServer(application, ssl_options=certificate)
     while not stop.is_set():
         try:
             sockets = tornado.netutil.bind_sockets(settings.port, settings.address)
             break
         except OSError as error:
-            rospy.logwarn("Unable to start server: %s port %d cannot be listened on: %s. Retrying in %gs; set ~port to another",
-                          settings.address, settings.port, error.strerror, settings.retry_startup_delay)
+            rospy.logwarn(
+                "Unable to start server: %s port %d cannot be listened on: %s. Retrying in %gs; set ~port to another",
+                settings.address,
+                settings.port,
+                error.strerror,
+                settings.retry_startup_delay,
+            )
         try:
             await asyncio.wait_for(stop.wait(), settings.retry_startup_delay)
         except asyncio.TimeoutError:

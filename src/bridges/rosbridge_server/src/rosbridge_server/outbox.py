@@ -1,4 +1,5 @@
 """What waits for a client to read it."""
+
 from __future__ import annotations
 
 import asyncio
@@ -28,8 +29,9 @@ class Outbox:
     :param delay: s between frames
     """
 
-    def __init__(self, loop: asyncio.AbstractEventLoop, write: Callable[[Frame], Awaitable[None]], overflow: Callable[[], None],
-                 delay: float) -> None:
+    def __init__(
+        self, loop: asyncio.AbstractEventLoop, write: Callable[[Frame], Awaitable[None]], overflow: Callable[[], None], delay: float
+    ) -> None:
         self._loop, self._write, self._overflow, self.delay = loop, write, overflow, delay
         self._lock = threading.Lock()
         self._items: Deque[_Item] = deque()

@@ -1,4 +1,5 @@
 """What one client says, operation by operation, and what it is told."""
+
 from __future__ import annotations
 
 import json
@@ -15,6 +16,7 @@ from rosbridge_library.internal.cbor_conversion import extract_cbor_values
 from rosbridge_library.internal.exceptions import InvalidArgumentException, MissingArgumentException, RosbridgeError
 from rosbridge_library.internal.globs import allowed
 from rosbridge_library.internal.message_conversion import extract_values
+
 from rosbridge_server import services
 from rosbridge_server.outbox import Frame, Outbox
 from rosbridge_server.settings import Settings
@@ -36,6 +38,7 @@ class _Fragments:
 @dataclass(frozen=True)
 class Shared:
     """What all clients share."""
+
     settings: Settings
     feeds: Feeds
     publications: Publications
@@ -60,11 +63,20 @@ class Client:
         self._fragments: Dict[Any, _Fragments] = {}
         self._fragment_number = 0
         self._operations: Dict[str, Callable[[Dict[str, Any]], None]] = {
-            "advertise": self._advertise, "unadvertise": self._unadvertise, "publish": self._publish,
-            "subscribe": self._subscribe, "unsubscribe": self._unsubscribe, "call_service": self._call_service,
-            "advertise_service": self._advertise_service, "unadvertise_service": self._unadvertise_service,
-            "service_response": self._service_response, "fragment": self._fragment, "png": self._png, "set_level": self._set_level,
-            "auth": lambda message: None}  # where it is asked for, it comes first
+            "advertise": self._advertise,
+            "unadvertise": self._unadvertise,
+            "publish": self._publish,
+            "subscribe": self._subscribe,
+            "unsubscribe": self._unsubscribe,
+            "call_service": self._call_service,
+            "advertise_service": self._advertise_service,
+            "unadvertise_service": self._unadvertise_service,
+            "service_response": self._service_response,
+            "fragment": self._fragment,
+            "png": self._png,
+            "set_level": self._set_level,
+            "auth": lambda message: None,
+        }  # where it is asked for, it comes first
 
     # ------------------------------------------------------------------------------------------ in
 
@@ -111,8 +123,9 @@ class Client:
     def _advertise(self, message: Dict[str, Any]) -> None:
         topic, type_name = _get(message, "topic", str), _get(message, "type", str)
         self._allow(topic, "topics_glob")
-        self._shared.publications.register(self.number, topic, type_name, _get(message, "latch", bool, False),
-                                           _get(message, "queue_size", int, 100))
+        self._shared.publications.register(
+            self.number, topic, type_name, _get(message, "latch", bool, False), _get(message, "queue_size", int, 100)
+        )
         self._advertised.setdefault(topic, set()).add(_key(message.get("id")))
 
     def _unadvertise(self, message: Dict[str, Any]) -> None:
@@ -126,8 +139,9 @@ class Client:
     def _publish(self, message: Dict[str, Any]) -> None:
         topic = _get(message, "topic", str)
         self._allow(topic, "topics_glob")
-        publication = self._shared.publications.register(self.number, topic, None, _get(message, "latch", bool, False),
-                                                         _get(message, "queue_size", int, 100))
+        publication = self._shared.publications.register(
+            self.number, topic, None, _get(message, "latch", bool, False), _get(message, "queue_size", int, 100)
+        )
         if topic not in self._advertised:
             self._published.add(topic)
         publication.publish(message.get("msg", {}))
@@ -214,9 +228,16 @@ class Client:
         waiting = sum(len(part) for found in self._fragments.values() for part in found.parts.values())
         if total != whole.total or not 0 <= place < total or waiting + len(data) > MOST:
             del self._fragments[number]
-            raise InvalidArgumentException(f"fragment {place} of {total} of the message {number}: " + (
-                "there are too many" if 0 <= place < total == whole.total else f"the others are of {whole.total}" if total != whole.total
-                else f"they count from 0 to {total - 1}"))
+            raise InvalidArgumentException(
+                f"fragment {place} of {total} of the message {number}: "
+                + (
+                    "there are too many"
+                    if 0 <= place < total == whole.total
+                    else f"the others are of {whole.total}"
+                    if total != whole.total
+                    else f"they count from 0 to {total - 1}"
+                )
+            )
         whole.parts[place], whole.last = data, now
         if len(whole.parts) == total:
             del self._fragments[number]
@@ -276,8 +297,10 @@ class Client:
             self._fragment_number += 1
             number = str(self._fragment_number)
         total = -(-len(data) // size)
-        return [self._encode({"op": "fragment", "id": number, "data": data[place * size:(place + 1) * size], "num": place, "total": total})
-                for place in range(total)]
+        return [
+            self._encode({"op": "fragment", "id": number, "data": data[place * size : (place + 1) * size], "num": place, "total": total})
+            for place in range(total)
+        ]
 
     def finish(self) -> None:
         """The client is gone, and nothing of it stays."""

@@ -1,4 +1,5 @@
 """Services that clients call, and services that clients offer."""
+
 from __future__ import annotations
 
 import itertools

@@ -1,4 +1,5 @@
 """The node's parameters and options, by upstream's names."""
+
 from __future__ import annotations
 
 import argparse
@@ -80,8 +81,9 @@ class Settings:
             with open(self.token_file, encoding="utf-8") as stream:
                 token = stream.readline().strip()
         except (OSError, UnicodeDecodeError) as error:
-            raise SettingError(f"~token_file: {self.token_file} cannot be read: "
-                               f"{getattr(error, 'strerror', None) or 'it is no text'}") from None
+            raise SettingError(
+                f"~token_file: {self.token_file} cannot be read: {getattr(error, 'strerror', None) or 'it is no text'}"
+            ) from None
         if not token:
             raise SettingError(f"~token_file: the first line of {self.token_file} is empty")
         return token

@@ -1,4 +1,5 @@
 """Topics: one listener for all clients that read one, one publisher for all that write one."""
+
 from __future__ import annotations
 
 import json
@@ -15,6 +16,7 @@ from rosbridge_library.internal import pngcompression, ros_loader
 from rosbridge_library.internal.cbor_conversion import extract_cbor_values
 from rosbridge_library.internal.exceptions import RosbridgeError
 from rosbridge_library.internal.message_conversion import extract_values, populate_instance
+
 from rosbridge_server.outbox import Outbox
 
 BUFFER = 16 * 1024 * 1024  # bytes that are read at once, of pictures and clouds
@@ -103,8 +105,10 @@ class Feed:
             new = reader not in self._readers
             self._readers += [reader] if new else []
         if new:  # what is latched was told to the subscriber when it connected
+
             def once(raw: Any) -> None:
                 reader.take(Message(raw, self.kind))
+
             self._subscriber.impl.add_callback(once, None)
             self._subscriber.impl.remove_callback(once, None)
 
@@ -162,8 +166,14 @@ class Subscription:
     :param send: a message's text or bytes, and the size of its fragments
     """
 
-    def __init__(self, topic: str, send: Callable[[str, Union[str, bytes], Optional[int]], None], outbox: Outbox, bson_only: bool,
-                 complain: Callable[[str], None]) -> None:
+    def __init__(
+        self,
+        topic: str,
+        send: Callable[[str, Union[str, bytes], Optional[int]], None],
+        outbox: Outbox,
+        bson_only: bool,
+        complain: Callable[[str], None],
+    ) -> None:
         self.topic = topic
         self._send, self._outbox, self._bson, self._complain = send, outbox, bson_only, complain
         self._wishes: Dict[Any, Dict[str, Any]] = {}
@@ -277,8 +287,9 @@ class Publication:
         self.clients: Set[int] = set()
         self.unused_since: Optional[float] = None
         self._early = _Early()
-        self._publisher = rospy.Publisher(topic, kind, subscriber_listener=self._early, latch=latch, queue_size=queue_size,
-                                          tcp_nodelay=True)
+        self._publisher = rospy.Publisher(
+            topic, kind, subscriber_listener=self._early, latch=latch, queue_size=queue_size, tcp_nodelay=True
+        )
 
     def publish(self, values: Any) -> None:
         message = populate_instance(values, self.kind())

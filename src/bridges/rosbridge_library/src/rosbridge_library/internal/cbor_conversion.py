@@ -1,4 +1,5 @@
 """Messages as what CBOR has: bytes as bytes, arrays of numbers by the tags of RFC 8746, little-endian."""
+
 from __future__ import annotations
 
 import functools
@@ -6,10 +7,21 @@ import struct
 from typing import Any, Callable, Dict, Tuple
 
 from cbor2 import CBORTag
+
 from rosbridge_library.internal.message_conversion import BINARY, FLOATS, INTEGERS, TIMES, split_type
 
-TAGGED = {"uint16": (69, "H"), "uint32": (70, "I"), "uint64": (71, "Q"), "byte": (72, "b"), "int8": (72, "b"), "int16": (77, "h"),
-          "int32": (78, "i"), "int64": (79, "q"), "float32": (85, "f"), "float64": (86, "d")}  # tag, letter of struct
+TAGGED = {
+    "uint16": (69, "H"),
+    "uint32": (70, "I"),
+    "uint64": (71, "Q"),
+    "byte": (72, "b"),
+    "int8": (72, "b"),
+    "int16": (77, "h"),
+    "int32": (78, "i"),
+    "int64": (79, "q"),
+    "float32": (85, "f"),
+    "float64": (86, "d"),
+}  # tag, letter of struct
 
 
 def extract_cbor_values(msg: Any) -> Dict[str, Any]:

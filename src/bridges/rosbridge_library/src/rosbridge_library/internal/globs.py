@@ -1,4 +1,5 @@
 """Names that clients may use, as patterns of the shell."""
+
 from __future__ import annotations
 
 import fnmatch

@@ -4,6 +4,7 @@ Messages as what JSON has, and back.
 Arrays of uint8 and char are base64 texts (taken as lists of numbers, too), times and durations ``{"secs": , "nsecs": }``,
 floats that are not finite null. In BSON, which has words for them, bytes and such floats stay what they are.
 """
+
 from __future__ import annotations
 
 import base64
@@ -14,18 +15,30 @@ from typing import Any, Callable, Dict, Optional, Tuple
 
 import genpy
 import rospy
+
 from rosbridge_library.internal import ros_loader
 from rosbridge_library.internal.exceptions import RosbridgeError
 
 BINARY = ("uint8", "char")
 FLOATS = ("float32", "float64")
 TIMES = {"time": genpy.Time, "duration": genpy.Duration}
-INTEGERS = {**{f"int{bits}": (-(1 << bits - 1), (1 << bits - 1) - 1) for bits in (8, 16, 32, 64)},
-            **{f"uint{bits}": (0, (1 << bits) - 1) for bits in (8, 16, 32, 64)}}
+INTEGERS = {
+    **{f"int{bits}": (-(1 << bits - 1), (1 << bits - 1) - 1) for bits in (8, 16, 32, 64)},
+    **{f"uint{bits}": (0, (1 << bits) - 1) for bits in (8, 16, 32, 64)},
+}
 INTEGERS.update(byte=INTEGERS["int8"], char=INTEGERS["uint8"])  # least and greatest value
 _SECONDS = {"time": {"secs": "uint32", "nsecs": "uint32"}, "duration": {"secs": "int32", "nsecs": "int32"}}
-_PYTHON = {bool: "true or false", int: "a whole number", float: "a number", str: "a text", type(None): "null", list: "a list",
-           tuple: "a list", dict: "an object", bytes: "bytes"}
+_PYTHON = {
+    bool: "true or false",
+    int: "a whole number",
+    float: "a number",
+    str: "a text",
+    type(None): "null",
+    list: "a list",
+    tuple: "a list",
+    dict: "an object",
+    bytes: "bytes",
+}
 
 
 class InvalidMessageException(RosbridgeError):
@@ -52,12 +65,13 @@ class FieldValueException(RosbridgeError):
 
 @functools.lru_cache(maxsize=None)
 def split_type(rostype: str) -> Tuple[str, Optional[int]]:
-    """"float64[36]" -> ("float64", 36), "float64[]" -> ("float64", 0), "float64" -> ("float64", None)"""
+    """ "float64[36]" -> ("float64", 36), "float64[]" -> ("float64", 0), "float64" -> ("float64", None)"""
     base, bracket, length = rostype.partition("[")
     return base, int(length[:-1] or 0) if bracket else None
 
 
 # ---------------------------------------------------------------------------------------------- from messages
+
 
 def extract_values(inst: Any, bson: bool = False) -> Dict[str, Any]:
     """
@@ -84,8 +98,9 @@ def _outward(rostype: str, bson: bool) -> Callable[[Any], Any]:
         return finite if length is None else _finite_list
     if base in INTEGERS or base in ("bool", "string", *FLOATS):
         return list if length is not None else lambda value: value
-    one: Callable[[Any], Any] = (lambda value: {"secs": value.secs, "nsecs": value.nsecs}) if base in TIMES else (
-        lambda value: extract_values(value, bson))
+    one: Callable[[Any], Any] = (
+        (lambda value: {"secs": value.secs, "nsecs": value.nsecs}) if base in TIMES else (lambda value: extract_values(value, bson))
+    )
     return one if length is None else lambda values: [one(value) for value in values]
 
 
@@ -99,6 +114,7 @@ def _finite_list(values: Any) -> Any:
 
 
 # ---------------------------------------------------------------------------------------------- into messages
+
 
 def populate_instance(msg: Dict[str, Any], inst: Any) -> Any:
     """

@@ -1,4 +1,5 @@
 """Texts as the pixels of a PNG picture, which a browser unpacks quickly."""
+
 import base64
 import io
 import math

@@ -1,10 +1,12 @@
 """Classes of messages and services by the names of their types."""
+
 from __future__ import annotations
 
 import functools
 from typing import Any
 
 import roslib.message
+
 from rosbridge_library.internal.exceptions import RosbridgeError
 
 
@@ -60,6 +62,7 @@ def _loaded(name: str, service: bool) -> Any:
     except Exception as error:  # whatever a broken package raises when it is imported
         raise InvalidPackageException(f"{name} cannot be imported: {' '.join(str(error).split())}") from None
     if kind is None:
-        raise InvalidPackageException(f"no package here defines the {'service' if service else 'message'} {name}; is its workspace built "
-                                      "and sourced?")
+        raise InvalidPackageException(
+            f"no package here defines the {'service' if service else 'message'} {name}; is its workspace built and sourced?"
+        )
     return kind
