@@ -1,11 +1,12 @@
 """Libraries are judged before they are loaded, and what stands beside them helps out."""
+
 import os
 import subprocess
 import sys
 
 import pytest
 
-PLUGIN = "int help(int); extern \"C\" int answer() { return help(20); }"
+PLUGIN = 'int help(int); extern "C" int answer() { return help(20); }'
 HELPER = "int help(int value) { return 2 * value + 2; }"
 JUDGED = """
 import ctypes, sys

@@ -1,4 +1,5 @@
 """Every encoding to pixels; broken data to one line."""
+
 import struct
 import subprocess
 import sys
@@ -28,10 +29,19 @@ def wide(pixels):
     return pixels.astype(np.uint16) * 257
 
 
-@pytest.mark.parametrize("encoding, pixels", [
-    ("rgb8", RGB), ("bgr8", RGB[..., ::-1].copy()), ("rgba8", np.dstack((RGB, RGB[..., 0]))),
-    ("bgra8", np.dstack((RGB[..., ::-1], RGB[..., 0]))), ("8UC3", RGB), ("rgb16", wide(RGB)), ("bgr16", wide(RGB[..., ::-1].copy())),
-    ("8UC4", np.dstack((RGB, RGB[..., 0])))])
+@pytest.mark.parametrize(
+    "encoding, pixels",
+    [
+        ("rgb8", RGB),
+        ("bgr8", RGB[..., ::-1].copy()),
+        ("rgba8", np.dstack((RGB, RGB[..., 0]))),
+        ("bgra8", np.dstack((RGB[..., ::-1], RGB[..., 0]))),
+        ("8UC3", RGB),
+        ("rgb16", wide(RGB)),
+        ("bgr16", wide(RGB[..., ::-1].copy())),
+        ("8UC4", np.dstack((RGB, RGB[..., 0]))),
+    ],
+)
 def test_colours(encoding, pixels):
     assert (seen(pixels, encoding) == RGB).all()
 
@@ -69,15 +79,24 @@ def test_rows_may_be_padded():
     assert (raw("rgb8", 4, 6, 24, padded.tobytes()[:-6]).pixels == RGB).all()
 
 
-@pytest.mark.parametrize("arguments, said", [
-    (("rgb8", 4, 6, 17, bytes(72)), "step is 17, but 6 pixels of rgb8 are 18 bytes"),
-    (("rgb8", 4, 6, 0, bytes(72)), "step is 0"),
-    (("rgb8", 4, 6, 18, bytes(71)), "71 bytes of data, but step 18 and height 4 make 72"),
-    (("rgb8", 4, 6, 18, b""), "0 bytes of data"), (("mono16", 2, 2, 5, bytes(10)), "step is 5"),
-    (("rgb8", 0, 6, 18, b""), "6x0 pixels"), (("rgb8", 2 ** 31, 2 ** 31, 2 ** 33, b""), "cannot be shown"),
-    (("rgb9", 4, 6, 18, bytes(72)), "encoding 'rgb9' cannot be shown"), (("", 4, 6, 18, bytes(72)), "encoding ''"),
-    (("32FC3", 4, 6, 72, bytes(288)), "'32FC3' cannot be shown"), (("8UC2", 4, 6, 12, bytes(48)), "cannot be shown"),
-    (("bayer_rggb8", 1, 6, 6, bytes(6)), "needs two rows"), (("yuv422", 4, 5, 10, bytes(40)), "even number of columns")])
+@pytest.mark.parametrize(
+    "arguments, said",
+    [
+        (("rgb8", 4, 6, 17, bytes(72)), "step is 17, but 6 pixels of rgb8 are 18 bytes"),
+        (("rgb8", 4, 6, 0, bytes(72)), "step is 0"),
+        (("rgb8", 4, 6, 18, bytes(71)), "71 bytes of data, but step 18 and height 4 make 72"),
+        (("rgb8", 4, 6, 18, b""), "0 bytes of data"),
+        (("mono16", 2, 2, 5, bytes(10)), "step is 5"),
+        (("rgb8", 0, 6, 18, b""), "6x0 pixels"),
+        (("rgb8", 2**31, 2**31, 2**33, b""), "cannot be shown"),
+        (("rgb9", 4, 6, 18, bytes(72)), "encoding 'rgb9' cannot be shown"),
+        (("", 4, 6, 18, bytes(72)), "encoding ''"),
+        (("32FC3", 4, 6, 72, bytes(288)), "'32FC3' cannot be shown"),
+        (("8UC2", 4, 6, 12, bytes(48)), "cannot be shown"),
+        (("bayer_rggb8", 1, 6, 6, bytes(6)), "needs two rows"),
+        (("yuv422", 4, 5, 10, bytes(40)), "even number of columns"),
+    ],
+)
 def test_broken_images_are_told(arguments, said):
     with pytest.raises(ImageError) as error:
         raw(*arguments)
@@ -89,8 +108,10 @@ def test_colours_without_a_name_are_in_the_order_that_is_asked_for():
     assert (seen(RGB, "rgb8", unnamed="bgr") == RGB).all()
 
 
-@pytest.mark.parametrize("encoding, kind, unit", [
-    ("32FC1", "<f4", 1.0), ("64FC1", "<f8", 1.0), ("16UC1", "<u2", 1e-3), ("16SC1", "<i2", 1e-3), ("32SC1", "<i4", 1e-3)])
+@pytest.mark.parametrize(
+    "encoding, kind, unit",
+    [("32FC1", "<f4", 1.0), ("64FC1", "<f8", 1.0), ("16UC1", "<u2", 1e-3), ("16SC1", "<i2", 1e-3), ("32SC1", "<i4", 1e-3)],
+)
 def test_depth_keeps_its_numbers(encoding, kind, unit):
     numbers = np.array([[0, 2, 3], [4, 5, 6]], kind)
     picture = read(numbers, encoding)
@@ -106,8 +127,10 @@ def test_messages_of_both_types():
 
 
 def test_plain_pictures_need_no_opencv():
-    code = ("import sys, image_pixels; image_pixels.raw('bgra8', 1, 1, 4, bytes(4)); image_pixels.raw('16UC1', 1, 1, 2, bytes(2));"
-            "sys.exit('cv2' in sys.modules)")
+    code = (
+        "import sys, image_pixels; image_pixels.raw('bgra8', 1, 1, 4, bytes(4)); image_pixels.raw('16UC1', 1, 1, 2, bytes(2));"
+        "sys.exit('cv2' in sys.modules)"
+    )
     assert subprocess.run([sys.executable, "-c", code]).returncode == 0
 
 
@@ -123,8 +146,7 @@ def unpacked(layout, data):
 
 def test_compressed():
     assert (unpacked("rgb8; png compressed bgr8", encoded(".png", RGB[..., ::-1])) == RGB).all()
-    assert np.abs(unpacked("jpeg", encoded(".jpg", np.full((16, 16, 3), (20, 40, 200), np.uint8))).astype(int)
-                  - (200, 40, 20)).max() < 6
+    assert np.abs(unpacked("jpeg", encoded(".jpg", np.full((16, 16, 3), (20, 40, 200), np.uint8))).astype(int) - (200, 40, 20)).max() < 6
     grey = np.arange(24, dtype=np.uint8).reshape(4, 6)
     assert (unpacked("mono8; png compressed", encoded(".png", grey)) == grey).all()
     mosaic = np.tile(np.array([[250, 120], [120, 20]], np.uint8), (8, 8))
@@ -166,12 +188,12 @@ def rvl(pixels):
         others = next((i for i, value in enumerate(values[zeros:]) if not value), len(values) - zeros)
         put(zeros)
         put(others)
-        for value in values[zeros:zeros + others]:
+        for value in values[zeros : zeros + others]:
             put((value - previous) << 1 if value >= previous else ((previous - value) << 1) - 1)
             previous = value
-        values = values[zeros + others:]
+        values = values[zeros + others :]
     nibbles += [0] * (-len(nibbles) % 8)
-    words = [sum(nibble << 4 * (7 - i) for i, nibble in enumerate(nibbles[n:n + 8])) for n in range(0, len(nibbles), 8)]
+    words = [sum(nibble << 4 * (7 - i) for i, nibble in enumerate(nibbles[n : n + 8])) for n in range(0, len(nibbles), 8)]
     return struct.pack(f"<II{len(words)}I", pixels.shape[1], pixels.shape[0], *words)
 
 
@@ -184,14 +206,19 @@ def test_depth_compressed_with_rvl():
     assert picture.unit == 1e-3 and np.array_equal(picture.pixels, depth)
 
 
-@pytest.mark.parametrize("layout, data, said", [
-    ("jpeg", b"", "0 bytes of 'jpeg' cannot be decoded"), ("png", b"\x89PNG\r\n\x1a\nrubbish", "cannot be decoded"),
-    ("16UC1; compressedDepth", b"short", "lacks its 12 bytes"), ("16UC1; compressedDepth", bytes(40), "cannot be decoded"),
-    ("16UC1; compressedDepth rvl", bytes(40), "0x0 pixels"), ("16UC1; compressedDepth rvl", bytes(12) + RVL[:8], "cut short"),
-    ("16UC1; compressedDepth rvl", bytes(12) + RVL[:8] + b"\xff" * 40, "cut short"),
-    ("16UC1; compressedDepth rvl", bytes(12) + struct.pack("<II", 3, 1) + RVL[8:], "no depth image of 3x1")])
+@pytest.mark.parametrize(
+    "layout, data, said",
+    [
+        ("jpeg", b"", "0 bytes of 'jpeg' cannot be decoded"),
+        ("png", b"\x89PNG\r\n\x1a\nrubbish", "cannot be decoded"),
+        ("16UC1; compressedDepth", b"short", "lacks its 12 bytes"),
+        ("16UC1; compressedDepth", bytes(40), "cannot be decoded"),
+        ("16UC1; compressedDepth rvl", bytes(40), "0x0 pixels"),
+        ("16UC1; compressedDepth rvl", bytes(12) + RVL[:8], "cut short"),
+        ("16UC1; compressedDepth rvl", bytes(12) + RVL[:8] + b"\xff" * 40, "cut short"),
+        ("16UC1; compressedDepth rvl", bytes(12) + struct.pack("<II", 3, 1) + RVL[8:], "no depth image of 3x1"),
+    ],
+)
 def test_broken_compressed_images_are_told(layout, data, said):
     with pytest.raises(ImageError, match=said):
         compressed(layout, data)
-
-

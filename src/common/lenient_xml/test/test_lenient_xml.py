@@ -1,4 +1,5 @@
 """Every text is read as TinyXML itself reads it: Debian's library is asked (read_by_tinyxml.cpp)."""
+
 import json
 import os
 import random
@@ -6,9 +7,8 @@ import subprocess
 import time
 from xml.etree import ElementTree
 
-import pytest
-
 import lenient_xml
+import pytest
 
 
 def program():
@@ -58,8 +58,13 @@ def read(text):
 def as_bytes(element):
     """Code points of an answer are bytes of UTF-8."""
     tag, line, attributes, text, *children = element
-    return [decoded(tag), line, {decoded(k): decoded(v) for k, v in attributes.items()},
-            None if text is None else decoded(text), *map(as_bytes, children)]
+    return [
+        decoded(tag),
+        line,
+        {decoded(k): decoded(v) for k, v in attributes.items()},
+        None if text is None else decoded(text),
+        *map(as_bytes, children),
+    ]
 
 
 def decoded(text):
@@ -75,23 +80,78 @@ def same(mine, theirs):
 
 def _same(a, b):
     text = " ".join((a[3] or "").split())
-    return a[0] == b[0] and a[1] == b[1] and a[2] == b[2] and (b[3] is None or text.startswith(" ".join(b[3].split()))) \
-        and len(a) == len(b) and all(_same(x, y) for x, y in zip(a[4:], b[4:]))
+    return (
+        a[0] == b[0]
+        and a[1] == b[1]
+        and a[2] == b[2]
+        and (b[3] is None or text.startswith(" ".join(b[3].split())))
+        and len(a) == len(b)
+        and all(_same(x, y) for x, y in zip(a[4:], b[4:]))
+    )
 
 
 TEXTS = [
-    '<a b="1" b="2"/>', "<a b=1 c=2/>", "<a b=x/y>t</a>", "<a b>t</a>", "<a b='1'c='2'/>", '<a b = "1" />', '<a b=""/>', "<a b= />",
-    '<a b="x&y<z">q & r &amp; s &foo; &#65; &#x42;</a>', "<a>&#xZZ;</a>", "<a>&#65</a>", "<a b='&LT; &amp'/>", "<a>http://h/x?a=1&b=2</a>",
-    "<a/><b/>", "<a/>text<b/>", "text<a/>", "<a>x<b/>y</a>", "<a>x <!-- c -- d --> y</a>", "<a><!-- x</a>", "<!-- x", "<a b='<!-- x -->'/>",
-    "<a><b></a></b>", "<a><b></b>", "<a>", "<a></a >", "<a></ab>", "<A></a>", "< a/>", "<1a/>", "<a/ >", "<a / >", "</a>", "<a></a><",
+    '<a b="1" b="2"/>',
+    "<a b=1 c=2/>",
+    "<a b=x/y>t</a>",
+    "<a b>t</a>",
+    "<a b='1'c='2'/>",
+    '<a b = "1" />',
+    '<a b=""/>',
+    "<a b= />",
+    '<a b="x&y<z">q & r &amp; s &foo; &#65; &#x42;</a>',
+    "<a>&#xZZ;</a>",
+    "<a>&#65</a>",
+    "<a b='&LT; &amp'/>",
+    "<a>http://h/x?a=1&b=2</a>",
+    "<a/><b/>",
+    "<a/>text<b/>",
+    "text<a/>",
+    "<a>x<b/>y</a>",
+    "<a>x <!-- c -- d --> y</a>",
+    "<a><!-- x</a>",
+    "<!-- x",
+    "<a b='<!-- x -->'/>",
+    "<a><b></a></b>",
+    "<a><b></b>",
+    "<a>",
+    "<a></a >",
+    "<a></ab>",
+    "<A></a>",
+    "< a/>",
+    "<1a/>",
+    "<a/ >",
+    "<a / >",
+    "</a>",
+    "<a></a><",
     "<",
-    "<a><5 b></a>", "<a>1 < 2</a>", "<a b='x\"y'/>", '<a b="x/>', '<a b=x"y/>', '<?xml version="1.0"?>\n\n<a/>',
+    "<a><5 b></a>",
+    "<a>1 < 2</a>",
+    "<a b='x\"y'/>",
+    '<a b="x/>',
+    '<a b=x"y/>',
+    '<?xml version="1.0"?>\n\n<a/>',
     '\n<?xml version="1.0"?><a/>',
-    "<?xml version='1.0' encoding='latin-15'?><a/>", "<!DOCTYPE a><a/>", "<a><![CDATA[x<y & z]]></a>", "<a><![CDATA[x</a>",
-    "\ufeff<a/>", "<a>\u00e9</a>", "<\u00e9 \u00fc='\u00df'/>", '<a b="\n1\t2 "> x \n y </a>', "<a:b c:d='1'/>", "<a.b-c_d/>",
+    "<?xml version='1.0' encoding='latin-15'?><a/>",
+    "<!DOCTYPE a><a/>",
+    "<a><![CDATA[x<y & z]]></a>",
+    "<a><![CDATA[x</a>",
+    "\ufeff<a/>",
+    "<a>\u00e9</a>",
+    "<\u00e9 \u00fc='\u00df'/>",
+    '<a b="\n1\t2 "> x \n y </a>',
+    "<a:b c:d='1'/>",
+    "<a.b-c_d/>",
     "<a><?pi x?><b/></a>",
-    "<a>\x01</a>", "<a\n b='1'\n><c/>\n<d/></a>", "", "   ", "<a b='&lt;&quot;&apos;&gt;'/>", "<a>]]></a>", "<_a _b='1'/>",
-    "<a\tb='1'\rc='2'/>"]
+    "<a>\x01</a>",
+    "<a\n b='1'\n><c/>\n<d/></a>",
+    "",
+    "   ",
+    "<a b='&lt;&quot;&apos;&gt;'/>",
+    "<a>]]></a>",
+    "<_a _b='1'/>",
+    "<a\tb='1'\rc='2'/>",
+]
 
 
 @pytest.mark.parametrize("number", range(len(TEXTS)), ids=[text[:20].encode("unicode_escape").decode() for text in TEXTS])
@@ -99,9 +159,38 @@ def test_a_text_is_read_as_tinyxml_reads_it(number):
     assert same(read(TEXTS[number]), asked([TEXTS[number]])[0]), (read(TEXTS[number]), asked([TEXTS[number]])[0])
 
 
-PIECES = ["<a>", "</a>", "<b c='1'>", "</b>", "<d/>", "<", ">", "/>", "/", "=", "'", '"', "&", "&amp;", "&#65;", "&x;", "<!--", "-->",
-          "--", "]]>",
-          "<![CDATA[", "<?xml ?>", "<!x>", " ", "\n", "x", "e f=g", " h='<&'", "\u00e9", "1"]
+PIECES = [
+    "<a>",
+    "</a>",
+    "<b c='1'>",
+    "</b>",
+    "<d/>",
+    "<",
+    ">",
+    "/>",
+    "/",
+    "=",
+    "'",
+    '"',
+    "&",
+    "&amp;",
+    "&#65;",
+    "&x;",
+    "<!--",
+    "-->",
+    "--",
+    "]]>",
+    "<![CDATA[",
+    "<?xml ?>",
+    "<!x>",
+    " ",
+    "\n",
+    "x",
+    "e f=g",
+    " h='<&'",
+    "\u00e9",
+    "1",
+]
 
 
 def test_texts_at_random_are_read_as_tinyxml_reads_them():
@@ -112,23 +201,39 @@ def test_texts_at_random_are_read_as_tinyxml_reads_them():
     assert not wrong, wrong[:5]
 
 
-@pytest.mark.parametrize("text", ["<!--" * 300_000, "<a>" * 50_000, "&" * 1_000_000, "<a b='" * 200_000, "<a " * 300_000, "\n" * 1_000_000,
-                                  "<a>" + "<" * 500_000, "<a>" + "\n<b c=d/>" * 30_000, "<a>" + "&#x" * 300_000],
-                                  ids=lambda text: text[:12])
+@pytest.mark.parametrize(
+    "text",
+    [
+        "<!--" * 300_000,
+        "<a>" * 50_000,
+        "&" * 1_000_000,
+        "<a b='" * 200_000,
+        "<a " * 300_000,
+        "\n" * 1_000_000,
+        "<a>" + "<" * 500_000,
+        "<a>" + "\n<b c=d/>" * 30_000,
+        "<a>" + "&#x" * 300_000,
+    ],
+    ids=lambda text: text[:12],
+)
 def test_any_text_takes_linear_time(text):
     def seconds(part):
         began = time.process_time()
         read(part)
         return time.process_time() - began
-    assert seconds(text) < 40 * max(seconds(text[:len(text) // 10]), 0.01)
+
+    assert seconds(text) < 40 * max(seconds(text[: len(text) // 10]), 0.01)
 
 
 def test_what_was_read_otherwise_than_written_is_told_with_its_line():
     class Nothing:
         start = end = data = lambda self, *_: None
+
     assert lenient_xml.feed("<a>\n<b c='x & y'/>\n<d e=1 f='<'/></a>", Nothing()) == [
-        (2, "a bare '&' is dropped (it is written &amp;)"), (3, "attribute 'e' of <d> has no quotation marks"),
-        (3, "'<' in attribute 'f' of <d> is part of the value")]
+        (2, "a bare '&' is dropped (it is written &amp;)"),
+        (3, "attribute 'e' of <d> has no quotation marks"),
+        (3, "'<' in attribute 'f' of <d> is part of the value"),
+    ]
 
 
 def test_the_root_that_is_asked_for_is_found_behind_others():

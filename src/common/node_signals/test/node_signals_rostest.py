@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Nodes end at every signal, whatever they are doing, their shutdown hooks run and the master told."""
+
 import signal
 import subprocess
 import sys
@@ -35,8 +36,7 @@ with node_signals.silent():
 class NodeSignals(unittest.TestCase):
     def end(self, waits, number, starter="node_signals"):
         """(what it printed after the signal, exit code) of a node that waits in a way of its own."""
-        node = subprocess.Popen([sys.executable, "-c", WAITING.format(waits=waits, starter=starter)], text=True,
-                                stdout=subprocess.PIPE)
+        node = subprocess.Popen([sys.executable, "-c", WAITING.format(waits=waits, starter=starter)], text=True, stdout=subprocess.PIPE)
         self.assertEqual(node.stdout.readline(), "up\n")
         self.assertIn("/waiting", self.publishers())
         node.send_signal(number)
@@ -97,8 +97,7 @@ with node_signals.silent():
 
     @staticmethod
     def publishers():
-        return [node for topic, nodes in rosgraph.Master("/test").getSystemState()[0] for node in nodes
-                if topic == "/of_waiting"]
+        return [node for topic, nodes in rosgraph.Master("/test").getSystemState()[0] for node in nodes if topic == "/of_waiting"]
 
     def test_one_that_spins_ends_with_its_own_code(self):
         for number in (signal.SIGINT, signal.SIGTERM):

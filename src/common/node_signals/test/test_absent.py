@@ -1,4 +1,5 @@
 """What is said of packages that are not there."""
+
 import pytest
 import rospkg
 from node_signals import launching
@@ -36,8 +37,10 @@ def test_other_texts_stay():
 def package(tmp_path, monkeypatch):
     folder = tmp_path / "my_arm"
     (folder / "scripts").mkdir(parents=True)
-    (folder / "package.xml").write_text("<package format='2'><name>my_arm</name><version>0.0.1</version><description>d</description>"
-                                        "<maintainer email='a@b.cd'>a</maintainer><license>BSD</license></package>")
+    (folder / "package.xml").write_text(
+        "<package format='2'><name>my_arm</name><version>0.0.1</version><description>d</description>"
+        "<maintainer email='a@b.cd'>a</maintainer><license>BSD</license></package>"
+    )
     monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path))
     return folder
 
@@ -56,14 +59,24 @@ def test_a_script_that_is_not_executable(package):
     assert of_program("my_arm", "move.py") == f"Such a file is there and is not executable: chmod +x {package}/scripts/move.py"
 
 
-@pytest.mark.parametrize("name, told", [
-    ("arm.launch", "That is a launch file: roslaunch my_arm arm.launch"), ("arm", "That is a launch file: roslaunch my_arm arm.launch"),
-    ("arm.test", "That is a test: rostest my_arm arm.test"), ("room.world", "world_name:={path}"), ("arm.rviz", "rviz -d {path}"),
-    ("arm.urdf", "check_urdf {path}; into a simulation: rosrun gazebo_ros spawn_model -urdf -file {path}"),
-    ("arm.urdf.xacro", "xacro {path}"),
-    ("Move.srv", "rossrv show my_arm/Move"), ("Pose.msg", "rosmsg show my_arm/Pose"), ("Grip.action", "rosmsg show my_arm/GripGoal"),
-    ("gains.yaml", "rosparam load {path}"), ("arm.launch.py", "a launch file of ROS 2; this is ROS 1"),
-    ("move.py", "Such a file is there and is not executable: chmod +x {path}")])
+@pytest.mark.parametrize(
+    "name, told",
+    [
+        ("arm.launch", "That is a launch file: roslaunch my_arm arm.launch"),
+        ("arm", "That is a launch file: roslaunch my_arm arm.launch"),
+        ("arm.test", "That is a test: rostest my_arm arm.test"),
+        ("room.world", "world_name:={path}"),
+        ("arm.rviz", "rviz -d {path}"),
+        ("arm.urdf", "check_urdf {path}; into a simulation: rosrun gazebo_ros spawn_model -urdf -file {path}"),
+        ("arm.urdf.xacro", "xacro {path}"),
+        ("Move.srv", "rossrv show my_arm/Move"),
+        ("Pose.msg", "rosmsg show my_arm/Pose"),
+        ("Grip.action", "rosmsg show my_arm/GripGoal"),
+        ("gains.yaml", "rosparam load {path}"),
+        ("arm.launch.py", "a launch file of ROS 2; this is ROS 1"),
+        ("move.py", "Such a file is there and is not executable: chmod +x {path}"),
+    ],
+)
 def test_a_file_that_is_no_program(package, name, told):
     path = package / "scripts" / (name if "." in name else name + ".launch")
     program(path, 0o644)
@@ -98,6 +111,7 @@ def test_nothing_of_a_package_that_is_not_there():
 def test_roslaunch_adds_it_to_its_own_line(package):
     def missing(node, machine, env):
         raise node_args.NodeParamsException("Cannot locate node of type [a] in package [my_arm]")
+
     with pytest.raises(node_args.NodeParamsException) as told:
         launching.arguments_of(missing)(Node("my_arm", "a"), None)
     assert str(told.value) == "Cannot locate node of type [a] in package [my_arm]. The package has no programs at all"

@@ -1,21 +1,31 @@
 """rosrun and rviz where there is no display for a window, and everywhere else."""
+
 import os
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
-
 from node_signals.display import asked_for, choose_platform, next_on_path
 
 BIN = Path(__file__).resolve().parents[1] / "bin"
 
 
-@pytest.mark.parametrize("words, window", [
-    (["/x/bin/rviz", "-d", "a.rviz"], "rviz"), (["rosrun", "rviz", "rviz"], "rviz"),
-    (["rosrun", "--debug", "--prefix", "gdb --args", "rviz", "rviz"], "rviz"), (["rosrun", "image_view", "stereo_view"], "stereo_view"),
-    (["rosrun", "image_view", "image_saver"], None), (["rosrun", "rviz", "rviz_tests"], None), (["rosrun", "rviz"], None),
-    (["rosrun"], None), (["rosrun", "--help"], None), (["rosrun", "my_rviz", "rviz"], None)])
+@pytest.mark.parametrize(
+    "words, window",
+    [
+        (["/x/bin/rviz", "-d", "a.rviz"], "rviz"),
+        (["rosrun", "rviz", "rviz"], "rviz"),
+        (["rosrun", "--debug", "--prefix", "gdb --args", "rviz", "rviz"], "rviz"),
+        (["rosrun", "image_view", "stereo_view"], "stereo_view"),
+        (["rosrun", "image_view", "image_saver"], None),
+        (["rosrun", "rviz", "rviz_tests"], None),
+        (["rosrun", "rviz"], None),
+        (["rosrun"], None),
+        (["rosrun", "--help"], None),
+        (["rosrun", "my_rviz", "rviz"], None),
+    ],
+)
 def test_which_commands_open_a_window(words, window):
     assert asked_for(words) == window
 
@@ -45,8 +55,9 @@ def run(tmp_path, *command, **changed):
     programs = program(tmp_path / "bin", "rosrun", "rosrun:")
     program(programs, "rviz", "rviz:")
     variables = {**os.environ, "DISPLAY": "", "WAYLAND_DISPLAY": "", "QT_QPA_PLATFORM": "", "PATH": f"{BIN}:{programs}:/usr/bin:/bin"}
-    return subprocess.run([sys.executable, BIN / command[0], *command[1:]], env={**variables, **changed}, capture_output=True,
-                          text=True, timeout=60)
+    return subprocess.run(
+        [sys.executable, BIN / command[0], *command[1:]], env={**variables, **changed}, capture_output=True, text=True, timeout=60
+    )
 
 
 @pytest.mark.parametrize("command", [["rviz", "-d", "a.rviz"], ["rosrun", "rviz", "rviz"]])
@@ -58,8 +69,10 @@ def test_without_a_display_one_line_names_the_remedy(tmp_path, command):
     assert run(tmp_path, *command, DISPLAY="nowhere:77").stderr.startswith("rviz: the display nowhere:77 (DISPLAY) cannot be opened")
 
 
-@pytest.mark.parametrize("command, changed", [(["rosrun", "tf", "view_frames", "a b"], {}), (["rosrun"], {}),
-                                              (["rviz", "--help"], {"QT_QPA_PLATFORM": "offscreen"})])
+@pytest.mark.parametrize(
+    "command, changed",
+    [(["rosrun", "tf", "view_frames", "a b"], {}), (["rosrun"], {}), (["rviz", "--help"], {"QT_QPA_PLATFORM": "offscreen"})],
+)
 def test_everything_else_is_passed_on_word_by_word(tmp_path, command, changed):
     ended = run(tmp_path, *command, **changed)
     assert (ended.returncode, ended.stderr) == (0, "") and ended.stdout.split() == f"{command[0]}: {' '.join(command[1:])}".split()
@@ -72,8 +85,12 @@ def test_view_frames_of_tf_is_that_of_tf2(tmp_path, options):
 
 
 def test_in_a_wayland_session_with_an_x_server_qt_is_sent_there():
-    for given, chosen in (({"WAYLAND_DISPLAY": "wayland-0", "DISPLAY": ":0"}, "xcb"), ({"WAYLAND_DISPLAY": "wayland-0"}, None),
-                          ({"DISPLAY": ":0"}, None), ({"WAYLAND_DISPLAY": "w", "DISPLAY": ":0", "QT_QPA_PLATFORM": "wayland"}, "wayland")):
+    for given, chosen in (
+        ({"WAYLAND_DISPLAY": "wayland-0", "DISPLAY": ":0"}, "xcb"),
+        ({"WAYLAND_DISPLAY": "wayland-0"}, None),
+        ({"DISPLAY": ":0"}, None),
+        ({"WAYLAND_DISPLAY": "w", "DISPLAY": ":0", "QT_QPA_PLATFORM": "wayland"}, "wayland"),
+    ):
         choose_platform(given)
         assert given.get("QT_QPA_PLATFORM") == chosen
 

@@ -1,4 +1,5 @@
 """Commands that ask a master which answers no more: Ctrl-C ends them."""
+
 import os
 import signal
 import subprocess
@@ -11,8 +12,10 @@ from xmlrpc.server import SimpleXMLRPCRequestHandler, SimpleXMLRPCServer
 import pytest
 
 SRC = Path(__file__).resolve().parents[3]
-COMMANDS = {"gz": [SRC / "simulation/gazebo_ros/scripts/gz", "model"],
-            "controller_manager": [SRC / "control/controller_manager/scripts/controller_manager", "list"]}
+COMMANDS = {
+    "gz": [SRC / "simulation/gazebo_ros/scripts/gz", "model"],
+    "controller_manager": [SRC / "control/controller_manager/scripts/controller_manager", "list"],
+}
 
 
 class HalfDeadMaster(ThreadingMixIn, SimpleXMLRPCServer):
@@ -47,8 +50,13 @@ def half_dead_master():
 @pytest.mark.slow
 @pytest.mark.parametrize("name", sorted(COMMANDS))
 def test_ctrl_c_ends_it_while_it_waits_for_the_master(half_dead_master, tmp_path, name):
-    command = subprocess.Popen(COMMANDS[name], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env={
-        **os.environ, "ROS_MASTER_URI": half_dead_master.uri, "ROS_HOME": str(tmp_path)})
+    command = subprocess.Popen(
+        COMMANDS[name],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        env={**os.environ, "ROS_MASTER_URI": half_dead_master.uri, "ROS_HOME": str(tmp_path)},
+    )
     try:
         assert half_dead_master.asked.wait(60.0)
         time.sleep(0.5)

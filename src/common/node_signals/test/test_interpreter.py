@@ -1,4 +1,5 @@
 """What `#!/usr/bin/env python` finds in nodes."""
+
 import contextlib
 import os
 import shutil
@@ -52,10 +53,14 @@ def test_an_environment_that_knows_python_stays(tmp_path, debian):
         assert environment == {"PATH": str(folder)}
 
 
-@pytest.mark.parametrize("text, code, out, told", [
-    ("import sys\nprint('%d %s' % (sys.version_info[0], sys.argv[1]))\n", 0, "3 a b\n", "it runs with Python 3"),
-    ("import sys\nprint sys.argv\n", 1, "", "node, line 3: written for Python 2"),
-    ("if True:\n\tx = 1\n        print(x)\n", 1, "", "2to3 -w")])
+@pytest.mark.parametrize(
+    "text, code, out, told",
+    [
+        ("import sys\nprint('%d %s' % (sys.version_info[0], sys.argv[1]))\n", 0, "3 a b\n", "it runs with Python 3"),
+        ("import sys\nprint sys.argv\n", 1, "", "node, line 3: written for Python 2"),
+        ("if True:\n\tx = 1\n        print(x)\n", 1, "", "2to3 -w"),
+    ],
+)
 @pytest.mark.parametrize("name", ["python2", "python2.7"])
 def test_a_script_for_python_2_runs_if_python_3_reads_it_and_else_one_line_says_what_to_do(tmp_path, debian, name, text, code, out, told):
     program(tmp_path, "node", f"#!/usr/bin/env {name}\n{text}")
@@ -68,12 +73,18 @@ def test_a_script_for_python_2_runs_if_python_3_reads_it_and_else_one_line_says_
 
 PLAIN = "import sys\nprint(sys.version_info[0], sys.argv[1:])\n"
 FIRST_LINES = [  # what the file begins with, what is told; Debian has none of these interpreters
-    (b"#!/usr/bin/python2\n", "it runs with Python 3, where 1/2 is 0.5"), (b"#!/usr/bin/python2.7 -u\n", "it runs with Python 3"),
-    (b"#!/usr/local/bin/python2\n", "it runs with Python 3"), (b"#!/usr/local/bin/python\n", ""),
-    (b"#!/opt/nowhere/bin/python3\n", ""), (b"#!/usr/bin/env python3.8\n", "asks for python3.8, which is not here; it runs with Python 3"),
-    (b"#!/usr/bin/python3.6\n", "asks for python3.6"), (b"#!/usr/bin/env python3\r\n", "dos2unix"),
-    (b"#!/usr/bin/python\r\n", "dos2unix"), (b"#!/usr/bin/env python2\r\n", "dos2unix"),
-    (b"\xef\xbb\xbf#!/usr/bin/env python3\n", "mark of UTF-8")]
+    (b"#!/usr/bin/python2\n", "it runs with Python 3, where 1/2 is 0.5"),
+    (b"#!/usr/bin/python2.7 -u\n", "it runs with Python 3"),
+    (b"#!/usr/local/bin/python2\n", "it runs with Python 3"),
+    (b"#!/usr/local/bin/python\n", ""),
+    (b"#!/opt/nowhere/bin/python3\n", ""),
+    (b"#!/usr/bin/env python3.8\n", "asks for python3.8, which is not here; it runs with Python 3"),
+    (b"#!/usr/bin/python3.6\n", "asks for python3.6"),
+    (b"#!/usr/bin/env python3\r\n", "dos2unix"),
+    (b"#!/usr/bin/python\r\n", "dos2unix"),
+    (b"#!/usr/bin/env python2\r\n", "dos2unix"),
+    (b"\xef\xbb\xbf#!/usr/bin/env python3\n", "mark of UTF-8"),
+]
 
 
 @pytest.mark.parametrize("first, told", FIRST_LINES)
@@ -93,16 +104,27 @@ def test_a_first_line_that_names_what_is_not_there(tmp_path, debian, monkeypatch
     assert told in said and (said.count("it runs") == 1 if told else said == "")
 
 
-@pytest.mark.parametrize("first", [b"#!/usr/bin/env python3\n", b"#!/bin/sh\n", b"#!/usr/bin/python3 -u\n", b"\x7fELF\r\n",
-                                   b"import rospy\n", b"#!/usr/bin/perl\n", b"#!\n", b""])
+@pytest.mark.parametrize(
+    "first",
+    [
+        b"#!/usr/bin/env python3\n",
+        b"#!/bin/sh\n",
+        b"#!/usr/bin/python3 -u\n",
+        b"\x7fELF\r\n",
+        b"import rospy\n",
+        b"#!/usr/bin/perl\n",
+        b"#!\n",
+        b"",
+    ],
+)
 def test_what_can_be_started_is_left_to_the_kernel(tmp_path, first):
     (tmp_path / "node").write_bytes(first)
     assert as_it_can_run(str(tmp_path / "node")) == ([str(tmp_path / "node")], "")
 
 
 SHIMS = {  # of version managers, without such a version behind them: what they say, and how they end
-    "pyenv": "#!/bin/sh\necho \"pyenv: ${0##*/}: command not found\" >&2\nexit 127\n",
-    "asdf": "#!/bin/sh\necho \"No version is set for command ${0##*/}\" >&2\nexit 126\n",
+    "pyenv": '#!/bin/sh\necho "pyenv: ${0##*/}: command not found" >&2\nexit 127\n',
+    "asdf": '#!/bin/sh\necho "No version is set for command ${0##*/}" >&2\nexit 126\n',
     "mise": None,  # a link to a program
 }
 
@@ -117,8 +139,9 @@ def shims(folder, manager, name):
 
 
 @pytest.mark.parametrize("manager", SHIMS)
-@pytest.mark.parametrize("asked, told", [("python2.7", "it runs with Python 3, where 1/2 is 0.5"), ("python3.8", "asks for python3.8"),
-                                         ("python", "")])
+@pytest.mark.parametrize(
+    "asked, told", [("python2.7", "it runs with Python 3, where 1/2 is 0.5"), ("python3.8", "asks for python3.8"), ("python", "")]
+)
 def test_a_version_managers_shim_with_nothing_behind_it_is_not_there(tmp_path, debian, monkeypatch, manager, asked, told):
     program(tmp_path, "node", f"#!/usr/bin/env {asked}\n{PLAIN}")
     monkeypatch.setenv("PATH", f"{shims(tmp_path / 'shims', manager, asked)}:{debian}:/usr/bin:/bin")
@@ -158,13 +181,18 @@ def test_the_commands_give_them_to_nodes(tmp_path, command, first):
     program(package, "talk", f"{first}\nprint('it talks')\n")
     (package / "package.xml").write_text("<package><name>old_nodes</name><version>1.0.0</version></package>")
     (package / "talk.launch").write_text(
-        '<launch><node name="talk" pkg="old_nodes" type="talk" output="screen" required="true" launch-prefix="nice -n 1"/></launch>')
+        '<launch><node name="talk" pkg="old_nodes" type="talk" output="screen" required="true" launch-prefix="nice -n 1"/></launch>'
+    )
     with socket.socket() as probe:
         probe.bind(("localhost", 0))
         port = probe.getsockname()[1]
-    environment = {**os.environ, "ROS_HOME": str(tmp_path), "ROS_MASTER_URI": f"http://localhost:{port}",
-                   "ROS_PACKAGE_PATH": f"{tmp_path}:{os.environ['ROS_PACKAGE_PATH']}",
-                   "PATH": f"{shims(tmp_path / 'shims', 'pyenv', first.rpartition('/')[2].split()[-1])}:{os.environ['PATH']}"}
+    environment = {
+        **os.environ,
+        "ROS_HOME": str(tmp_path),
+        "ROS_MASTER_URI": f"http://localhost:{port}",
+        "ROS_PACKAGE_PATH": f"{tmp_path}:{os.environ['ROS_PACKAGE_PATH']}",
+        "PATH": f"{shims(tmp_path / 'shims', 'pyenv', first.rpartition('/')[2].split()[-1])}:{os.environ['PATH']}",
+    }
     answer = subprocess.run(command.split(), env=environment, capture_output=True, text=True, timeout=120)
     assert "it talks" in answer.stdout, answer.stdout + answer.stderr
 
@@ -175,13 +203,16 @@ def test_the_commands_give_it_to_nodes(tmp_path, debian, command):
     program(package, "talk", "#!/usr/bin/env python\nimport rospy\nprint('it talks')\n")
     program(tmp_path / "pyenv", "python")
     (package / "package.xml").write_text("<package><name>old_nodes</name><version>1.0.0</version></package>")
-    (package / "talk.launch").write_text(
-        '<launch><node name="talk" pkg="old_nodes" type="talk" output="screen" required="true"/></launch>')
+    (package / "talk.launch").write_text('<launch><node name="talk" pkg="old_nodes" type="talk" output="screen" required="true"/></launch>')
     with socket.socket() as probe:
         probe.bind(("localhost", 0))
         port = probe.getsockname()[1]
-    environment = {**os.environ, "PATH": f"{tmp_path / 'pyenv'}:{os.environ['PATH']}", "ROS_HOME": str(tmp_path),
-                   "ROS_MASTER_URI": f"http://localhost:{port}",
-                   "ROS_PACKAGE_PATH": f"{tmp_path}:{os.environ['ROS_PACKAGE_PATH']}"}
+    environment = {
+        **os.environ,
+        "PATH": f"{tmp_path / 'pyenv'}:{os.environ['PATH']}",
+        "ROS_HOME": str(tmp_path),
+        "ROS_MASTER_URI": f"http://localhost:{port}",
+        "ROS_PACKAGE_PATH": f"{tmp_path}:{os.environ['ROS_PACKAGE_PATH']}",
+    }
     answer = subprocess.run(command.split(), env=environment, capture_output=True, text=True, timeout=120)
     assert "it talks" in answer.stdout, answer.stdout + answer.stderr

@@ -1,4 +1,5 @@
 """roslaunch, ended by Ctrl-C in its first moments, and where its logs go."""
+
 import os
 import signal
 import socket
@@ -27,10 +28,16 @@ def started(tmp_path, command, **changed):
     with socket.socket() as probe:
         probe.bind(("localhost", 0))
         port = probe.getsockname()[1]
-    environment = {**os.environ, "ROS_MASTER_URI": f"http://localhost:{port}", "ROS_HOME": str(tmp_path),
-                   "PYTHONUNBUFFERED": "1", **changed}
-    return subprocess.Popen([*command, "-p", str(port)], env=environment, stdout=subprocess.PIPE,
-                            stderr=subprocess.STDOUT, text=True, start_new_session=True)
+    environment = {
+        **os.environ,
+        "ROS_MASTER_URI": f"http://localhost:{port}",
+        "ROS_HOME": str(tmp_path),
+        "PYTHONUNBUFFERED": "1",
+        **changed,
+    }
+    return subprocess.Popen(
+        [*command, "-p", str(port)], env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, start_new_session=True
+    )
 
 
 def interrupted(process, said):
@@ -60,8 +67,19 @@ def ended_at(process, moment):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("moment", ["logging to", "auto-starting new master", "process[master]", "setting /run_id",
-                                    "process[rosout-1]", "started core service", "process[one-2]", "process[two-3]"])
+@pytest.mark.parametrize(
+    "moment",
+    [
+        "logging to",
+        "auto-starting new master",
+        "process[master]",
+        "setting /run_id",
+        "process[rosout-1]",
+        "started core service",
+        "process[one-2]",
+        "process[two-3]",
+    ],
+)
 def test_ctrl_c_at_any_line_of_the_start(tmp_path, moment):
     ended_at(launch(tmp_path), moment)
 

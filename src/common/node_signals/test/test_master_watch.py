@@ -1,4 +1,5 @@
 """What is to be done when a new master is there, and for how long it is kept in mind."""
+
 import gc
 
 from node_signals import master_watch

@@ -1,4 +1,5 @@
 """Names that two parts of a node choose."""
+
 import pytest
 import rospy
 from node_signals import offers
@@ -22,6 +23,7 @@ def said(monkeypatch):
 def test_a_second_service_of_a_name_is_a_stand_in_with_one_line(said, monkeypatch):
     def taken(name, kind, handler):
         raise rospy.ServiceException(f"service [{name}] already registered")
+
     monkeypatch.setattr(rospy, "Service", taken)
     service = offers.service("/cam/set_camera_info", object, print)
     service.shutdown("done")
@@ -31,6 +33,7 @@ def test_a_second_service_of_a_name_is_a_stand_in_with_one_line(said, monkeypatc
 def test_another_trouble_of_a_service_is_not_hidden(said, monkeypatch):
     def broken(name, kind, handler):
         raise rospy.ServiceException("no master")
+
     monkeypatch.setattr(rospy, "Service", broken)
     with pytest.raises(rospy.ServiceException):
         offers.service("/s", object, print)

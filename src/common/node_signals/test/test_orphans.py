@@ -1,4 +1,5 @@
 """Nodes whose launch was killed."""
+
 import os
 import signal
 import socket
@@ -29,8 +30,9 @@ class Node:
         self.file, self.mark = tmp_path / "node.py", tmp_path / "mark"
         self.file.write_text(NODE.format(path=sys.path, mark=str(self.mark)))
         self.file.chmod(0o755)
-        self.parent = subprocess.Popen([word.replace("NODE", str(self.file)) for word in command], start_new_session=True,
-                                       env={**os.environ, **environment})
+        self.parent = subprocess.Popen(
+            [word.replace("NODE", str(self.file)) for word in command], start_new_session=True, env={**os.environ, **environment}
+        )
         until(lambda: self.mark.exists() and self.mark.read_text().endswith("\n"))
         pid, self.launcher = self.mark.read_text().split()
         self.pid = int(pid)
@@ -57,8 +59,7 @@ def until(condition, seconds=30.0):
 def launch_like(tmp_path, name, prefix=""):
     """A program of that name that starts the node as roslaunch does: in a session of its own."""
     program = tmp_path / name
-    program.write_text("#!/usr/bin/env python3\nimport subprocess, sys\n"
-                       "subprocess.Popen(sys.argv[1:], start_new_session=True).wait()\n")
+    program.write_text("#!/usr/bin/env python3\nimport subprocess, sys\nsubprocess.Popen(sys.argv[1:], start_new_session=True).wait()\n")
     program.chmod(0o755)
     return [sys.executable, str(program), *prefix.split(), "NODE"]
 
@@ -70,6 +71,7 @@ def started(tmp_path):
     def start(*command, **environment):
         made.append(Node(tmp_path, *command, **environment))
         return made[-1]
+
     yield start
     for node in made:
         node.end()
@@ -92,12 +94,15 @@ def test_under_a_launch_prefix_too(started, tmp_path):
     until(lambda: not node.lives())
 
 
-@pytest.mark.parametrize("command, environment", [
-    (["bash", "-c", "NODE; true"], {}),
-    (["bash", "-c", "nohup NODE >/dev/null 2>&1; true"], {}),
-    (["bash", "-c", "setsid -w NODE; true"], {}),
-    (["bash", "-c", "rosrun() { \"$@\"; true; }; rosrun NODE"], {}),
-])
+@pytest.mark.parametrize(
+    "command, environment",
+    [
+        (["bash", "-c", "NODE; true"], {}),
+        (["bash", "-c", "nohup NODE >/dev/null 2>&1; true"], {}),
+        (["bash", "-c", "setsid -w NODE; true"], {}),
+        (["bash", "-c", 'rosrun() { "$@"; true; }; rosrun NODE'], {}),
+    ],
+)
 def test_started_by_hand_it_runs_on(started, command, environment):
     node = started(*command, **environment)
     assert node.launcher == "nobody"
@@ -149,17 +154,27 @@ def test_roslaunch_itself(tmp_path):
     node.chmod(0o755)
     package = tmp_path / "orphan_pkg"
     package.mkdir()
-    (package / "package.xml").write_text("<package format='2'><name>orphan_pkg</name><version>0.0.1</version><description>d"
-                                         "</description><maintainer email='a@b.c'>m</maintainer><license>BSD</license></package>")
+    (package / "package.xml").write_text(
+        "<package format='2'><name>orphan_pkg</name><version>0.0.1</version><description>d"
+        "</description><maintainer email='a@b.c'>m</maintainer><license>BSD</license></package>"
+    )
     node.rename(package / "node.py")
     (package / "one.launch").write_text('<launch><node name="one" pkg="orphan_pkg" type="node.py"/></launch>')
     with socket.socket() as probe:
         probe.bind(("localhost", 0))
         port = probe.getsockname()[1]
     process = subprocess.Popen(
-        ["roslaunch", str(package / "one.launch")], start_new_session=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-        env={**os.environ, "ROS_MASTER_URI": f"http://localhost:{port}", "ROS_HOME": str(tmp_path),
-             "ROS_PACKAGE_PATH": f"{tmp_path}:{os.environ.get('ROS_PACKAGE_PATH', '')}"})
+        ["roslaunch", str(package / "one.launch")],
+        start_new_session=True,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+        env={
+            **os.environ,
+            "ROS_MASTER_URI": f"http://localhost:{port}",
+            "ROS_HOME": str(tmp_path),
+            "ROS_PACKAGE_PATH": f"{tmp_path}:{os.environ.get('ROS_PACKAGE_PATH', '')}",
+        },
+    )
     try:
         until(lambda: mark.exists() and mark.read_text().endswith("\n"), 60)
         pid, name = mark.read_text().split()

@@ -1,4 +1,5 @@
 """Programs that rosrun finds: those of Debian's rosrun, and what is said where it finds none."""
+
 import os
 import subprocess
 import sys
@@ -8,8 +9,10 @@ import pytest
 from node_signals import programs
 
 BIN = Path(__file__).resolve().parents[1] / "bin"
-MANIFEST = ("<package format='2'><name>my_arm</name><version>0.0.1</version><description>d</description>"
-            "<maintainer email='a@b.cd'>a</maintainer><license>BSD</license></package>")
+MANIFEST = (
+    "<package format='2'><name>my_arm</name><version>0.0.1</version><description>d</description>"
+    "<maintainer email='a@b.cd'>a</maintainer><license>BSD</license></package>"
+)
 
 
 def script(path, says, mode=0o755):
@@ -32,8 +35,12 @@ def workspace(tmp_path, monkeypatch):
     script(devel / "lib" / "my_arm" / "relayed.py", "relay")
     (source / "package.xml").write_text(MANIFEST)
     (devel / ".catkin").write_text(str(source))
-    for name, value in (("CMAKE_PREFIX_PATH", str(devel)), ("ROS_PACKAGE_PATH", str(source.parent)), ("ROS_HOME", str(tmp_path / "home")),
-                        ("PATH", f"{BIN}:/usr/bin:/bin")):
+    for name, value in (
+        ("CMAKE_PREFIX_PATH", str(devel)),
+        ("ROS_PACKAGE_PATH", str(source.parent)),
+        ("ROS_HOME", str(tmp_path / "home")),
+        ("PATH", f"{BIN}:/usr/bin:/bin"),
+    ):
         monkeypatch.setenv(name, value)
     return source
 
@@ -47,9 +54,19 @@ OWN, DEBIANS = [sys.executable, str(BIN / "rosrun")], ["/usr/bin/rosrun"]
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("words", [["my_arm", "node.py", "a b", "*"], ["--prefix", "nice -n 1", "my_arm", "relayed.py"],
-                                   ["my_arm", "left.py"], ["my_arm", "nod*.py"], ["my_arm", "twice.py"], ["my_arm", "plain.py"],
-                                   ["my_arm", "scripts/node.py", "a"], ["my_arm", "nowhere/node.py"]])
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["my_arm", "node.py", "a b", "*"],
+        ["--prefix", "nice -n 1", "my_arm", "relayed.py"],
+        ["my_arm", "left.py"],
+        ["my_arm", "nod*.py"],
+        ["my_arm", "twice.py"],
+        ["my_arm", "plain.py"],
+        ["my_arm", "scripts/node.py", "a"],
+        ["my_arm", "nowhere/node.py"],
+    ],
+)
 def test_runs_what_debians_runs(workspace, words):
     code, printed, _ = run(OWN, *words)
     assert (code, printed) == run(DEBIANS, *words)[:2]
@@ -75,8 +92,14 @@ def test_a_place_in_the_package_is_looked_at_as_a_name_is(workspace):
     assert (code, printed) == (0, "3\n") and "dos2unix" in said
 
 
-@pytest.mark.parametrize("words, told", [(["my_arm", "node.py"], "rosrun my_arm node.py"), (["src/node.py"], "rosrun PACKAGE node.py"),
-                                         (["my_arm", "arm.launch.py", "a:=b"], "of ROS 2")])
+@pytest.mark.parametrize(
+    "words, told",
+    [
+        (["my_arm", "node.py"], "rosrun my_arm node.py"),
+        (["src/node.py"], "rosrun PACKAGE node.py"),
+        (["my_arm", "arm.launch.py", "a:=b"], "of ROS 2"),
+    ],
+)
 def test_a_program_is_no_launch_file(workspace, words, told):
     code, _, said = run([sys.executable, str(BIN / "roslaunch")], *words)
     assert code == 1 and said.startswith(f"roslaunch: {words[-1] if ':=' not in words[-1] else words[-2]} is no launch file. ")
@@ -87,10 +110,11 @@ def test_debians_need_not_be_asked(workspace):
     assert programs.find("my_arm", "relayed.py") == [os.environ["CMAKE_PREFIX_PATH"] + "/lib/my_arm/relayed.py"]
 
 
-
 def test_why_there_is_nothing_to_run(workspace):
-    assert f"no program plain.py that can be run. Such a file is there and is not executable: chmod +x {workspace}" in run(
-        OWN, "my_arm", "plain.py")[2]
+    assert (
+        f"no program plain.py that can be run. Such a file is there and is not executable: chmod +x {workspace}"
+        in run(OWN, "my_arm", "plain.py")[2]
+    )
     assert run(OWN, "my_leg", "x")[2].startswith("rosrun: the package 'my_leg' is not here. Is it built in your workspace")
 
 

@@ -1,4 +1,5 @@
 """What roslaunch reads once, in its own process, is what it would have read."""
+
 import os
 import subprocess
 import sys
@@ -9,8 +10,10 @@ from catkin_pkg.packages import find_packages
 from node_signals import quick_start
 from rospkg import rospack
 
-MANIFEST = "<package><!-- <name>other</name> --><name> {} </name><version>0.0.1</version><description>A.</description>" \
-           "<maintainer email='a@b.org'>a</maintainer><license>BSD</license></package>"
+MANIFEST = (
+    "<package><!-- <name>other</name> --><name> {} </name><version>0.0.1</version><description>A.</description>"
+    "<maintainer email='a@b.org'>a</maintainer><license>BSD</license></package>"
+)
 DEBIAN = "/usr/bin/roslaunch"
 
 
@@ -89,6 +92,7 @@ def test_parameters_of_a_launch_file_are_those_of_debians(tmp_path):
 
     def dumped(program):
         return subprocess.run([program, "--dump-params", str(tmp_path / "a.launch")], capture_output=True, text=True, check=True).stdout
+
     ours = dumped("roslaunch")
     assert ours == dumped(DEBIAN) and "\\n" in next(line for line in ours.splitlines() if "version" in line)
 

@@ -1,4 +1,5 @@
 """The rules of rates; ros_control's has its tests in realtime_tools, Gazebo's sensors' in gazebo_ros."""
+
 from node_signals.rates import PeriodAdded, Spaced
 
 MS = 1_000_000

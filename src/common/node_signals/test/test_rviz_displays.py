@@ -1,4 +1,5 @@
 """Displays whose library nobody has built."""
+
 import os
 import shutil
 import subprocess
@@ -6,10 +7,14 @@ import sys
 
 import pytest
 
-MANIFEST = ("<package format='2'><name>my_displays</name><version>0.0.1</version><description>d</description><maintainer email='a@b.cd'>a"
-            "</maintainer><license>BSD</license><depend>rviz</depend><export><rviz plugin='${prefix}/plugins.xml'/></export></package>")
-LIBRARY = ("<library path='{path}'><class name='my_displays/Arc' type='my::Arc' base_class_type='rviz::Display'/>"
-           "<class type='my::Pick' base_class_type='rviz::Tool'/><class name='x' type='y' base_class_type='other::Kind'/></library>")
+MANIFEST = (
+    "<package format='2'><name>my_displays</name><version>0.0.1</version><description>d</description><maintainer email='a@b.cd'>a"
+    "</maintainer><license>BSD</license><depend>rviz</depend><export><rviz plugin='${prefix}/plugins.xml'/></export></package>"
+)
+LIBRARY = (
+    "<library path='{path}'><class name='my_displays/Arc' type='my::Arc' base_class_type='rviz::Display'/>"
+    "<class type='my::Pick' base_class_type='rviz::Tool'/><class name='x' type='y' base_class_type='other::Kind'/></library>"
+)
 
 
 @pytest.fixture
@@ -17,8 +22,12 @@ def package(tmp_path, monkeypatch):
     folder = tmp_path / "src" / "my_displays"
     folder.mkdir(parents=True)
     (folder / "package.xml").write_text(MANIFEST)
-    for name, value in (("ROS_PACKAGE_PATH", f"{folder.parent}:/usr/share"), ("CMAKE_PREFIX_PATH", str(tmp_path / "devel")),
-                        ("ROS_HOME", str(tmp_path)), ("LD_LIBRARY_PATH", str(tmp_path / "libraries"))):
+    for name, value in (
+        ("ROS_PACKAGE_PATH", f"{folder.parent}:/usr/share"),
+        ("CMAKE_PREFIX_PATH", str(tmp_path / "devel")),
+        ("ROS_HOME", str(tmp_path)),
+        ("LD_LIBRARY_PATH", str(tmp_path / "libraries")),
+    ):
         monkeypatch.setenv(name, value)
     return folder
 
@@ -32,12 +41,19 @@ def told():
 def test_one_line_says_what_to_build(package, path, wrapped):
     text = LIBRARY.format(path=path)
     (package / "plugins.xml").write_text(f"<class_libraries>{text}</class_libraries>" if wrapped else text)
-    assert told() == ("rviz: my_displays/Arc, my::Pick of the package my_displays cannot be added, its library libmy_displays is not "
-                      "built: catkin build my_displays\n")
+    assert told() == (
+        "rviz: my_displays/Arc, my::Pick of the package my_displays cannot be added, its library libmy_displays is not "
+        "built: catkin build my_displays\n"
+    )
 
 
-@pytest.mark.parametrize("start", [["-m", "node_signals.rviz_start"], ["-c", "from node_signals import programs as p; p.run("
-                                   "['rosrun', 'rviz', 'rviz', '-d', 'none.rviz'])"]])
+@pytest.mark.parametrize(
+    "start",
+    [
+        ["-m", "node_signals.rviz_start"],
+        ["-c", "from node_signals import programs as p; p.run(['rosrun', 'rviz', 'rviz', '-d', 'none.rviz'])"],
+    ],
+)
 def test_whoever_starts_rviz_has_it_told(package, tmp_path, start):
     (package / "plugins.xml").write_text(LIBRARY.format(path="lib/libmy_displays"))
     words = [shutil.which("true")] if start[0] == "-m" else []

@@ -1,4 +1,5 @@
 """RViz's second start, seen from outside: a program of ours stands for it, since the real one dies when it likes."""
+
 import os
 import signal
 import subprocess
@@ -16,11 +17,12 @@ def start(tmp_path, script, *arguments, **changed):
     """``rviz`` as PATH finds it, behind it ``script`` in its place, which notes each of its starts in ``starts``."""
     programs = tmp_path / "bin"
     programs.mkdir()
-    (programs / "rviz").write_text(f'#!/bin/bash\necho start >> {tmp_path}/starts\nturn=$(wc -l < {tmp_path}/starts)\n{script}\n')
+    (programs / "rviz").write_text(f"#!/bin/bash\necho start >> {tmp_path}/starts\nturn=$(wc -l < {tmp_path}/starts)\n{script}\n")
     (programs / "rviz").chmod(0o755)
     variables = {**os.environ, "QT_QPA_PLATFORM": "offscreen", "PATH": f"{BIN}:{programs}:/usr/bin:/bin", "PYTHONPATH": str(SOURCES)}
-    return subprocess.Popen([sys.executable, BIN / "rviz", *arguments], env={**variables, **changed}, stdout=subprocess.PIPE,
-                            stderr=subprocess.PIPE, text=True)
+    return subprocess.Popen(
+        [sys.executable, BIN / "rviz", *arguments], env={**variables, **changed}, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
 
 
 def starts(tmp_path):
@@ -72,18 +74,33 @@ def test_a_launch_file_that_requires_it_survives_the_crash(tmp_path):
     for folder in (package, programs):
         folder.mkdir(parents=True)
     (tmp_path / "ws/.catkin").write_text("")
-    (package / "package.xml").write_text("<package format='2'><name>rviz</name><version>1.0.0</version><description>d</description>"
-                                         "<maintainer email='a@example.org'>m</maintainer><license>BSD</license></package>")
-    (programs / "rviz").write_text(f"#!/bin/bash\necho start >> {tmp_path}/starts\n[ $(wc -l < {tmp_path}/starts) = 2 ] || kill -SEGV $$\n"
-                                  f"echo second >> {tmp_path}/second; exec sleep 600\n")
+    (package / "package.xml").write_text(
+        "<package format='2'><name>rviz</name><version>1.0.0</version><description>d</description>"
+        "<maintainer email='a@example.org'>m</maintainer><license>BSD</license></package>"
+    )
+    (programs / "rviz").write_text(
+        f"#!/bin/bash\necho start >> {tmp_path}/starts\n[ $(wc -l < {tmp_path}/starts) = 2 ] || kill -SEGV $$\n"
+        f"echo second >> {tmp_path}/second; exec sleep 600\n"
+    )
     (programs / "rviz").chmod(0o755)
     launch = tmp_path / "a.launch"
     launch.write_text('<launch><node pkg="rviz" type="rviz" name="rviz" required="true"/></launch>')
-    variables = {**os.environ, "QT_QPA_PLATFORM": "offscreen", "ROS_PACKAGE_PATH": str(tmp_path / "ws/share"),
-                 "CMAKE_PREFIX_PATH": str(tmp_path / "ws"), "ROS_HOME": str(tmp_path), "ROS_MASTER_URI": "http://localhost:11987",
-                 "PYTHONPATH": f"{SOURCES}:{os.environ.get('PYTHONPATH', '')}"}
-    with subprocess.Popen([sys.executable, BIN / "roslaunch", "--port", "11987", launch], env=variables, stdout=subprocess.PIPE,
-                          stderr=subprocess.STDOUT, text=True) as running:
+    variables = {
+        **os.environ,
+        "QT_QPA_PLATFORM": "offscreen",
+        "ROS_PACKAGE_PATH": str(tmp_path / "ws/share"),
+        "CMAKE_PREFIX_PATH": str(tmp_path / "ws"),
+        "ROS_HOME": str(tmp_path),
+        "ROS_MASTER_URI": "http://localhost:11987",
+        "PYTHONPATH": f"{SOURCES}:{os.environ.get('PYTHONPATH', '')}",
+    }
+    with subprocess.Popen(
+        [sys.executable, BIN / "roslaunch", "--port", "11987", launch],
+        env=variables,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+    ) as running:
         deadline = time.monotonic() + 120
         while not (tmp_path / "second").exists() and time.monotonic() < deadline and running.poll() is None:
             time.sleep(0.05)

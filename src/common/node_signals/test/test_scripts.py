@@ -1,4 +1,5 @@
 """Ctrl-C while a node script imports what it needs: it ends by the signal, without a word."""
+
 import os
 import signal
 import subprocess
@@ -28,8 +29,12 @@ LAUNCHED = {"gzserver", "spawn_model", "spawner", "unspawner"}
 
 def scripts():
     """Every Python script that a package of the workspace installs."""
-    found = [path for pattern in ("scripts/*", "bin/*") for path in SOURCES.rglob(pattern)
-             if path.is_file() and "test" not in path.relative_to(SOURCES).parts]
+    found = [
+        path
+        for pattern in ("scripts/*", "bin/*")
+        for path in SOURCES.rglob(pattern)
+        if path.is_file() and "test" not in path.relative_to(SOURCES).parts
+    ]
     return sorted(path for path in found if path.read_bytes()[:40].startswith(b"#!/usr/bin/env python3"))
 
 
@@ -38,8 +43,9 @@ def test_ctrl_c_in_the_first_second(script, tmp_path):
     excepted = "" if script.name in LAUNCHED else "node_signals"
     (tmp_path / "sitecustomize.py").write_text(STANDSTILL.replace("EXCEPTED", repr(excepted)))
     environment = {**os.environ, "PYTHONPATH": f"{tmp_path}:{os.environ.get('PYTHONPATH', '')}"}
-    process = subprocess.Popen([sys.executable, script, "name"], env=environment, text=True, stdout=subprocess.PIPE,
-                               stderr=subprocess.STDOUT)
+    process = subprocess.Popen(
+        [sys.executable, script, "name"], env=environment, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT
+    )
     try:
         first = process.stdout.readline()
         if first != "importing\n":  # it needs nothing that takes long
@@ -56,6 +62,7 @@ def test_ctrl_c_in_the_first_second(script, tmp_path):
 def test_what_nobody_reads_ends_without_a_word(tmp_path, raised, told):
     script = tmp_path / "script"
     script.write_text(f"import node_signals\nwith node_signals.silent():\n    {raised}\n")
-    process = subprocess.run(["bash", "-c", f"{{ {sys.executable} {script}; echo code $? >&2; }} | head -n 1"],
-                             capture_output=True, text=True, timeout=60)
+    process = subprocess.run(
+        ["bash", "-c", f"{{ {sys.executable} {script}; echo code $? >&2; }} | head -n 1"], capture_output=True, text=True, timeout=60
+    )
     assert process.stderr.startswith(told), process.stderr

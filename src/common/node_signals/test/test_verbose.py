@@ -4,9 +4,8 @@ import os
 import pytest
 import rosgraph.roslogging
 import rospy
-from rospy.impl import rosout
-
 from node_signals import verbose
+from rospy.impl import rosout
 
 
 @pytest.fixture

@@ -1,4 +1,5 @@
 """Exports of packages in a folder of their own."""
+
 import pytest
 import rospkg
 from plugin_loader import PluginError, exported_values, find_plugins
@@ -17,6 +18,7 @@ def package(tmp_path):
         (folder / "plugins.xml").write_text(f'<library path="src">{classes}</library>')
         (folder / "src" / f"{name}_module.py").write_text(code)
         return folder
+
     return make
 
 

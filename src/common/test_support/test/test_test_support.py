@@ -1,15 +1,17 @@
 """What failed in a subtest is in rosunit's report."""
+
 import socket
 import unittest
 
 import pytest
-from rosunit import xmlrunner
 import test_support
+from rosunit import xmlrunner
 from test_support import free_port, wait_until
 
 
 def subject(name):
     """One of the tests below, which are none of this file: pytest would collect them elsewhere."""
+
     class Subject(test_support.TestCase):
         def test_cases(self):
             for number in range(4):

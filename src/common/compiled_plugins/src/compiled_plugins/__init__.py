@@ -8,6 +8,7 @@ the time of its step.
 
 C++ users of ``<compiled_plugins/guard.h>`` say whose code they call; a crash, exit() or a call that blocks is then named in one line.
 """
+
 from __future__ import annotations
 
 import atexit

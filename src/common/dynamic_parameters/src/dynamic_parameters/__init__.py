@@ -29,6 +29,7 @@ Where others change the values too, ``current=f`` makes the server ask ``f()`` f
 change, in the thread of the change, and ``server.refresh()`` shows them to the clients. They are shown as they are; only
 what a client asks for is kept within the table's ranges. ``initial`` must then be given in full.
 """
+
 from .server import Parameter, Server
 
 __all__ = ["Parameter", "Server"]

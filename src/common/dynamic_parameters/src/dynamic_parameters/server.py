@@ -1,4 +1,5 @@
 """See the package docstring for how to use this."""
+
 from __future__ import annotations
 
 import threading
@@ -7,15 +8,24 @@ from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence
 
 import rosgraph
 import rospy
-from dynamic_reconfigure.msg import (BoolParameter, Config, ConfigDescription, DoubleParameter, Group, GroupState,
-                                     IntParameter, ParamDescription, StrParameter)
+from dynamic_reconfigure.msg import (
+    BoolParameter,
+    Config,
+    ConfigDescription,
+    DoubleParameter,
+    Group,
+    GroupState,
+    IntParameter,
+    ParamDescription,
+    StrParameter,
+)
 from dynamic_reconfigure.srv import Reconfigure, ReconfigureResponse
 from node_signals import master_watch, offers
 
 #: Python type -> (name on the wire, field of Config, message of one value, lowest, highest)
 _TYPES = {
     bool: ("bool", "bools", BoolParameter, False, True),
-    int: ("int", "ints", IntParameter, -2**31, 2**31 - 1),
+    int: ("int", "ints", IntParameter, -(2**31), 2**31 - 1),
     float: ("double", "doubles", DoubleParameter, float("-inf"), float("inf")),
     str: ("str", "strs", StrParameter, "", ""),
 }
@@ -61,18 +71,33 @@ class Parameter:
         if not self.enum:
             return ""
         kind = _TYPES[self.type][0]
-        entries = [{"name": str(value), "type": kind, "value": value, "srcline": 0, "srcfile": "", "cconsttype": "",
-                    "ctype": "", "description": text} for value, text in self.enum.items()]
+        entries = [
+            {
+                "name": str(value),
+                "type": kind,
+                "value": value,
+                "srcline": 0,
+                "srcfile": "",
+                "cconsttype": "",
+                "ctype": "",
+                "description": text,
+            }
+            for value, text in self.enum.items()
+        ]
         return repr({"enum_description": self.description, "enum": entries})
 
 
 class Server:
     """A dynamic_reconfigure server in ``namespace`` (absolute, or relative to the node's namespace, or ``~...``)."""
 
-    def __init__(self, namespace: str, parameters: Sequence[Parameter],
-                 callback: Callable[[Dict[str, Any], int], Optional[Mapping[str, Any]]],
-                 initial: Optional[Mapping[str, Any]] = None,
-                 current: Optional[Callable[[], Mapping[str, Any]]] = None):
+    def __init__(
+        self,
+        namespace: str,
+        parameters: Sequence[Parameter],
+        callback: Callable[[Dict[str, Any], int], Optional[Mapping[str, Any]]],
+        initial: Optional[Mapping[str, Any]] = None,
+        current: Optional[Callable[[], Mapping[str, Any]]] = None,
+    ):
         self._ns = rospy.resolve_name(namespace).rstrip("/") + "/"
         self._parameters = {parameter.name: parameter for parameter in parameters}
         self._callback = callback
@@ -82,8 +107,7 @@ class Server:
         self._config: Dict[str, Any] = {}
         for parameter in parameters:
             self._config[parameter.name] = self._first_value(parameter, initial or {})
-        self._descriptions = rospy.Publisher(self._ns + "parameter_descriptions", ConfigDescription, latch=True,
-                                             queue_size=1)
+        self._descriptions = rospy.Publisher(self._ns + "parameter_descriptions", ConfigDescription, latch=True, queue_size=1)
         self._descriptions.publish(self._describe())
         self._updates = rospy.Publisher(self._ns + "parameter_updates", Config, latch=True, queue_size=1)
         self._config = self._called_back(self._config, -1)
@@ -125,13 +149,18 @@ class Server:
     def _first_value(self, parameter: Parameter, initial: Mapping[str, Any]) -> Any:
         if parameter.name in initial and self._current is not None:
             return initial[parameter.name]  # it is what is, whatever the table allows
-        value = initial[parameter.name] if parameter.name in initial else rospy.get_param(
-            self._ns + parameter.name, parameter.default)
+        value = initial[parameter.name] if parameter.name in initial else rospy.get_param(self._ns + parameter.name, parameter.default)
         try:
             return parameter.clamp(value)
         except (TypeError, ValueError, OverflowError):
-            rospy.logwarn("parameter %s%s is %r, which is no %s; using %r", self._ns, parameter.name, value,
-                          _TYPES[parameter.type][0], parameter.default)
+            rospy.logwarn(
+                "parameter %s%s is %r, which is no %s; using %r",
+                self._ns,
+                parameter.name,
+                value,
+                _TYPES[parameter.type][0],
+                parameter.default,
+            )
             return parameter.default
 
     def _live(self) -> Dict[str, Any]:
@@ -141,8 +170,9 @@ class Server:
         config = dict(config)
         for name, value in values.items():
             if name not in self._parameters:
-                rospy.logwarn("dynamic_reconfigure: %s has no parameter '%s'; it has: %s", self._ns.rstrip("/"), name,
-                              ", ".join(self._parameters))
+                rospy.logwarn(
+                    "dynamic_reconfigure: %s has no parameter '%s'; it has: %s", self._ns.rstrip("/"), name, ", ".join(self._parameters)
+                )
                 continue
             try:
                 config[name] = self._parameters[name].clamp(value)
@@ -183,8 +213,7 @@ class Server:
                 self._store(self._config)
 
     def _set(self, request: Any) -> ReconfigureResponse:
-        values = {entry.name: entry.value for field in ("bools", "ints", "strs", "doubles")
-                  for entry in getattr(request.config, field)}
+        values = {entry.name: entry.value for field in ("bools", "ints", "strs", "doubles") for entry in getattr(request.config, field)}
         with self._lock:
             if self._closed:  # a connection that the client has kept
                 return ReconfigureResponse(self._encode(self._config))
@@ -215,10 +244,12 @@ class Server:
 
     def _describe(self) -> ConfigDescription:
         rows: List[ParamDescription] = [
-            ParamDescription(parameter.name, _TYPES[parameter.type][0], parameter.level, parameter.description,
-                             parameter.edit_method) for parameter in self._parameters.values()]
+            ParamDescription(parameter.name, _TYPES[parameter.type][0], parameter.level, parameter.description, parameter.edit_method)
+            for parameter in self._parameters.values()
+        ]
         return ConfigDescription(
             groups=[Group("Default", "", rows, 0, 0)],
             max=self._encode({name: parameter.high for name, parameter in self._parameters.items()}),
             min=self._encode({name: parameter.low for name, parameter in self._parameters.items()}),
-            dflt=self._encode({name: parameter.default for name, parameter in self._parameters.items()}))
+            dflt=self._encode({name: parameter.default for name, parameter in self._parameters.items()}),
+        )

@@ -2,6 +2,7 @@
 
 OpenCV is imported by what needs it alone: mosaics, YUV and what is compressed. It takes half a second.
 """
+
 from __future__ import annotations
 
 import struct
@@ -29,10 +30,22 @@ class Picture:
 _BAYER = {"rggb": "BayerBG2RGB", "bggr": "BayerRG2RGB", "gbrg": "BayerGR2RGB", "grbg": "BayerGB2RGB"}
 #: encoding -> (type of an element, channels)
 _LAYOUT = {
-    "rgb8": ("u1", 3), "bgr8": ("u1", 3), "rgba8": ("u1", 4), "bgra8": ("u1", 4), "mono8": ("u1", 1), "mono16": ("u2", 1),
-    "rgb16": ("u2", 3), "bgr16": ("u2", 3), "rgba16": ("u2", 4), "bgra16": ("u2", 4),
-    "yuv422": ("u1", 2), "yuv422_yuy2": ("u1", 2), "uyvy": ("u1", 2), "yuyv": ("u1", 2),
-    **{f"bayer_{pattern}{bits}": (f"u{bits // 8}", 1) for pattern in _BAYER for bits in (8, 16)}}
+    "rgb8": ("u1", 3),
+    "bgr8": ("u1", 3),
+    "rgba8": ("u1", 4),
+    "bgra8": ("u1", 4),
+    "mono8": ("u1", 1),
+    "mono16": ("u2", 1),
+    "rgb16": ("u2", 3),
+    "bgr16": ("u2", 3),
+    "rgba16": ("u2", 4),
+    "bgra16": ("u2", 4),
+    "yuv422": ("u1", 2),
+    "yuv422_yuy2": ("u1", 2),
+    "uyvy": ("u1", 2),
+    "yuyv": ("u1", 2),
+    **{f"bayer_{pattern}{bits}": (f"u{bits // 8}", 1) for pattern in _BAYER for bits in (8, 16)},
+}
 _TYPES = {"8U": "u1", "8S": "i1", "16U": "u2", "16S": "i2", "32S": "i4", "32F": "f4", "64F": "f8"}
 _DEPTHS = ("16UC1", "16UC", "16SC1", "32FC1", "32FC", "64FC1", "32SC1")
 _YUV = {"yuv422": "YUV2RGB_UYVY", "uyvy": "YUV2RGB_UYVY", "yuv422_yuy2": "YUV2RGB_YUY2", "yuyv": "YUV2RGB_YUY2"}
@@ -108,6 +121,7 @@ def _seen(pixels: np.ndarray, encoding: str, unnamed: str = "rgb") -> Picture:
 
 def _converted(pixels: np.ndarray, change: str) -> np.ndarray:
     import cv2
+
     return cv2.cvtColor(np.ascontiguousarray(pixels), getattr(cv2, f"COLOR_{change}"))
 
 
@@ -145,6 +159,7 @@ def _compressed_depth(encoding: str, way: str, data: Any) -> Picture:
 
 def _decoded(data: Any, layout: str) -> np.ndarray:
     import cv2
+
     try:
         pixels = cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_UNCHANGED) if len(data) else None
     except cv2.error:  # sizes that it refuses
@@ -173,14 +188,14 @@ def decode_rvl(data: bytes) -> np.ndarray:
     numbers = np.zeros(0, np.int64)
     if len(ends):
         place = np.arange(ends[-1] + 1) - np.repeat(starts, ends - starts + 1)
-        numbers = np.add.reduceat((nibbles[:ends[-1] + 1] & 7).astype(np.int64) << np.minimum(3 * place, 60), starts)
+        numbers = np.add.reduceat((nibbles[: ends[-1] + 1] & 7).astype(np.int64) << np.minimum(3 * place, 60), starts)
     pixels, runs, differences, at, done = np.zeros(count, np.uint16), [], [], 0, 0
     while done < count:
-        zeros, others = (int(number) for number in numbers[at:at + 2]) if at + 2 <= len(numbers) else (count, count)
+        zeros, others = (int(number) for number in numbers[at : at + 2]) if at + 2 <= len(numbers) else (count, count)
         if done + zeros + others > count or at + 2 + others > len(numbers) or zeros + others == 0:
             raise ImageError(f"{len(data)} bytes of RVL are no depth image of {columns}x{rows} pixels, or cut short")
         runs.append(np.arange(done + zeros, done + zeros + others))
-        differences.append(numbers[at + 2:at + 2 + others])
+        differences.append(numbers[at + 2 : at + 2 + others])
         at, done = at + 2 + others, done + zeros + others
     joined = np.concatenate(differences)
     values = np.cumsum((joined >> 1) ^ -(joined & 1))  # each from the pixel before it that is not 0

@@ -4,6 +4,7 @@ A text that Python's parsers refuse is a robot there when TinyXML takes it: ``&`
 an attribute, values may lack their quotation marks, ``--`` may stand in a comment, there may be several roots, and what follows the
 last one is not read. TinyXML refuses the same attribute given twice, an end tag that does not fit, and what is not closed.
 """
+
 from __future__ import annotations
 
 import re
@@ -151,7 +152,7 @@ class _Reading:
         elif text.startswith("<![CDATA[", at):
             end = text.find("]]>", at)
             if self._open:
-                self._target.data(text[at + 9:end if end >= 0 else len(text)])
+                self._target.data(text[at + 9 : end if end >= 0 else len(text)])
             self._jump("]]>", at)
         elif _NAME.match(text, at + 1):
             self._start_tag()
@@ -182,7 +183,7 @@ class _Reading:
         attributes: Dict[str, str] = {}
         while True:
             self._skip_space()
-            sign = self._text[self._at:self._at + 1]
+            sign = self._text[self._at : self._at + 1]
             if sign in ("/", ">"):
                 break
             if not sign:
@@ -211,13 +212,13 @@ class _Reading:
             raise self._error(f"attribute '{name}' of <{tag}> has no value")
         self._at += 1
         self._skip_space()
-        quote = self._text[self._at:self._at + 1]
+        quote = self._text[self._at : self._at + 1]
         if quote not in ('"', "'") or not quote:
             return name, self._unquoted(tag, name)
         end = self._text.find(quote, self._at + 1)
         if end < 0:
             raise self._error(f"the value of attribute '{name}' of <{tag}> does not end")
-        written = self._text[self._at + 1:end]
+        written = self._text[self._at + 1 : end]
         if "<" in written:
             self._odd(f"'<' in attribute '{name}' of <{tag}> is part of the value")
         value = self._plain(written)
@@ -253,4 +254,4 @@ class _Reading:
             code = -1
         if code < 0:
             raise self._error(f"'{match.group()[:20]}' is no character")
-        return chr(code) if 0 < code <= 0x10ffff and not 0xd800 <= code < 0xe000 else ""
+        return chr(code) if 0 < code <= 0x10FFFF and not 0xD800 <= code < 0xE000 else ""

@@ -20,6 +20,7 @@ A script that handles ``KeyboardInterrupt`` itself has only its imports in that 
 no memory, threads or files from the system any more says so in one line and ends with 1: rospy's threads die of that one
 by one, and what is left of the node waits for ever.
 """
+
 import contextlib
 import errno
 import logging
@@ -142,17 +143,25 @@ def _end_when_starved_at_start() -> None:
 def _starved(error: Optional[BaseException]) -> bool:
     """Whether the system has refused memory, a thread or a file."""
     text = str(error)
-    return (isinstance(error, MemoryError)
-            or isinstance(error, OSError) and error.errno in (errno.ENOMEM, errno.EMFILE, errno.ENFILE)
-            or isinstance(error, RuntimeError) and "can't start new thread" in text
-            or isinstance(error, ImportError) and ("failed to map segment" in text or "cannot allocate memory" in text))
+    return (
+        isinstance(error, MemoryError)
+        or isinstance(error, OSError)
+        and error.errno in (errno.ENOMEM, errno.EMFILE, errno.ENFILE)
+        or isinstance(error, RuntimeError)
+        and "can't start new thread" in text
+        or isinstance(error, ImportError)
+        and ("failed to map segment" in text or "cannot allocate memory" in text)
+    )
 
 
 def _end_starved(error) -> None:
     name, lines = os.path.basename(sys.argv[0]), str(error).split("\n")
     reason = next((line for line in reversed(lines) if line.strip(" )")), "out of memory")
-    os.write(2, f"{name}: the system gives this process no more memory, threads or open files ({reason}); "
-                "raise its limits (ulimit -v, -u, -n) or close other programs\n".encode())
+    os.write(
+        2,
+        f"{name}: the system gives this process no more memory, threads or open files ({reason}); "
+        "raise its limits (ulimit -v, -u, -n) or close other programs\n".encode(),
+    )
     os._exit(1)  # an orderly end needs what there is not
 
 

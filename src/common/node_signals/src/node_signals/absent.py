@@ -1,4 +1,5 @@
 """What is known of a package, or a program of one, that a launch file names and that is not there: one line, not all folders searched."""
+
 from __future__ import annotations
 
 import glob
@@ -18,15 +19,21 @@ _RENAMED = {("robot_state_publisher", "state_publisher"): "robot_state_publisher
 _MOST_NAMED = 12
 #: Files that rosrun is given and that are no programs: what they are, and what takes them.
 _NO_PROGRAMS = {
-    ".launch": "a launch file: roslaunch {package} {name}", ".launch.py": "a launch file of ROS 2; this is ROS 1, whose end with .launch",
+    ".launch": "a launch file: roslaunch {package} {name}",
+    ".launch.py": "a launch file of ROS 2; this is ROS 1, whose end with .launch",
     ".test": "a test: rostest {package} {name}",
-    ".world": "a world: roslaunch gazebo_ros empty_world.launch world_name:={path}", ".rviz": "a configuration of RViz: rviz -d {path}",
+    ".world": "a world: roslaunch gazebo_ros empty_world.launch world_name:={path}",
+    ".rviz": "a configuration of RViz: rviz -d {path}",
     ".urdf": "a robot description: check_urdf {path}; into a simulation: rosrun gazebo_ros spawn_model -urdf -file {path} -model NAME",
     ".xacro": "a robot description: xacro {path} writes it as URDF",
     ".sdf": "a model: rosrun gazebo_ros spawn_model -sdf -file {path} -model NAME",
-    ".msg": "a message type: rosmsg show {package}/{stem}", ".srv": "a service type: rossrv show {package}/{stem}",
-    ".action": "an action type: rosmsg show {package}/{stem}Goal", ".bag": "a recording: rosbag play {path}",
-    ".yaml": "a file of parameters: rosparam load {path}", ".perspective": "a perspective of rqt: rqt --perspective-file {path}"}
+    ".msg": "a message type: rosmsg show {package}/{stem}",
+    ".srv": "a service type: rossrv show {package}/{stem}",
+    ".action": "an action type: rosmsg show {package}/{stem}Goal",
+    ".bag": "a recording: rosbag play {path}",
+    ".yaml": "a file of parameters: rosparam load {path}",
+    ".perspective": "a perspective of rqt: rqt --perspective-file {path}",
+}
 
 
 def explanation(name: str) -> str:
@@ -101,5 +108,11 @@ def _programs(package: str, folder: Path) -> List[str]:
     """What rosrun finds in a package, without the files of its own making."""
     built = [Path(place) for place in find_in_workspaces(["libexec"], project=package, first_matching_workspace_only=True)]
     sources = [path for path in (folder / "scripts", folder / "nodes", folder / "src", folder / "bin") if path.is_dir()]
-    return sorted({path.name for place in built + sources for path in place.rglob("*")
-                   if path.is_file() and os.access(path, os.X_OK) and path.suffix in ("", ".py", ".sh")})
+    return sorted(
+        {
+            path.name
+            for place in built + sources
+            for path in place.rglob("*")
+            if path.is_file() and os.access(path, os.X_OK) and path.suffix in ("", ".py", ".sh")
+        }
+    )

@@ -1,12 +1,15 @@
 """Simulated time that does not begin: ``use_sim_time`` is set and nobody publishes /clock. Whatever waits for time then waits for ever."""
+
 from __future__ import annotations
 
 from typing import Optional
 
 import rospy
 
-SENTENCE = ("use_sim_time is true and no /clock has come: time stands still until a simulation or a bag (rosbag play --clock) runs. "
-            "Without one: rosparam set use_sim_time false, and start this again")
+SENTENCE = (
+    "use_sim_time is true and no /clock has come: time stands still until a simulation or a bag (rosbag play --clock) runs. "
+    "Without one: rosparam set use_sim_time false, and start this again"
+)
 
 
 def expected() -> bool:

@@ -3,6 +3,7 @@
 ``rosrun`` and ``rviz`` of this package look first whether a window is asked for, and run what comes next on PATH; ``rosrun`` gives
 nodes a ``python``, puts a working program in the place of one that Debian's cannot be, and finds programs in less time than Debian's.
 """
+
 from __future__ import annotations
 
 import ctypes
@@ -14,10 +15,15 @@ from node_signals import programs, rviz_start
 from node_signals.interpreter import supply_python
 
 #: Programs that open a window and do not look for a display themselves, by package. rqt's and turtlesim's do.
-WINDOWS = {"rviz": {"rviz"}, "joint_state_publisher_gui": {"joint_state_publisher_gui"},
-           "image_view": {"image_view", "stereo_view", "disparity_view"}}
-_REMEDY = ("start it on a desktop, through ssh -X, or with scripts/offscreen COMMAND (rosrun rviz_offscreen offscreen COMMAND) "
-           "for a display that nobody sees")
+WINDOWS = {
+    "rviz": {"rviz"},
+    "joint_state_publisher_gui": {"joint_state_publisher_gui"},
+    "image_view": {"image_view", "stereo_view", "disparity_view"},
+}
+_REMEDY = (
+    "start it on a desktop, through ssh -X, or with scripts/offscreen COMMAND (rosrun rviz_offscreen offscreen COMMAND) "
+    "for a display that nobody sees"
+)
 
 
 def choose_platform(environment: MutableMapping[str, str]) -> None:
@@ -40,8 +46,11 @@ def missing_display(x11_only: bool = False) -> Optional[str]:
         return None
     name = os.environ.get("DISPLAY")
     if not name:
-        return ("this Wayland session has no X server, which it draws through: install Debian's package xwayland and log in again"
-                if wayland else f"no display to open a window on (DISPLAY is not set): {_REMEDY}")
+        return (
+            "this Wayland session has no X server, which it draws through: install Debian's package xwayland and log in again"
+            if wayland
+            else f"no display to open a window on (DISPLAY is not set): {_REMEDY}"
+        )
     try:
         x11 = ctypes.CDLL("libX11.so.6")
     except OSError:
@@ -86,7 +95,7 @@ def next_on_path(command: str) -> str:
     found = [folder for folder in os.get_exec_path() if os.access(os.path.join(folder, name), os.X_OK)]
     places = [os.path.realpath(folder) for folder in found]
     if own in places:  # what stands before has handed over to this one
-        found = [folder for folder, place in list(zip(found, places))[places.index(own):] if place != own]
+        found = [folder for folder, place in list(zip(found, places))[places.index(own) :] if place != own]
     return os.path.join(found[0] if found else "/usr/bin", name)
 
 

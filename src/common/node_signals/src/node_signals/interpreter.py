@@ -4,6 +4,7 @@
 them with the line end of Windows, or with its mark of UTF-8 before the ``#!``. A name of which nothing but the shim of a version manager
 (pyenv, asdf, mise) is on PATH, without such a version behind it, is not there either.
 """
+
 from __future__ import annotations
 
 import os

@@ -5,6 +5,7 @@ held then - or between fork and exec of a node waits there for 10 to 40 s, one t
 that master, and one that comes while it looks at the log folder is swallowed. Where nothing can be written to ~/.ros it says
 that rosmaster is missing, or fills the terminal with tracebacks of the log.
 """
+
 from __future__ import annotations
 
 import contextlib
@@ -22,8 +23,8 @@ from typing import Optional, Set
 from node_signals import quick_start
 
 quick_start.prepare()  # before roslaunch is imported
-import rospkg  # noqa: E402
 import roslaunch  # noqa: E402
+import rospkg  # noqa: E402
 from roslaunch import core, launch, node_args, nodeprocess, pmon  # noqa: E402
 
 from node_signals.absent import in_one_line, no_program, of_program
@@ -45,15 +46,18 @@ def _on_signal(number, frame) -> None:
 
 def _unless_ending(is_running):
     """Nobody waits for a master that Ctrl-C has ended."""
+
     def checked(master):
         if pmon._shutting_down:
             raise core.RLException("interrupted")
         return is_running(master)
+
     return checked
 
 
 class _Clock:
     """Looks for the master it has started a hundred times a second, where upstream's does ten times."""
+
     time = staticmethod(time.time)
 
     @staticmethod
@@ -63,14 +67,17 @@ class _Clock:
 
 def _silent_when_ending(report):
     """What cannot be started any more needs no message."""
+
     def checked(*arguments):
         if not pmon._shutting_down:
             report(*arguments)
+
     return checked
 
 
 class _Traceback:
     """Nor does a connection to a master that Ctrl-C has ended."""
+
     format_exc = staticmethod(traceback.format_exc)
 
     @staticmethod
@@ -80,11 +87,13 @@ class _Traceback:
 
 def _master_first_by_sigterm(stop):
     """SIGINT in the first moments of a Python program is a traceback on the terminal; the master has nothing to put in order."""
+
     def checked(process, errors):
         if process.name == "master" and process.popen.poll() is None:
             with contextlib.suppress(ProcessLookupError):
                 os.killpg(process.popen.pid, signal.SIGTERM)
         stop(process, errors)
+
     return checked
 
 
@@ -124,8 +133,10 @@ def _find_place_for_logs() -> None:
             os.environ[variable] = tempfile.mkdtemp(prefix="ros_")
         except OSError:  # roslaunch has words of its own for that
             return
-        print(f"roslaunch: nothing can be written to {folder} ({trouble.strerror}); {os.environ[variable]} takes its place in this run",
-              file=sys.stderr)
+        print(
+            f"roslaunch: nothing can be written to {folder} ({trouble.strerror}); {os.environ[variable]} takes its place in this run",
+            file=sys.stderr,
+        )
 
 
 def _naming_windows_without_display(start):
@@ -144,17 +155,20 @@ def _naming_windows_without_display(start):
         elif window == "rviz":
             process.args = [sys.executable, "-m", "node_signals.rviz_start", *process.args]
         return start(process)
+
     return checked
 
 
 def arguments_of(make_arguments):
     """Upstream's line for a node that is not found, and why; scripts with the interpreter that they can run with."""
+
     def checked(node, machine, env=None):
         try:
             return _with_interpreter(node, make_arguments(node, machine, env))
         except node_args.NodeParamsException as error:
             why = of_program(node.package, node.type) if "Cannot locate node" in str(error) else ""
             raise node_args.NodeParamsException(f"{error}. {why}" if why else str(error)) from error
+
     return checked
 
 
@@ -166,7 +180,7 @@ def _with_interpreter(node, words):
     program, difference = as_it_can_run(words[at])
     if difference:
         print(f"roslaunch: {node.name}: {difference}", file=sys.stderr, flush=True)
-    return [*words[:at], *program, *words[at + 1:]]
+    return [*words[:at], *program, *words[at + 1 :]]
 
 
 def _mend() -> None:

@@ -4,6 +4,7 @@ rospy registers once. When an external roscore is killed and started again, nobo
 parameters any more, though it runs on. A long-lived node calls :func:`watch` after ``init_node``; it asks the master
 once a second whether it is still the one that knows this node.
 """
+
 from __future__ import annotations
 
 import threading
@@ -60,8 +61,7 @@ class _Watch:
             except _TROUBLE:
                 if not self._missed:
                     self._missed = True
-                    rospy.logwarn("the ROS master at %s does not answer; this node goes on, and registers again when "
-                                  "it is back", self._uri)
+                    rospy.logwarn("the ROS master at %s does not answer; this node goes on, and registers again when it is back", self._uri)
 
     def _look(self) -> None:
         (_, _, pid), (code, _, uri) = self._call([("getPid", ()), ("lookupNode", (self._name,))])

@@ -4,6 +4,7 @@ roscpp says so in one line and goes on, and the part that came second lives with
 service, and lets a second type on a topic through until something is published. Here it is as in roscpp: who comes second gets a
 stand-in that does nothing, and the log has one ERROR line that names both.
 """
+
 from __future__ import annotations
 
 from typing import Any, Callable
@@ -40,8 +41,11 @@ def service(name: str, kind: type, handler: Callable[[Any], Any]) -> Any:
         resolved = rospy.resolve_name(name)
         if "already registered" not in str(error):
             raise
-        rospy.logerr("Tried to advertise a service that is already advertised in this node [%s]; the first one answers. Give the "
-                     "second a name or a namespace of its own", resolved)
+        rospy.logerr(
+            "Tried to advertise a service that is already advertised in this node [%s]; the first one answers. Give the "
+            "second a name or a namespace of its own",
+            resolved,
+        )
         return _StandIn(resolved)
 
 
@@ -72,6 +76,12 @@ def _of_another_type(name: str, kind: Any, side: str, verb: str) -> bool:
         return False
     if kind._type == "*":
         return False
-    rospy.logerr("Tried to %s topic [%s] with type [%s], but this node has it with type [%s] already; the second is left out. Give "
-                 "it a name or a namespace of its own", verb, resolved, kind._type, there.data_class._type)
+    rospy.logerr(
+        "Tried to %s topic [%s] with type [%s], but this node has it with type [%s] already; the second is left out. Give "
+        "it a name or a namespace of its own",
+        verb,
+        resolved,
+        kind._type,
+        there.data_class._type,
+    )
     return True

@@ -5,6 +5,7 @@ run on for ever, and the next launch would find it. roslaunch and rosmon make ea
 process whose session leader is their child was started by them, under a launch prefix too. Whoever types ``rosrun``, ``nohup`` or
 ``setsid``, or is process 1 of a container, has another parent, and is left alone.
 """
+
 from __future__ import annotations
 
 import os
@@ -66,8 +67,12 @@ def _watch(found: Launcher, end: Callable[[], None]) -> None:
     while found.alive:
         time.sleep(_LOOK)
     time.sleep(_GONE_FOR)
-    print(f"{os.path.basename(sys.argv[0])}: {found.name} (process {found.pid}), which started this process, has been gone for "
-          f"{_GONE_FOR:g} s: it ends. With {KEEPING}=1 in the environment it runs on", file=sys.stderr, flush=True)
+    print(
+        f"{os.path.basename(sys.argv[0])}: {found.name} (process {found.pid}), which started this process, has been gone for "
+        f"{_GONE_FOR:g} s: it ends. With {KEEPING}=1 in the environment it runs on",
+        file=sys.stderr,
+        flush=True,
+    )
     end()
 
 

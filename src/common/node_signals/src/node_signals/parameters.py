@@ -10,6 +10,7 @@
 
 YAML's true and false are no numbers here, though Python counts them among them, and NaN is none.
 """
+
 import math
 import sys
 from typing import Any, Callable, List, Optional
@@ -87,8 +88,9 @@ def number_or(where: str, value: Any, default: float) -> float:
     import rospy
 
     shown = repr(value)
-    rospy.logerr("parameter %s is %s, where a number is expected: %g is used", where,
-                 shown if len(shown) <= 40 else shown[:37] + "...", default)
+    rospy.logerr(
+        "parameter %s is %s, where a number is expected: %g is used", where, shown if len(shown) <= 40 else shown[:37] + "...", default
+    )
     return default
 
 

@@ -2,6 +2,7 @@
 
 Debian's script starts the search of the catkin workspaces two to four times, each in a Python of its own, before the node begins.
 """
+
 from __future__ import annotations
 
 import contextlib
@@ -18,6 +19,7 @@ DEBIANS = "/usr/bin/rosrun"
 
 class Command(NamedTuple):
     """``rosrun [--prefix PREFIX] PACKAGE PROGRAM ARGUMENT...``"""
+
     prefix: str
     package: str
     program: str
@@ -52,6 +54,7 @@ def find(package: str, name: str) -> List[str]:
 
 def _catkin_folders(kinds: List[str], package: str) -> List[str]:
     from node_signals.quick_start import find_in_workspaces
+
     return list(find_in_workspaces(kinds, project=package, first_matching_workspace_only=True))
 
 
@@ -62,8 +65,12 @@ def _folder_of(package: str) -> str:
 
 def _executables(folders: List[str], own: str, name: str) -> List[str]:
     """In the order of ``folders``; what two neighbouring folders show is there once."""
-    found = subprocess.run(["find", "-L", *folders, "-name", name, "-type", "f", "-perm", "/111", "!", "-regex", f".*{own}/build/.*"],
-                           stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True).stdout.splitlines()
+    found = subprocess.run(
+        ["find", "-L", *folders, "-name", name, "-type", "f", "-perm", "/111", "!", "-regex", f".*{own}/build/.*"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+        text=True,
+    ).stdout.splitlines()
     return [path for path, before in zip(found, ["", *found]) if path != before]
 
 
@@ -96,6 +103,7 @@ def _refuse_what_is_none(package: str, path: str) -> None:
     from pathlib import Path
 
     from node_signals.absent import no_program
+
     with open(path, "rb") as file:
         script = file.read(2) == b"#!"
     why = "" if script else no_program(Path(path), package)
@@ -105,6 +113,7 @@ def _refuse_what_is_none(package: str, path: str) -> None:
 
 def _why_nothing(package: str, name: str) -> str:
     from node_signals.absent import explanation, of_program
+
     if not _folder_of(package):
         return f"the package '{package}' is not here. {explanation(package)}"
     return f"the package {package} has no program {name} that can be run. {of_program(package, name)}".rstrip()

@@ -4,6 +4,7 @@ Import this module before ``roslaunch``, then call `prepare()`. Nothing that a l
 found, in the same order, and the same values come back; they are read once, and in this process. A workspace whose packages
 come and go while it runs must not use it.
 """
+
 from __future__ import annotations
 
 import contextlib
@@ -32,6 +33,7 @@ def _distutils_of_python() -> None:
 
 class _Named(NamedTuple):
     """What catkin's search wants to know of a package."""
+
     name: str
 
 
@@ -61,6 +63,7 @@ def _remembering(list_by_path):
         if cache is not None:
             cache.update(places)
         return list(names)
+
     return listed
 
 
@@ -88,6 +91,7 @@ def _answering_versions(param_value, convert_value):
         if version is not None:
             return convert_value(version, ptype)  # with the end of its line, as upstream
         return param_value(loader, verbose, name, ptype, value, textfile, binfile, command)
+
     return read
 
 
@@ -108,6 +112,7 @@ def prepare() -> None:
     _distutils_of_python()
     _configuration_of_logs()
     import roslaunch.loader
+
     _searching_once()
     rospkg.rospack.list_by_path = _remembering(rospkg.rospack.list_by_path)
     roslaunch.loader.Loader.param_value = _answering_versions(roslaunch.loader.Loader.param_value, roslaunch.loader.convert_value)
@@ -116,6 +121,7 @@ def prepare() -> None:
 def _searching_once() -> Any:
     """catkin's module that searches the workspaces, whose search for packages is `packages_below` from here on."""
     import catkin.find_in_workspaces  # noqa: F401  the package's attribute of that name is a function in some releases
+
     module: Any = sys.modules["catkin.find_in_workspaces"]
     module.find_packages = packages_below
     return module

@@ -14,6 +14,7 @@
 
 Time that goes backwards (a simulation was reset) starts each anew. Knows no ROS.
 """
+
 from __future__ import annotations
 
 from typing import Optional

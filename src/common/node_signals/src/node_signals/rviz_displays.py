@@ -3,6 +3,7 @@
 RViz lists what packages declare, and finds the library only when one is added. ``rviz_start`` starts this beside RViz, which does not
 wait: from a shell, rosrun, roslaunch and rosmon.
 """
+
 from __future__ import annotations
 
 import os
@@ -23,14 +24,15 @@ def start(words: List[str]) -> None:
 
 def unbuilt() -> List[str]:
     """A line for each library that is declared and is nowhere."""
-    found = subprocess.run(["rospack", "plugins", "--attrib=plugin", "rviz"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
-                           text=True)
+    found = subprocess.run(["rospack", "plugins", "--attrib=plugin", "rviz"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
     lines = []
     for package, _, path in (line.partition(" ") for line in found.stdout.splitlines()):
         for library, names in _declared(Path(path)):
             if names and not any(place.exists() for place in _places(library, Path(path).parent)):
-                lines.append(f"rviz: {', '.join(names)} of the package {package} cannot be added, its library "
-                             f"{os.path.basename(library)} is not built: catkin build {package}")
+                lines.append(
+                    f"rviz: {', '.join(names)} of the package {package} cannot be added, its library "
+                    f"{os.path.basename(library)} is not built: catkin build {package}"
+                )
     return lines
 
 
@@ -41,8 +43,14 @@ def _declared(path: Path) -> Iterator[tuple]:
     except (OSError, ElementTree.ParseError):
         return
     for library in root.iter("library"):
-        yield library.get("path", ""), [element.get("name") or element.get("type", "") for element in library.iter("class")
-                                        if element.get("base_class_type", "").startswith("rviz::")]
+        yield (
+            library.get("path", ""),
+            [
+                element.get("name") or element.get("type", "")
+                for element in library.iter("class")
+                if element.get("base_class_type", "").startswith("rviz::")
+            ],
+        )
 
 
 def _places(library: str, package: Path) -> Iterator[Path]:

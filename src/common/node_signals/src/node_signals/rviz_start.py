@@ -3,6 +3,7 @@
 ``python3 -m node_signals.rviz_start PROGRAM ARGUMENT...`` runs PROGRAM and ends as it ends: with its exit status, or by its signal.
 Signals that ask this process to end are handed on.
 """
+
 from __future__ import annotations
 
 import contextlib
@@ -44,8 +45,12 @@ class _Run:
         ended = self.child.wait()
         soon = time.monotonic() - self.began < FIRST_SECONDS
         if ended < 0 and -ended in _CRASHES and soon and not self.asked_to_end:
-            print(f"rviz: it died by {signal.Signals(-ended).name} in its first seconds, as it does now and then with software OpenGL; "
-                  "it is started once more", file=sys.stderr, flush=True)
+            print(
+                f"rviz: it died by {signal.Signals(-ended).name} in its first seconds, as it does now and then with software OpenGL; "
+                "it is started once more",
+                file=sys.stderr,
+                flush=True,
+            )
             self.child = self._start()
             ended = self.child.wait()
         return ended

@@ -1,4 +1,5 @@
 """Services that come up while a launch file starts everything at once."""
+
 from __future__ import annotations
 
 import time

@@ -2,6 +2,7 @@
 
 Upstream's roslaunch stops everything where the terminal is not installed, and without a display the terminal ends before its node begins.
 """
+
 from __future__ import annotations
 
 import os
@@ -10,8 +11,21 @@ from typing import List, Optional, Tuple
 
 from node_signals.display import missing_display
 
-_TERMINALS = {"gnome-terminal", "konsole", "lxterminal", "mate-terminal", "qterminal", "rxvt", "terminator", "tilix", "urxvt", "uxterm",
-              "x-terminal-emulator", "xfce4-terminal", "xterm"}
+_TERMINALS = {
+    "gnome-terminal",
+    "konsole",
+    "lxterminal",
+    "mate-terminal",
+    "qterminal",
+    "rxvt",
+    "terminator",
+    "tilix",
+    "urxvt",
+    "uxterm",
+    "x-terminal-emulator",
+    "xfce4-terminal",
+    "xterm",
+}
 _COMMAND_FOLLOWS = ("-e", "-x", "--", "--execute", "--command")
 
 
@@ -20,7 +34,7 @@ def command_in_terminal(words: List[str]) -> Optional[List[str]]:
     if not words or os.path.basename(words[0]) not in _TERMINALS:
         return None
     at = next((number for number, word in enumerate(words) if word in _COMMAND_FOLLOWS), len(words))
-    return words[at + 1:] or None
+    return words[at + 1 :] or None
 
 
 def with_what_is_there(words: List[str]) -> Tuple[List[str], str]:

@@ -2,6 +2,7 @@
 
 rospy writes a traceback of two exceptions whenever a subscriber leaves, and two lines for each service.
 """
+
 import logging
 import os
 

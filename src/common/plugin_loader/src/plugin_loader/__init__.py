@@ -14,6 +14,7 @@ and plugins.xml lists classes in pluginlib's format, with a Python class where p
 ``path`` is relative to plugins.xml and is put on ``sys.path`` before the import.
 A ``type`` with ``::``, or without a dot, is a compiled C++ class: it is listed, and loaded by those who can.
 """
+
 from __future__ import annotations
 
 import importlib
@@ -59,8 +60,8 @@ class PluginClass:
         """
         if self.compiled:
             raise PluginError(
-                f"'{self.name}' of package {self.package} is a compiled C++ plugin ({self.type}); only Python plugins "
-                f"can be loaded here")
+                f"'{self.name}' of package {self.package} is a compiled C++ plugin ({self.type}); only Python plugins can be loaded here"
+            )
         module_name, _, class_name = self.type.rpartition(".")
         try:
             with _importing:
@@ -69,8 +70,8 @@ class PluginClass:
                 return getattr(importlib.import_module(module_name), class_name)
         except Exception as error:  # a third party's module may raise anything; it must not take the host down
             raise PluginError(
-                f"'{self.name}' of package {self.package} cannot be imported: {type(error).__name__}: {error} "
-                f"(declared in {self.file})") from error
+                f"'{self.name}' of package {self.package} cannot be imported: {type(error).__name__}: {error} (declared in {self.file})"
+            ) from error
 
 
 def _exports(rospack: rospkg.RosPack, base: str, attribute: str) -> Iterator[Tuple[str, str, str]]:
@@ -104,8 +105,9 @@ def _plugin_description(file: str) -> ET.Element:
     return ET.fromstring(f"<file>{text}</file>")
 
 
-def find_plugins(base: str, attribute: str = "plugin",
-                 rospack: Optional[rospkg.RosPack] = None) -> Tuple[Dict[str, PluginClass], List[str]]:
+def find_plugins(
+    base: str, attribute: str = "plugin", rospack: Optional[rospkg.RosPack] = None
+) -> Tuple[Dict[str, PluginClass], List[str]]:
     """All classes exported for ``base``: (name -> PluginClass, problems as lines). The first package wins a name."""
     found: Dict[str, PluginClass] = {}
     problems: List[str] = []
@@ -119,8 +121,14 @@ def find_plugins(base: str, attribute: str = "plugin",
             path = os.path.normpath(os.path.join(os.path.dirname(file), library.get("path", "src")))
             for entry in library.iterfind("class"):
                 type_name = (entry.get("type") or "").strip()
-                plugin = PluginClass(name=(entry.get("name") or type_name).strip(), type=type_name,
-                                     base=(entry.get("base_class_type") or "").strip(), package=package, file=file,
-                                     path=path, description=(entry.findtext("description") or "").strip())
+                plugin = PluginClass(
+                    name=(entry.get("name") or type_name).strip(),
+                    type=type_name,
+                    base=(entry.get("base_class_type") or "").strip(),
+                    package=package,
+                    file=file,
+                    path=path,
+                    description=(entry.findtext("description") or "").strip(),
+                )
                 found.setdefault(plugin.name, plugin)
     return found, problems

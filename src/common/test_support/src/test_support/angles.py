@@ -1,4 +1,5 @@
 """Angles out of messages."""
+
 import math
 
 

@@ -1,4 +1,5 @@
 """A TestCase whose subtests are all told."""
+
 from __future__ import annotations
 
 import contextlib

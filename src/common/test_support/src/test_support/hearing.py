@@ -1,4 +1,5 @@
 """Who hears whom, and how much, for tests that talk to nodes. Imports rospy, which nothing else here does."""
+
 import xmlrpc.client
 from typing import Any, Iterable
 
@@ -26,8 +27,11 @@ def heard(subscribers: Iterable[Any]) -> bool:
         except (rosgraph.MasterException, OSError):  # it has gone meanwhile
             return False
         return any(link[1] == rospy.get_name() and link[2] == "o" and link[4] == topic for link in links)
-    return all(publishers.get(each.resolved_name) and all(sends(node, each.resolved_name) for node in publishers[each.resolved_name])
-               for each in subscribers)
+
+    return all(
+        publishers.get(each.resolved_name) and all(sends(node, each.resolved_name) for node in publishers[each.resolved_name])
+        for each in subscribers
+    )
 
 
 def received(publisher: Any, count: int) -> bool:
@@ -46,4 +50,5 @@ def received(publisher: Any, count: int) -> bool:
         except (rosgraph.MasterException, OSError):  # it has gone meanwhile
             return False
         return sum(link[2] for link in listening.get(topic, [])) >= count
+
     return bool(nodes) and all(map(received_by, nodes))

@@ -1,4 +1,5 @@
 """Ports."""
+
 import socket
 
 

@@ -1,4 +1,5 @@
 """Waiting in wall time."""
+
 import time
 from typing import Callable, TypeVar
 
@@ -16,6 +17,7 @@ def wait_until(condition: Callable[[], T], what: str = "", timeout: float = 60.0
         if answer:
             return answer
         if time.monotonic() >= end:
-            raise AssertionError(f"waited {timeout:g} s in vain for {what or getattr(condition, '__name__', 'a condition')}; "
-                                 f"the last answer was {answer!r}")
+            raise AssertionError(
+                f"waited {timeout:g} s in vain for {what or getattr(condition, '__name__', 'a condition')}; the last answer was {answer!r}"
+            )
         time.sleep(interval)
