@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Behaviour of the Ackermann steering controller over its topics and tf."""
+
 import math
 
 import rospy
@@ -108,5 +109,6 @@ class Ackermann(test_support.TestCase):
 
 if __name__ == "__main__":
     import rostest
+
     rospy.init_node("ackermann_steering")
     rostest.rosrun("ackermann_steering_controller", "ackermann_steering", "__main__")

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Parts by plugin name, from parameters."""
+
 import unittest
 
 import rospy
@@ -24,10 +25,14 @@ class CombinedRobotHWTest(unittest.TestCase):
         self.assertEqual(robot.get(EffortJointInterface).names(), ["l1", "l2", "r1"])
 
     def test_what_makes_it_fail(self):
-        for parameters in ({"x": 1}, {"robot_hardware": "left", "left": LEFT}, {"robot_hardware": ["left"]},
-                           {"robot_hardware": ["left"], "left": {"type": "no/Such"}},
-                           {"robot_hardware": ["left"], "left": {**LEFT, "joints": []}},
-                           {"robot_hardware": ["left"], "left": {"type": LEFT["type"]}}):
+        for parameters in (
+            {"x": 1},
+            {"robot_hardware": "left", "left": LEFT},
+            {"robot_hardware": ["left"]},
+            {"robot_hardware": ["left"], "left": {"type": "no/Such"}},
+            {"robot_hardware": ["left"], "left": {**LEFT, "joints": []}},
+            {"robot_hardware": ["left"], "left": {"type": LEFT["type"]}},
+        ):
             self.assertFalse(self.init(**parameters)[0], parameters)
 
 

@@ -1,7 +1,16 @@
 """Several robots as one, without ROS."""
+
 from combined_robot_hw import CombinedRobotHW
-from hardware_interface import (ControllerInfo, EffortJointInterface, InterfaceResources, JointHandle, JointStateHandle,
-                                PositionJointInterface, RobotHW, SwitchState)
+from hardware_interface import (
+    ControllerInfo,
+    EffortJointInterface,
+    InterfaceResources,
+    JointHandle,
+    JointStateHandle,
+    PositionJointInterface,
+    RobotHW,
+    SwitchState,
+)
 
 EFFORT, POSITION = EffortJointInterface.type_name, PositionJointInterface.type_name
 
@@ -64,10 +73,11 @@ def test_each_part_hears_of_its_own_joints_only():
     reader = info("reader", ("hardware_interface::JointStateInterface", ()))
     assert combined.prepare_switch([both, reader], [of_left])
     combined.do_switch([both], [of_left])
-    assert left.heard == [("prepare", [info("both", (EFFORT, ("l2",))), reader], [info("of_left", (EFFORT, ("l1",)))]),
-                          ("do", [info("both", (EFFORT, ("l2",)))], [info("of_left", (EFFORT, ("l1",)))])]
-    assert right.heard == [("prepare", [info("both", (EFFORT, ("r1",))), reader], []),
-                           ("do", [info("both", (EFFORT, ("r1",)))], [])]
+    assert left.heard == [
+        ("prepare", [info("both", (EFFORT, ("l2",))), reader], [info("of_left", (EFFORT, ("l1",)))]),
+        ("do", [info("both", (EFFORT, ("l2",)))], [info("of_left", (EFFORT, ("l1",)))]),
+    ]
+    assert right.heard == [("prepare", [info("both", (EFFORT, ("r1",))), reader], []), ("do", [info("both", (EFFORT, ("r1",)))], [])]
 
 
 def test_one_part_can_refuse():

@@ -1,4 +1,5 @@
 """The types must be those that compiled tools of Noetic speak: same MD5 sums."""
+
 from control_msgs import msg, srv
 
 MESSAGES = {
@@ -61,5 +62,11 @@ def test_sums():
 
 def test_error_codes():
     result = msg.FollowJointTrajectoryResult
-    assert [result.SUCCESSFUL, result.INVALID_GOAL, result.INVALID_JOINTS, result.OLD_HEADER_TIMESTAMP,
-            result.PATH_TOLERANCE_VIOLATED, result.GOAL_TOLERANCE_VIOLATED] == [0, -1, -2, -3, -4, -5]
+    assert [
+        result.SUCCESSFUL,
+        result.INVALID_GOAL,
+        result.INVALID_JOINTS,
+        result.OLD_HEADER_TIMESTAMP,
+        result.PATH_TOLERANCE_VIOLATED,
+        result.GOAL_TOLERANCE_VIOLATED,
+    ] == [0, -1, -2, -3, -4, -5]

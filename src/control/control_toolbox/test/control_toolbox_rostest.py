@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Gains as parameters, through dynamic_reconfigure, through the service; the state topic."""
+
 import math
 import time
 
@@ -33,11 +34,12 @@ class ControlToolboxTest(test_support.TestCase):
 
     def test_parameters(self):
         for parameters, gains in (
-                ({"p": 1}, Gains(1.0)), ({"p": 1.0, "i": 2.0, "d": 3.0}, Gains(1.0, 2.0, 3.0)),
-                ({"p": 1.0, "i_clamp": -4.0}, Gains(1.0, 0.0, 0.0, 4.0, -4.0)),
-                ({"p": 1.0, "i_clamp": 4.0, "i_clamp_max": 5.0}, Gains(1.0, 0.0, 0.0, 5.0, -4.0)),
-                ({"p": 1.0, "i_clamp_min": 6.0, "i_clamp_max": -5.0, "antiwindup": True},
-                 Gains(1.0, 0.0, 0.0, 5.0, -6.0, True))):
+            ({"p": 1}, Gains(1.0)),
+            ({"p": 1.0, "i": 2.0, "d": 3.0}, Gains(1.0, 2.0, 3.0)),
+            ({"p": 1.0, "i_clamp": -4.0}, Gains(1.0, 0.0, 0.0, 4.0, -4.0)),
+            ({"p": 1.0, "i_clamp": 4.0, "i_clamp_max": 5.0}, Gains(1.0, 0.0, 0.0, 5.0, -4.0)),
+            ({"p": 1.0, "i_clamp_min": 6.0, "i_clamp_max": -5.0, "antiwindup": True}, Gains(1.0, 0.0, 0.0, 5.0, -6.0, True)),
+        ):
             with self.subTest(parameters=parameters):
                 self.assertEqual(self.load(**parameters).gains, gains)
                 self.nh.shutdown()
@@ -60,17 +62,22 @@ class ControlToolboxTest(test_support.TestCase):
 
     def test_dynamic_reconfigure(self):
         pid = self.load(p=5.0, i=1.0, i_clamp=2.0)
-        for name, value in (("p", 5.0), ("i", 1.0), ("d", 0.0), ("i_clamp_min", -2.0), ("i_clamp_max", 2.0),
-                            ("antiwindup", False)):
+        for name, value in (("p", 5.0), ("i", 1.0), ("d", 0.0), ("i_clamp_min", -2.0), ("i_clamp_max", 2.0), ("antiwindup", False)):
             self.assertEqual(rospy.get_param(f"/pid/{name}"), value)
         client = self.client()
         config = client.get_configuration(timeout=20)
         self.assertEqual((config["p"], config["i_clamp_min"], config["antiwindup"]), (5.0, -2.0, False))
-        self.assertEqual([(p["name"], p["type"], p["min"], p["max"], p["default"])
-                          for p in client.get_parameter_descriptions(timeout=20)],
-                         [("p", "double", -100000.0, 100000.0, 10.0), ("i", "double", -100000.0, 100000.0, 0.1),
-                          ("d", "double", -1000.0, 1000.0, 1.0), ("i_clamp_min", "double", -100000.0, 0.0, -10.0),
-                          ("i_clamp_max", "double", 0.0, 100000.0, 10.0), ("antiwindup", "bool", False, True, False)])
+        self.assertEqual(
+            [(p["name"], p["type"], p["min"], p["max"], p["default"]) for p in client.get_parameter_descriptions(timeout=20)],
+            [
+                ("p", "double", -100000.0, 100000.0, 10.0),
+                ("i", "double", -100000.0, 100000.0, 0.1),
+                ("d", "double", -1000.0, 1000.0, 1.0),
+                ("i_clamp_min", "double", -100000.0, 0.0, -10.0),
+                ("i_clamp_max", "double", 0.0, 100000.0, 10.0),
+                ("antiwindup", "bool", False, True, False),
+            ],
+        )
         answer = client.update_configuration({"d": 1e9, "antiwindup": True})
         self.assertEqual((answer["d"], answer["p"]), (1000.0, 5.0), "in range; what is not named stays")
         self.assertEqual(pid.gains, Gains(5.0, 1.0, 1000.0, 2.0, -2.0, True))
@@ -105,8 +112,9 @@ class ControlToolboxTest(test_support.TestCase):
 
     def test_a_connection_to_a_closed_reconfigure_server_changes_nothing(self):
         calls = []
-        server = dynamic_parameters.Server("/closing", [dynamic_parameters.Parameter("p", float, 1.0)],
-                                           lambda config, level: calls.append(config["p"]))
+        server = dynamic_parameters.Server(
+            "/closing", [dynamic_parameters.Parameter("p", float, 1.0)], lambda config, level: calls.append(config["p"])
+        )
         kept = rospy.ServiceProxy("/closing/set_parameters", Reconfigure, persistent=True)
         kept(Config(doubles=[DoubleParameter("p", 2.0)]))
         server.shutdown()
@@ -123,8 +131,7 @@ class ControlToolboxTest(test_support.TestCase):
             pid.compute_command(1.0, 0.25)
             rospy.sleep(0.01)
         message = messages[-1]
-        self.assertEqual((message.error, message.p_term, message.i_term, message.d_term, message.output),
-                         (1.0, 2.0, 0.25, 2.0, 4.25))
+        self.assertEqual((message.error, message.p_term, message.i_term, message.d_term, message.output), (1.0, 2.0, 0.25, 2.0, 4.25))
         self.assertEqual((message.timestep.to_sec(), message.i_max, message.i_min), (0.25, 0.5, -0.5))
 
 

@@ -1,4 +1,5 @@
 """The PID law."""
+
 import math
 
 import pytest
@@ -57,8 +58,9 @@ def test_given_derivative():
     assert Pid(d=2.0).compute_command(1.0, 0.1, error_dot=3.0) == 6.0
 
 
-@pytest.mark.parametrize("error, dt, error_dot", [(1.0, 0.0, None), (math.nan, 1.0, None), (math.inf, 1.0, None),
-                                                  (1.0, 1.0, math.nan), (1.0, 1.0, -math.inf)])
+@pytest.mark.parametrize(
+    "error, dt, error_dot", [(1.0, 0.0, None), (math.nan, 1.0, None), (math.inf, 1.0, None), (1.0, 1.0, math.nan), (1.0, 1.0, -math.inf)]
+)
 def test_unusable_input_gives_zero_and_integrates_nothing(error, dt, error_dot):
     pid = Pid(1.0, 1.0, 1.0, 9.0, -9.0)
     pid.compute_command(1.0, 1.0)
@@ -85,8 +87,9 @@ def test_gains_can_be_replaced_at_any_time():
     assert pid.gains == Gains(3.0) and pid.compute_command(1.0, 1.0) == 3.0
 
 
-@pytest.mark.parametrize("gains", [{"p": 1.0}, {"i": 1.0, "i_max": 2.0, "i_min": -2.0},
-                                   {"p": 1.0, "i": 1.0, "i_max": 2.0, "i_min": -2.0, "antiwindup": True}])
+@pytest.mark.parametrize(
+    "gains", [{"p": 1.0}, {"i": 1.0, "i_max": 2.0, "i_min": -2.0}, {"p": 1.0, "i": 1.0, "i_max": 2.0, "i_min": -2.0, "antiwindup": True}]
+)
 def test_huge_errors_leave_nothing_behind_that_is_no_number(gains):
     pid = Pid(**gains)
     outputs(pid, [1e308] * 20 + [-1e308] * 20)

@@ -1,4 +1,5 @@
 """The law of the PID through both faces, upstream's class in C++ and that of Python: one table, and the same bits."""
+
 import math
 import pathlib
 import random
@@ -68,7 +69,9 @@ def test_both_faces_give_the_same_bits(antiwindup):
         dt = chance.choice((0.125, 0.0625, 0.0, -0.125))
         return (error(), dt, None) if chance.random() < 0.7 else (error(), error(), dt, None)
 
-    cases = [Case("chance", gains._replace(antiwindup=antiwindup), [step() for _ in range(500)])
-             for gains in (ALL, Gains(1.0, -2.0, 0.0, 3.0, -1.0), Gains(1.0, 2.0, 0.5, -3.0, 1.0), Gains(0.0, 0.0, 1.0, 3.0, -1.0))]
+    cases = [
+        Case("chance", gains._replace(antiwindup=antiwindup), [step() for _ in range(500)])
+        for gains in (ALL, Gains(1.0, -2.0, 0.0, 3.0, -1.0), Gains(1.0, 2.0, 0.5, -3.0, 1.0), Gains(0.0, 0.0, 1.0, 3.0, -1.0))
+    ]
     for case, answer in zip(cases, in_cpp(cases)):
         assert [struct.pack("d", one) for one in in_python(case)] == [struct.pack("d", one) for one in answer]

@@ -1,9 +1,10 @@
 """Test signals, filters and the limited proxy."""
+
 import math
 import statistics
 
 import pytest
-from control_toolbox import Dither, LimitedProxy, Sinusoid, SineSweep, clamp, exponential_smoothing
+from control_toolbox import Dither, LimitedProxy, SineSweep, Sinusoid, clamp, exponential_smoothing
 
 
 def test_sinusoid_and_its_derivatives():
@@ -24,8 +25,7 @@ def test_sweep_goes_through_both_frequencies():
     assert sweep.update(20.001) == 0.0
 
 
-@pytest.mark.parametrize("arguments", [(2.0, 1.0, 1.0, 1.0), (-1.0, 1.0, 1.0, 1.0), (1.0, 2.0, -1.0, 1.0),
-                                       (1.0, 2.0, 1.0, -1.0)])
+@pytest.mark.parametrize("arguments", [(2.0, 1.0, 1.0, 1.0), (-1.0, 1.0, 1.0, 1.0), (1.0, 2.0, -1.0, 1.0), (1.0, 2.0, 1.0, -1.0)])
 def test_impossible_sweeps_are_refused(arguments):
     with pytest.raises(ValueError, match="sine sweep"):
         SineSweep(*arguments)

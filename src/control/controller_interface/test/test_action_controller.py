@@ -1,4 +1,5 @@
 """Which goal is the active one, and what its client hears. The action itself is tested where it is served."""
+
 import threading
 
 import pytest

@@ -1,9 +1,18 @@
 """The life-cycle of controllers, and what they claim."""
+
 import pytest
 from controller_interface import Controller, ControllerState, InitError, MultiInterfaceController
-from hardware_interface import (EffortJointInterface, InterfaceResources, JointHandle, JointStateHandle,
-                                JointStateInterface, PositionJointInterface, ResourceError, RobotHW,
-                                VelocityJointInterface)
+from hardware_interface import (
+    EffortJointInterface,
+    InterfaceResources,
+    JointHandle,
+    JointStateHandle,
+    JointStateInterface,
+    PositionJointInterface,
+    ResourceError,
+    RobotHW,
+    VelocityJointInterface,
+)
 
 
 @pytest.fixture
@@ -45,8 +54,7 @@ def initialized(robot, kind=Recorder):
 
 def test_claims_are_sorted_and_do_not_stay_in_the_interface(robot):
     controller = Recorder()
-    assert controller.init_request(robot, None, None) == (
-        InterfaceResources("hardware_interface::PositionJointInterface", ("a", "b")),)
+    assert controller.init_request(robot, None, None) == (InterfaceResources("hardware_interface::PositionJointInterface", ("a", "b")),)
     assert robot.get(PositionJointInterface).claims == set()
     assert controller.state is ControllerState.INITIALIZED
 
@@ -60,8 +68,11 @@ def test_states(robot):
     assert controller.start_request(6.0) and controller.is_running
     assert controller.calls == [
         ("starting", 1.0, ControllerState.INITIALIZED),  # the method comes first, then the state changes
-        ("stopping", 3.0, ControllerState.RUNNING), ("waiting", 4.0, ControllerState.STOPPED),
-        ("aborting", 5.0, ControllerState.WAITING), ("starting", 6.0, ControllerState.ABORTED)]
+        ("stopping", 3.0, ControllerState.RUNNING),
+        ("waiting", 4.0, ControllerState.STOPPED),
+        ("aborting", 5.0, ControllerState.WAITING),
+        ("starting", 6.0, ControllerState.ABORTED),
+    ]
 
 
 @pytest.mark.parametrize("request_name", ["start_request", "stop_request", "wait_request", "abort_request"])
@@ -80,6 +91,7 @@ def test_init_only_once(robot):
 def test_a_missing_interface_is_named_with_those_that_exist(robot):
     class Velocity(Recorder):
         interface = VelocityJointInterface
+
     with pytest.raises(InitError, match="hardware_interface::VelocityJointInterface.*it has: .*PositionJointInterface"):
         Velocity().init_request(robot, None, None)
 
@@ -87,6 +99,7 @@ def test_a_missing_interface_is_named_with_those_that_exist(robot):
 def test_a_missing_joint_passes_through_and_leaves_no_claims(robot):
     class Wrong(Recorder):
         joints = ("a", "nope")
+
     controller = Wrong()
     with pytest.raises(ResourceError, match="nope"):
         controller.init_request(robot, None, None)
@@ -98,6 +111,7 @@ def test_init_may_refuse(robot):
     class Refusing(Recorder):
         def init(self, hw, root_nh, controller_nh):
             return False
+
     with pytest.raises(InitError, match="False"):
         Refusing().init_request(robot, None, None)
 
@@ -116,7 +130,8 @@ def test_several_interfaces_in_the_order_of_the_class(robot):
     controller = Two()
     assert controller.init_request(robot, None, None) == (
         InterfaceResources("hardware_interface::VelocityJointInterface", ()),
-        InterfaceResources("hardware_interface::EffortJointInterface", ("c",)))
+        InterfaceResources("hardware_interface::EffortJointInterface", ("c",)),
+    )
     assert controller.others is None, "only what the class asks for"
 
 
@@ -126,6 +141,7 @@ def test_a_missing_one_of_several_refuses_unless_optional(robot):
 
     class Optional(Two):
         optional = True
+
     controller = Optional()
     claimed = controller.init_request(robot, None, None)
     assert controller.velocity is None

@@ -1,4 +1,5 @@
 """The types must be those that compiled tools of Noetic speak: same MD5 sums."""
+
 from controller_manager_msgs import msg, srv
 
 MESSAGES = {

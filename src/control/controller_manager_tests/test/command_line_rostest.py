@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """The command line tools: texts byte for byte, exit codes, what a node leaves behind when it ends."""
+
 import contextlib
 import functools
 import io
@@ -68,14 +69,18 @@ class CommandLineTest(unittest.TestCase):
         """One run of each kind; the texts of all functions are python_interface's."""
         self.assertIn("controller_manager_tests/EffortTestController", self.manager("list-types").split())
         self.assertEqual(self.manager("list"), "No controllers are loaded in mechanism control\n")
-        self.assertEqual(self.manager("spawn", "my_controller1", "my_controller3"),
-                         "Loaded 'my_controller1'\nLoaded 'my_controller3'\n"
-                         "Started ['my_controller1'] successfully\nStarted ['my_controller3'] successfully\n")
+        self.assertEqual(
+            self.manager("spawn", "my_controller1", "my_controller3"),
+            "Loaded 'my_controller1'\nLoaded 'my_controller3'\n"
+            "Started ['my_controller1'] successfully\nStarted ['my_controller3'] successfully\n",
+        )
         self.assertEqual(self.manager("stop", "my_controller3"), "Stopped ['my_controller3'] successfully\n")
         self.assertEqual(self.manager("lc"), line("my_controller1", "running") + line("my_controller3", "stopped"))
-        self.assertEqual(self.manager("kl", "my_controller1", "my_controller3"),
-                         "Stopped ['my_controller1'] successfully\nError when stopping ['my_controller3']\n"
-                         "Unloaded 'my_controller1' successfully\nUnloaded 'my_controller3' successfully\n")
+        self.assertEqual(
+            self.manager("kl", "my_controller1", "my_controller3"),
+            "Stopped ['my_controller1'] successfully\nError when stopping ['my_controller3']\n"
+            "Unloaded 'my_controller1' successfully\nUnloaded 'my_controller3' successfully\n",
+        )
         self.assertEqual(self.manager("load", "nope"), "Error when loading 'nope'\n")
         self.assertEqual(self.manager("reload-libraries"), "Restore: False\nSuccessfully reloaded libraries\n")
 
@@ -92,8 +97,7 @@ class CommandLineTest(unittest.TestCase):
         spawner = self.spawn("spawner", "my_controller1", "my_controller3", "__name:=my_spawner")
         self.wait_for(my_controller1="running", my_controller3="running")
         wait_until(lambda: "Started controllers: my_controller1, my_controller3" in spawner.text(), "the spawner's word")
-        for text in ("Loading controller: my_controller1", "Controller Spawner: Loaded controllers: my_controller1, "
-                     "my_controller3"):
+        for text in ("Loading controller: my_controller1", "Controller Spawner: Loaded controllers: my_controller1, my_controller3"):
             self.assertIn(text, spawner.text())
         unspawner = self.spawn("unspawner", "my_controller1", "__name:=my_unspawner")
         self.wait_for(my_controller1="stopped", my_controller3="running")
@@ -169,18 +173,30 @@ class CommandLineTest(unittest.TestCase):
         self.assertIn("found: /controller_manager", output + errors)
 
     def test_groups(self):
-        self.assertEqual(run("controller_group", "list")[:2], (
-            0, "Number of groups: 3\n  group1\n      my_controller1\n      my_controller3\n"
-               "  group2\n      my_controller2\n      my_controller3\n"
-               "  group3\n      my_controller1\n      my_controller2\n"))
-        self.assertEqual(run("controller_group", "spawn", "group1")[:2], (
-            0, "Loaded 'my_controller1'\nLoaded 'my_controller3'\n"
-               "Started ['my_controller1'] successfully\nStarted ['my_controller3'] successfully\n"))
-        self.assertEqual(run("controller_group", "switch", "group2")[:2], (
-            0, "Loaded 'my_controller2'\nStarted ['my_controller2'] successfully\n"
-               "Stopped ['my_controller1'] successfully\n"))
-        self.assertEqual(run("controller_group", "switch", "group3")[:2], (
-            0, "Error when starting ['my_controller1'] and stopping ['my_controller3']\n"))
+        self.assertEqual(
+            run("controller_group", "list")[:2],
+            (
+                0,
+                "Number of groups: 3\n  group1\n      my_controller1\n      my_controller3\n"
+                "  group2\n      my_controller2\n      my_controller3\n"
+                "  group3\n      my_controller1\n      my_controller2\n",
+            ),
+        )
+        self.assertEqual(
+            run("controller_group", "spawn", "group1")[:2],
+            (
+                0,
+                "Loaded 'my_controller1'\nLoaded 'my_controller3'\n"
+                "Started ['my_controller1'] successfully\nStarted ['my_controller3'] successfully\n",
+            ),
+        )
+        self.assertEqual(
+            run("controller_group", "switch", "group2")[:2],
+            (0, "Loaded 'my_controller2'\nStarted ['my_controller2'] successfully\nStopped ['my_controller1'] successfully\n"),
+        )
+        self.assertEqual(
+            run("controller_group", "switch", "group3")[:2], (0, "Error when starting ['my_controller1'] and stopping ['my_controller3']\n")
+        )
         code, output, errors = run("controller_group", "switch", "group9")
         self.assertEqual(code, 0)
         self.assertIn("no controller defined in group group9", output + errors)

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Controllers in C++ under Python's manager: beside those in Python, and what goes wrong with them."""
+
 import os
 import signal
 import subprocess
@@ -75,8 +76,9 @@ class CompiledTest(unittest.TestCase):
         publisher.unregister()
         listed = {controller.name: controller for controller in self.cm.controllers()}
         claimed = listed["compiled"].claimed_resources[0]
-        self.assertEqual((claimed.hardware_interface, list(claimed.resources)),
-                         ("hardware_interface::EffortJointInterface", ["hiDOF_joint1"]))
+        self.assertEqual(
+            (claimed.hardware_interface, list(claimed.resources)), ("hardware_interface::EffortJointInterface", ["hiDOF_joint1"])
+        )
         self.assertEqual((listed["compiled"].state, listed["my_controller3"].state), ("running", "running"))
         self.assertFalse(self.cm.unload("compiled"))
         self.assertTrue(self.cm.stop("compiled"))
@@ -94,9 +96,10 @@ class CompiledTest(unittest.TestCase):
     def test_several_interfaces(self):
         self.assertTrue(self.cm.load("compiled_multi") and self.cm.start("compiled_multi"))
         claimed = self.cm.controllers()[-1].claimed_resources
-        self.assertEqual([(entry.hardware_interface, list(entry.resources)) for entry in claimed],
-                         [("hardware_interface::JointStateInterface", []),
-                          ("hardware_interface::VelocityJointInterface", ["test_joint1"])])
+        self.assertEqual(
+            [(entry.hardware_interface, list(entry.resources)) for entry in claimed],
+            [("hardware_interface::JointStateInterface", []), ("hardware_interface::VelocityJointInterface", ["test_joint1"])],
+        )
 
     def test_zz_reload(self):
         """Comes last: the joint states are unloaded too."""
@@ -126,8 +129,12 @@ class CompiledTest(unittest.TestCase):
         self.refused("fault", "init() returned false")
 
     def test_exceptions_of_the_loop(self):
-        for where, text in (("starting", "std::runtime_error: on purpose in starting"), ("stopping", "on purpose in stopping"),
-                            ("update", "on purpose in update"), ("number", "an exception of type int")):
+        for where, text in (
+            ("starting", "std::runtime_error: on purpose in starting"),
+            ("stopping", "on purpose in stopping"),
+            ("update", "on purpose in update"),
+            ("number", "an exception of type int"),
+        ):
             del self.lines[:]
             self.fault(where)
             self.assertTrue(self.cm.load("fault"))
@@ -171,8 +178,12 @@ class CompiledTest(unittest.TestCase):
     def last_line_of(self, fault, code):
         namespace = f"/dying_by_{fault.replace(' ', '_')}"
         rospy.set_param(f"{namespace}/fault", {"type": "controller_manager_tests/CompiledFault", "fault": fault})
-        robot = subprocess.Popen(["rosrun", "controller_manager_tests", "dummy_robot"], stderr=subprocess.PIPE, text=True,
-                                 env=dict(os.environ, ROS_NAMESPACE=namespace))
+        robot = subprocess.Popen(
+            ["rosrun", "controller_manager_tests", "dummy_robot"],
+            stderr=subprocess.PIPE,
+            text=True,
+            env=dict(os.environ, ROS_NAMESPACE=namespace),
+        )
         cm = ManagerClient(namespace)
         try:
             self.assertTrue(cm.load("fault"))

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """The services of a controller manager, as clients see them."""
+
 import unittest
 
 import rospy
@@ -28,8 +29,20 @@ class ControllerManagerTest(unittest.TestCase):
         self.assertEqual(self.cm.states(), {})
 
     def test_what_cannot_be_loaded(self):
-        for name in ("no_such_name", "typeless", "number_as_type", "misspelled", "compiled_unresolved", "missing_module",
-                     "no_interface", "unknown_joint", "pos_eff", "broken_init", "no good name", "lost"):
+        for name in (
+            "no_such_name",
+            "typeless",
+            "number_as_type",
+            "misspelled",
+            "compiled_unresolved",
+            "missing_module",
+            "no_interface",
+            "unknown_joint",
+            "pos_eff",
+            "broken_init",
+            "no good name",
+            "lost",
+        ):
             self.assertFalse(self.cm.load(name), name)
         self.assertEqual(self.cm.states(), {})
         self.assertFalse(self.cm.unload("my_controller1"))
@@ -74,8 +87,7 @@ class ControllerManagerTest(unittest.TestCase):
         self.assertTrue(self.cm.start("my_controller1"))
         self.assertFalse(self.cm.start("my_controller2"))
         self.assertTrue(self.cm.switch(["my_controller2"], ["my_controller1"], BEST_EFFORT))
-        self.assertEqual(self.cm.states(), {"my_controller1": "stopped", "my_controller2": "running",
-                                            "self_conflict": "initialized"})
+        self.assertEqual(self.cm.states(), {"my_controller1": "stopped", "my_controller2": "running", "self_conflict": "initialized"})
 
     def test_what_is_done_already(self):
         self.load("my_controller1", "my_controller3")
@@ -108,22 +120,31 @@ class ControllerManagerTest(unittest.TestCase):
         self.assertEqual(types.types, sorted(types.types))
         self.assertEqual(len(types.types), len(types.base_classes))
         pairs = dict(zip(types.types, types.base_classes))
-        for name in ("controller_manager_tests/EffortTestController", "joint_state_controller/JointStateController",
-                     "position_controllers/JointPositionController", "controller_manager_tests/CompiledController"):
+        for name in (
+            "controller_manager_tests/EffortTestController",
+            "joint_state_controller/JointStateController",
+            "position_controllers/JointPositionController",
+            "controller_manager_tests/CompiledController",
+        ):
             self.assertEqual(pairs[name], "controller_interface::ControllerBase")
 
     def test_list(self):
         self.load("my_controller1", "vel_eff", "states")
         self.assertTrue(self.cm.start("my_controller1"))
         first, second, third = self.cm.controllers()
-        self.assertEqual((first.name, first.state, first.type),
-                         ("my_controller1", "running", "controller_manager_tests/EffortTestController"))
-        self.assertEqual([(c.hardware_interface, c.resources) for c in first.claimed_resources],
-                         [(EFFORT, ["hiDOF_joint1", "hiDOF_joint2"])])
-        self.assertEqual([(c.hardware_interface, c.resources) for c in second.claimed_resources],
-                         [(VELOCITY, ["test_joint1", "test_joint2"]), (EFFORT, ["test_joint4"])])
-        self.assertEqual([(c.hardware_interface, c.resources) for c in third.claimed_resources],
-                         [("hardware_interface::JointStateInterface", [])])
+        self.assertEqual(
+            (first.name, first.state, first.type), ("my_controller1", "running", "controller_manager_tests/EffortTestController")
+        )
+        self.assertEqual(
+            [(c.hardware_interface, c.resources) for c in first.claimed_resources], [(EFFORT, ["hiDOF_joint1", "hiDOF_joint2"])]
+        )
+        self.assertEqual(
+            [(c.hardware_interface, c.resources) for c in second.claimed_resources],
+            [(VELOCITY, ["test_joint1", "test_joint2"]), (EFFORT, ["test_joint4"])],
+        )
+        self.assertEqual(
+            [(c.hardware_interface, c.resources) for c in third.claimed_resources], [("hardware_interface::JointStateInterface", [])]
+        )
 
     def test_derived_controllers(self):
         self.load("extensible", "derived")
@@ -131,8 +152,10 @@ class ControllerManagerTest(unittest.TestCase):
         self.assertFalse(self.cm.start("derived"), "both take hiDOF_joint1")
         self.assertTrue(self.cm.switch(["derived"], ["extensible"]))
         derived = self.cm.controllers()[1]
-        self.assertEqual([(c.hardware_interface, c.resources) for c in derived.claimed_resources],
-                         [(EFFORT, ["hiDOF_joint1"]), (VELOCITY, ["hiDOF_joint2"])])
+        self.assertEqual(
+            [(c.hardware_interface, c.resources) for c in derived.claimed_resources],
+            [(EFFORT, ["hiDOF_joint1"]), (VELOCITY, ["hiDOF_joint2"])],
+        )
 
     def test_reload(self):
         self.assertTrue(self.cm.reload(False))

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """A robot whose main program is C++: its manager, with controllers of Python and of C++ side by side."""
+
 import unittest
 
 import rosgraph
@@ -14,8 +15,7 @@ class CppRobotTest(unittest.TestCase):
     def setUp(self):
         self.cm = ManagerClient()
         self.joints = {}
-        rospy.Subscriber("/joint_states", JointState,
-                         lambda m: self.joints.update(zip(m.name, zip(m.position, m.velocity, m.effort))))
+        rospy.Subscriber("/joint_states", JointState, lambda m: self.joints.update(zip(m.name, zip(m.position, m.velocity, m.effort))))
 
     def test_both_languages_on_a_robot_of_cpp(self):
         for name in ("states", "left", "lamp", "effort", "unwanted"):
@@ -28,8 +28,9 @@ class CppRobotTest(unittest.TestCase):
         wait_until(lambda: self.joints.get("left", (None,))[0] == 0.75, "the left joint")
         wait_until(lambda: self.joints["right"][1:] == (0.5, 4.0), "the compiled controller on an interface of its own")
         claimed = {entry.hardware_interface: list(entry.resources) for entry in self.controller("lamp").claimed_resources}
-        self.assertEqual(claimed, {"hardware_interface::EffortJointInterface": ["right"],
-                                   "controller_manager_tests::LampInterface": ["lamp"]})
+        self.assertEqual(
+            claimed, {"hardware_interface::EffortJointInterface": ["right"], "controller_manager_tests::LampInterface": ["lamp"]}
+        )
         self.assertFalse(self.cm.start("effort"), "both want the right joint")
         self.assertFalse(self.cm.switch(["unwanted"], ["left"]), "the robot's prepareSwitch refuses it")
         self.assertTrue(self.cm.switch(["effort"], ["lamp"]))

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Finding controller managers and filtering their controllers."""
+
 import unittest
 
 import rospy
@@ -10,8 +11,9 @@ from controller_manager_tests import ControllerManagerDummy
 
 CONTROLLERS = [
     ControllerState("foo", "running", "pos/Controller", [HardwareInterfaceResources("Pos", ["a", "b"])]),
-    ControllerState("bar", "stopped", "eff/Controller", [HardwareInterfaceResources("Eff", ["b"]),
-                                                         HardwareInterfaceResources("Vel", ["c"])]),
+    ControllerState(
+        "bar", "stopped", "eff/Controller", [HardwareInterfaceResources("Eff", ["b"]), HardwareInterfaceResources("Vel", ["c"])]
+    ),
     ControllerState("foobar", "running", "pos/Other", []),
 ]
 
@@ -55,8 +57,7 @@ class DiscoveryTest(unittest.TestCase):
     def test_a_guess_is_believed_while_it_is_there(self):
         self.manager("/incomplete", without=["reload_controller_libraries"])
         self.manager("/whole")
-        self.assertEqual(utils.get_controller_managers(initial_guess=["/gone", "/incomplete"]),
-                         ["/incomplete", "/whole"])
+        self.assertEqual(utils.get_controller_managers(initial_guess=["/gone", "/incomplete"]), ["/incomplete", "/whole"])
 
     def test_answers_of_the_double_can_be_changed(self):
         double = self.manager("/told")

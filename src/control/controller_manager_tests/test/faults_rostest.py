@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """What students get wrong and what dies: one line each, and the rest goes on."""
+
 import signal
 import subprocess
 import unittest
@@ -48,15 +49,18 @@ class FaultsTest(unittest.TestCase):
         self.says(f"'{name}'", *parts)
 
     def test_unknown_type(self):
-        self.refused("misspelled", "controller_manager_tests/EffortTestControler' does not exist",
-                     "did you mean 'controller_manager_tests/EffortTestController'?", "list_controller_types")
+        self.refused(
+            "misspelled",
+            "controller_manager_tests/EffortTestControler' does not exist",
+            "did you mean 'controller_manager_tests/EffortTestController'?",
+            "list_controller_types",
+        )
 
     def test_module_that_cannot_be_imported(self):
         self.refused("missing_module", "cannot be imported", "no_such_module")
 
     def test_parameters_not_there(self):
-        self.refused("never_heard_of", "type was not specified", "/never_heard_of/type is not set",
-                     "no parameters in /never_heard_of")
+        self.refused("never_heard_of", "type was not specified", "/never_heard_of/type is not set", "no parameters in /never_heard_of")
 
     def test_parameters_without_type(self):
         self.refused("typeless", "/typeless/type is not set", "/typeless has: joint")
@@ -111,8 +115,12 @@ class FaultsTest(unittest.TestCase):
 
     def test_spawner_killed_hard_and_started_again(self):
         def spawner():
-            process = subprocess.Popen(["rosrun", "controller_manager", "spawner", "my_controller1", "my_controller3"],
-                                       stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+            process = subprocess.Popen(
+                ["rosrun", "controller_manager", "spawner", "my_controller1", "my_controller3"],
+                stdout=subprocess.PIPE,
+                stderr=subprocess.STDOUT,
+                text=True,
+            )
             self.addCleanup(process.stdout.close)
             return process
 

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """The functions that other programs import."""
+
 import contextlib
 import io
 import unittest
@@ -25,32 +26,30 @@ class PythonInterfaceTest(unittest.TestCase):
     def test_return_values_and_texts(self):
         self.assertEqual(printed(interface.load_controller, "my_controller1"), (True, "Loaded 'my_controller1'\n"))
         self.assertEqual(printed(interface.load_controller, "nope"), (False, "Error when loading 'nope'\n"))
-        self.assertEqual(printed(interface.start_controller, "my_controller1"),
-                         (True, "Started ['my_controller1'] successfully\n"))
-        self.assertEqual(printed(interface.start_controllers, ["my_controller1"]),
-                         (False, "Error when starting ['my_controller1']\n"))
-        self.assertEqual(printed(interface.unload_controller, "my_controller1"),
-                         (False, "Error when unloading 'my_controller1'\n"))
+        self.assertEqual(printed(interface.start_controller, "my_controller1"), (True, "Started ['my_controller1'] successfully\n"))
+        self.assertEqual(printed(interface.start_controllers, ["my_controller1"]), (False, "Error when starting ['my_controller1']\n"))
+        self.assertEqual(printed(interface.unload_controller, "my_controller1"), (False, "Error when unloading 'my_controller1'\n"))
         interface.load_controller("my_controller2")
         self.assertEqual(
             printed(interface.start_stop_controllers, ["my_controller2"], ["my_controller1"]),
-            (True, "Started ['my_controller2'] successfully\nStopped ['my_controller1'] successfully\n"))
+            (True, "Started ['my_controller2'] successfully\nStopped ['my_controller1'] successfully\n"),
+        )
         self.assertEqual(
             printed(interface.start_stop_controllers, start_controllers=["x"], stop_controllers=["y"]),
-            (False, "Error when starting ['x'] and stopping ['y']\n"))
-        self.assertEqual(printed(interface.stop_controllers, ["my_controller2"]),
-                         (True, "Stopped ['my_controller2'] successfully\n"))
-        self.assertEqual(printed(interface.stop_controller, "my_controller2"),
-                         (False, "Error when stopping ['my_controller2']\n"))
-        self.assertEqual(printed(interface.unload_controller, "my_controller1"),
-                         (True, "Unloaded 'my_controller1' successfully\n"))
+            (False, "Error when starting ['x'] and stopping ['y']\n"),
+        )
+        self.assertEqual(printed(interface.stop_controllers, ["my_controller2"]), (True, "Stopped ['my_controller2'] successfully\n"))
+        self.assertEqual(printed(interface.stop_controller, "my_controller2"), (False, "Error when stopping ['my_controller2']\n"))
+        self.assertEqual(printed(interface.unload_controller, "my_controller1"), (True, "Unloaded 'my_controller1' successfully\n"))
 
     def test_reload(self):
         interface.load_controller("my_controller1")
         interface.load_controller("my_controller3")
         interface.start_controller("my_controller1")
-        self.assertEqual(printed(interface.reload_libraries, False), (
-            False, "Restore: False\nFailed to reload libraries. Do you still have controllers loaded?\n"))
+        self.assertEqual(
+            printed(interface.reload_libraries, False),
+            (False, "Restore: False\nFailed to reload libraries. Do you still have controllers loaded?\n"),
+        )
         value, text = printed(interface.reload_libraries, True, restore=True)
         self.assertTrue(value)
         self.assertEqual(text, "Restore: True\nSuccessfully reloaded libraries\nControllers restored to original state\n")
@@ -61,11 +60,11 @@ class PythonInterfaceTest(unittest.TestCase):
     def test_lists(self):
         self.assertEqual(printed(interface.list_controllers)[1], "No controllers are loaded in mechanism control\n")
         interface.load_controller("vel_eff")
-        self.assertEqual(printed(interface.list_controllers)[1],
-                         "'vel_eff' - 'hardware_interface::VelocityJointInterface+"
-                         "hardware_interface::EffortJointInterface' ( initialized )\n")
-        self.assertIn("controller_manager_tests/EffortTestController",
-                      printed(interface.list_controller_types)[1].split("\n"))
+        self.assertEqual(
+            printed(interface.list_controllers)[1],
+            "'vel_eff' - 'hardware_interface::VelocityJointInterface+hardware_interface::EffortJointInterface' ( initialized )\n",
+        )
+        self.assertIn("controller_manager_tests/EffortTestController", printed(interface.list_controller_types)[1].split("\n"))
 
 
 if __name__ == "__main__":

@@ -3,6 +3,7 @@
 
 The manager runs in this process and the test is its control loop, so every cycle is known.
 """
+
 import math
 import threading
 import time
@@ -14,8 +15,7 @@ import rostest
 from controller_interface import Controller
 from controller_manager import ControllerManager
 from controller_manager_tests.client import BEST_EFFORT
-from hardware_interface import (EffortJointInterface, JointHandle, JointStateHandle, RobotHW, SwitchState,
-                                VelocityJointInterface)
+from hardware_interface import EffortJointInterface, JointHandle, JointStateHandle, RobotHW, SwitchState, VelocityJointInterface
 
 CALLS = []
 
@@ -61,7 +61,7 @@ class ScriptedHW(RobotHW):
         self.register_interface(EffortJointInterface(*map(JointHandle, states)))
         self.register_interface(VelocityJointInterface(*map(JointHandle, states)))
         self.feasible = True
-        self.results = {}          # controller's name, or None for all -> SwitchState
+        self.results = {}  # controller's name, or None for all -> SwitchState
         self.prepared = []
         self.switched = []
 
@@ -319,8 +319,9 @@ class SwitchingTest(unittest.TestCase):
         self.switch("xy")
         CALLS.clear()
         self.cm.update(9.0, 0.01, reset=True)
-        self.assertEqual(CALLS, [("x", "stopping"), ("x", "starting"), ("y", "stopping"), ("y", "starting"),
-                                 ("x", "update"), ("y", "update")])
+        self.assertEqual(
+            CALLS, [("x", "stopping"), ("x", "starting"), ("y", "stopping"), ("y", "starting"), ("x", "update"), ("y", "update")]
+        )
 
     def test_shutdown_stops_controllers_and_ends_a_pending_switch(self):
         self.switch("x")
@@ -366,6 +367,7 @@ class SwitchingTest(unittest.TestCase):
     def test_an_exception_of_the_hardware(self):
         def broken(*_):
             raise RuntimeError("no bus")
+
         self.hw.prepare_switch = broken
         self.assertFalse(self.cm.switch_controller(["x"], []))
         del self.hw.prepare_switch

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """A controller written outside of this workspace, loaded by the name of its type."""
+
 import subprocess
 import unittest
 
@@ -21,8 +22,9 @@ class ThirdPartyTest(unittest.TestCase):
         rospy.Subscriber("/joint_states", JointState, lambda m: positions.append(m.position[m.name.index("hiDOF_joint1")]))
         wait_until(lambda: positions and max(positions) > 0.45 and min(positions) < -0.45, "a whole swing")
         self.assertLessEqual(max(map(abs, positions)), 0.5 + 1e-9)
-        subprocess.run(["rostopic", "pub", "-1", "/sine/amplitude", "std_msgs/Float64", "0.0"], check=True, timeout=60,
-                       stdout=subprocess.DEVNULL)
+        subprocess.run(
+            ["rostopic", "pub", "-1", "/sine/amplitude", "std_msgs/Float64", "0.0"], check=True, timeout=60, stdout=subprocess.DEVNULL
+        )
         wait_until(lambda: positions[-1] == 0.0, "the new amplitude")
         self.assertTrue(cm.stop("sine"))
 

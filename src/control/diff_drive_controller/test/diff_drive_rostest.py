@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Behaviour of the differential drive controller over its topics, tf and dynamic_reconfigure."""
+
 import math
 import socket
 import subprocess
@@ -47,8 +48,7 @@ class DiffDrive(test_support.TestCase):
     def test_circle_comes_back(self):
         with client.running("plain"), Base("plain") as base:
             messages = base.drive(1.0, 2.0, math.pi + 0.1)
-            x, y = displacement([m for m in messages if m.header.stamp.to_sec() - messages[0].header.stamp.to_sec()
-                                 <= math.pi / 2 + 1e-3])
+            x, y = displacement([m for m in messages if m.header.stamp.to_sec() - messages[0].header.stamp.to_sec() <= math.pi / 2 + 1e-3])
             self.assertAlmostEqual(x, 0.0, delta=0.02)
             self.assertAlmostEqual(y, 1.0, delta=0.01)  # half a turn on a radius of 0.5 m
 
@@ -73,8 +73,7 @@ class DiffDrive(test_support.TestCase):
 
     def test_every_wheel_of_a_side_turns_alike(self):
         names, velocities = self.wheels("skid", 0.6, 0.8)
-        self.assertEqual(names, [f"{place}_{side}_joint" for side in ("left", "right")
-                                 for place in ("front", "middle", "back")])
+        self.assertEqual(names, [f"{place}_{side}_joint" for side in ("left", "right") for place in ("front", "middle", "back")])
         for velocity, expected in zip(velocities, [4.0] * 3 + [8.0] * 3):
             self.assertAlmostEqual(velocity, expected, delta=1e-6)
 
@@ -119,12 +118,24 @@ class DiffDrive(test_support.TestCase):
         with client.running("tuned"), Base("tuned") as base:
             reconfigure = ReconfigureClient("/tuned", timeout=60.0)
             parameters = reconfigure.get_parameter_descriptions()
-            self.assertEqual([(p["name"], p["default"]) for p in parameters], [
-                ("left_wheel_radius_multiplier", 1.0), ("right_wheel_radius_multiplier", 1.0),
-                ("wheel_separation_multiplier", 1.0), ("publish_rate", 50.0), ("enable_odom_tf", True)])
+            self.assertEqual(
+                [(p["name"], p["default"]) for p in parameters],
+                [
+                    ("left_wheel_radius_multiplier", 1.0),
+                    ("right_wheel_radius_multiplier", 1.0),
+                    ("wheel_separation_multiplier", 1.0),
+                    ("publish_rate", 50.0),
+                    ("enable_odom_tf", True),
+                ],
+            )
             before = base.odometry.next()
-            new = {"left_wheel_radius_multiplier": 0.95, "right_wheel_radius_multiplier": 0.95,
-                   "wheel_separation_multiplier": 1.1, "publish_rate": 10.0, "enable_odom_tf": False}
+            new = {
+                "left_wheel_radius_multiplier": 0.95,
+                "right_wheel_radius_multiplier": 0.95,
+                "wheel_separation_multiplier": 1.1,
+                "publish_rate": 10.0,
+                "enable_odom_tf": False,
+            }
             echo = reconfigure.update_configuration(new)
             self.assertEqual({name: echo[name] for name in new}, new)
             base.odometry.clear()
@@ -227,19 +238,31 @@ class DiffDrive(test_support.TestCase):
             base.wait_at_rest()  # the command has run out
             second = subprocess.Popen(
                 ["rostopic", "pub", "--latch", "/one_publisher/cmd_vel", "geometry_msgs/Twist", "{}"],
-                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.DEVNULL,
+            )
             try:
-                client.wait_until(lambda: client.publisher_count("/one_publisher/cmd_vel") == 2,
-                                  "the second publisher", 600.0)
-                client.wait_until(lambda: base.drive(0.5, 0.0, 1.0, obeys=False)[-1].twist.twist.linear.x == 0.0,
-                                  "the robot to stop", 600.0)
+                client.wait_until(lambda: client.publisher_count("/one_publisher/cmd_vel") == 2, "the second publisher", 600.0)
+                client.wait_until(
+                    lambda: base.drive(0.5, 0.0, 1.0, obeys=False)[-1].twist.twist.linear.x == 0.0, "the robot to stop", 600.0
+                )
             finally:
                 second.terminate()
                 second.wait()
 
     def test_wrong_parameters_are_refused(self):
-        for name in ("wrong_joint", "square_wheels", "no_wheels", "uneven", "zero_radius", "short_covariance",
-                     "nan_radius", "endless_separation", "no_multiplier", "nan_covariance"):
+        for name in (
+            "wrong_joint",
+            "square_wheels",
+            "no_wheels",
+            "uneven",
+            "zero_radius",
+            "short_covariance",
+            "nan_radius",
+            "endless_separation",
+            "no_multiplier",
+            "nan_covariance",
+        ):
             with self.subTest(name):
                 self.assertFalse(client.loads(name))
                 self.assertFalse(client.published(f"/{name}/odom"))
@@ -247,5 +270,6 @@ class DiffDrive(test_support.TestCase):
 
 if __name__ == "__main__":
     import rostest
+
     rospy.init_node("diff_drive")
     rostest.rosrun("diff_drive_controller", "diff_drive", "__main__")

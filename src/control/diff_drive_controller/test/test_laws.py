@@ -1,4 +1,5 @@
 """The laws of wheeled bases through both faces, upstream's classes in C++ and those of Python: one table each, and the same bits."""
+
 import math
 import pathlib
 import random
@@ -46,7 +47,7 @@ def allowed_in_cpp(case):
     bounds = [part for limits in case[1:4] for part in ((1.0, *limits) if limits else (0.0, 0.0, 0.0))]
     outputs = [0.0, 0.0]
     for velocity, dt, _ in case.steps:
-        (one,), = in_cpp([("limiter", *bounds), ("limit", velocity, outputs[-1], outputs[-2], dt)])
+        ((one,),) = in_cpp([("limiter", *bounds), ("limit", velocity, outputs[-1], outputs[-2], dt)])
         outputs.append(one)
     return outputs[2:]
 

@@ -2,7 +2,6 @@ import math
 
 import pytest
 from controller_interface import ParameterError
-
 from diff_drive_controller.speed_limiter import load_limiter
 
 
@@ -17,9 +16,18 @@ class Parameters(dict):
 
 
 def test_parameters_have_symmetric_minima_unless_given():
-    limiter = load_limiter(Parameters({"linear/x/has_velocity_limits": True, "linear/x/max_velocity": 1.0,
-                                       "linear/x/has_acceleration_limits": True, "linear/x/max_acceleration": 5.0,
-                                       "linear/x/min_acceleration": -10.0}), "linear/x")
+    limiter = load_limiter(
+        Parameters(
+            {
+                "linear/x/has_velocity_limits": True,
+                "linear/x/max_velocity": 1.0,
+                "linear/x/has_acceleration_limits": True,
+                "linear/x/max_acceleration": 5.0,
+                "linear/x/min_acceleration": -10.0,
+            }
+        ),
+        "linear/x",
+    )
     assert limiter.limit(9.0, 1.0) == 1.0
     assert limiter.limit(-9.0, 1.0) == -1.0
     assert limiter.limit(9.0, 0.1) == pytest.approx(-0.5)
@@ -37,7 +45,11 @@ def test_bounds_the_wrong_way_round_are_refused_and_infinite_ones_are_none():
     wrong = {"linear/x/has_velocity_limits": True, "linear/x/max_velocity": -1.0}
     with pytest.raises(ParameterError, match="min_velocity is 1, more than max_velocity, which is -1"):
         load_limiter(Parameters(wrong), "linear/x")
-    free = load_limiter(Parameters({f"linear/x/has_{q}_limits": True for q in ("velocity", "acceleration", "jerk")} |
-                                   {f"linear/x/max_{q}": math.inf for q in ("velocity", "acceleration", "jerk")}),
-                        "linear/x")
+    free = load_limiter(
+        Parameters(
+            {f"linear/x/has_{q}_limits": True for q in ("velocity", "acceleration", "jerk")}
+            | {f"linear/x/max_{q}": math.inf for q in ("velocity", "acceleration", "jerk")}
+        ),
+        "linear/x",
+    )
     assert (free.limit(3.0, 0.1), free.limit(2.0, 0.0)) == (3.0, 3.0)

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """PID controllers on a joint of unit mass."""
+
 import math
 import unittest
 
@@ -93,8 +94,9 @@ class EffortControllersTest(unittest.TestCase):
         self.assertEqual(self.loop.command("velocity", "a"), 1.5)
 
     def test_group(self):
-        controller = self.start(type="effort_controllers/JointGroupPositionController", joints=["a", "c"],
-                                a={"pid": {"p": 2.0}}, c={"pid": {"p": 3.0}})
+        controller = self.start(
+            type="effort_controllers/JointGroupPositionController", joints=["a", "c"], a={"pid": {"p": 2.0}}, c={"pid": {"p": 3.0}}
+        )
         controller._receive(Float64MultiArray(data=[5.0, 1.0]))
         self.loop.cycle()
         self.assertEqual((self.loop.command("effort", "a"), self.loop.command("effort", "c")), (2.0, 3.0))
@@ -127,10 +129,11 @@ class EffortControllersTest(unittest.TestCase):
         wait_until(lambda: len(messages) >= 10, "ten messages")
         self.assertEqual(len(messages), 10, "every tenth update")
         message = messages[-1]
-        self.assertEqual((message.set_point, message.process_value, message.process_value_dot, message.error),
-                         (1.0, 0.25, 0.5, 0.75))
-        self.assertEqual((message.p, message.i, message.d, message.i_clamp, message.antiwindup, message.time_step),
-                         (40.0, 1.0, 12.0, 2.0, True, self.loop.dt))
+        self.assertEqual((message.set_point, message.process_value, message.process_value_dot, message.error), (1.0, 0.25, 0.5, 0.75))
+        self.assertEqual(
+            (message.p, message.i, message.d, message.i_clamp, message.antiwindup, message.time_step),
+            (40.0, 1.0, 12.0, 2.0, True, self.loop.dt),
+        )
         self.assertGreater(message.command, 30.0)
 
     def test_gains_while_it_runs(self):
@@ -145,8 +148,12 @@ class EffortControllersTest(unittest.TestCase):
 
     def test_what_makes_them_fail_to_load(self):
         good = position("a")
-        for wrong in ({**good, "pid": {}}, {**good, "pid": {"p": "much"}}, {**good, "joint": "nope"},
-                      {key: value for key, value in good.items() if key != "joint"}):
+        for wrong in (
+            {**good, "pid": {}},
+            {**good, "pid": {"p": "much"}},
+            {**good, "joint": "nope"},
+            {key: value for key, value in good.items() if key != "joint"},
+        ):
             rospy.set_param("/robot/pid_controller", wrong)
             self.assertFalse(self.loop.load("pid_controller"), wrong)
             rospy.delete_param("/robot/pid_controller")

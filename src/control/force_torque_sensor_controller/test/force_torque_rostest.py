@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """What the force-torque controller publishes."""
+
 import unittest
 
 import rospy
@@ -27,5 +28,6 @@ class ForceTorque(unittest.TestCase):
 
 if __name__ == "__main__":
     import rostest
+
     rospy.init_node("force_torque")
     rostest.rosrun("force_torque_sensor_controller", "force_torque", "__main__")

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Behaviour of the four wheel steering controller over its topics and tf."""
+
 import math
 
 import rospy
@@ -95,8 +96,7 @@ class FourWheels(test_support.TestCase):
 
     def test_geometry_found_in_the_urdf_becomes_parameters(self):
         with client.running("plain"):
-            for name, value in (("track", 1.2), ("wheel_base", 1.4), ("wheel_radius", 0.2),
-                                ("wheel_steering_y_offset", 0.1)):
+            for name, value in (("track", 1.2), ("wheel_base", 1.4), ("wheel_radius", 0.2), ("wheel_steering_y_offset", 0.1)):
                 self.assertAlmostEqual(rospy.get_param("/plain/" + name), value)
 
     def test_wrong_parameters_are_refused(self):
@@ -108,5 +108,6 @@ class FourWheels(test_support.TestCase):
 
 if __name__ == "__main__":
     import rostest
+
     rospy.init_node("four_wheel_steering")
     rostest.rosrun("four_wheel_steering_controller", "four_wheel_steering", "__main__")

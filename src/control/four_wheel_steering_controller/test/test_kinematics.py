@@ -1,10 +1,9 @@
 import math
 
 import pytest
+from four_wheel_steering_controller.kinematics import Axle, Base, axle_angle
 from hypothesis import assume, given
 from hypothesis import strategies as st
-
-from four_wheel_steering_controller.kinematics import Axle, Base, axle_angle
 
 BASE = Base(steering_track=1.0, wheel_base=1.4, wheel_radius=0.2, y_offset=0.1)
 

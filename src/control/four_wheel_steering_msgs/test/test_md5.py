@@ -1,4 +1,5 @@
 """The types must be those that compiled tools of Noetic speak: same MD5 sums."""
+
 from four_wheel_steering_msgs import msg
 
 

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Behaviour of the gripper action controllers."""
+
 import math
 
 import actionlib
@@ -111,5 +112,6 @@ class Gripper(test_support.TestCase):
 
 if __name__ == "__main__":
     import rostest
+
     rospy.init_node("gripper")
     rostest.rosrun("gripper_action_controller", "gripper", "__main__")

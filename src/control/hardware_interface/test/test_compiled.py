@@ -1,11 +1,27 @@
 """The C++ twin of a robot, and Python's view of a robot in C++: the same numbers everywhere."""
+
 import gc
 
 import pytest
-from hardware_interface import (ControllerInfo, EffortJointInterface, ForceTorqueSensorHandle, ForceTorqueSensorInterface,
-                                ImuSensorHandle, ImuSensorInterface, InterfaceResources, JointHandle, JointMode, JointModeHandle,
-                                JointModeInterface, JointStateHandle, JointStateInterface, PosVelJointHandle, PosVelJointInterface,
-                                RobotHW, SwitchState)
+from hardware_interface import (
+    ControllerInfo,
+    EffortJointInterface,
+    ForceTorqueSensorHandle,
+    ForceTorqueSensorInterface,
+    ImuSensorHandle,
+    ImuSensorInterface,
+    InterfaceResources,
+    JointHandle,
+    JointMode,
+    JointModeHandle,
+    JointModeInterface,
+    JointStateHandle,
+    JointStateInterface,
+    PosVelJointHandle,
+    PosVelJointInterface,
+    RobotHW,
+    SwitchState,
+)
 from hardware_interface.compiled import CompiledRobotHW, twin
 
 

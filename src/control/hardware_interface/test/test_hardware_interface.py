@@ -1,10 +1,25 @@
 """Handles, interfaces, claims, combination of robots, conflicts between controllers."""
+
 from xml.etree.ElementTree import ParseError
 
 import pytest
-from hardware_interface import (ControllerInfo, EffortJointInterface, HardwareInterface, InterfaceResources,
-                                JointHandle, JointStateHandle, JointStateInterface, PositionJointInterface, PosVelJointHandle,
-                                PosVelJointInterface, ResourceError, RobotHW, SwitchState, VelocityJointInterface, description_root)
+from hardware_interface import (
+    ControllerInfo,
+    EffortJointInterface,
+    HardwareInterface,
+    InterfaceResources,
+    JointHandle,
+    JointStateHandle,
+    JointStateInterface,
+    PositionJointInterface,
+    PosVelJointHandle,
+    PosVelJointInterface,
+    ResourceError,
+    RobotHW,
+    SwitchState,
+    VelocityJointInterface,
+    description_root,
+)
 
 
 def joint(name, **state):
@@ -13,8 +28,7 @@ def joint(name, **state):
 
 def info(name, **claims):
     """A controller; keyword: interface -> joints."""
-    return ControllerInfo(name, "type", tuple(InterfaceResources(interface, tuple(joints))
-                                              for interface, joints in claims.items()))
+    return ControllerInfo(name, "type", tuple(InterfaceResources(interface, tuple(joints)) for interface, joints in claims.items()))
 
 
 def test_a_command_handle_shows_its_state():
@@ -56,8 +70,9 @@ def test_unknown_resource_names_interface_and_what_there_is():
         PositionJointInterface(joint("a"), joint("b")).get_handle("x")
 
 
-@pytest.mark.parametrize("interface, claimed", [(PositionJointInterface, {"a"}), (VelocityJointInterface, {"a"}),
-                                                (EffortJointInterface, {"a"})])
+@pytest.mark.parametrize(
+    "interface, claimed", [(PositionJointInterface, {"a"}), (VelocityJointInterface, {"a"}), (EffortJointInterface, {"a"})]
+)
 def test_commanding_interfaces_claim(interface, claimed):
     offered = interface(joint("a"), joint("b"))
     offered.get_handle("a")
@@ -124,14 +139,17 @@ def test_hooks_succeed_by_default():
     assert robot.prepare_switch([], []) and robot.switch_result() is SwitchState.DONE
 
 
-@pytest.mark.parametrize("controllers, conflict", [
-    ([info("a", pos=["j1"]), info("b", pos=["j2"])], False),
-    ([info("a", pos=["j1"]), info("b", pos=["j1"])], True),
-    ([info("a", pos=["j1"]), info("b", eff=["j1"])], True),            # whatever the interface
-    ([info("a", pos=["j1"], eff=["j1"])], True),                        # with itself
-    ([info("a", pos=["j1"], eff=["j2"]), info("b", pos=["j3"])], False),
-    ([info("a"), info("b")], False),
-])
+@pytest.mark.parametrize(
+    "controllers, conflict",
+    [
+        ([info("a", pos=["j1"]), info("b", pos=["j2"])], False),
+        ([info("a", pos=["j1"]), info("b", pos=["j1"])], True),
+        ([info("a", pos=["j1"]), info("b", eff=["j1"])], True),  # whatever the interface
+        ([info("a", pos=["j1"], eff=["j1"])], True),  # with itself
+        ([info("a", pos=["j1"], eff=["j2"]), info("b", pos=["j3"])], False),
+        ([info("a"), info("b")], False),
+    ],
+)
 def test_conflicts(controllers, conflict, caplog):
     assert RobotHW().check_for_conflict(controllers) is conflict
     assert ("Resource conflict on [j1]" in caplog.text) is conflict

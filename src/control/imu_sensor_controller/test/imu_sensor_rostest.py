@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """What the IMU controller publishes."""
+
 import unittest
 
 import rospy
@@ -21,8 +22,7 @@ class ImuSensor(unittest.TestCase):
         messages = self.messages("imus", "/base_imu")
         last = messages[-1]
         self.assertEqual(last.header.frame_id, "base_imu_link")
-        self.assertEqual((last.orientation.x, last.orientation.y, last.orientation.z, last.orientation.w),
-                         (0.1, 0.2, 0.3, 0.927362))
+        self.assertEqual((last.orientation.x, last.orientation.y, last.orientation.z, last.orientation.w), (0.1, 0.2, 0.3, 0.927362))
         self.assertEqual(last.orientation_covariance, tuple(range(1, 10)))
         self.assertEqual((last.angular_velocity.x, last.angular_velocity.y, last.angular_velocity.z), (0.4, 0.5, 0.6))
         self.assertEqual(last.angular_velocity_covariance, (0.0,) * 9)
@@ -45,5 +45,6 @@ class ImuSensor(unittest.TestCase):
 
 if __name__ == "__main__":
     import rostest
+
     rospy.init_node("imu_sensor")
     rostest.rosrun("imu_sensor_controller", "imu_sensor", "__main__")

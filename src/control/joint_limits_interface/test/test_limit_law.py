@@ -1,4 +1,5 @@
 """The law of joint limits through both faces, upstream's classes in C++ and the handles of Python: one table, and the same bits."""
+
 import math
 import pathlib
 import random
@@ -7,15 +8,24 @@ import subprocess
 
 import pytest
 from hardware_interface import JointHandle, JointStateHandle
-from joint_limits_interface import (EffortJointSaturationHandle, EffortJointSoftLimitsHandle, PositionJointSaturationHandle,
-                                    PositionJointSoftLimitsHandle, SoftJointLimits, VelocityJointSaturationHandle,
-                                    VelocityJointSoftLimitsHandle, _limits)
+from joint_limits_interface import (
+    EffortJointSaturationHandle,
+    EffortJointSoftLimitsHandle,
+    PositionJointSaturationHandle,
+    PositionJointSoftLimitsHandle,
+    SoftJointLimits,
+    VelocityJointSaturationHandle,
+    VelocityJointSoftLimitsHandle,
+    _limits,
+)
 from limit_cases import BOX, CASES, CROSSED, CROSSED_WINDOW, ENDLESS, RAMP, WINDOW, Case
 
 PROGRAM = pathlib.Path(_limits.__file__).parents[3] / "joint_limits_interface" / "limit_faces"  # devel/lib
-HANDLES = {"position": (PositionJointSaturationHandle, PositionJointSoftLimitsHandle),
-           "velocity": (VelocityJointSaturationHandle, VelocityJointSoftLimitsHandle),
-           "effort": (EffortJointSaturationHandle, EffortJointSoftLimitsHandle)}
+HANDLES = {
+    "position": (PositionJointSaturationHandle, PositionJointSoftLimitsHandle),
+    "velocity": (VelocityJointSaturationHandle, VelocityJointSoftLimitsHandle),
+    "effort": (EffortJointSaturationHandle, EffortJointSoftLimitsHandle),
+}
 
 
 def in_python(case):
@@ -35,9 +45,24 @@ def in_python(case):
 
 def lines_of(case):
     hard, soft = case.limits, case.soft or SoftJointLimits()
-    yield ("joint", case.kind, int(case.soft is not None), int(hard.has_position_limits), int(hard.has_velocity_limits),
-           int(hard.has_acceleration_limits), int(hard.has_effort_limits), hard.min_position, hard.max_position, hard.max_velocity,
-           hard.max_acceleration, hard.max_effort, soft.min_position, soft.max_position, soft.k_position, soft.k_velocity)
+    yield (
+        "joint",
+        case.kind,
+        int(case.soft is not None),
+        int(hard.has_position_limits),
+        int(hard.has_velocity_limits),
+        int(hard.has_acceleration_limits),
+        int(hard.has_effort_limits),
+        hard.min_position,
+        hard.max_position,
+        hard.max_velocity,
+        hard.max_acceleration,
+        hard.max_effort,
+        soft.min_position,
+        soft.max_position,
+        soft.k_position,
+        soft.k_velocity,
+    )
     for step in case.steps:
         yield ("reset",) if step == "reset" else ("step", *map(repr, step[:4]))
 
@@ -81,7 +106,15 @@ def test_both_faces_give_the_same_bits(kind, soft):
     def some(size):
         return chance.choice((math.nan, math.inf, -math.inf, 1e308, -0.0)) if chance.random() < 0.1 else chance.uniform(-size, size)
 
-    cases = [Case("chance", kind, limits, [(some(10.0), some(2.0), some(4.0), chance.choice((0.125, 0.0625, 0.0, -0.125)))
-                                           for _ in range(400)], soft) for limits in (BOX, ENDLESS, CROSSED, RAMP)]
+    cases = [
+        Case(
+            "chance",
+            kind,
+            limits,
+            [(some(10.0), some(2.0), some(4.0), chance.choice((0.125, 0.0625, 0.0, -0.125))) for _ in range(400)],
+            soft,
+        )
+        for limits in (BOX, ENDLESS, CROSSED, RAMP)
+    ]
     for case, answer in zip(cases, in_cpp(cases)[0]):
         assert bits(in_python(case)) == bits(answer)

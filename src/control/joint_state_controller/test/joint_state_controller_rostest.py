@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """joint_states, cycle by cycle."""
+
 import unittest
 
 import rospy
@@ -43,8 +44,7 @@ class JointStateControllerTest(unittest.TestCase):
         self.start()
         message = self.message()
         self.assertEqual(message.name, ["a", "b", "c"])
-        self.assertEqual((message.position, message.velocity, message.effort),
-                         ((2.0, 1.0, 3.0), (20.0, 10.0, 30.0), (200.0, 100.0, 300.0)))
+        self.assertEqual((message.position, message.velocity, message.effort), ((2.0, 1.0, 3.0), (20.0, 10.0, 30.0), (200.0, 100.0, 300.0)))
         self.assertEqual((message.header.frame_id, message.header.stamp.to_nsec()), ("", round(self.loop.time * 1e9)))
 
     def test_chosen_joints_in_their_order(self):
@@ -87,9 +87,18 @@ class JointStateControllerTest(unittest.TestCase):
         self.assertFalse(self.loop.load("states"), "no rate")
 
     def test_extra_joints(self):
-        self.start(extra_joints=[
-            {"name": "x", "position": 1.5, "velocity": 2.5, "effort": 3.5}, {"name": "y"}, {"name": "z", "effort": 0.5},
-            {"name": "a"}, {"position": 1.0}, {"name": "int", "position": 1}, "nonsense", {"name": "x"}])
+        self.start(
+            extra_joints=[
+                {"name": "x", "position": 1.5, "velocity": 2.5, "effort": 3.5},
+                {"name": "y"},
+                {"name": "z", "effort": 0.5},
+                {"name": "a"},
+                {"position": 1.0},
+                {"name": "int", "position": 1},
+                "nonsense",
+                {"name": "x"},
+            ]
+        )
         message = self.message()
         self.assertEqual(message.name, ["a", "b", "c", "x", "y", "z"])
         self.assertEqual(message.position[3:], (1.5, 0.0, 0.0))

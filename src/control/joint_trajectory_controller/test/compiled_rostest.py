@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """The trajectory controllers in C++ do what those in Python do, and can be derived from."""
+
 import rospy
 import trajectories_rostest as behaviour
 import variants_rostest as variants
@@ -108,5 +109,6 @@ del TrajectoryCase  # imported, not a test of its own
 
 if __name__ == "__main__":
     import rostest
+
     rospy.init_node("compiled_trajectories")
     rostest.rosrun("joint_trajectory_controller", "compiled_trajectories", "__main__")

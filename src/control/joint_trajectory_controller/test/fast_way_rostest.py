@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Every trajectory controller twice, with the fast way and without, through the same twelve seconds: the same commands, to the last bit,
 and the same answers. Joints lag, are disturbed and go missing; trajectories replace each other; goals are cancelled."""
+
 import math
 import random
 import struct
@@ -16,12 +17,15 @@ from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 START, DT = 100.0, 0.01  # s
 CYCLES = 1200
 #: joints of each kind, and the controller's other parameters by their namespace in trajectory_robot.yaml
-VARIANTS = [(variants.PositionTrajectoryController, JointHandle, "position"), (variants.PositionTrajectoryController, JointHandle, "ramp"),
-            (variants.PosVelTrajectoryController, PosVelJointHandle, "pos_vel"),
-            (variants.PosVelAccTrajectoryController, PosVelAccJointHandle, "pos_vel_acc"),
-            (variants.VelocityTrajectoryController, JointHandle, "velocity"),
-            (variants.VelocityTrajectoryController, JointHandle, "wrapping"),
-            (variants.EffortTrajectoryController, JointHandle, "effort")]
+VARIANTS = [
+    (variants.PositionTrajectoryController, JointHandle, "position"),
+    (variants.PositionTrajectoryController, JointHandle, "ramp"),
+    (variants.PosVelTrajectoryController, PosVelJointHandle, "pos_vel"),
+    (variants.PosVelAccTrajectoryController, PosVelAccJointHandle, "pos_vel_acc"),
+    (variants.VelocityTrajectoryController, JointHandle, "velocity"),
+    (variants.VelocityTrajectoryController, JointHandle, "wrapping"),
+    (variants.EffortTrajectoryController, JointHandle, "effort"),
+]
 
 
 class Goal:
@@ -50,8 +54,11 @@ class Robot:
         self.controller.starting(START)
 
     def commands(self):
-        names = ("command_position", "command_velocity", "command_acceleration") if hasattr(self.handles[0], "command_position") \
+        names = (
+            ("command_position", "command_velocity", "command_acceleration")
+            if hasattr(self.handles[0], "command_position")
             else ("command", "slope")
+        )
         return [struct.pack("d", getattr(handle, name)) for handle in self.handles for name in names if hasattr(handle, name)]
 
     def moved(self, disturbance):
@@ -83,8 +90,9 @@ def some_trajectory(dice, names, time):
     for _ in range(dice.choice((0, 1, 1, 2, 4))):
         at += dice.choice((0.0 if not message.points else 0.01, 0.1, 0.5))
         rows = [[dice.uniform(-4.0, 4.0) for _ in names] for _ in range(order)] + [[], []]
-        message.points.append(JointTrajectoryPoint(positions=rows[0], velocities=rows[1], accelerations=rows[2],
-                                                   time_from_start=rospy.Duration.from_sec(at)))
+        message.points.append(
+            JointTrajectoryPoint(positions=rows[0], velocities=rows[1], accelerations=rows[2], time_from_start=rospy.Duration.from_sec(at))
+        )
     return message
 
 
@@ -139,5 +147,6 @@ class FastWay(TestCase):
 
 if __name__ == "__main__":
     import rostest
+
     rospy.init_node("fast_way")
     rostest.rosrun("joint_trajectory_controller", "fast_way", "__main__")

@@ -1,4 +1,5 @@
 """The sampler in C++ answers as Segment does, to the last bit, and leaves to the controller whatever is not ordinary."""
+
 import math
 import random
 
@@ -55,8 +56,10 @@ def test_the_next_segment_is_for_the_controller(one):
     assert sampler.quick(1.0, False, False) is None and sampler.quick(NAN, False, False) is None
 
 
-@pytest.mark.parametrize("measured, watched", (((0.6, 0.0), True), ((0.4, 0.0), True), ((0.5, 1.2), True), ((NAN, 0.0), True),
-                                               ((0.5, NAN), True), ((0.6, 2.0), False)))
+@pytest.mark.parametrize(
+    "measured, watched",
+    (((0.6, 0.0), True), ((0.4, 0.0), True), ((0.5, 1.2), True), ((NAN, 0.0), True), ((0.5, NAN), True), ((0.6, 2.0), False)),
+)
 def test_a_broken_tolerance_is_for_the_controller_while_a_goal_watches(one, measured, watched):
     sampler, state = one
     follow(sampler, Segment(0.0, State(0.0), 1.0, State(1.0)), watched=watched, position=0.09, velocity=0.15)

@@ -3,7 +3,6 @@ import math
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-
 from joint_trajectory_controller._sampler import position_error, turns_to_add
 from joint_trajectory_controller.segment import Segment, State, active_index, stop_segment
 

@@ -1,11 +1,10 @@
 """Messages to segments; controller time 10.0 is now, the next update comes at 10.1."""
+
 import math
 
 import pytest
-
 from joint_trajectory_controller.segment import Segment, State, stop_segment
-from joint_trajectory_controller.splice import (INVALID_GOAL, INVALID_JOINTS, Command, InvalidTrajectory, map_joints,
-                                                splice)
+from joint_trajectory_controller.splice import INVALID_GOAL, INVALID_JOINTS, Command, InvalidTrajectory, map_joints, splice
 from joint_trajectory_controller.tolerances import JointTolerances, StateTolerance
 
 JOINTS = ["a", "b"]
@@ -27,9 +26,17 @@ def splice_now(current, message, elapsed=0.0, start=NEXT, continuous=(False, Fal
     return splice(current, command, start, NOW, NEXT, continuous, NEW, goal)
 
 
-@pytest.mark.parametrize("names, partial, text", [
-    ([], False, "joint_names is empty"), ([], True, "joint_names is empty"), (["a", "x"], True, "unknown: x"),
-    (["a"], False, "missing: b"), (["a", "a"], True, "more than once: a"), (["a", "b", "c"], True, "unknown: c")])
+@pytest.mark.parametrize(
+    "names, partial, text",
+    [
+        ([], False, "joint_names is empty"),
+        ([], True, "joint_names is empty"),
+        (["a", "x"], True, "unknown: x"),
+        (["a"], False, "missing: b"),
+        (["a", "a"], True, "more than once: a"),
+        (["a", "b", "c"], True, "unknown: c"),
+    ],
+)
 def test_joint_names_that_do_not_fit(names, partial, text):
     with pytest.raises(InvalidTrajectory, match=text) as error:
         map_joints(names, JOINTS, partial)
@@ -41,21 +48,27 @@ def test_names_in_another_order():
     assert map_joints(["b"], JOINTS, True) == [1]
 
 
-@pytest.mark.parametrize("points, text", [
-    ([(1.0, [0, 0]), (1.0, [1, 1])], "strictly increasing"),
-    ([(2.0, [0, 0]), (1.0, [1, 1])], "strictly increasing"),
-    ([(1.0, [])], "0 positions for 2 joints"),
-    ([(1.0, [0])], "1 positions for 2 joints"),
-    ([(1.0, [0], [0], [0])], "1 positions for 2 joints"),
-    ([(1.0, [0, 0]), (2.0, [0, 0, 0])], "Point 1 has 3 positions"),
-    ([(1.0, [0, 0, 0]), (2.0, [0, 0])], "Point 1 has 2 positions"),
-    ([(1.0, [0, 0, 0], [0, 0])], "2 velocities for 2 joints"),
-    ([(1.0, [0, 0], [0])], "1 velocities for 2 joints"),
-    ([(1.0, [0, 0], [0, 0], [1])], "1 accelerations for 2 joints"),
-    ([(1.0, [0, 1e308])], "positions beyond 1e"), ([(1.0, [0, 0], [-1e13, 0])], "velocities beyond 1e"),
-    ([(1.0, [0, math.nan])], "not finite"), ([(1.0, [0, 0], [math.inf, 0])], "not finite"),
-    ([(0.0, [0, 0])], "Dropping all 1 trajectory points"),
-    ([(-2.0, [0, 0]), (-1.0, [0, 0])], r"Dropping all 2 trajectory points.* 1.000000s in the past")])
+@pytest.mark.parametrize(
+    "points, text",
+    [
+        ([(1.0, [0, 0]), (1.0, [1, 1])], "strictly increasing"),
+        ([(2.0, [0, 0]), (1.0, [1, 1])], "strictly increasing"),
+        ([(1.0, [])], "0 positions for 2 joints"),
+        ([(1.0, [0])], "1 positions for 2 joints"),
+        ([(1.0, [0], [0], [0])], "1 positions for 2 joints"),
+        ([(1.0, [0, 0]), (2.0, [0, 0, 0])], "Point 1 has 3 positions"),
+        ([(1.0, [0, 0, 0]), (2.0, [0, 0])], "Point 1 has 2 positions"),
+        ([(1.0, [0, 0, 0], [0, 0])], "2 velocities for 2 joints"),
+        ([(1.0, [0, 0], [0])], "1 velocities for 2 joints"),
+        ([(1.0, [0, 0], [0, 0], [1])], "1 accelerations for 2 joints"),
+        ([(1.0, [0, 1e308])], "positions beyond 1e"),
+        ([(1.0, [0, 0], [-1e13, 0])], "velocities beyond 1e"),
+        ([(1.0, [0, math.nan])], "not finite"),
+        ([(1.0, [0, 0], [math.inf, 0])], "not finite"),
+        ([(0.0, [0, 0])], "Dropping all 1 trajectory points"),
+        ([(-2.0, [0, 0]), (-1.0, [0, 0])], r"Dropping all 2 trajectory points.* 1.000000s in the past"),
+    ],
+)
 def test_points_that_cannot_be_executed(message, points, text):
     with pytest.raises(InvalidTrajectory, match=text) as error:
         Command(message(JOINTS, *points), [0, 1], 0.0)

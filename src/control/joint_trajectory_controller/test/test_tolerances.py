@@ -1,7 +1,6 @@
 from types import SimpleNamespace
 
 import pytest
-
 from joint_trajectory_controller.tolerances import JointTolerances, StateTolerance, from_parameters, overridden
 
 
@@ -10,8 +9,7 @@ def joint(name, position=0.0, velocity=0.0, acceleration=0.0):
 
 
 def goal(path=(), end=(), time=0.0):
-    return SimpleNamespace(path_tolerance=path, goal_tolerance=end,
-                           goal_time_tolerance=SimpleNamespace(to_sec=lambda: time))
+    return SimpleNamespace(path_tolerance=path, goal_tolerance=end, goal_time_tolerance=SimpleNamespace(to_sec=lambda: time))
 
 
 def test_defaults_are_a_stopped_velocity_of_a_hundredth_and_nothing_else():
@@ -19,15 +17,15 @@ def test_defaults_are_a_stopped_velocity_of_a_hundredth_and_nothing_else():
 
 
 def test_parameters():
-    tolerances = from_parameters(["a", "b"], {"goal_time": 2, "stopped_velocity_tolerance": 0,
-                                              "b": {"trajectory": 0.5, "goal": 0.1}})
+    tolerances = from_parameters(["a", "b"], {"goal_time": 2, "stopped_velocity_tolerance": 0, "b": {"trajectory": 0.5, "goal": 0.1}})
     assert tolerances[0] == JointTolerances(StateTolerance(), StateTolerance(), 2.0)
     assert tolerances[1] == JointTolerances(StateTolerance(0.5), StateTolerance(0.1), 2.0)
 
 
-@pytest.mark.parametrize("constraints, name", [({"goal_time": "soon"}, "constraints/goal_time"),
-                                               ({"a": 3}, "constraints/a"),
-                                               ({"a": {"goal": float("nan")}}, "constraints/a/goal")])
+@pytest.mark.parametrize(
+    "constraints, name",
+    [({"goal_time": "soon"}, "constraints/goal_time"), ({"a": 3}, "constraints/a"), ({"a": {"goal": float("nan")}}, "constraints/a/goal")],
+)
 def test_wrong_parameters_are_named(constraints, name):
     with pytest.raises(ValueError, match=name):
         from_parameters(["a"], constraints)
@@ -46,10 +44,8 @@ def test_no_tolerance_forbids_nothing_and_nan_is_over_any():
 
 
 def test_goal_overrides_named_joints_only():
-    defaults = from_parameters(["a", "b"], {"goal_time": 1.0, "a": {"trajectory": 0.5, "goal": 0.1},
-                                            "b": {"goal": 0.1}})
-    a, b = overridden(defaults, ["a", "b"], goal(path=[joint("a", -1.0, 0.3)],
-                                                 end=[joint("a", 0.0, 0.0, 2.0), joint("x")], time=3.0))
+    defaults = from_parameters(["a", "b"], {"goal_time": 1.0, "a": {"trajectory": 0.5, "goal": 0.1}, "b": {"goal": 0.1}})
+    a, b = overridden(defaults, ["a", "b"], goal(path=[joint("a", -1.0, 0.3)], end=[joint("a", 0.0, 0.0, 2.0), joint("x")], time=3.0))
     assert a == JointTolerances(StateTolerance(0.0, 0.3), StateTolerance(0.1, 0.01, 2.0), 3.0)
     assert b == JointTolerances(StateTolerance(), StateTolerance(0.1, 0.01), 3.0)
 

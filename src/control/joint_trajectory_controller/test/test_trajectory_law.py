@@ -1,5 +1,6 @@
 """The laws of trajectories through both faces, the classes of C++ that have upstream's names and those of Python: one table, and the same
 bits."""
+
 import math
 import pathlib
 import random

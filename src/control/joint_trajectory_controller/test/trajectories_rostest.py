@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Behaviour of the trajectory controllers over their topics, action and service."""
+
 import math
 
 import rospy
@@ -39,8 +40,7 @@ class Behaviour:
         start = rospy.get_time() + 5.0
         self.publish((0.0, REST, REST), (1.0, TARGET, REST), stamp=start)
         end = rospy.Time.from_sec(start + 1.5)
-        client.wait_until(lambda: abs(self.query_state(end).position[0] - TARGET[0]) < 1e-6,
-                          "the trajectory to be known")
+        client.wait_until(lambda: abs(self.query_state(end).position[0] - TARGET[0]) < 1e-6, "the trajectory to be known")
         self.assertStates(self.query_state(rospy.Time.from_sec(start + 0.5)).position, [0.25, -0.2])
         self.assertRaises(rospy.ServiceException, self.query_state, rospy.Time(0, 1))
 
@@ -48,15 +48,16 @@ class Behaviour:
         j1, j2 = self.joints
         point = (0.5, TARGET)
         for code, text, goal in (
-                (Result.INVALID_JOINTS, f"missing: {j2}", self.send((0.5, [0.5]), joints=[j1])),
-                (Result.INVALID_JOINTS, "unknown: elbow", self.send(point, joints=[j1, "elbow"])),
-                (Result.INVALID_GOAL, "0 positions for 2 joints", self.send((0.5, []))),
-                (Result.INVALID_GOAL, "1 positions for 2 joints", self.send((0.5, [0.5]))),
-                (Result.INVALID_GOAL, "1 velocities for 2 joints", self.send((0.5, TARGET, [0.0]))),
-                (Result.INVALID_GOAL, "strictly increasing", self.send(point, point)),
-                (Result.INVALID_GOAL, "not finite", self.send((0.5, [math.nan, 0.0]))),
-                (Result.INVALID_GOAL, "Dropping all 1 trajectory points", self.send((0.0, TARGET))),
-                (Result.INVALID_JOINTS, "joint_names is empty", Goal(self.action, JointTrajectory()))):
+            (Result.INVALID_JOINTS, f"missing: {j2}", self.send((0.5, [0.5]), joints=[j1])),
+            (Result.INVALID_JOINTS, "unknown: elbow", self.send(point, joints=[j1, "elbow"])),
+            (Result.INVALID_GOAL, "0 positions for 2 joints", self.send((0.5, []))),
+            (Result.INVALID_GOAL, "1 positions for 2 joints", self.send((0.5, [0.5]))),
+            (Result.INVALID_GOAL, "1 velocities for 2 joints", self.send((0.5, TARGET, [0.0]))),
+            (Result.INVALID_GOAL, "strictly increasing", self.send(point, point)),
+            (Result.INVALID_GOAL, "not finite", self.send((0.5, [math.nan, 0.0]))),
+            (Result.INVALID_GOAL, "Dropping all 1 trajectory points", self.send((0.0, TARGET))),
+            (Result.INVALID_JOINTS, "joint_names is empty", Goal(self.action, JointTrajectory())),
+        ):
             status, got, message = goal.finish()
             self.assertEqual((status, got), (GoalStatus.REJECTED, code), message)
             self.assertIn(text, message)
@@ -187,6 +188,7 @@ class Behaviour:
         def warned():  # as often as it takes until the log is connected
             self.publish((0.1, [1.0, 1.0], REST), (0.2, [2.0, 2.0], REST), stamp=rospy.get_time() - 0.5)
             return [line for line in log.messages if "Dropping all 2" in line.msg]
+
         lines = client.wait_until(warned, "a line in the log")
         log.close()
         self.assertEqual(lines[0].level, Log.WARN)
@@ -227,8 +229,7 @@ class Behaviour:
         self.assertLess(min(state.desired.positions), below)
 
     def test_good_goals_after_one_out_of_reach(self):
-        tolerances = dict(path=[(name, 0.05, 0, 0) for name in self.joints],
-                          goal=[(name, 0.05, 0, 0) for name in self.joints])
+        tolerances = dict(path=[(name, 0.05, 0, 0) for name in self.joints], goal=[(name, 0.05, 0, 0) for name in self.joints])
         client.set_faults(**{self.joints[0]: {"upper_bound": 0.5}})
         self.assertEqual(self.send((1.0, [2.8, 0.5], REST), **tolerances).finish()[1], Result.PATH_TOLERANCE_VIOLATED)
         self.assertHoldsWhereItIs(below=0.52)
@@ -262,8 +263,7 @@ class Behaviour:
         late = {self.joints[0]: {"smoothing": 0.93}}
         client.set_faults(**late)
         tolerances = dict(goal=[(name, 0.005, 0, 0) for name in self.joints])
-        self.assertEqual(self.send((0.1, [1.0, 1.0]), goal_time=-1.0, **tolerances).finish()[1],
-                         Result.GOAL_TOLERANCE_VIOLATED)
+        self.assertEqual(self.send((0.1, [1.0, 1.0]), goal_time=-1.0, **tolerances).finish()[1], Result.GOAL_TOLERANCE_VIOLATED)
         self.setUp()
         client.set_faults(**late)
         self.assertEqual(self.send((0.1, [1.0, 1.0]), goal_time=5.0, **tolerances).finish()[0], GoalStatus.SUCCEEDED)
@@ -311,9 +311,12 @@ class VelocityController(Behaviour, TrajectoryCase):
 
     def test_velocity_feed_forward_is_what_keeps_up(self):
         """Without it, the joint lags by velocity / p = 0.1 rad."""
+
         def move():
-            return self.send((0.5, [1.0, 1.0], [2.0, 2.0]), (1.0, [2.0, 2.0], REST),
-                             path=[(name, 0.08, 0, 0) for name in self.joints]).finish()
+            return self.send(
+                (0.5, [1.0, 1.0], [2.0, 2.0]), (1.0, [2.0, 2.0], REST), path=[(name, 0.08, 0, 0) for name in self.joints]
+            ).finish()
+
         self.assertEqual(move()[0], GoalStatus.SUCCEEDED)
         self.reload_with(0.0)
         try:
@@ -333,5 +336,6 @@ del TrajectoryCase  # imported, not a test of its own
 
 if __name__ == "__main__":
     import rostest
+
     rospy.init_node("trajectories")
     rostest.rosrun("joint_trajectory_controller", "trajectories", "__main__")

@@ -1,12 +1,18 @@
 """What the trajectory tests share: one controller with everything a client of it needs."""
+
 import math
 
 import actionlib
 import rospy
 import test_support
 from actionlib_msgs.msg import GoalStatus
-from control_msgs.msg import (FollowJointTrajectoryAction, FollowJointTrajectoryActionFeedback,
-                              FollowJointTrajectoryGoal, JointTolerance, JointTrajectoryControllerState)
+from control_msgs.msg import (
+    FollowJointTrajectoryAction,
+    FollowJointTrajectoryActionFeedback,
+    FollowJointTrajectoryGoal,
+    JointTolerance,
+    JointTrajectoryControllerState,
+)
 from control_msgs.srv import QueryTrajectoryState
 from control_test_robots import client
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
@@ -19,8 +25,11 @@ def trajectory(joints, *points, stamp=0.0):
     message = JointTrajectory(joint_names=list(joints))
     message.header.stamp = rospy.Time.from_sec(stamp)
     for time, *values in points:
-        message.points.append(JointTrajectoryPoint(**dict(zip(("positions", "velocities", "accelerations"), values)),
-                                                   time_from_start=rospy.Duration.from_sec(time)))
+        message.points.append(
+            JointTrajectoryPoint(
+                **dict(zip(("positions", "velocities", "accelerations"), values)), time_from_start=rospy.Duration.from_sec(time)
+            )
+        )
     return message
 
 
@@ -29,8 +38,10 @@ class Goal:
 
     def __init__(self, action_client, message, path=(), goal=(), goal_time=0.0):
         self._handle = action_client.send_goal(
-            FollowJointTrajectoryGoal(message, [JointTolerance(*t) for t in path], [JointTolerance(*t) for t in goal],
-                                      rospy.Duration.from_sec(goal_time)))
+            FollowJointTrajectoryGoal(
+                message, [JointTolerance(*t) for t in path], [JointTolerance(*t) for t in goal], rospy.Duration.from_sec(goal_time)
+            )
+        )
 
     @property
     def status(self):
@@ -108,22 +119,26 @@ class TrajectoryCase(test_support.TestCase):
 
     def wait_still_at(self, positions, timeout=30.0):
         """Until desired and actual positions are there and at rest, angles taken as they are counted."""
+
         def there():
             state = self.state.next()
-            return all(abs(d - p) < EPS and abs(math.remainder(a - p, 2 * math.pi)) < EPS and abs(v) < EPS
-                       for p, d, a, v in zip(positions, state.desired.positions, state.actual.positions,
-                                             state.actual.velocities))
+            return all(
+                abs(d - p) < EPS and abs(math.remainder(a - p, 2 * math.pi)) < EPS and abs(v) < EPS
+                for p, d, a, v in zip(positions, state.desired.positions, state.actual.positions, state.actual.velocities)
+            )
+
         client.wait_until(there, f"joints to rest at {positions}", timeout)
 
     def wait_moved(self, beyond=0.1, joint=0):
-        client.wait_until(lambda: abs(self.state.next().actual.positions[joint]) > beyond,
-                          f"joint {joint} to pass {beyond}")
+        client.wait_until(lambda: abs(self.state.next().actual.positions[joint]) > beyond, f"joint {joint} to pass {beyond}")
 
     def wait_at_rest(self):
         """Until nothing moves any more. :return: the positions there"""
+
         def rests():
             state = self.state.next()
             return all(abs(v) < 1e-6 for v in (*state.desired.velocities, *state.actual.velocities))
+
         client.wait_until(rests, "joints to come to rest")
         return self.state.last.actual.positions
 

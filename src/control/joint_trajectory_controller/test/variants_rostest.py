@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """What only some of the trajectory controllers do: partial goals, wrapped encoders, other outputs; what is refused."""
+
 import math
 
 import rospy
@@ -80,10 +81,14 @@ class WrappedEncoders(TrajectoryCase):
 
     def wait_still_at(self, positions, timeout=30.0):
         """The controller may have started anywhere: compare angles."""
+
         def there():
             state = self.state.next()
-            return all(abs(math.remainder(a - p, 2 * math.pi)) < EPS and abs(v) < EPS
-                       for p, a, v in zip(positions, state.actual.positions, state.actual.velocities))
+            return all(
+                abs(math.remainder(a - p, 2 * math.pi)) < EPS and abs(v) < EPS
+                for p, a, v in zip(positions, state.actual.positions, state.actual.velocities)
+            )
+
         client.wait_until(there, f"joints to rest at {positions}", timeout)
 
     def test_position_error_does_not_jump_where_the_encoder_does(self):
@@ -174,8 +179,16 @@ class Refused(TrajectoryCase):
     joints = ("p1", "p2")
 
     def test_wrong_parameters(self):
-        for name in ("no_joints", "unknown_joint", "not_in_hardware", "no_gains", "no_rate", "repeated",
-                     "endless_gain", "endless_feed_forward"):
+        for name in (
+            "no_joints",
+            "unknown_joint",
+            "not_in_hardware",
+            "no_gains",
+            "no_rate",
+            "repeated",
+            "endless_gain",
+            "endless_feed_forward",
+        ):
             with self.subTest(name):
                 self.assertFalse(client.loads(name))
         self.assertEqual(self.send((0.3, [0.5, 0.1], REST)).finish()[0], GoalStatus.SUCCEEDED)
@@ -185,5 +198,6 @@ del TrajectoryCase  # imported, not a test of its own
 
 if __name__ == "__main__":
     import rostest
+
     rospy.init_node("trajectory_variants")
     rostest.rosrun("joint_trajectory_controller", "trajectory_variants", "__main__")

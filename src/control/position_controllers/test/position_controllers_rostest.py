@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Forwarding controllers of all three interfaces: they share their code, so they share their test."""
+
 import unittest
 
 import rospy
@@ -8,12 +9,16 @@ from controller_manager_tests.client import wait_until
 from controller_manager_tests.loop import Loop
 from std_msgs.msg import Float64, Float64MultiArray
 
-SINGLE = {"position": "position_controllers/JointPositionController",
-          "velocity": "velocity_controllers/JointVelocityController",
-          "effort": "effort_controllers/JointEffortController"}
-GROUP = {"position": "position_controllers/JointGroupPositionController",
-         "velocity": "velocity_controllers/JointGroupVelocityController",
-         "effort": "effort_controllers/JointGroupEffortController"}
+SINGLE = {
+    "position": "position_controllers/JointPositionController",
+    "velocity": "velocity_controllers/JointVelocityController",
+    "effort": "effort_controllers/JointEffortController",
+}
+GROUP = {
+    "position": "position_controllers/JointGroupPositionController",
+    "velocity": "velocity_controllers/JointGroupVelocityController",
+    "effort": "effort_controllers/JointGroupEffortController",
+}
 
 
 class ForwardingTest(unittest.TestCase):
@@ -36,6 +41,7 @@ class ForwardingTest(unittest.TestCase):
         def reached():
             self.loop.cycle()
             return [self.loop.command(kind, name) for name in "abc"] == expected
+
         wait_until(reached, f"{kind} commands {expected}")
 
     def test_single(self):
@@ -80,10 +86,16 @@ class ForwardingTest(unittest.TestCase):
             self.assertEqual([self.loop.command("position", name) for name in "bc"], [0.2, 0.3])
 
     def test_what_makes_them_fail_to_load(self):
-        for parameters in ({"type": SINGLE["position"]}, {"type": SINGLE["position"], "joint": "nope"},
-                           {"type": SINGLE["position"], "joint": 5}, {"type": GROUP["position"]},
-                           {"type": GROUP["position"], "joints": []}, {"type": GROUP["position"], "joints": ["a", 1]},
-                           {"type": GROUP["position"], "joints": "a"}, {"type": GROUP["position"], "joints": ["nope"]}):
+        for parameters in (
+            {"type": SINGLE["position"]},
+            {"type": SINGLE["position"], "joint": "nope"},
+            {"type": SINGLE["position"], "joint": 5},
+            {"type": GROUP["position"]},
+            {"type": GROUP["position"], "joints": []},
+            {"type": GROUP["position"], "joints": ["a", 1]},
+            {"type": GROUP["position"], "joints": "a"},
+            {"type": GROUP["position"], "joints": ["nope"]},
+        ):
             rospy.set_param("/robot/wrong", parameters)
             self.assertFalse(self.loop.load("wrong"), parameters)
             rospy.delete_param("/robot/wrong")

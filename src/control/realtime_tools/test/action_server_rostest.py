@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """The action server and a simulation clock that jumps back."""
+
 import threading
 import time
 import unittest

@@ -1,4 +1,5 @@
 """Messages reach subscribers at once, whole and in order, and a subscriber that does not read holds nobody up."""
+
 import socket
 
 import pytest

@@ -1,4 +1,5 @@
 """When controllers publish."""
+
 from realtime_tools import RateGate
 
 

@@ -1,11 +1,22 @@
 """From URDF to working pipelines."""
+
 import math
 import re
 
 import pytest
-from hardware_interface import (ActuatorHandle, ActuatorStateHandle, ActuatorStateInterface, EffortActuatorInterface,
-                                EffortJointInterface, JointStateInterface, PositionActuatorInterface,
-                                PositionJointInterface, RobotHW, VelocityActuatorInterface, VelocityJointInterface)
+from hardware_interface import (
+    ActuatorHandle,
+    ActuatorStateHandle,
+    ActuatorStateInterface,
+    EffortActuatorInterface,
+    EffortJointInterface,
+    JointStateInterface,
+    PositionActuatorInterface,
+    PositionJointInterface,
+    RobotHW,
+    VelocityActuatorInterface,
+    VelocityJointInterface,
+)
 from transmission_interface import RobotTransmissions, TransmissionInterfaceLoader
 
 
@@ -15,20 +26,25 @@ def joint(name, *interfaces, inside=""):
 
 
 def actuator(name, reduction=10, role=""):
-    return (f'<actuator name="{name}"><role>{role}</role>'
-            f"<mechanicalReduction>{reduction}</mechanicalReduction></actuator>")
+    return f'<actuator name="{name}"><role>{role}</role><mechanicalReduction>{reduction}</mechanicalReduction></actuator>'
 
 
 def simple(name, joint_name, actuator_name, *interfaces, reduction=10):
-    return (f'<transmission name="{name}"><type>transmission_interface/SimpleTransmission</type>'
-            f"{joint(joint_name, *interfaces)}{actuator(actuator_name, reduction)}</transmission>")
+    return (
+        f'<transmission name="{name}"><type>transmission_interface/SimpleTransmission</type>'
+        f"{joint(joint_name, *interfaces)}{actuator(actuator_name, reduction)}</transmission>"
+    )
 
 
 def two(kind, *interfaces, inside=""):
-    return (f'<transmission name="two"><type>transmission_interface/{kind}</type>' +
-            joint("j2", *interfaces, inside="<role>joint2</role>" + inside) +      # order in the file must not matter
-            joint("j1", *interfaces, inside="<role>joint1</role>" + inside) +
-            actuator("b", role="actuator2") + actuator("a", role="actuator1") + "</transmission>")
+    return (
+        f'<transmission name="two"><type>transmission_interface/{kind}</type>'
+        + joint("j2", *interfaces, inside="<role>joint2</role>" + inside)  # order in the file must not matter
+        + joint("j1", *interfaces, inside="<role>joint1</role>" + inside)
+        + actuator("b", role="actuator2")
+        + actuator("a", role="actuator1")
+        + "</transmission>"
+    )
 
 
 class Robot:
@@ -97,8 +113,7 @@ def test_absolute_encoders_of_a_differential(robot, mark, expected):
     robot.states["a"].absolute_position, robot.states["b"].absolute_position = 1.0, 2.0
     assert robot.load(two("DifferentialTransmission", "EffortJointInterface", inside=mark))
     robot.pipelines.actuator_to_joint_state.propagate()
-    assert (robot.joint_state("j1").absolute_position,
-            robot.joint_state("j2").absolute_position) == pytest.approx(expected)
+    assert (robot.joint_state("j1").absolute_position, robot.joint_state("j2").absolute_position) == pytest.approx(expected)
 
 
 def test_several_interfaces_of_one_joint(robot):
@@ -123,17 +138,22 @@ def test_unknown_interface_is_left_out_with_a_warning(robot, caplog):
     assert "NoSuchInterface" in caplog.text
 
 
-@pytest.mark.parametrize("transmissions, says", [
-    ([], "no usable <transmission>"),
-    ([simple("t", "j", "a", "NoSuchInterface")], "no hardware interface that can be used"),
-    ([simple("t", "j", "zzz", "EffortJointInterface")], "'zzz'.*a, b"),
-    ([simple("t", "j", "a", "EffortJointInterface", reduction=0)], "reduction of 0"),
-    ([simple("t", "j", "a", "EffortJointInterface", reduction="fast")], "fast.*is no number"),
-    ([simple("t", "j", "a", "EffortJointInterface").replace("Simple", "Magic")],
-     "MagicTransmission' does not exist.*DifferentialTransmission"),
-    ([simple("t", "j", "a", "EffortJointInterface").replace("Simple", "FourBarLinkage")], "needs 2 actuators.*has 1"),
-    ([two("DifferentialTransmission", "EffortJointInterface").replace("joint2", "joint1")], "joint1, joint2, each once"),
-])
+@pytest.mark.parametrize(
+    "transmissions, says",
+    [
+        ([], "no usable <transmission>"),
+        ([simple("t", "j", "a", "NoSuchInterface")], "no hardware interface that can be used"),
+        ([simple("t", "j", "zzz", "EffortJointInterface")], "'zzz'.*a, b"),
+        ([simple("t", "j", "a", "EffortJointInterface", reduction=0)], "reduction of 0"),
+        ([simple("t", "j", "a", "EffortJointInterface", reduction="fast")], "fast.*is no number"),
+        (
+            [simple("t", "j", "a", "EffortJointInterface").replace("Simple", "Magic")],
+            "MagicTransmission' does not exist.*DifferentialTransmission",
+        ),
+        ([simple("t", "j", "a", "EffortJointInterface").replace("Simple", "FourBarLinkage")], "needs 2 actuators.*has 1"),
+        ([two("DifferentialTransmission", "EffortJointInterface").replace("joint2", "joint1")], "joint1, joint2, each once"),
+    ],
+)
 def test_failures_say_why(robot, transmissions, says, caplog):
     assert not robot.load(*transmissions)
     assert re.search(says, caplog.text), caplog.text

@@ -1,4 +1,5 @@
 """<transmission> elements, good and bad."""
+
 import re
 
 import pytest
@@ -22,7 +23,7 @@ GOOD = transmission("<type> transmission_interface/SimpleTransmission </type>" +
 def test_good():
     infos, problems = parse_transmissions(robot(GOOD))
     assert problems == []
-    info, = infos
+    (info,) = infos
     assert (info.name, info.type) == ("t", "transmission_interface/SimpleTransmission")
     assert info.joints[0].name == "j"
     assert info.joints[0].hardware_interfaces == ("hardware_interface/EffortJointInterface",)
@@ -30,25 +31,31 @@ def test_good():
 
 
 def test_several_interfaces_and_roles():
-    joint = ('<joint name="j"><role>joint1</role><hardwareInterface>A</hardwareInterface>'
-             '<hardwareInterface>\n B </hardwareInterface></joint>')
-    info, = parse_transmissions(robot(transmission("<type>T</type>" + joint + ACTUATOR)))[0]
+    joint = (
+        '<joint name="j"><role>joint1</role><hardwareInterface>A</hardwareInterface><hardwareInterface>\n B </hardwareInterface></joint>'
+    )
+    (info,) = parse_transmissions(robot(transmission("<type>T</type>" + joint + ACTUATOR)))[0]
     assert info.joints[0].hardware_interfaces == ("A", "B") and info.joints[0].role == "joint1"
 
 
-@pytest.mark.parametrize("bad, says", [
-    (transmission("<type>T</type>" + JOINT + ACTUATOR, ""), "number 2.*has no name"),
-    (transmission("<type>T</type>" + JOINT + ACTUATOR, 'name=""'), "has no name"),
-    (transmission(JOINT + ACTUATOR), "'t'.*no <type>"),
-    (transmission("<type> </type>" + JOINT + ACTUATOR), "no <type>"),
-    (transmission("<type>T</type>" + ACTUATOR), "no usable <joint>"),
-    (transmission("<type>T</type>" + JOINT), "no <actuator"),
-    (transmission("<type>T</type><joint/>" + JOINT + ACTUATOR), "<joint> in it has no name"),
-    (transmission("<type>T</type>" + JOINT + "<actuator/>"), "<actuator> in it has no name"),
-    (transmission('<type>T</type><joint name="k"/>' + ACTUATOR), "joint 'k'.*no <hardwareInterface>"),
-    (transmission('<type>T</type><joint name="k"/><actuator name="a"><hardwareInterface>E</hardwareInterface></actuator>'),
-     "belongs into <joint>"),
-])
+@pytest.mark.parametrize(
+    "bad, says",
+    [
+        (transmission("<type>T</type>" + JOINT + ACTUATOR, ""), "number 2.*has no name"),
+        (transmission("<type>T</type>" + JOINT + ACTUATOR, 'name=""'), "has no name"),
+        (transmission(JOINT + ACTUATOR), "'t'.*no <type>"),
+        (transmission("<type> </type>" + JOINT + ACTUATOR), "no <type>"),
+        (transmission("<type>T</type>" + ACTUATOR), "no usable <joint>"),
+        (transmission("<type>T</type>" + JOINT), "no <actuator"),
+        (transmission("<type>T</type><joint/>" + JOINT + ACTUATOR), "<joint> in it has no name"),
+        (transmission("<type>T</type>" + JOINT + "<actuator/>"), "<actuator> in it has no name"),
+        (transmission('<type>T</type><joint name="k"/>' + ACTUATOR), "joint 'k'.*no <hardwareInterface>"),
+        (
+            transmission('<type>T</type><joint name="k"/><actuator name="a"><hardwareInterface>E</hardwareInterface></actuator>'),
+            "belongs into <joint>",
+        ),
+    ],
+)
 def test_a_bad_one_is_left_out_and_named(bad, says):
     infos, problems = parse_transmissions(robot(GOOD, bad))
     assert [info.name for info in infos] == ["t"]
@@ -63,8 +70,7 @@ def test_a_bad_joint_leaves_the_others():
 
 
 def test_foreign_elements_are_ignored():
-    infos, problems = parse_transmissions(robot(transmission(
-        "<robotNamespace>/arm</robotNamespace><type>T</type>" + JOINT + ACTUATOR)))
+    infos, problems = parse_transmissions(robot(transmission("<robotNamespace>/arm</robotNamespace><type>T</type>" + JOINT + ACTUATOR)))
     assert len(infos) == 1 and not problems
 
 

@@ -1,4 +1,5 @@
 """The law of transmissions through both faces, upstream's classes in C++ and those of Python: one table each, and the same bits."""
+
 import math
 import pathlib
 import random
@@ -6,35 +7,60 @@ import struct
 import subprocess
 
 import pytest
-from hardware_interface import (ActuatorHandle, ActuatorStateHandle, ActuatorStateInterface, EffortActuatorInterface,
-                                EffortJointInterface, JointStateInterface, PositionActuatorInterface, PositionJointInterface,
-                                RobotHW, VelocityActuatorInterface, VelocityJointInterface)
+from hardware_interface import (
+    ActuatorHandle,
+    ActuatorStateHandle,
+    ActuatorStateInterface,
+    EffortActuatorInterface,
+    EffortJointInterface,
+    JointStateInterface,
+    PositionActuatorInterface,
+    PositionJointInterface,
+    RobotHW,
+    VelocityActuatorInterface,
+    VelocityJointInterface,
+)
 from transmission_cases import DESCRIPTIONS, DIFFERENTIAL, FOUR_BAR, GEARS, SIMPLE, Gear
-from transmission_interface import (DifferentialTransmission, FourBarLinkageTransmission, RobotTransmissions, SimpleTransmission,
-                                    TransmissionError, TransmissionInterfaceLoader, _law, parse_transmissions)
+from transmission_interface import (
+    DifferentialTransmission,
+    FourBarLinkageTransmission,
+    RobotTransmissions,
+    SimpleTransmission,
+    TransmissionError,
+    TransmissionInterfaceLoader,
+    _law,
+    parse_transmissions,
+)
 
 PROGRAM = pathlib.Path(_law.__file__).parents[3] / "transmission_interface" / "transmission_faces"  # devel/lib
 
 
 def in_cpp(lines):
     assert PROGRAM.exists(), f"{PROGRAM} was not built; it needs Debian's libgtest-dev"
-    run = subprocess.run([str(PROGRAM)], input="\n".join(" ".join(map(str, line)) for line in lines), capture_output=True,
-                         text=True, timeout=60, check=True)
+    run = subprocess.run(
+        [str(PROGRAM)], input="\n".join(" ".join(map(str, line)) for line in lines), capture_output=True, text=True, timeout=60, check=True
+    )
     return run.stdout.split("\n")[:-1]
 
 
 def geared_in_cpp(case):
     kind, n, m, offset, crosswise = case.made
-    made, *answers = in_cpp([("law", kind, len(n), len(m), len(offset), int(crosswise), *n, *m, *offset),
-                             *((way, *values) for way, values, _ in case.ways)])
+    made, *answers = in_cpp(
+        [("law", kind, len(n), len(m), len(offset), int(crosswise), *n, *m, *offset), *((way, *values) for way, values, _ in case.ways)]
+    )
     return None if made == "refused" else [list(map(float.fromhex, answer.split())) for answer in answers]
 
 
 def geared_in_python(case):
     kind, n, m, offset, crosswise = case.made
     try:
-        made = (SimpleTransmission(n[0], offset[0]) if kind == "simple" else FourBarLinkageTransmission(n, m, offset)
-                if kind == "four_bar" else DifferentialTransmission(n, m, offset, crosswise))
+        made = (
+            SimpleTransmission(n[0], offset[0])
+            if kind == "simple"
+            else FourBarLinkageTransmission(n, m, offset)
+            if kind == "four_bar"
+            else DifferentialTransmission(n, m, offset, crosswise)
+        )
     except TransmissionError:
         return None
     return [list(getattr(made, way)(values)) for way, values, _ in case.ways]
@@ -45,8 +71,10 @@ def described_in_cpp(urdf):
 
 
 def described_in_python(urdf):
-    parsed = " ".join(f"{info.name}:{''.join(joint.name for joint in info.joints)}/{''.join(one.name for one in info.actuators)}"
-                      for info in parse_transmissions(urdf)[0])
+    parsed = " ".join(
+        f"{info.name}:{''.join(joint.name for joint in info.joints)}/{''.join(one.name for one in info.actuators)}"
+        for info in parse_transmissions(urdf)[0]
+    )
     hw, states = RobotHW(), [ActuatorStateHandle(name, at, at, at) for name, at in (("a", 8.0), ("b", 16.0), ("c", 4.0))]
     hw.register_interface(ActuatorStateInterface(*states))
     for kind, number in ((PositionActuatorInterface, 3), (VelocityActuatorInterface, 2), (EffortActuatorInterface, 2)):
@@ -55,11 +83,17 @@ def described_in_python(urdf):
     if not TransmissionInterfaceLoader(hw, transmissions).load(urdf):
         return [f"{parsed}|none"]
     transmissions.actuator_to_joint_state.propagate()
-    kinds = [(letter, hw.get(kind)) for letter, kind in
-             (("p", PositionJointInterface), ("v", VelocityJointInterface), ("e", EffortJointInterface))]
-    return [f"{parsed}|" + ", ".join(
-        f"{handle.name} {handle.position:g} {''.join(letter for letter, one in kinds if one and handle.name in one)}"
-        for handle in sorted(hw.get(JointStateInterface).handles(), key=lambda handle: handle.name))]
+    kinds = [
+        (letter, hw.get(kind))
+        for letter, kind in (("p", PositionJointInterface), ("v", VelocityJointInterface), ("e", EffortJointInterface))
+    ]
+    return [
+        f"{parsed}|"
+        + ", ".join(
+            f"{handle.name} {handle.position:g} {''.join(letter for letter, one in kinds if one and handle.name in one)}"
+            for handle in sorted(hw.get(JointStateInterface).handles(), key=lambda handle: handle.name)
+        )
+    ]
 
 
 def bits(rows):
@@ -88,13 +122,24 @@ def test_both_faces_give_the_same_bits_and_lead_back(made):
         if kind == "simple":
             numbers[1] = [1.0]
         values = [[chance.uniform(-9, 9) for _ in n] for _ in range(20)]
-        there = Gear("chance", (kind, *numbers, [chance.uniform(-3, 3) for _ in n], False),
-                     [(f"{quantity}_to_{side}", value, None) for value in values
-                      for quantity in ("position", "velocity", "effort") for side in ("joint", "actuator")])
+        there = Gear(
+            "chance",
+            (kind, *numbers, [chance.uniform(-3, 3) for _ in n], False),
+            [
+                (f"{quantity}_to_{side}", value, None)
+                for value in values
+                for quantity in ("position", "velocity", "effort")
+                for side in ("joint", "actuator")
+            ],
+        )
         answers = geared_in_python(there)
         assert bits(answers) == bits(geared_in_cpp(there))
-        back = there._replace(ways=[(way.replace("joint", "X").replace("actuator", "joint").replace("X", "actuator"), answer, None)
-                                    for (way, _, _), answer in zip(there.ways, answers)])
+        back = there._replace(
+            ways=[
+                (way.replace("joint", "X").replace("actuator", "joint").replace("X", "actuator"), answer, None)
+                for (way, _, _), answer in zip(there.ways, answers)
+            ]
+        )
         for value, answer in zip((value for _, value, _ in there.ways), geared_in_python(back)):
             assert answer == pytest.approx(value, rel=1e-6, abs=1e-6)
 

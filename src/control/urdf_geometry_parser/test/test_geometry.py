@@ -1,7 +1,6 @@
 import math
 
 import pytest
-
 from urdf_geometry_parser import GeometryError, RobotGeometry
 
 URDF = """<robot name="r">
@@ -54,9 +53,14 @@ def test_wheel_radius(robot):
         robot.wheel_radius("ball", shapes=("cylinder",))
 
 
-@pytest.mark.parametrize("text, complaint", [
-    ("<robot", "not valid XML"), ("<sdf/>", "root element is <sdf>"),
-    ('<robot><joint name="j"><origin xyz="1 2"/></joint></robot>', "joint 'j'")])
+@pytest.mark.parametrize(
+    "text, complaint",
+    [
+        ("<robot", "not valid XML"),
+        ("<sdf/>", "root element is <sdf>"),
+        ('<robot><joint name="j"><origin xyz="1 2"/></joint></robot>', "joint 'j'"),
+    ],
+)
 def test_what_is_no_urdf(text, complaint):
     with pytest.raises(GeometryError, match=complaint):
         RobotGeometry(text)
@@ -64,5 +68,7 @@ def test_what_is_no_urdf(text, complaint):
 
 def test_loops_end():
     with pytest.raises(GeometryError, match="not above"):
-        RobotGeometry('<robot><joint name="a"><parent link="x"/><child link="y"/></joint>'
-                      '<joint name="b"><parent link="y"/><child link="x"/></joint></robot>').position("a", "base")
+        RobotGeometry(
+            '<robot><joint name="a"><parent link="x"/><child link="y"/></joint>'
+            '<joint name="b"><parent link="y"/><child link="x"/></joint></robot>'
+        ).position("a", "base")

@@ -1,4 +1,5 @@
 """The Ackermann steering controller."""
+
 from __future__ import annotations
 
 import math
@@ -28,8 +29,9 @@ class AckermannSteeringController(WheeledBase, MultiInterfaceController):
             return abs(robot.joint(rear_wheel).origin[0] - robot.joint(front_steer).origin[0])
 
         base = length(controller_nh, "wheel_separation_h", distance)
-        self._radius = length(controller_nh, "wheel_radius", lambda: robot_geometry(
-            root_nh, search=False).wheel_radius(rear_wheel, shapes=("cylinder",)))
+        self._radius = length(
+            controller_nh, "wheel_radius", lambda: robot_geometry(root_nh, search=False).wheel_radius(rear_wheel, shapes=("cylinder",))
+        )
         # for odometry only: the command is not corrected by multipliers
         self._odometry_radius = self._radius * multiplier(controller_nh, "wheel_radius_multiplier")
         self._odometry_base = base * multiplier(controller_nh, "wheel_separation_h_multiplier")

@@ -7,6 +7,7 @@ Each part is a RobotHW class that its package exports::
     <library path="src"><class name="my_pkg/LeftArm" type="my_pkg.arms.LeftArm"
                                base_class_type="hardware_interface::RobotHW"/></library>
 """
+
 from .combined_robot_hw import CombinedRobotHW
 
 __all__ = ["CombinedRobotHW"]

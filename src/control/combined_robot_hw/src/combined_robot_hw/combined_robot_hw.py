@@ -1,4 +1,5 @@
 """CombinedRobotHW."""
+
 from __future__ import annotations
 
 from dataclasses import replace
@@ -24,8 +25,7 @@ class CombinedRobotHW(RobotHW):
         """:return: False, with one ERROR line, if a part is missing or refuses."""
         names = robot_hw_nh.param("robot_hardware", None)
         if not isinstance(names, list) or not all(isinstance(name, str) for name in names):
-            rospy.logerr("parameter %s must be a list of names of robots, it is %r",
-                         robot_hw_nh.resolve("robot_hardware"), names)
+            rospy.logerr("parameter %s must be a list of names of robots, it is %r", robot_hw_nh.resolve("robot_hardware"), names)
             return False
         types, problems = find_plugins("hardware_interface")
         for problem in problems:
@@ -36,8 +36,13 @@ class CombinedRobotHW(RobotHW):
         nh = robot_hw_nh.sub(name)
         kind = nh.param("type", None)
         if kind not in types:
-            rospy.logerr("robot '%s' cannot be loaded: parameter %s is %r; robot types that packages export: %s", name,
-                         nh.resolve("type"), kind, ", ".join(sorted(types)) or "none")
+            rospy.logerr(
+                "robot '%s' cannot be loaded: parameter %s is %r; robot types that packages export: %s",
+                name,
+                nh.resolve("type"),
+                kind,
+                ", ".join(sorted(types)) or "none",
+            )
             return False
         try:
             part = types[kind].load()()

@@ -1,4 +1,5 @@
 """What tests of wheeled bases share: a base driven by cmd_vel and watched through its odometry."""
+
 from __future__ import annotations
 
 import math

@@ -1,4 +1,5 @@
 """What tests of controllers do again and again: wait for something in simulated time, send, load, switch."""
+
 from __future__ import annotations
 
 import time as wall
@@ -7,10 +8,8 @@ from typing import Any, Callable, Iterator, List, Sequence
 
 import rosgraph
 import rospy
-from controller_manager_msgs.srv import (ListControllers, LoadController, SwitchController, SwitchControllerRequest,
-                                         UnloadController)
+from controller_manager_msgs.srv import ListControllers, LoadController, SwitchController, SwitchControllerRequest, UnloadController
 from std_srvs.srv import Empty, Trigger
-
 
 _ROUNDING = 1e-6  # s
 _advance = None
@@ -94,6 +93,7 @@ class Topic:
                 return False
             header = getattr(messages[-1], "header", None)
             return header is None or header.stamp.to_sec() > now - _ROUNDING
+
         wait_until(newer, f"a message on {self.name}", timeout)
         return messages[-1]
 
@@ -124,8 +124,13 @@ def loads(name: str) -> bool:
 
 
 def switch(start: Sequence[str] = (), stop: Sequence[str] = ()) -> None:
-    assert _call("switch_controller", SwitchController, start_controllers=list(start), stop_controllers=list(stop),
-                 strictness=SwitchControllerRequest.STRICT).ok, f"controllers did not switch to {start} from {stop}"
+    assert _call(
+        "switch_controller",
+        SwitchController,
+        start_controllers=list(start),
+        stop_controllers=list(stop),
+        strictness=SwitchControllerRequest.STRICT,
+    ).ok, f"controllers did not switch to {start} from {stop}"
 
 
 def controller_state(name: str) -> str:

@@ -1,4 +1,5 @@
 """Clock, controller manager and control loop around a TestRobot."""
+
 from __future__ import annotations
 
 import threading

@@ -1,4 +1,5 @@
 """Joints that do exactly what they are told, unless a test gives them a fault."""
+
 from __future__ import annotations
 
 import math
@@ -6,16 +7,33 @@ from collections import deque
 from dataclasses import dataclass
 from typing import Any, Dict, List
 
-from hardware_interface import (EffortJointInterface, ForceTorqueSensorHandle, ForceTorqueSensorInterface,
-                                ImuSensorHandle, ImuSensorInterface, JointHandle, JointStateHandle,
-                                JointStateInterface, PosVelAccJointHandle, PosVelAccJointInterface, PosVelJointHandle,
-                                PosVelJointInterface, PositionJointInterface, RobotHW, VelocityJointInterface)
+from hardware_interface import (
+    EffortJointInterface,
+    ForceTorqueSensorHandle,
+    ForceTorqueSensorInterface,
+    ImuSensorHandle,
+    ImuSensorInterface,
+    JointHandle,
+    JointStateHandle,
+    JointStateInterface,
+    PositionJointInterface,
+    PosVelAccJointHandle,
+    PosVelAccJointInterface,
+    PosVelJointHandle,
+    PosVelJointInterface,
+    RobotHW,
+    VelocityJointInterface,
+)
 
 MAX_EFFORT = 10.0
 
-_COMMANDS = {"position": (PositionJointInterface, JointHandle), "velocity": (VelocityJointInterface, JointHandle),
-             "effort": (EffortJointInterface, JointHandle), "pos_vel": (PosVelJointInterface, PosVelJointHandle),
-             "pos_vel_acc": (PosVelAccJointInterface, PosVelAccJointHandle)}
+_COMMANDS = {
+    "position": (PositionJointInterface, JointHandle),
+    "velocity": (VelocityJointInterface, JointHandle),
+    "effort": (EffortJointInterface, JointHandle),
+    "pos_vel": (PosVelJointInterface, PosVelJointHandle),
+    "pos_vel_acc": (PosVelAccJointInterface, PosVelAccJointHandle),
+}
 
 
 @dataclass
@@ -96,8 +114,10 @@ class TestRobot(RobotHW):
 
     def __init__(self, parameters: Dict):
         super().__init__()
-        self.joints = {name: TestJoint(name, list(entry.get("interfaces", [])), float(entry.get("initial", 0.0)))
-                       for name, entry in parameters.get("joints", {}).items()}
+        self.joints = {
+            name: TestJoint(name, list(entry.get("interfaces", [])), float(entry.get("initial", 0.0)))
+            for name, entry in parameters.get("joints", {}).items()
+        }
         self.register_interface(JointStateInterface(*(joint.state for joint in self.joints.values())))
         for mode, (interface, _) in _COMMANDS.items():
             handles = [joint.handles[mode] for joint in self.joints.values() if mode in joint.handles]
@@ -105,8 +125,9 @@ class TestRobot(RobotHW):
                 self.register_interface(interface(*handles))
         imus, force_torque_sensors = parameters.get("imus", {}), parameters.get("force_torque_sensors", {})
         self.register_interface(ImuSensorInterface(*(ImuSensorHandle(name, **fields) for name, fields in imus.items())))
-        self.register_interface(ForceTorqueSensorInterface(*(ForceTorqueSensorHandle(name, **fields)
-                                                             for name, fields in force_torque_sensors.items())))
+        self.register_interface(
+            ForceTorqueSensorInterface(*(ForceTorqueSensorHandle(name, **fields) for name, fields in force_torque_sensors.items()))
+        )
         self.set_faults(parameters.get("faults", {}))
 
     def set_faults(self, faults: Dict[str, Dict]) -> None:

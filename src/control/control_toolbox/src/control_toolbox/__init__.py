@@ -1,9 +1,22 @@
 """PID controller, test signals and small filters for controllers."""
+
 from .limited_proxy import LimitedProxy
 from .pid import Gains, Pid
-from .pid_parameters import PidParameterError, RosPid, load_pid
 from .pid_gains_setter import PidGainsSetter
-from .signals import Dither, Sinusoid, SineSweep, clamp, exponential_smoothing
+from .pid_parameters import PidParameterError, RosPid, load_pid
+from .signals import Dither, SineSweep, Sinusoid, clamp, exponential_smoothing
 
-__all__ = ["Dither", "Gains", "LimitedProxy", "Pid", "PidGainsSetter", "PidParameterError", "RosPid", "SineSweep",
-           "Sinusoid", "clamp", "exponential_smoothing", "load_pid"]
+__all__ = [
+    "Dither",
+    "Gains",
+    "LimitedProxy",
+    "Pid",
+    "PidGainsSetter",
+    "PidParameterError",
+    "RosPid",
+    "SineSweep",
+    "Sinusoid",
+    "clamp",
+    "exponential_smoothing",
+    "load_pid",
+]

@@ -3,6 +3,7 @@
 A virtual mass (the proxy) is coupled to the joint by a PID spring and tracks the target on a sliding surface. The
 effort limit bounds the coupling, so that a blocked joint is left by a proxy that waits nearby instead of winding up.
 """
+
 from __future__ import annotations
 
 import math
@@ -23,9 +24,19 @@ class LimitedProxy:
     :param vel_limit, acc_limit: of the proxy.
     """
 
-    def __init__(self, mass: float = 1.0, kp: float = 0.0, ki: float = 0.0, kd: float = 0.0, ficl: float = 0.0,
-                 effort_limit: float = math.inf, acc_converge: float = 1.0, lam: float = 1.0,
-                 vel_limit: float = math.inf, acc_limit: float = math.inf):
+    def __init__(
+        self,
+        mass: float = 1.0,
+        kp: float = 0.0,
+        ki: float = 0.0,
+        kd: float = 0.0,
+        ficl: float = 0.0,
+        effort_limit: float = math.inf,
+        acc_converge: float = 1.0,
+        lam: float = 1.0,
+        vel_limit: float = math.inf,
+        acc_limit: float = math.inf,
+    ):
         self.mass, self.kp, self.ki, self.kd, self.ficl = mass, kp, ki, kd, ficl
         self.effort_limit, self.acc_converge, self.lam = effort_limit, acc_converge, lam
         self.vel_limit, self.acc_limit = vel_limit, acc_limit
@@ -47,8 +58,7 @@ class LimitedProxy:
             velocity = math.copysign(math.sqrt(self.acc_converge * (2.0 * abs(error) - knee)), error)
         return _clamp(velocity, self.vel_limit)
 
-    def update(self, pos_target: float, vel_target: float, acc_target: float, position: float, velocity: float,
-               dt: float) -> float:
+    def update(self, pos_target: float, vel_target: float, acc_target: float, position: float, velocity: float, dt: float) -> float:
         """One step. :return: effort on the joint (N or Nm)."""
         if dt <= 0.0:
             return 0.0
@@ -58,7 +68,7 @@ class LimitedProxy:
         integral = _clamp(self._integral + self.ki * (self.position - position) * dt, self.ficl)
         # The effort is linear in the proxy's velocity: effort = slope * velocity + rest.
         slope = self.kp * dt + self.kd + self.mass / dt
-        rest = (self.kp * (self.position - position) + integral - self.kd * velocity - self.mass * self.velocity / dt)
+        rest = self.kp * (self.position - position) + integral - self.kd * velocity - self.mass * self.velocity / dt
         unlimited = slope * proxy_velocity + rest
         effort = _clamp(unlimited, self.effort_limit)
         if effort == unlimited:

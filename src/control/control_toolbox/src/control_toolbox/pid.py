@@ -1,4 +1,5 @@
 """The PID law, without ROS."""
+
 from __future__ import annotations
 
 from typing import NamedTuple
@@ -24,8 +25,7 @@ class Pid(Law):
     integral stops where its term meets the clamp. Gains may be replaced from any thread at any time.
     """
 
-    def __init__(self, p: float = 0.0, i: float = 0.0, d: float = 0.0, i_max: float = 0.0, i_min: float = 0.0,
-                 antiwindup: bool = False):
+    def __init__(self, p: float = 0.0, i: float = 0.0, d: float = 0.0, i_max: float = 0.0, i_min: float = 0.0, antiwindup: bool = False):
         super().__init__()
         self._set_gains(p, i, d, i_max, i_min, antiwindup)
 

@@ -1,10 +1,12 @@
 """Service to set the gains of one or several Pids in one call."""
+
 from __future__ import annotations
 
 import math
 from typing import Any, List
 
 import rospy
+
 from control_toolbox.srv import SetPidGains, SetPidGainsResponse
 
 from .pid import Pid

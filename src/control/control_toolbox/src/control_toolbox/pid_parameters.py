@@ -1,4 +1,5 @@
 """A Pid with its gains on the parameter server, adjustable while it runs, and its state on a topic."""
+
 from __future__ import annotations
 
 from typing import Any, Dict, Optional
@@ -17,8 +18,7 @@ _TABLE = [
     Parameter("d", float, 1.0, -1000.0, 1000.0, "Derivative gain.", 1),
     Parameter("i_clamp_min", float, -10.0, -100000.0, 0.0, "Lower bound of the integral term.", 1),
     Parameter("i_clamp_max", float, 10.0, 0.0, 100000.0, "Upper bound of the integral term.", 1),
-    Parameter("antiwindup", bool, False, description="Stop integrating where the integral term meets its bound.",
-              level=1),
+    Parameter("antiwindup", bool, False, description="Stop integrating where the integral term meets its bound.", level=1),
 ]
 
 
@@ -50,8 +50,7 @@ class RosPid(Pid):
     def _reconfigure(self, config: Dict[str, Any], level: int) -> None:
         if level == -1:
             return  # the server repeats the loaded gains, clamped to what a slider shows: the loaded ones hold
-        self.gains = Gains(config["p"], config["i"], config["d"], config["i_clamp_max"], config["i_clamp_min"],
-                           config["antiwindup"])
+        self.gains = Gains(config["p"], config["i"], config["d"], config["i_clamp_max"], config["i_clamp_min"], config["antiwindup"])
 
     def compute_command(self, error: float, dt: float, error_dot: Optional[float] = None) -> float:
         command = super().compute_command(error, dt, error_dot)
@@ -61,17 +60,33 @@ class RosPid(Pid):
 
     def _publish(self, publisher: RealtimePublisher, dt: float) -> None:
         gains = self.gains
-        message = PidState(timestep=rospy.Duration.from_sec(dt), error=self.p_error, error_dot=self.d_error,
-                           p_error=self.p_error, i_error=self.i_error, d_error=self.d_error, p_term=gains.p * self.p_error,
-                           i_term=self.i_term, d_term=gains.d * self.d_error, i_max=gains.i_max, i_min=gains.i_min,
-                           output=self.command)
+        message = PidState(
+            timestep=rospy.Duration.from_sec(dt),
+            error=self.p_error,
+            error_dot=self.d_error,
+            p_error=self.p_error,
+            i_error=self.i_error,
+            d_error=self.d_error,
+            p_term=gains.p * self.p_error,
+            i_term=self.i_term,
+            d_term=gains.d * self.d_error,
+            i_max=gains.i_max,
+            i_min=gains.i_min,
+            output=self.command,
+        )
         message.header.stamp = rospy.get_rostime()
         publisher.publish(message)
 
 
 def _to_config(gains: Gains) -> Dict[str, Any]:
-    return {"p": gains.p, "i": gains.i, "d": gains.d, "i_clamp_min": gains.i_min, "i_clamp_max": gains.i_max,
-            "antiwindup": gains.antiwindup}
+    return {
+        "p": gains.p,
+        "i": gains.i,
+        "d": gains.d,
+        "i_clamp_min": gains.i_min,
+        "i_clamp_max": gains.i_max,
+        "antiwindup": gains.antiwindup,
+    }
 
 
 def load_pid(nh: Any, dynamic: bool = True) -> RosPid:
@@ -101,6 +116,12 @@ def load_pid(nh: Any, dynamic: bool = True) -> RosPid:
         return value is True
 
     clamp = abs(number("i_clamp", 0.0, finite=False))
-    gains = Gains(number("p", 0.0), number("i", 0.0), number("d", 0.0), abs(number("i_clamp_max", clamp, finite=False)),
-                  -abs(number("i_clamp_min", clamp, finite=False)), flag("antiwindup"))
+    gains = Gains(
+        number("p", 0.0),
+        number("i", 0.0),
+        number("d", 0.0),
+        abs(number("i_clamp_max", clamp, finite=False)),
+        -abs(number("i_clamp_min", clamp, finite=False)),
+        flag("antiwindup"),
+    )
     return RosPid(namespace, gains, nh, dynamic, flag("publish_state"))

@@ -1,4 +1,5 @@
 """Test signals and one-line filters."""
+
 from __future__ import annotations
 
 import math
@@ -30,8 +31,11 @@ class Sinusoid:
     def update(self, time: float) -> SinusoidValue:
         omega = 2.0 * math.pi * self.frequency
         angle = self.phase + omega * time
-        return SinusoidValue(self.offset + self.amplitude * math.sin(angle), self.amplitude * omega * math.cos(angle),
-                             -self.amplitude * omega * omega * math.sin(angle))
+        return SinusoidValue(
+            self.offset + self.amplitude * math.sin(angle),
+            self.amplitude * omega * math.cos(angle),
+            -self.amplitude * omega * omega * math.sin(angle),
+        )
 
 
 class SineSweep:
@@ -42,8 +46,10 @@ class SineSweep:
 
     def __init__(self, start: float, end: float, duration: float, amplitude: float):
         if start > end or min(start, end, duration, amplitude) < 0.0:
-            raise ValueError(f"sine sweep from {start} to {end} Hz in {duration} s with amplitude {amplitude}: "
-                             "nothing may be negative and the start must not exceed the end")
+            raise ValueError(
+                f"sine sweep from {start} to {end} Hz in {duration} s with amplitude {amplitude}: "
+                "nothing may be negative and the start must not exceed the end"
+            )
         self.duration = duration
         self.amplitude = amplitude
         self._omega = 2.0 * math.pi * start

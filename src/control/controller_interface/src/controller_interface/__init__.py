@@ -17,10 +17,22 @@ A controller in full::
         def update(self, time, period):
             self.joint.command = self.target
 """
+
 from realtime_tools import RateGate, RealtimePublisher
 
 from .controller import Controller, ControllerBase, ControllerState, InitError, MultiInterfaceController
 from .node_handle import NodeHandle, ParameterError, one_line, to_stamp
 
-__all__ = ["Controller", "ControllerBase", "ControllerState", "InitError", "MultiInterfaceController", "NodeHandle",
-           "ParameterError", "RateGate", "RealtimePublisher", "one_line", "to_stamp"]
+__all__ = [
+    "Controller",
+    "ControllerBase",
+    "ControllerState",
+    "InitError",
+    "MultiInterfaceController",
+    "NodeHandle",
+    "ParameterError",
+    "RateGate",
+    "RealtimePublisher",
+    "one_line",
+    "to_stamp",
+]

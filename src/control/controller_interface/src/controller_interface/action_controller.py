@@ -1,4 +1,5 @@
 """Base of the controllers that serve an action."""
+
 from __future__ import annotations
 
 import threading

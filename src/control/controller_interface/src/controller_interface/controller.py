@@ -1,11 +1,11 @@
 """Controller life-cycle: constructed -> initialized -> running <-> stopped / waiting / aborted."""
+
 from __future__ import annotations
 
 from enum import Enum
 from typing import Any, ClassVar, Optional, Sequence, Tuple, Type
 
 import rospy
-
 from hardware_interface import ControlError, HardwareInterface, InterfaceResources, RobotHW
 
 from .node_handle import NodeHandle
@@ -58,8 +58,7 @@ class ControllerBase:
 
     # -- for the controller manager ---------------------------------------------------------------------------------
 
-    def init_request(self, robot_hw: RobotHW, root_nh: NodeHandle,
-                     controller_nh: NodeHandle) -> Tuple[InterfaceResources, ...]:
+    def init_request(self, robot_hw: RobotHW, root_nh: NodeHandle, controller_nh: NodeHandle) -> Tuple[InterfaceResources, ...]:
         """Initialise. :return: the claimed resources, one entry per interface.
 
         :raises InitError: refused; any other exception of ``init`` passes through.
@@ -100,8 +99,9 @@ class ControllerBase:
         self.state = state
         return True
 
-    def _init_with(self, hw: Any, interfaces: Sequence[HardwareInterface], root_nh: NodeHandle,
-                   controller_nh: NodeHandle) -> Tuple[InterfaceResources, ...]:
+    def _init_with(
+        self, hw: Any, interfaces: Sequence[HardwareInterface], root_nh: NodeHandle, controller_nh: NodeHandle
+    ) -> Tuple[InterfaceResources, ...]:
         if self.state is not ControllerState.CONSTRUCTED:
             raise InitError("it has been initialised before")
         for interface in interfaces:
@@ -109,8 +109,7 @@ class ControllerBase:
         try:
             if self.init(hw, root_nh, controller_nh) is False:
                 raise InitError("its init() returned False")
-            claimed = tuple(InterfaceResources(interface.type_name, tuple(sorted(interface.claims)))
-                            for interface in interfaces)
+            claimed = tuple(InterfaceResources(interface.type_name, tuple(sorted(interface.claims))) for interface in interfaces)
         finally:
             for interface in interfaces:
                 interface.clear_claims()
@@ -119,10 +118,12 @@ class ControllerBase:
 
 
 def _missing(names: Sequence[str], robot_hw: RobotHW) -> InitError:
-    return InitError(f"it needs the hardware interface {', '.join(names)}, which this robot does not have; it has: "
-                     f"{', '.join(robot_hw.interface_names()) or 'none'}. Make sure this is registered in the "
-                     f"hardware_interface::RobotHW class (in simulation: a <transmission> with that "
-                     f"<hardwareInterface>)")
+    return InitError(
+        f"it needs the hardware interface {', '.join(names)}, which this robot does not have; it has: "
+        f"{', '.join(robot_hw.interface_names()) or 'none'}. Make sure this is registered in the "
+        f"hardware_interface::RobotHW class (in simulation: a <transmission> with that "
+        f"<hardwareInterface>)"
+    )
 
 
 class Controller(ControllerBase):
@@ -130,8 +131,7 @@ class Controller(ControllerBase):
 
     interface: ClassVar[Type[HardwareInterface]]
 
-    def init_request(self, robot_hw: RobotHW, root_nh: NodeHandle,
-                     controller_nh: NodeHandle) -> Tuple[InterfaceResources, ...]:
+    def init_request(self, robot_hw: RobotHW, root_nh: NodeHandle, controller_nh: NodeHandle) -> Tuple[InterfaceResources, ...]:
         hw = robot_hw.get(self.interface)
         if hw is None:
             raise _missing([self.interface.type_name], robot_hw)
@@ -148,12 +148,10 @@ class MultiInterfaceController(ControllerBase):
     interfaces: ClassVar[Tuple[Type[HardwareInterface], ...]] = ()
     optional: ClassVar[bool] = False
 
-    def init_request(self, robot_hw: RobotHW, root_nh: NodeHandle,
-                     controller_nh: NodeHandle) -> Tuple[InterfaceResources, ...]:
+    def init_request(self, robot_hw: RobotHW, root_nh: NodeHandle, controller_nh: NodeHandle) -> Tuple[InterfaceResources, ...]:
         there = [robot_hw.get(interface) for interface in self.interfaces]
         if not self.optional and None in there:
-            raise _missing([wanted.type_name for wanted, have in zip(self.interfaces, there) if have is None],
-                           robot_hw)
+            raise _missing([wanted.type_name for wanted, have in zip(self.interfaces, there) if have is None], robot_hw)
         view = RobotHW()
         present = [interface for interface in there if interface is not None]
         for interface in present:

@@ -1,4 +1,5 @@
 """A namespace, with what a controller makes in it: parameters, publishers, subscribers, services."""
+
 from __future__ import annotations
 
 from typing import Any, Callable, List, Optional
@@ -14,7 +15,7 @@ _KINDS = (float, int, bool, str, list, dict)
 def one_line(text: object, longest: int = 400) -> str:
     """``text`` for a message: on one line, without its middle if it is longer than ``longest``."""
     line = " ".join(str(text).split())
-    return line if len(line) <= longest else f"{line[:longest - 85]} ... {line[-80:]}"
+    return line if len(line) <= longest else f"{line[: longest - 85]} ... {line[-80:]}"
 
 
 def to_stamp(time: float) -> rospy.Time:
@@ -105,16 +106,14 @@ class NodeHandle:
 
     def publisher(self, name: str, message_type: type, queue_size: int = 1, latch: bool = False) -> rospy.Publisher:
         """Small messages leave at once (no Nagle delay: it makes a 50 Hz topic stutter by 40 ms)."""
-        return self.own(rospy.Publisher(self.resolve(name), message_type, queue_size=queue_size, latch=latch,
-                                        tcp_nodelay=True))
+        return self.own(rospy.Publisher(self.resolve(name), message_type, queue_size=queue_size, latch=latch, tcp_nodelay=True))
 
     def subscriber(self, name: str, message_type: type, callback: Callable, queue_size: int = 1) -> rospy.Subscriber:
         """``callback`` runs in a thread of rospy: it should only store a value.
 
         Without the wish for no delay, TCP holds a command until the one before it is acknowledged: up to 0.2 s.
         """
-        return self.own(rospy.Subscriber(self.resolve(name), message_type, callback, queue_size=queue_size,
-                                         tcp_nodelay=True))
+        return self.own(rospy.Subscriber(self.resolve(name), message_type, callback, queue_size=queue_size, tcp_nodelay=True))
 
     def service(self, name: str, service_type: type, callback: Callable) -> rospy.Service:
         return self.own(offers.service(self.resolve(name), service_type, callback))

@@ -1,4 +1,5 @@
 """Base of the controllers that publish what sensors measure."""
+
 from __future__ import annotations
 
 from typing import Any, ClassVar
@@ -23,8 +24,9 @@ class SensorController(Controller):
 
     def init(self, hw, root_nh: NodeHandle, controller_nh: NodeHandle) -> None:
         rate = controller_nh.get_param("publish_rate", float)
-        self._sensors = [(hw.get_handle(name), RealtimePublisher(root_nh, name, self.message_type, queue_size=4),
-                          RateGate(rate)) for name in hw.names()]
+        self._sensors = [
+            (hw.get_handle(name), RealtimePublisher(root_nh, name, self.message_type, queue_size=4), RateGate(rate)) for name in hw.names()
+        ]
 
     def starting(self, time: float) -> None:
         for _, _, gate in self._sensors:

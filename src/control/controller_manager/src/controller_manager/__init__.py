@@ -11,6 +11,7 @@ A robot's main loop::
 
 The services live in ``<namespace>/controller_manager`` and run in threads of rospy.
 """
+
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 

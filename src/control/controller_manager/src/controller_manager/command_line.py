@@ -1,4 +1,5 @@
 """The commands ``controller_manager`` and ``controller_group``."""
+
 from __future__ import annotations
 
 import argparse
@@ -68,8 +69,7 @@ def controller_manager_main(arguments: Sequence[str]) -> int:
 def _groups() -> Dict[str, List[str]]:
     groups = rospy.get_param("controller_groups", {})
     if not isinstance(groups, dict) or not all(isinstance(members, list) for members in groups.values()):
-        rospy.logerr("parameter %s must map each group to a list of controllers, it is %r",
-                     rospy.resolve_name("controller_groups"), groups)
+        rospy.logerr("parameter %s must map each group to a list of controllers, it is %r", rospy.resolve_name("controller_groups"), groups)
         return {}
     return groups
 
@@ -77,8 +77,12 @@ def _groups() -> Dict[str, List[str]]:
 def _members(group: str) -> Optional[List[str]]:
     members = list(dict.fromkeys(_groups().get(group, [])))
     if not members:
-        rospy.logerr("There is no controller defined in group %s (parameter %s has: %s)", group,
-                     rospy.resolve_name("controller_groups"), ", ".join(sorted(_groups())) or "no groups")
+        rospy.logerr(
+            "There is no controller defined in group %s (parameter %s has: %s)",
+            group,
+            rospy.resolve_name("controller_groups"),
+            ", ".join(sorted(_groups())) or "no groups",
+        )
     return members or None
 
 
@@ -109,8 +113,7 @@ def _switch_group(arguments: argparse.Namespace) -> None:
     except rospy.ROSException:
         rospy.logerr("there is no service %s. %s", service, describe_controller_managers())
         return
-    states = {controller.name: controller.state
-              for controller in rospy.ServiceProxy(service, ListControllers).call().controller}
+    states = {controller.name: controller.state for controller in rospy.ServiceProxy(service, ListControllers).call().controller}
     for name, state in states.items():
         if state not in ("running", "stopped"):
             rospy.logerr("Unknown controller state %s (controller '%s')", state, name)
@@ -126,8 +129,11 @@ def _switch_group(arguments: argparse.Namespace) -> None:
 
 def controller_group_main(arguments: Sequence[str]) -> int:
     """:param arguments: without the program's name and without ROS remappings. :return: exit code."""
-    parser = argparse.ArgumentParser(prog="controller_group", description="Starts and switches groups of controllers, "
-                                     "which the parameter controller_groups maps from a name to a list of controllers.")
+    parser = argparse.ArgumentParser(
+        prog="controller_group",
+        description="Starts and switches groups of controllers, "
+        "which the parameter controller_groups maps from a name to a list of controllers.",
+    )
     commands = parser.add_subparsers(title="Commands", metavar="")
     commands.add_parser("list", help="list available groups").set_defaults(run=_list_groups)
     spawn = commands.add_parser("spawn", help="load and start the controllers of a group")

@@ -1,4 +1,5 @@
 """Compiled controllers: classes in C++ that packages export for pluginlib."""
+
 from __future__ import annotations
 
 import os
@@ -15,8 +16,14 @@ from . import _compiled
 _BASE = "controller_interface::ControllerBase"
 
 #: in the order of C++
-_STATES = (ControllerState.CONSTRUCTED, ControllerState.INITIALIZED, ControllerState.RUNNING, ControllerState.STOPPED,
-           ControllerState.WAITING, ControllerState.ABORTED)
+_STATES = (
+    ControllerState.CONSTRUCTED,
+    ControllerState.INITIALIZED,
+    ControllerState.RUNNING,
+    ControllerState.STOPPED,
+    ControllerState.WAITING,
+    ControllerState.ABORTED,
+)
 
 
 class CompiledController(ControllerBase):
@@ -27,8 +34,7 @@ class CompiledController(ControllerBase):
         self._core = core
         self.update = core.update  # type: ignore[assignment]  # nothing between the loop and it
 
-    def init_request(self, robot_hw: RobotHW, root_nh: NodeHandle,
-                     controller_nh: NodeHandle) -> Tuple[InterfaceResources, ...]:
+    def init_request(self, robot_hw: RobotHW, root_nh: NodeHandle, controller_nh: NodeHandle) -> Tuple[InterfaceResources, ...]:
         controller_nh.own(self)
         self._robot = twin(robot_hw)
         claimed = self._core.init(self._robot.address, root_nh.namespace, controller_nh.namespace)
@@ -95,14 +101,15 @@ class CompiledTypes:
         """
         what = f"'{plugin.name}' of package {plugin.package}"
         if plugin.base != _BASE:
-            raise PluginError(f"{what} is no controller: {plugin.file} gives it base_class_type=\"{plugin.base}\", a controller "
-                              f"has {_BASE}")
+            raise PluginError(f'{what} is no controller: {plugin.file} gives it base_class_type="{plugin.base}", a controller has {_BASE}')
         library = self._classes.library(plugin.name)
         if not library:
             folders = [os.path.join(prefix, "lib") for prefix in os.environ.get("CMAKE_PREFIX_PATH", "").split(":") if prefix]
-            raise PluginError(f"{what}: its library {os.path.basename(plugin.path)}.so is not found in "
-                              f"{', '.join(folders) or 'CMAKE_PREFIX_PATH, which is not set'}; is the package built, and was its "
-                              "workspace sourced where this node was started?")
+            raise PluginError(
+                f"{what}: its library {os.path.basename(plugin.path)}.so is not found in "
+                f"{', '.join(folders) or 'CMAKE_PREFIX_PATH, which is not set'}; is the package built, and was its "
+                "workspace sourced where this node was started?"
+            )
         problem = compiled_plugins.why_not(library)
         if problem:
             raise PluginError(f"{what}: {problem}")
@@ -123,10 +130,7 @@ class CompiledTypes:
 
 def _explained(error: str, plugin: PluginClass, library: str) -> str:
     if error.startswith(("class_loader::CreateClassException", "pluginlib::CreateClassException")):
-        return (f"the library {library} exports no controller {plugin.type}: its source needs "
-                f"PLUGINLIB_EXPORT_CLASS({plugin.type}, {_BASE})")
+        return f"the library {library} exports no controller {plugin.type}: its source needs PLUGINLIB_EXPORT_CLASS({plugin.type}, {_BASE})"
     if error.startswith(("class_loader::", "pluginlib::")):
         return f"the library {library} cannot be loaded: {error.partition(': ')[2]}"
     return f"its constructor raised {error}"
-
-

@@ -2,14 +2,21 @@
 
 Service names are relative: ROS_NAMESPACE (or ``__ns:=``) chooses the controller manager.
 """
+
 from __future__ import annotations
 
 from typing import Any, Sequence
 
 import rospy
-from controller_manager_msgs.srv import (ListControllers, ListControllerTypes, LoadController,
-                                         ReloadControllerLibraries, SwitchController, SwitchControllerRequest,
-                                         UnloadController)
+from controller_manager_msgs.srv import (
+    ListControllers,
+    ListControllerTypes,
+    LoadController,
+    ReloadControllerLibraries,
+    SwitchController,
+    SwitchControllerRequest,
+    UnloadController,
+)
 from controller_manager_msgs.utils import describe_controller_managers
 from node_signals.services import wait_for_service
 
@@ -38,14 +45,18 @@ def reload_libraries(force_kill: bool, restore: bool = False) -> bool:
     print(f"Restore: {restore}")
     before = _call("list_controllers", ListControllers).controller if restore else []
     ok = _call("reload_controller_libraries", ReloadControllerLibraries, force_kill).ok
-    print("Successfully reloaded libraries" if ok else
-          "Failed to reload libraries. Do you still have controllers loaded?")
+    print("Successfully reloaded libraries" if ok else "Failed to reload libraries. Do you still have controllers loaded?")
     if restore:
         for controller in before:
             _call("load_controller", LoadController, controller.name)
-        _call("switch_controller", SwitchController, SwitchControllerRequest(
-            start_controllers=[controller.name for controller in before if controller.state == "running"],
-            strictness=SwitchControllerRequest.BEST_EFFORT))
+        _call(
+            "switch_controller",
+            SwitchController,
+            SwitchControllerRequest(
+                start_controllers=[controller.name for controller in before if controller.state == "running"],
+                strictness=SwitchControllerRequest.BEST_EFFORT,
+            ),
+        )
         print("Controllers restored to original state")
     return ok
 
@@ -90,8 +101,11 @@ def stop_controllers(names: Sequence[str]) -> bool:
 def start_stop_controllers(start_controllers: Sequence[str] = (), stop_controllers: Sequence[str] = ()) -> bool:
     """One strict switch."""
     start, stop = list(start_controllers), list(stop_controllers)
-    ok = _call("switch_controller", SwitchController, SwitchControllerRequest(
-        start_controllers=start, stop_controllers=stop, strictness=SwitchControllerRequest.STRICT)).ok
+    ok = _call(
+        "switch_controller",
+        SwitchController,
+        SwitchControllerRequest(start_controllers=start, stop_controllers=stop, strictness=SwitchControllerRequest.STRICT),
+    ).ok
     if not ok:
         tried = [f"{verb} {names}" for verb, names in (("starting", start), ("stopping", stop)) if names]
         print(f"Error when {' and '.join(tried) or 'switching no controllers'}")

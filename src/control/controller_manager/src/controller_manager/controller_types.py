@@ -1,4 +1,5 @@
 """The controller types that packages export, found when first needed."""
+
 from __future__ import annotations
 
 import difflib
@@ -66,8 +67,10 @@ class ControllerTypes:
         controller = plugin.load()()
         self._imported.add(plugin.type.rpartition(".")[0])
         if not isinstance(controller, ControllerBase):
-            raise PluginError(f"'{plugin.name}' of package {plugin.package} is no controller: {plugin.type} must "
-                              f"derive from controller_interface.Controller or MultiInterfaceController")
+            raise PluginError(
+                f"'{plugin.name}' of package {plugin.package} is no controller: {plugin.type} must "
+                f"derive from controller_interface.Controller or MultiInterfaceController"
+            )
         return controller
 
     def create_compiled(self, plugin: PluginClass, name: str) -> ControllerBase:
@@ -78,8 +81,10 @@ class ControllerTypes:
         try:
             from .compiled import CompiledTypes  # brings roscpp along, which most robots do without
         except ModuleNotFoundError as error:
-            raise PluginError(f"'{plugin.name}' of package {plugin.package} is compiled, and this installation of noetic_labs was "
-                              f"built without what compiled controllers need (no {error.name}): run scripts/setup there") from None
+            raise PluginError(
+                f"'{plugin.name}' of package {plugin.package} is compiled, and this installation of noetic_labs was "
+                f"built without what compiled controllers need (no {error.name}): run scripts/setup there"
+            ) from None
         plugins = self._plugins().values()
         with self._lock:
             if self._compiled is None:

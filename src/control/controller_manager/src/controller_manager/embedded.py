@@ -1,4 +1,5 @@
 """The controller manager of a robot written in C++; called by core/manager.cpp, which has begun the interpreter where there was none."""
+
 from __future__ import annotations
 
 import os
@@ -28,6 +29,7 @@ def make(robot: int, namespace: str, node: str, node_namespace: str) -> "Control
     from hardware_interface.compiled import CompiledRobotHW
 
     from .manager import ControllerManager
+
     global _own_node
     if not rospy.core.is_initialized():
         sys.setswitchinterval(_SWITCH_INTERVAL)
@@ -39,6 +41,7 @@ def make(robot: int, namespace: str, node: str, node_namespace: str) -> "Control
 def end(manager: "ControllerManager", last: bool) -> None:
     """Stop and free the controllers; with the last manager of the process rospy's node ends too, if make() has begun it."""
     import rospy
+
     manager.shutdown()
     if last and _own_node:
         rospy.signal_shutdown("the robot's program ends")

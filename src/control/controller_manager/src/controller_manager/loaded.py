@@ -1,4 +1,5 @@
 """What the manager keeps of each controller."""
+
 from __future__ import annotations
 
 from controller_interface import ControllerBase, NodeHandle

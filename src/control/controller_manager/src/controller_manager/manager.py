@@ -5,6 +5,7 @@ is held while a request looks at the list of controllers and changes it. ``_loop
 by a service only for the instant in which it exchanges the list. So loading, unloading and listing work even while the
 loop stands still (a paused simulation) and a switch waits for it.
 """
+
 from __future__ import annotations
 
 import math
@@ -18,17 +19,27 @@ import rospy
 from controller_interface import ControllerState, NodeHandle, one_line
 from controller_manager_msgs.msg import ControllerState as ControllerStateMsg
 from controller_manager_msgs.msg import HardwareInterfaceResources
-from controller_manager_msgs.srv import (ListControllers, ListControllersResponse, ListControllerTypes,
-                                         ListControllerTypesResponse, LoadController, LoadControllerResponse,
-                                         ReloadControllerLibraries, ReloadControllerLibrariesResponse,
-                                         SwitchController, SwitchControllerRequest, SwitchControllerResponse,
-                                         UnloadController, UnloadControllerResponse)
+from controller_manager_msgs.srv import (
+    ListControllers,
+    ListControllersResponse,
+    ListControllerTypes,
+    ListControllerTypesResponse,
+    LoadController,
+    LoadControllerResponse,
+    ReloadControllerLibraries,
+    ReloadControllerLibrariesResponse,
+    SwitchController,
+    SwitchControllerRequest,
+    SwitchControllerResponse,
+    UnloadController,
+    UnloadControllerResponse,
+)
 from hardware_interface import ControllerInfo, RobotHW, SwitchState
 from plugin_loader import PluginError
 
 from .controller_types import ControllerTypes
 from .loaded import LoadedController
-from .switching import Patience, SwitchRefused, Switch, plan
+from .switching import Patience, Switch, SwitchRefused, plan
 
 STRICT = SwitchControllerRequest.STRICT
 BEST_EFFORT = SwitchControllerRequest.BEST_EFFORT
@@ -37,8 +48,7 @@ BEST_EFFORT = SwitchControllerRequest.BEST_EFFORT
 LONGEST_CYCLE = 10.0
 #: s that shutdown waits for each kind of request under way
 _SHUTDOWN_PATIENCE = 1.0
-_STUCK = (f"a cycle of the control loop has not ended for {LONGEST_CYCLE:g} s; the update() of a controller, or the "
-          "hardware, blocks")
+_STUCK = f"a cycle of the control loop has not ended for {LONGEST_CYCLE:g} s; the update() of a controller, or the hardware, blocks"
 
 
 def _reason(error: BaseException) -> str:
@@ -71,15 +81,22 @@ class ControllerManager:
         nh = self._root.sub("controller_manager")
         nh.service("list_controllers", ListControllers, self._list_controllers)
         nh.service("list_controller_types", ListControllerTypes, self._list_types)
-        nh.service("load_controller", LoadController, lambda request: LoadControllerResponse(
-            self.load_controller(request.name)))
-        nh.service("unload_controller", UnloadController, lambda request: UnloadControllerResponse(
-            self.unload_controller(request.name)))
-        nh.service("switch_controller", SwitchController, lambda request: SwitchControllerResponse(
-            self.switch_controller(request.start_controllers, request.stop_controllers, request.strictness,
-                                   request.start_asap, request.timeout)))
-        nh.service("reload_controller_libraries", ReloadControllerLibraries,
-                   lambda request: ReloadControllerLibrariesResponse(self.reload_libraries(request.force_kill)))
+        nh.service("load_controller", LoadController, lambda request: LoadControllerResponse(self.load_controller(request.name)))
+        nh.service("unload_controller", UnloadController, lambda request: UnloadControllerResponse(self.unload_controller(request.name)))
+        nh.service(
+            "switch_controller",
+            SwitchController,
+            lambda request: SwitchControllerResponse(
+                self.switch_controller(
+                    request.start_controllers, request.stop_controllers, request.strictness, request.start_asap, request.timeout
+                )
+            ),
+        )
+        nh.service(
+            "reload_controller_libraries",
+            ReloadControllerLibraries,
+            lambda request: ReloadControllerLibrariesResponse(self.reload_libraries(request.force_kill)),
+        )
 
     @property
     def asked_to_start(self) -> Tuple[ControllerInfo, ...]:
@@ -134,8 +151,7 @@ class ControllerManager:
             for loaded in switch.start:
                 if not loaded.running and loaded not in switch.failed:
                     self._start_if_ready(switch, [loaded], loaded.info, time)
-            done = all(loaded.controller.state in (ControllerState.RUNNING, ControllerState.ABORTED)
-                       for loaded in switch.start)
+            done = all(loaded.controller.state in (ControllerState.RUNNING, ControllerState.ABORTED) for loaded in switch.start)
         else:
             done = self._start_if_ready(switch, switch.start, None, time)
         if done:
@@ -143,8 +159,7 @@ class ControllerManager:
                 self._switch = None
             switch.finished.set()
 
-    def _start_if_ready(self, switch: Switch, starting: Sequence[LoadedController], info: Optional[ControllerInfo],
-                        time: float) -> bool:
+    def _start_if_ready(self, switch: Switch, starting: Sequence[LoadedController], info: Optional[ControllerInfo], time: float) -> bool:
         """Start, abort or keep waiting. :return: False while waiting."""
         result = self._hardware_result(switch, info)
         if result is SwitchState.DONE:
@@ -155,9 +170,13 @@ class ControllerManager:
             names = ", ".join(f"'{loaded.name}'" for loaded in starting)
             if names not in switch.reported:  # those that wait for others come here in every cycle
                 switch.reported.append(names)
-                rospy.logerr("%s aborted: the hardware %s", f"Starting {names}" if names else "Switching controllers",
-                             "reported an error while switching" if result is SwitchState.ERROR else
-                             f"was not ready within the timeout of {switch.timeout:g} s")
+                rospy.logerr(
+                    "%s aborted: the hardware %s",
+                    f"Starting {names}" if names else "Switching controllers",
+                    "reported an error while switching"
+                    if result is SwitchState.ERROR
+                    else f"was not ready within the timeout of {switch.timeout:g} s",
+                )
             for loaded in starting:
                 self._guard(loaded, "aborting", loaded.controller.abort_request, time)
         else:
@@ -187,8 +206,7 @@ class ControllerManager:
         controller = loaded.controller
         if controller.stopped_itself(error):
             return
-        rospy.logerr("Controller '%s' (%s) aborted: its %s() raised %s", loaded.name, loaded.info.type, phase,
-                     _reason(error))
+        rospy.logerr("Controller '%s' (%s) aborted: its %s() raised %s", loaded.name, loaded.info.type, phase, _reason(error))
         if phase == "update":
             try:
                 controller.stopping(time)  # lets it brake; it must not leave its last command standing
@@ -205,16 +223,16 @@ class ControllerManager:
                 rospy.logerr("A controller named '%s' was already loaded inside the controller manager", name)
                 return False
             if not rosgraph.names.is_legal_name(name):
-                rospy.logerr("Could not load controller '%s': this is no valid name for a namespace",
-                             one_line(name))
+                rospy.logerr("Could not load controller '%s': this is no valid name for a namespace", one_line(name))
                 return False
             nh = NodeHandle(self._root.namespace)
             try:
                 loaded = self._create(name, nh)
             except Exception as error:  # constructor and init are third-party code
                 nh.shutdown()
-                why = error if isinstance(error, _TypeProblem) else (
-                    f". Initializing controller '{one_line(name)}' failed: {_reason(error)}")
+                why = (
+                    error if isinstance(error, _TypeProblem) else (f". Initializing controller '{one_line(name)}' failed: {_reason(error)}")
+                )
                 rospy.logerr("%s", one_line(f"Could not load controller '{one_line(name)}'{why}", 1200))
                 return False
             if self._closing or not self._exchange(self._controllers + (loaded,)):
@@ -233,7 +251,8 @@ class ControllerManager:
             raise _TypeProblem(
                 f" because controller type '{one_line(type_name)}' does not exist{self._types.suggestion(type_name)}. Use "
                 f"'rosservice call {self._root.resolve('controller_manager/list_controller_types')}' to get the "
-                f"available types.")
+                f"available types."
+            )
         try:
             controller = self._types.create_compiled(plugin, name) if plugin.compiled else self._types.create(plugin)
         except PluginError as error:
@@ -251,8 +270,9 @@ class ControllerManager:
         elsewhere = [parameter for parameter in rospy.get_param_names() if parameter.endswith(ending)]
         raise _TypeProblem(
             f" because the type was not specified. Did you load the controller configuration on the parameter server "
-            f"(namespace: '{nh.namespace}')? Parameter {nh.resolve('type')} is not set; {nh.describe()}" +
-            (f"; but there is {', '.join(elsewhere)} (another namespace)" if elsewhere else ""))
+            f"(namespace: '{nh.namespace}')? Parameter {nh.resolve('type')} is not set; {nh.describe()}"
+            + (f"; but there is {', '.join(elsewhere)} (another namespace)" if elsewhere else "")
+        )
 
     def unload_controller(self, name: str) -> bool:
         """Remove a controller that is not running. :return: success."""
@@ -262,16 +282,22 @@ class ControllerManager:
     def _unload(self, name: str) -> bool:
         loaded = self._find(name)
         if loaded is None:
-            rospy.logerr("Could not unload controller with name '%s' because no controller with this name exists; "
-                         "loaded: %s", one_line(name), self._names())
+            rospy.logerr(
+                "Could not unload controller with name '%s' because no controller with this name exists; loaded: %s",
+                one_line(name),
+                self._names(),
+            )
             return False
         if loaded.running:
             rospy.logerr("Could not unload controller with name '%s' because it is still running", name)
             return False
         switch = self._switch
         if switch is not None and loaded in switch.start:
-            rospy.logerr("Could not unload controller with name '%s' because it is about to be started; the control loop "
-                         "has not got round to it (is the simulation paused?)", name)
+            rospy.logerr(
+                "Could not unload controller with name '%s' because it is about to be started; the control loop "
+                "has not got round to it (is the simulation paused?)",
+                name,
+            )
             return False
         if not self._exchange(tuple(other for other in self._controllers if other is not loaded)):
             rospy.logerr("Could not unload controller with name '%s': %s", name, _STUCK)
@@ -279,8 +305,9 @@ class ControllerManager:
         loaded.nh.shutdown()
         return True
 
-    def switch_controller(self, start: Sequence[str], stop: Sequence[str], strictness: int = STRICT,
-                          start_asap: bool = False, timeout: float = 0.0) -> bool:
+    def switch_controller(
+        self, start: Sequence[str], stop: Sequence[str], strictness: int = STRICT, start_asap: bool = False, timeout: float = 0.0
+    ) -> bool:
         """Stop some controllers and start others within one cycle; all or nothing.
 
         Waits for the control loop: as long as it takes while the clock stands still (a paused simulation) or the loop has
@@ -296,8 +323,7 @@ class ControllerManager:
                 return False
             return self._switch_controllers(start, stop, strictness, start_asap, timeout)
 
-    def _switch_controllers(self, start: Sequence[str], stop: Sequence[str], strictness: int, start_asap: bool,
-                            timeout: float) -> bool:
+    def _switch_controllers(self, start: Sequence[str], stop: Sequence[str], strictness: int, start_asap: bool, timeout: float) -> bool:
         if not math.isfinite(timeout):
             rospy.logerr("Could not switch controllers: the timeout must be a number of s, it is %s", timeout)
             return False
@@ -305,28 +331,31 @@ class ControllerManager:
             switch = self._ask_for(start, stop, strictness, start_asap, timeout)
         return switch is not None and self._carried_out(switch)
 
-    def _ask_for(self, start: Sequence[str], stop: Sequence[str], strictness: int, start_asap: bool,
-                 timeout: float) -> Optional[Switch]:
+    def _ask_for(self, start: Sequence[str], stop: Sequence[str], strictness: int, start_asap: bool, timeout: float) -> Optional[Switch]:
         """Check a switch and hand it to the loop; None if it is refused."""
         if strictness == 0:
-            rospy.logwarn("Controller Manager: To switch controllers you need to specify a strictness level of "
-                          "controller_manager_msgs::SwitchController::STRICT (%d) or ::BEST_EFFORT (%d). "
-                          "Defaulting to ::BEST_EFFORT.", STRICT, BEST_EFFORT)
+            rospy.logwarn(
+                "Controller Manager: To switch controllers you need to specify a strictness level of "
+                "controller_manager_msgs::SwitchController::STRICT (%d) or ::BEST_EFFORT (%d). "
+                "Defaulting to ::BEST_EFFORT.",
+                STRICT,
+                BEST_EFFORT,
+            )
         try:
             starting, stopping = plan(self._controllers, start, stop, strictness == STRICT)
         except SwitchRefused as refusal:
             rospy.logerr("%s", one_line(refusal))
             return None
-        running = [loaded.info for loaded in self._controllers
-                   if (loaded.running and loaded not in stopping) or loaded in starting]
+        running = [loaded.info for loaded in self._controllers if (loaded.running and loaded not in stopping) or loaded in starting]
         switch = Switch(starting, stopping, start_asap, timeout)
         try:
             if self._robot_hw.check_for_conflict(running):
                 rospy.logerr("Could not switch controllers, due to resource conflict")
                 return None
             if not self._robot_hw.prepare_switch(switch.start_info, switch.stop_info):
-                rospy.logerr("Could not switch controllers. The hardware interface combination for the requested "
-                             "controllers is unfeasible.")
+                rospy.logerr(
+                    "Could not switch controllers. The hardware interface combination for the requested controllers is unfeasible."
+                )
                 return None
         except Exception as error:  # the robot's own code: refuse this switch, keep running
             rospy.logerr("Could not switch controllers: the hardware raised %s", _reason(error))
@@ -371,35 +400,42 @@ class ControllerManager:
         """Look for controller types again and import changed modules anew. :return: success."""
         with self._switching:
             if self._controllers and not force_kill:
-                rospy.logerr("Controller manager: Cannot reload controller libraries because there are still %d "
-                             "controllers running", len(self._controllers))
+                rospy.logerr(
+                    "Controller manager: Cannot reload controller libraries because there are still %d controllers running",
+                    len(self._controllers),
+                )
                 return False
             names = [loaded.name for loaded in self._controllers]
             if names and not self._switch_controllers([], names, BEST_EFFORT, False, 0.0):
-                rospy.logerr("Controller manager: Cannot reload controller libraries because failed to stop running "
-                             "controllers")
+                rospy.logerr("Controller manager: Cannot reload controller libraries because failed to stop running controllers")
                 return False
             with self._services:
                 if not all([self._unload(name) for name in names]):
-                    rospy.logerr("Controller manager: Cannot reload controller libraries because not all controllers "
-                                 "could be unloaded")
+                    rospy.logerr("Controller manager: Cannot reload controller libraries because not all controllers could be unloaded")
                     return False
                 self._types.reload()
             rospy.loginfo("Controller manager: reloaded controller libraries")
             return True
 
     def _list_controllers(self, _request: object) -> ListControllersResponse:
-        return ListControllersResponse([
-            ControllerStateMsg(name=loaded.name, state=loaded.controller.state.value, type=loaded.info.type,
-                               claimed_resources=[HardwareInterfaceResources(claimed.hardware_interface,
-                                                                             list(claimed.resources))
-                                                  for claimed in loaded.info.claimed_resources])
-            for loaded in self._controllers])
+        return ListControllersResponse(
+            [
+                ControllerStateMsg(
+                    name=loaded.name,
+                    state=loaded.controller.state.value,
+                    type=loaded.info.type,
+                    claimed_resources=[
+                        HardwareInterfaceResources(claimed.hardware_interface, list(claimed.resources))
+                        for claimed in loaded.info.claimed_resources
+                    ],
+                )
+                for loaded in self._controllers
+            ]
+        )
 
     def _list_types(self, _request: object) -> ListControllerTypesResponse:
         """Without the doubles of a package of tests, unless this process works with that package."""
-        plugins = [plugin for plugin in self._types.all()
-                   if not plugin.package.endswith("_tests") or plugin.package in sys.modules]
+        plugins = [plugin for plugin in self._types.all() if not plugin.package.endswith("_tests") or plugin.package in sys.modules]
         return ListControllerTypesResponse([plugin.name for plugin in plugins], [plugin.base for plugin in plugins])
 
     # -- bookkeeping ---------------------------------------------------------------------------------------------------

@@ -1,4 +1,5 @@
 """The nodes ``spawner`` (loads and starts controllers, takes them down when it ends) and ``unspawner`` (the reverse)."""
+
 from __future__ import annotations
 
 import argparse
@@ -10,8 +11,7 @@ import node_signals
 import rosparam
 import rospy
 import yaml
-from controller_manager_msgs.srv import (ListControllers, LoadController, SwitchController, SwitchControllerRequest,
-                                         UnloadController)
+from controller_manager_msgs.srv import ListControllers, LoadController, SwitchController, SwitchControllerRequest, UnloadController
 from controller_manager_msgs.utils import describe_controller_managers
 from node_signals import orphans, services
 from std_msgs.msg import Bool
@@ -21,13 +21,17 @@ _HINT_AFTER = 5.0
 
 
 def _parse(arguments: Sequence[str]) -> argparse.Namespace:
-    parser = argparse.ArgumentParser(prog="spawner", description="Loads and starts controllers; stops and unloads them "
-                                     "when it is ended.")
+    parser = argparse.ArgumentParser(prog="spawner", description="Loads and starts controllers; stops and unloads them when it is ended.")
     parser.add_argument("--stopped", action="store_true", help="load the controllers, do not start them")
     parser.add_argument("--wait-for", metavar="TOPIC", help="do nothing until a std_msgs/Bool that is true arrives")
     parser.add_argument("--namespace", metavar="NS", default="", help="namespace of the controller manager")
-    parser.add_argument("--timeout", metavar="T", type=float, default=30.0,
-                        help="s to wait for each service of the controller manager; 0 or less waits for ever")
+    parser.add_argument(
+        "--timeout",
+        metavar="T",
+        type=float,
+        default=30.0,
+        help="s to wait for each service of the controller manager; 0 or less waits for ever",
+    )
     parser.add_argument("--no-timeout", action="store_true", help="wait for ever")
     parser.add_argument("--shutdown-timeout", metavar="T", type=float, help="accepted and ignored")
     parser.add_argument("controllers", metavar="controller", nargs="+", help="name, or a YAML file of controllers")
@@ -62,8 +66,9 @@ def wait_for_service(name: str, timeout: Optional[float]) -> bool:
         except rospy.ROSException:  # not yet there
             if not hinted and passed > _HINT_AFTER:
                 hinted = True
-                rospy.logwarn("Controller Spawner: still waiting for service %s. %s", rospy.resolve_name(name),
-                              describe_controller_managers())
+                rospy.logwarn(
+                    "Controller Spawner: still waiting for service %s. %s", rospy.resolve_name(name), describe_controller_managers()
+                )
     return False
 
 
@@ -87,9 +92,11 @@ class Spawner:
             rospy.logwarn("Controller Spawner: --shutdown-timeout has no effect")
         for service in ("load_controller", "switch_controller", "unload_controller"):
             if not wait_for_service(self._prefix + service, self._options.timeout):
-                rospy.logwarn("Controller Spawner couldn't find the expected controller_manager ROS interface: there is "
-                              "no service %s. %s", rospy.resolve_name(self._prefix + service),
-                              describe_controller_managers())
+                rospy.logwarn(
+                    "Controller Spawner couldn't find the expected controller_manager ROS interface: there is no service %s. %s",
+                    rospy.resolve_name(self._prefix + service),
+                    describe_controller_managers(),
+                )
                 return 0
         if self._options.wait_for and not self._wait_for_topic(self._options.wait_for):
             return 0
@@ -112,7 +119,7 @@ class Spawner:
                 return False
             if self._heard is None and not warned and time.monotonic() - start > patience:
                 warned = True
-                rospy.logwarn("Controller Spawner hasn't heard anything from its \"wait for\" topic (%s)", topic)
+                rospy.logwarn('Controller Spawner hasn\'t heard anything from its "wait for" topic (%s)', topic)
         subscriber.unregister()
         return True
 
@@ -142,9 +149,13 @@ class Spawner:
                 time.sleep(1.0)  # lets the manager's own error come first
                 rospy.logerr("Failed to load %s", name)
             else:
-                rospy.logerr("Failed to load %s: it is already loaded (%s) and stays when this spawner ends. If nobody "
-                             "owns it any more, 'rosrun controller_manager controller_manager kill %s' removes it.",
-                             name, state, name)
+                rospy.logerr(
+                    "Failed to load %s: it is already loaded (%s) and stays when this spawner ends. If nobody "
+                    "owns it any more, 'rosrun controller_manager controller_manager kill %s' removes it.",
+                    name,
+                    state,
+                    name,
+                )
                 if state != "running":
                     start.append(name)
         rospy.loginfo("Controller Spawner: Loaded controllers: %s", ", ".join(self._loaded))
@@ -171,8 +182,10 @@ class Spawner:
 
     def _switch(self, start: Sequence[str] = (), stop: Sequence[str] = (), strict: bool = True) -> bool:
         request = SwitchControllerRequest(
-            start_controllers=list(start), stop_controllers=list(stop),
-            strictness=SwitchControllerRequest.STRICT if strict else SwitchControllerRequest.BEST_EFFORT)
+            start_controllers=list(start),
+            stop_controllers=list(stop),
+            strictness=SwitchControllerRequest.STRICT if strict else SwitchControllerRequest.BEST_EFFORT,
+        )
         return rospy.ServiceProxy(self._prefix + "switch_controller", SwitchController)(request).ok
 
     def _take_down(self) -> None:
@@ -185,8 +198,11 @@ class Spawner:
             for name in reversed(self._loaded):
                 unload(name)
         except (rospy.ServiceException, rospy.ROSException) as error:
-            rospy.loginfo("Controller Spawner couldn't reach controller_manager to take down controllers: %s (it has ended "
-                          "as well, so there is nothing left to do)", error)
+            rospy.loginfo(
+                "Controller Spawner couldn't reach controller_manager to take down controllers: %s (it has ended "
+                "as well, so there is nothing left to do)",
+                error,
+            )
 
 
 def _read_yaml(path: str) -> Optional[dict]:
@@ -195,8 +211,9 @@ def _read_yaml(path: str) -> Optional[dict]:
         with open(path, encoding="utf-8") as file:
             content = yaml.safe_load(file)
     except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
-        rospy.logwarn("file %s is no YAML file of controllers (%s); taking the argument as a controller's name", path,
-                      " ".join(str(error).split()))
+        rospy.logwarn(
+            "file %s is no YAML file of controllers (%s); taking the argument as a controller's name", path, " ".join(str(error).split())
+        )
         return None
     return content if isinstance(content, dict) else None
 
@@ -214,8 +231,7 @@ class Unspawner:
         """:return: exit code."""
         orphans.end_with_launch()
         node_signals.init_node("unspawner", anonymous=True)
-        if not all(wait_for_service(f"controller_manager/{name}", None)
-                   for name in ("list_controllers", "switch_controller")):
+        if not all(wait_for_service(f"controller_manager/{name}", None) for name in ("list_controllers", "switch_controller")):
             return 0
         self._list = rospy.ServiceProxy("controller_manager/list_controllers", ListControllers)
         self._switch = rospy.ServiceProxy("controller_manager/switch_controller", SwitchController)
@@ -233,18 +249,17 @@ class Unspawner:
         return 0
 
     def _stop_running(self) -> None:
-        running = [controller.name for controller in self._list().controller
-                   if controller.name in self._names and controller.state == "running"]
+        running = [
+            controller.name for controller in self._list().controller if controller.name in self._names and controller.state == "running"
+        ]
         if running:
             rospy.loginfo("Stopping controllers: %s", ", ".join(running))
             self._stopped += [name for name in running if name not in self._stopped]
-            self._switch(SwitchControllerRequest(stop_controllers=running,
-                                                 strictness=SwitchControllerRequest.BEST_EFFORT))
+            self._switch(SwitchControllerRequest(stop_controllers=running, strictness=SwitchControllerRequest.BEST_EFFORT))
 
     def _restart(self) -> None:
         try:
-            self._switch(SwitchControllerRequest(start_controllers=self._stopped,
-                                                 strictness=SwitchControllerRequest.BEST_EFFORT))
+            self._switch(SwitchControllerRequest(start_controllers=self._stopped, strictness=SwitchControllerRequest.BEST_EFFORT))
         except (rospy.ServiceException, rospy.ROSException) as error:
             rospy.logwarn("controllers %s could not be started again: %s", ", ".join(self._stopped), error)
 

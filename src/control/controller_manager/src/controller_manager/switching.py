@@ -1,4 +1,5 @@
 """What a switch request means for the controllers that are loaded, and its progress. No ROS graph in here."""
+
 from __future__ import annotations
 
 import threading
@@ -14,8 +15,9 @@ class SwitchRefused(ControlError):
     """The switch cannot be done as asked; one line saying why."""
 
 
-def plan(controllers: Sequence[LoadedController], start: Sequence[str], stop: Sequence[str],
-         strict: bool) -> Tuple[List[LoadedController], List[LoadedController]]:
+def plan(
+    controllers: Sequence[LoadedController], start: Sequence[str], stop: Sequence[str], strict: bool
+) -> Tuple[List[LoadedController], List[LoadedController]]:
     """Which controllers really change: (to start, to stop), each in the order of the request.
 
     :param controllers: all that are loaded, in load order.
@@ -26,30 +28,29 @@ def plan(controllers: Sequence[LoadedController], start: Sequence[str], stop: Se
     for names, verb in ((stop, "stop"), (start, "start")):
         for name in names:
             if strict and name not in by_name:
-                raise SwitchRefused(f"Could not {verb} controller with name '{name}' because no controller with this name "
-                              f"exists; loaded: {', '.join(by_name) or 'none'}")
+                raise SwitchRefused(
+                    f"Could not {verb} controller with name '{name}' because no controller with this name "
+                    f"exists; loaded: {', '.join(by_name) or 'none'}"
+                )
     starting, stopping = dict.fromkeys(n for n in start if n in by_name), dict.fromkeys(n for n in stop if n in by_name)
     for name, loaded in by_name.items():
         if name in stopping and not loaded.running:
             if strict:
-                raise SwitchRefused(f"Could not stop controller '{name}' since it is not running "
-                              f"(it is {loaded.controller.state.value})")
+                raise SwitchRefused(f"Could not stop controller '{name}' since it is not running (it is {loaded.controller.state.value})")
             del stopping[name]
         if name in starting and loaded.running and name not in stopping:
             if strict:
                 raise SwitchRefused(f"Could not start controller '{name}' since it is already running")
             del starting[name]
         if name in starting and name in stopping:
-            raise SwitchRefused(f"Could not switch controllers: '{name}' is running and named in both lists; stop it first, "
-                          f"then start it")
+            raise SwitchRefused(f"Could not switch controllers: '{name}' is running and named in both lists; stop it first, then start it")
     return [by_name[name] for name in starting], [by_name[name] for name in stopping]
 
 
 class Switch:
     """A switch on its way through the control loop."""
 
-    def __init__(self, start: List[LoadedController], stop: List[LoadedController], start_asap: bool,
-                 timeout: float):
+    def __init__(self, start: List[LoadedController], stop: List[LoadedController], start_asap: bool, timeout: float):
         self.start = start
         self.stop = stop
         self.start_info = [loaded.info for loaded in start]
@@ -111,6 +112,8 @@ class Patience:
             self._silent += passed
         self._clock = clock
         if self._silent > PATIENCE:
-            return (f"the control loop has made no cycle for {PATIENCE:g} s although the clock goes on; has the hardware's "
-                    f"node or plugin failed? Look for its error")
+            return (
+                f"the control loop has made no cycle for {PATIENCE:g} s although the clock goes on; has the hardware's "
+                f"node or plugin failed? Look for its error"
+            )
         return None

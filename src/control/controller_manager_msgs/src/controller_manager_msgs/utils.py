@@ -1,16 +1,16 @@
 """Finding controller managers, and filtering what they list."""
+
 from __future__ import annotations
 
 import socket
 from typing import Any, Dict, List, Optional, Sequence
 
 import rosgraph
-import rosservice
 import rospy
+import rosservice
 
 from .msg import ControllerState
-from .srv import (ListControllers, ListControllerTypes, LoadController, ReloadControllerLibraries, SwitchController,
-                  UnloadController)
+from .srv import ListControllers, ListControllerTypes, LoadController, ReloadControllerLibraries, SwitchController, UnloadController
 
 #: service below a controller manager's namespace -> its type
 _SERVICES = {
@@ -47,7 +47,7 @@ def get_controller_managers(namespace: str = "/", initial_guess: Optional[Sequen
     if not rosgraph.is_master_online():
         return []
     services = set(rosservice.get_service_list(namespace=namespace))
-    candidates = {name[:-len("/list_controllers")] or "/" for name in services if name.endswith("/list_controllers")}
+    candidates = {name[: -len("/list_controllers")] or "/" for name in services if name.endswith("/list_controllers")}
     known = set(initial_guess or ())
     found = []
     for candidate in sorted(candidates):
@@ -104,30 +104,31 @@ def _matches(text: str, value: str, match_substring: bool) -> bool:
     return value in text if match_substring else value == text
 
 
-def filter_by_name(controllers: Sequence[ControllerState], name: str,
-                   match_substring: bool = False) -> List[ControllerState]:
+def filter_by_name(controllers: Sequence[ControllerState], name: str, match_substring: bool = False) -> List[ControllerState]:
     return [controller for controller in controllers if _matches(controller.name, name, match_substring)]
 
 
-def filter_by_type(controllers: Sequence[ControllerState], type_name: str,
-                   match_substring: bool = False) -> List[ControllerState]:
+def filter_by_type(controllers: Sequence[ControllerState], type_name: str, match_substring: bool = False) -> List[ControllerState]:
     return [controller for controller in controllers if _matches(controller.type, type_name, match_substring)]
 
 
-def filter_by_state(controllers: Sequence[ControllerState], state: str,
-                    match_substring: bool = False) -> List[ControllerState]:
+def filter_by_state(controllers: Sequence[ControllerState], state: str, match_substring: bool = False) -> List[ControllerState]:
     return [controller for controller in controllers if _matches(controller.state, state, match_substring)]
 
 
-def filter_by_hardware_interface(controllers: Sequence[ControllerState], hardware_interface: str,
-                                 match_substring: bool = False) -> List[ControllerState]:
-    return [controller for controller in controllers
-            if any(_matches(claimed.hardware_interface, hardware_interface, match_substring)
-                   for claimed in controller.claimed_resources)]
+def filter_by_hardware_interface(
+    controllers: Sequence[ControllerState], hardware_interface: str, match_substring: bool = False
+) -> List[ControllerState]:
+    return [
+        controller
+        for controller in controllers
+        if any(_matches(claimed.hardware_interface, hardware_interface, match_substring) for claimed in controller.claimed_resources)
+    ]
 
 
-def filter_by_resources(controllers: Sequence[ControllerState], resources: Sequence[str],
-                        hardware_interface: Optional[str] = None, match_any: bool = False) -> List[ControllerState]:
+def filter_by_resources(
+    controllers: Sequence[ControllerState], resources: Sequence[str], hardware_interface: Optional[str] = None, match_any: bool = False
+) -> List[ControllerState]:
     """Controllers that claim all of ``resources`` (any of them with ``match_any``).
 
     :param hardware_interface: count only claims through this interface; by default every interface counts.
@@ -135,8 +136,12 @@ def filter_by_resources(controllers: Sequence[ControllerState], resources: Seque
     enough = any if match_any else all
     result = []
     for controller in controllers:
-        claimed = {resource for entry in controller.claimed_resources
-                   if hardware_interface in (None, entry.hardware_interface) for resource in entry.resources}
+        claimed = {
+            resource
+            for entry in controller.claimed_resources
+            if hardware_interface in (None, entry.hardware_interface)
+            for resource in entry.resources
+        }
         if enough(resource in claimed for resource in resources):
             result.append(controller)
     return result
@@ -146,5 +151,4 @@ def get_rosparam_controller_names(namespace: str = "/") -> List[str]:
     """First-level names in ``namespace`` that have a parameter ``type``: controllers that could be loaded."""
     values: Any = rospy.get_param(namespace, {})
     entries: Dict[str, Any] = values if isinstance(values, dict) else {}
-    return [name for name, value in entries.items()
-            if isinstance(value, dict) and "type" in value and not isinstance(value["type"], dict)]
+    return [name for name, value in entries.items() if isinstance(value, dict) and "type" in value and not isinstance(value["type"], dict)]

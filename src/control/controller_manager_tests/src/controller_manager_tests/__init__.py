@@ -1,4 +1,5 @@
 """A robot without physics, controllers for it, and a double of a controller manager, for tests."""
+
 from .service_doubles import ControllerManagerDummy
 
 __all__ = ["ControllerManagerDummy"]

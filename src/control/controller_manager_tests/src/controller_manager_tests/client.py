@@ -1,12 +1,19 @@
 """What tests do with a controller manager: its services as functions."""
+
 import xmlrpc.client
 from typing import Any
 
 import rosgraph
 import rospy
-from controller_manager_msgs.srv import (ListControllers, ListControllerTypes, LoadController,
-                                         ReloadControllerLibraries, SwitchController, SwitchControllerRequest,
-                                         UnloadController)
+from controller_manager_msgs.srv import (
+    ListControllers,
+    ListControllerTypes,
+    LoadController,
+    ReloadControllerLibraries,
+    SwitchController,
+    SwitchControllerRequest,
+    UnloadController,
+)
 from test_support import wait_until
 
 STRICT = SwitchControllerRequest.STRICT
@@ -42,8 +49,7 @@ class ManagerClient:
         return self._call("unload_controller", UnloadController, name).ok
 
     def switch(self, start=(), stop=(), strictness=STRICT, start_asap=False, timeout=0.0):
-        return self._call("switch_controller", SwitchController, list(start), list(stop), strictness, start_asap,
-                          timeout).ok
+        return self._call("switch_controller", SwitchController, list(start), list(stop), strictness, start_asap, timeout).ok
 
     def start(self, *names):
         return self.switch(start=names)

@@ -1,9 +1,15 @@
 """Controllers that claim joints in every way there is, and one that breaks on demand."""
+
 from typing import ClassVar, Dict, List, Tuple
 
 from controller_interface import Controller, MultiInterfaceController
-from hardware_interface import (EffortJointInterface, HardwareInterface, JointCommandInterface, PositionJointInterface,
-                                VelocityJointInterface)
+from hardware_interface import (
+    EffortJointInterface,
+    HardwareInterface,
+    JointCommandInterface,
+    PositionJointInterface,
+    VelocityJointInterface,
+)
 from std_msgs.msg import Bool
 
 
@@ -40,14 +46,18 @@ class _TwoInterfaces(MultiInterfaceController):
 
 class VelEffController(_TwoInterfaces):
     interfaces = (VelocityJointInterface, EffortJointInterface)
-    joints = {VelocityJointInterface: ("velocity_joints", ["test_joint1", "test_joint2"]),
-              EffortJointInterface: ("effort_joints", ["test_joint4"])}
+    joints = {
+        VelocityJointInterface: ("velocity_joints", ["test_joint1", "test_joint2"]),
+        EffortJointInterface: ("effort_joints", ["test_joint4"]),
+    }
 
 
 class PosEffController(_TwoInterfaces):
     interfaces = (PositionJointInterface, EffortJointInterface)
-    joints = {PositionJointInterface: ("position_joints", ["test_joint2", "test_joint3"]),
-              EffortJointInterface: ("effort_joints", ["test_joint4"])}
+    joints = {
+        PositionJointInterface: ("position_joints", ["test_joint2", "test_joint3"]),
+        EffortJointInterface: ("effort_joints", ["test_joint4"]),
+    }
 
 
 class PosEffOptController(PosEffController):
@@ -56,8 +66,7 @@ class PosEffOptController(PosEffController):
 
 class SelfConflictController(_TwoInterfaces):
     interfaces = (VelocityJointInterface, EffortJointInterface)
-    joints = {VelocityJointInterface: ("velocity_joints", ["test_joint1"]),
-              EffortJointInterface: ("effort_joints", ["test_joint1"])}
+    joints = {VelocityJointInterface: ("velocity_joints", ["test_joint1"]), EffortJointInterface: ("effort_joints", ["test_joint1"])}
 
 
 class NoSuchInterface(HardwareInterface):

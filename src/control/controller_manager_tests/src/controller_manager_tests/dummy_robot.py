@@ -1,8 +1,16 @@
 """A robot whose joints stay where they are, with the loop of a real one."""
+
 import rospy
 from controller_manager import ControllerManager
-from hardware_interface import (EffortJointInterface, JointHandle, JointStateHandle, JointStateInterface,
-                                PositionJointInterface, RobotHW, VelocityJointInterface)
+from hardware_interface import (
+    EffortJointInterface,
+    JointHandle,
+    JointStateHandle,
+    JointStateInterface,
+    PositionJointInterface,
+    RobotHW,
+    VelocityJointInterface,
+)
 
 JOINTS = ("hiDOF_joint1", "hiDOF_joint2", "hiDOF_joint3")
 TEST_JOINTS = ("test_joint1", "test_joint2", "test_joint3", "test_joint4", "test_joint5")

@@ -1,9 +1,17 @@
 """A controller manager whose control loop is the test: every cycle is known."""
+
 import threading
 
 from controller_manager import ControllerManager
-from hardware_interface import (EffortJointInterface, JointHandle, JointStateHandle, JointStateInterface,
-                                PositionJointInterface, RobotHW, VelocityJointInterface)
+from hardware_interface import (
+    EffortJointInterface,
+    JointHandle,
+    JointStateHandle,
+    JointStateInterface,
+    PositionJointInterface,
+    RobotHW,
+    VelocityJointInterface,
+)
 
 _INTERFACES = {"position": PositionJointInterface, "velocity": VelocityJointInterface, "effort": EffortJointInterface}
 
@@ -40,8 +48,7 @@ class Loop:
 
     def switch(self, start=(), stop=()):
         answer = []
-        request = threading.Thread(
-            target=lambda: answer.append(self.manager.switch_controller(list(start), list(stop))), daemon=True)
+        request = threading.Thread(target=lambda: answer.append(self.manager.switch_controller(list(start), list(stop))), daemon=True)
         request.start()
         while request.is_alive():
             if self.manager._switch is not None:

@@ -1,4 +1,5 @@
 """A RobotHW plugin: one part of a combined robot."""
+
 from hardware_interface import EffortJointInterface, JointHandle, JointStateHandle, RobotHW
 
 

@@ -1,10 +1,20 @@
 """A controller manager that only has its services, for tests of what looks for controller managers."""
+
 import rospy
-from controller_manager_msgs.srv import (ListControllers, ListControllersResponse, ListControllerTypes,
-                                         ListControllerTypesResponse, LoadController, LoadControllerResponse,
-                                         ReloadControllerLibraries, ReloadControllerLibrariesResponse,
-                                         SwitchController, SwitchControllerResponse, UnloadController,
-                                         UnloadControllerResponse)
+from controller_manager_msgs.srv import (
+    ListControllers,
+    ListControllersResponse,
+    ListControllerTypes,
+    ListControllerTypesResponse,
+    LoadController,
+    LoadControllerResponse,
+    ReloadControllerLibraries,
+    ReloadControllerLibrariesResponse,
+    SwitchController,
+    SwitchControllerResponse,
+    UnloadController,
+    UnloadControllerResponse,
+)
 
 
 class ControllerManagerDummy:

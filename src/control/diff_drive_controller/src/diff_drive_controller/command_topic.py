@@ -1,4 +1,5 @@
 """Topics that tell a base how to move, with their watchdog."""
+
 from __future__ import annotations
 
 import math
@@ -7,7 +8,6 @@ from typing import Any, Callable, Tuple
 import rospy
 from controller_interface import NodeHandle
 from geometry_msgs.msg import Twist
-
 
 #: m/s, rad/s or rad; what is beyond is no command, and no odometry could follow it
 _LARGEST = 1e12
@@ -22,8 +22,7 @@ class CommandTopic:
     :param what: what is commanded, for the log
     """
 
-    def __init__(self, nh: NodeHandle, topic: str, message_type: type, values: Callable[[Any], Tuple[float, ...]],
-                 what: str):
+    def __init__(self, nh: NodeHandle, topic: str, message_type: type, values: Callable[[Any], Tuple[float, ...]], what: str):
         self._name = nh.namespace
         self._timeout = nh.param("cmd_vel_timeout", 0.5)
         self._values = values
@@ -69,8 +68,12 @@ class CommandTopic:
         elif not self.accepts():
             return
         elif not all(abs(value) <= _LARGEST for value in values):
-            rospy.logwarn_throttle(1.0, f"{self._name}: Received NaN in {self._what} command. Ignoring." if any(
-                map(math.isnan, values)) else f"{self._name}: {values} is no {self._what} command. Ignoring.")
+            rospy.logwarn_throttle(
+                1.0,
+                f"{self._name}: Received NaN in {self._what} command. Ignoring."
+                if any(map(math.isnan, values))
+                else f"{self._name}: {values} is no {self._what} command. Ignoring.",
+            )
         else:
             self._last = (values, self._now)
 
@@ -91,7 +94,8 @@ class VelocityCommand(CommandTopic):
         publishers = self._subscriber.get_num_connections()
         if self._multiple or publishers <= 1:
             return True
-        rospy.logerr_throttle(1.0, f"{self._name}: Detected {publishers} publishers on cmd_vel. Only 1 publisher is "
-                                   "allowed. Going to brake.")
+        rospy.logerr_throttle(
+            1.0, f"{self._name}: Detected {publishers} publishers on cmd_vel. Only 1 publisher is allowed. Going to brake."
+        )
         self._on_conflict()
         return False

@@ -1,4 +1,5 @@
 """The differential drive controller."""
+
 from __future__ import annotations
 
 import math
@@ -32,12 +33,13 @@ class DiffDriveController(WheeledBase, Controller):
     def init(self, hw, root_nh: NodeHandle, controller_nh: NodeHandle) -> None:
         left, right = (wheel_names(controller_nh, side) for side in ("left_wheel", "right_wheel"))
         if len(left) != len(right):
-            raise ParameterError(f"{controller_nh.namespace}: left_wheel names {len(left)} joints and right_wheel "
-                                 f"{len(right)}; both sides need as many")
-        self._separation = length(controller_nh, "wheel_separation", lambda: robot_geometry(
-            root_nh, search=False).distance(left[0], right[0]))
-        self._radius = length(controller_nh, "wheel_radius", lambda: robot_geometry(
-            root_nh, search=False).wheel_radius(left[0]))
+            raise ParameterError(
+                f"{controller_nh.namespace}: left_wheel names {len(left)} joints and right_wheel {len(right)}; both sides need as many"
+            )
+        self._separation = length(
+            controller_nh, "wheel_separation", lambda: robot_geometry(root_nh, search=False).distance(left[0], right[0])
+        )
+        self._radius = length(controller_nh, "wheel_radius", lambda: robot_geometry(root_nh, search=False).wheel_radius(left[0]))
         multipliers = [multiplier(controller_nh, row.name) for row in _TABLE[:3]]
         if controller_nh.has_param("wheel_radius_multiplier"):
             multipliers[:2] = [multiplier(controller_nh, "wheel_radius_multiplier")] * 2
@@ -48,13 +50,20 @@ class DiffDriveController(WheeledBase, Controller):
         if controller_nh.param("publish_cmd", False):
             self._command_publisher = RealtimePublisher(controller_nh, "cmd_vel_out", TwistStamped, queue_size=100)
         if controller_nh.param("publish_wheel_joint_controller_state", False):
-            self._wheel_publisher = RealtimePublisher(controller_nh, "wheel_joint_controller_state",
-                                                      JointTrajectoryControllerState, queue_size=100)
+            self._wheel_publisher = RealtimePublisher(
+                controller_nh, "wheel_joint_controller_state", JointTrajectoryControllerState, queue_size=100
+            )
         self.init_base(root_nh, controller_nh, (WheelTravel(), WheelTravel()))
         self._desired = [0.0] * (2 * len(self._left))  # wheel positions as commanded, rad
         self._last_velocities = ([0.0] * len(self._desired), [0.0] * len(self._desired))
-        controller_nh.own(Server(controller_nh.namespace, _TABLE, self._reconfigure, initial=dict(
-            zip((row.name for row in _TABLE), (*multipliers, self._publisher.rate, self._publisher.tf_enabled)))))
+        controller_nh.own(
+            Server(
+                controller_nh.namespace,
+                _TABLE,
+                self._reconfigure,
+                initial=dict(zip((row.name for row in _TABLE), (*multipliers, self._publisher.rate, self._publisher.tf_enabled))),
+            )
+        )
 
     def _reconfigure(self, config, level: int) -> None:
         if level == -1:
@@ -104,8 +113,7 @@ class DiffDriveController(WheeledBase, Controller):
         if self._wheel_publisher is not None:
             self._wheel_publisher.publish(self._wheel_state(time, period, left_velocity, right_velocity))
 
-    def _wheel_state(self, time: float, period: float, left_velocity: float,
-                     right_velocity: float) -> JointTrajectoryControllerState:
+    def _wheel_state(self, time: float, period: float, left_velocity: float, right_velocity: float) -> JointTrajectoryControllerState:
         """State of every wheel, left ones first."""
         states = [handle.state for handle in (*self._left, *self._right)]
         desired = [left_velocity] * len(self._left) + [right_velocity] * len(self._right)
@@ -123,8 +131,7 @@ class DiffDriveController(WheeledBase, Controller):
         message.actual.positions = [state.position for state in states]
         message.actual.effort = [state.effort for state in states]
         for field in ("positions", "velocities", "accelerations", "effort"):
-            setattr(message.error, field, [d - a for d, a in zip(getattr(message.desired, field),
-                                                                 getattr(message.actual, field))])
+            setattr(message.error, field, [d - a for d, a in zip(getattr(message.desired, field), getattr(message.actual, field))])
         message.error.time_from_start = message.desired.time_from_start
         self._last_velocities = (desired, actual)
         return message

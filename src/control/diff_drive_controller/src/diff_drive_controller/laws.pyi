@@ -4,6 +4,7 @@ MIN_INTERVAL: float  # s; shorter ones give no usable velocity
 
 def differential(left: float, right: float, separation: float) -> Tuple[float, float]:
     """(distance m, angle rad) of a base whose sides went ``left`` and ``right`` (m), ``separation`` (m) apart."""
+
 def bicycle(distance: float, steering: float, base: float) -> Tuple[float, float]:
     """The same of one whose driven axle went ``distance`` (m), steered ``steering`` (rad) at an axle ``base`` (m) before it."""
 

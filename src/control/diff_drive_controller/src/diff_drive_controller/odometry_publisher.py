@@ -1,4 +1,5 @@
 """Topic odom and the transform odom -> base."""
+
 from __future__ import annotations
 
 import math
@@ -79,8 +80,7 @@ def _diagonal(nh: NodeHandle, name: str) -> List[float]:
         rospy.logwarn("parameter %s is not set: odometry is published with zero covariance", nh.resolve(name))
         values = [0.0] * 6
     if len(values) != 6 or not all(isinstance(v, (int, float)) and not isinstance(v, bool) and v == v for v in values):
-        raise ParameterError(f"parameter {nh.resolve(name)} must be a list of 6 numbers (x y z roll pitch yaw), it is "
-                             f"{values!r}")
+        raise ParameterError(f"parameter {nh.resolve(name)} must be a list of 6 numbers (x y z roll pitch yaw), it is {values!r}")
     matrix = [0.0] * 36
     matrix[::7] = map(float, values)
     return matrix

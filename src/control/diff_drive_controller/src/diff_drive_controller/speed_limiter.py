@@ -1,4 +1,5 @@
 """Bounds on velocity, acceleration and jerk of one axis of a base."""
+
 from __future__ import annotations
 
 from typing import Optional, Tuple
@@ -14,14 +15,16 @@ def load_limiter(nh, axis: str, jerk: bool = True) -> SpeedLimiter:
     :param nh: controller_interface.NodeHandle of the controller
     :raises ParameterError: a lower bound above the upper one
     """
+
     def bounds(quantity: str) -> Optional[Tuple[float, float]]:
         if not nh.param(f"{axis}/has_{quantity}_limits", False):
             return None
         high = nh.param(f"{axis}/max_{quantity}", 0.0)
         low = nh.param(f"{axis}/min_{quantity}", -high)
         if low > high:
-            raise ParameterError(f"parameter {nh.resolve(f'{axis}/min_{quantity}')} is {low:g}, more than max_{quantity}, "
-                                 f"which is {high:g}")
+            raise ParameterError(
+                f"parameter {nh.resolve(f'{axis}/min_{quantity}')} is {low:g}, more than max_{quantity}, which is {high:g}"
+            )
         return low, high
 
     return SpeedLimiter(bounds("velocity"), bounds("acceleration"), bounds("jerk") if jerk else None)

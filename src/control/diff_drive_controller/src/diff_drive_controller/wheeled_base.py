@@ -1,4 +1,5 @@
 """What all wheeled bases do alike."""
+
 from __future__ import annotations
 
 import math
@@ -18,8 +19,14 @@ class WheeledBase(ControllerBase):
     Derive from it first, from Controller or MultiInterfaceController second, and call ``init_base`` in ``init``.
     """
 
-    def init_base(self, root_nh: NodeHandle, controller_nh: NodeHandle, travel: Tuple[WheelTravel, ...] = (),
-                  jerk: bool = True, odom_frame: Optional[str] = None) -> None:
+    def init_base(
+        self,
+        root_nh: NodeHandle,
+        controller_nh: NodeHandle,
+        travel: Tuple[WheelTravel, ...] = (),
+        jerk: bool = True,
+        odom_frame: Optional[str] = None,
+    ) -> None:
         """Parameters and topics common to all bases.
 
         :param travel: counters to be restarted when a simulation was reset

@@ -1,6 +1,19 @@
 """Controllers for joints that take effort commands."""
-from .controllers import (JointEffortController, JointGroupEffortController, JointGroupPositionController,
-                          JointPositionController, JointVelocityController, PidPositionController)
 
-__all__ = ["JointEffortController", "JointGroupEffortController", "JointGroupPositionController",
-           "JointPositionController", "JointVelocityController", "PidPositionController"]
+from .controllers import (
+    JointEffortController,
+    JointGroupEffortController,
+    JointGroupPositionController,
+    JointPositionController,
+    JointVelocityController,
+    PidPositionController,
+)
+
+__all__ = [
+    "JointEffortController",
+    "JointGroupEffortController",
+    "JointGroupPositionController",
+    "JointPositionController",
+    "JointVelocityController",
+    "PidPositionController",
+]

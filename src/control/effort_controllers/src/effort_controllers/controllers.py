@@ -1,4 +1,5 @@
 """Forwarding of efforts (Nm or N), and PID control of positions and velocities."""
+
 from __future__ import annotations
 
 from typing import List
@@ -42,8 +43,7 @@ def describe_joints(nh: NodeHandle, names: List[str]) -> List[JointDescription]:
         raise InitError(f"parameter {place}: {error}") from None
     missing = [name for name in names if name not in joints]
     if missing:
-        raise InitError(f"Could not find joint '{missing[0]}' in the urdf of {place}; it has: "
-                        f"{', '.join(sorted(joints)) or 'no joints'}")
+        raise InitError(f"Could not find joint '{missing[0]}' in the urdf of {place}; it has: {', '.join(sorted(joints)) or 'no joints'}")
     return [joints[name] for name in names]
 
 
@@ -65,8 +65,7 @@ class _PidController(Controller):
     def _receive(self, message: Float64) -> None:
         self._target = message.data
 
-    def _publish(self, time: float, period: float, target: float, value: float, value_dot: float, error: float,
-                 command: float) -> None:
+    def _publish(self, time: float, period: float, target: float, value: float, value_dot: float, error: float, command: float) -> None:
         """To be called every update; every tenth goes out, the first included."""
         due = self._updates % _STATE_DIVIDER == 0
         self._updates += 1
@@ -74,8 +73,18 @@ class _PidController(Controller):
             return
         gains = self._pid.gains
         message = JointControllerState(
-            set_point=target, process_value=value, process_value_dot=value_dot, error=error, time_step=period,
-            command=command, p=gains.p, i=gains.i, d=gains.d, i_clamp=gains.i_max, antiwindup=gains.antiwindup)
+            set_point=target,
+            process_value=value,
+            process_value_dot=value_dot,
+            error=error,
+            time_step=period,
+            command=command,
+            p=gains.p,
+            i=gains.i,
+            d=gains.d,
+            i_clamp=gains.i_max,
+            antiwindup=gains.antiwindup,
+        )
         message.header.stamp = to_stamp(time)
         self._state.publish(message)
 
@@ -84,7 +93,7 @@ class PidPositionController(_PidController):
     """Drives one joint to a position; the PID's output is whatever the interface commands."""
 
     def prepare(self, controller_nh: NodeHandle) -> None:
-        self._description, = describe_joints(controller_nh, [self.joint.name])
+        (self._description,) = describe_joints(controller_nh, [self.joint.name])
 
     def starting(self, time: float) -> None:
         self._target = self._description.clamp(self.joint.position)
@@ -137,8 +146,7 @@ class JointGroupPositionController(ForwardJointGroupCommandController):
         super().init(hw, root_nh, controller_nh)
 
     def starting(self, time: float) -> None:
-        self._commands = [description.clamp(joint.position)
-                          for joint, description in zip(self.joints, self._descriptions)]
+        self._commands = [description.clamp(joint.position) for joint, description in zip(self.joints, self._descriptions)]
         for pid in self._pids:
             pid.reset()
 

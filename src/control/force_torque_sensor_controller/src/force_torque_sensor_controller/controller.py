@@ -1,4 +1,5 @@
 """The force-torque publisher."""
+
 from __future__ import annotations
 
 from controller_interface.sensor_controller import SensorController

@@ -1,4 +1,5 @@
 """Forwarding of one command or of one per joint."""
+
 from __future__ import annotations
 
 from typing import List
@@ -42,8 +43,12 @@ class ForwardJointGroupCommandController(Controller):
 
     def _receive(self, message: Float64MultiArray) -> None:
         if len(message.data) != len(self.joints):
-            rospy.logerr("Dimension of command (with size %d) does not match number of joints (%d)! "
-                         "Not executing! (%s)", len(message.data), len(self.joints), self._topic)
+            rospy.logerr(
+                "Dimension of command (with size %d) does not match number of joints (%d)! Not executing! (%s)",
+                len(message.data),
+                len(self.joints),
+                self._topic,
+            )
             return
         self._commands = list(message.data)
 

@@ -1,4 +1,5 @@
 """The four wheel steering controller."""
+
 from __future__ import annotations
 
 import math
@@ -24,15 +25,14 @@ class FourWheelSteeringController(WheeledBase, MultiInterfaceController):
 
     def init(self, hw, root_nh: NodeHandle, controller_nh: NodeHandle) -> None:
         wheels, steering = hw.get(VelocityJointInterface), hw.get(PositionJointInterface)
-        self._wheels = [wheels.get_handle(name) for axle in ("front", "rear")
-                        for name in _pair(controller_nh, f"{axle}_wheel")]
-        self._steering = [steering.get_handle(name) for axle in ("front", "rear")
-                          for name in _pair(controller_nh, f"{axle}_steering")]
+        self._wheels = [wheels.get_handle(name) for axle in ("front", "rear") for name in _pair(controller_nh, f"{axle}_wheel")]
+        self._steering = [steering.get_handle(name) for axle in ("front", "rear") for name in _pair(controller_nh, f"{axle}_steering")]
         self.init_base(root_nh, controller_nh, jerk=False, odom_frame="odom")
         self._base = self._geometry(robot_geometry(root_nh, search=False), controller_nh)
         self._rates = _Rates(controller_nh.param("velocity_rolling_window_size", 10))
-        self._steering_command = CommandTopic(controller_nh, "cmd_four_wheel_steering", FourWheelSteering,
-                                              _steering_values, "four wheel steering")
+        self._steering_command = CommandTopic(
+            controller_nh, "cmd_four_wheel_steering", FourWheelSteering, _steering_values, "four wheel steering"
+        )
         self._steer_publisher = RealtimePublisher(controller_nh, "odom_steer", FourWheelSteeringStamped, queue_size=100)
 
     def _geometry(self, robot: RobotGeometry, nh: NodeHandle) -> Base:
@@ -47,8 +47,7 @@ class FourWheelSteeringController(WheeledBase, MultiInterfaceController):
         base = length(nh, "wheel_base", lambda: between(names[0], names[2]))
         radius = length(nh, "wheel_radius", lambda: robot.wheel_radius(names[0], shapes=("cylinder",)))
         offset = between(self._steering[0].name, names[0])
-        for name, value in (("track", track), ("wheel_base", base), ("wheel_radius", radius),
-                            ("wheel_steering_y_offset", offset)):
+        for name, value in (("track", track), ("wheel_base", base), ("wheel_radius", radius), ("wheel_steering_y_offset", offset)):
             nh.set_param(name, value)
         return Base(track - 2.0 * offset, base, radius, offset)
 
@@ -70,12 +69,10 @@ class FourWheelSteeringController(WheeledBase, MultiInterfaceController):
         linear, angular = self._command.at(time)
         speed, front, rear = self._steering_command.at(time)
         if self._command.stamp > self._steering_command.stamp:
-            axles = self._base.from_twist(self._limit_linear.limit(linear, period),
-                                          self._limit_angular.limit(angular, period))
+            axles = self._base.from_twist(self._limit_linear.limit(linear, period), self._limit_angular.limit(angular, period))
         else:
             axles = self._base.from_steering(self._limit_linear.limit(speed, period), _clamp(front), _clamp(rear))
-        for axle, wheels, steering in zip(axles, (self._wheels[:2], self._wheels[2:]),
-                                          (self._steering[:2], self._steering[2:])):
+        for axle, wheels, steering in zip(axles, (self._wheels[:2], self._wheels[2:]), (self._steering[:2], self._steering[2:])):
             wheels[0].command, wheels[1].command = axle.left_speed, axle.right_speed
             steering[0].command, steering[1].command = axle.left_angle, axle.right_angle
 
@@ -104,8 +101,12 @@ class FourWheelSteeringController(WheeledBase, MultiInterfaceController):
 class _Rates:
     """Smoothed derivatives of what odom_steer reports."""
 
-    _FIELDS = {"acceleration": "speed", "jerk": "acceleration", "front_steering_angle_velocity": "front_steering_angle",
-               "rear_steering_angle_velocity": "rear_steering_angle"}
+    _FIELDS = {
+        "acceleration": "speed",
+        "jerk": "acceleration",
+        "front_steering_angle_velocity": "front_steering_angle",
+        "rear_steering_angle_velocity": "rear_steering_angle",
+    }
 
     def __init__(self, window: int):
         self._means = {name: RollingMean(window) for name in self._FIELDS}

@@ -3,6 +3,7 @@
 Angles are those of the wheels to the left of straight ahead, rad; wheel speeds are in rad/s; the base frame lies midway
 between the axles.
 """
+
 from __future__ import annotations
 
 import math
@@ -73,8 +74,10 @@ class Base:
             return 0.0, 0.0
         half = 0.5 * self.steering_track * angular
         inner = self.y_offset * angular
-        return ((math.copysign(math.hypot(linear - half, lateral), linear) - inner) / self.wheel_radius,
-                (math.copysign(math.hypot(linear + half, lateral), linear) + inner) / self.wheel_radius)
+        return (
+            (math.copysign(math.hypot(linear - half, lateral), linear) - inner) / self.wheel_radius,
+            (math.copysign(math.hypot(linear + half, lateral), linear) + inner) / self.wheel_radius,
+        )
 
     def motion(self, front: Axle, rear: Axle) -> Tuple[float, float, float]:
         """(forward m/s, to the left m/s, rad/s) of a base whose wheels do this, the best fit to all four."""
@@ -85,10 +88,9 @@ class Base:
             curvature = math.cos(angle) * bend / self.wheel_base
             across = self.steering_track * curvature
             # what each wheel would do if the middle of the axle went 1 m/s, m/s
-            left = math.sqrt(max(0.0, 1.0 - across * math.cos(angle) + 0.25 * across ** 2)) - self.y_offset * curvature
-            right = math.sqrt(max(0.0, 1.0 + across * math.cos(angle) + 0.25 * across ** 2)) + self.y_offset * curvature
-            speeds.append(self.wheel_radius * (left * axle.left_speed + right * axle.right_speed)
-                          / (left * left + right * right))
+            left = math.sqrt(max(0.0, 1.0 - across * math.cos(angle) + 0.25 * across**2)) - self.y_offset * curvature
+            right = math.sqrt(max(0.0, 1.0 + across * math.cos(angle) + 0.25 * across**2)) + self.y_offset * curvature
+            speeds.append(self.wheel_radius * (left * axle.left_speed + right * axle.right_speed) / (left * left + right * right))
             rates.append(speeds[-1] * curvature)
         linear = 0.5 * sum(speed * math.cos(angle) for speed, angle in zip(speeds, angles))
         # the yaw adds as much to the sideways motion of one axle as it takes from the other

@@ -1,4 +1,5 @@
 """The gripper action controllers."""
+
 from __future__ import annotations
 
 import math
@@ -83,8 +84,9 @@ class GripperActionController(ActionController):
         if reached:
             goal.succeed(result)
         else:
-            goal.abort(result, f"Stalled {abs(error):.6g} before the goal: no movement over {self._stall_velocity:g} "
-                               f"for {self._stall_timeout:g} s")
+            goal.abort(
+                result, f"Stalled {abs(error):.6g} before the goal: no movement over {self._stall_velocity:g} for {self._stall_timeout:g} s"
+            )
 
     # -- goals, in threads of rospy ------------------------------------------------------------------------------------
 
@@ -93,8 +95,7 @@ class GripperActionController(ActionController):
         if not self._running:
             return self._reject(goal, "Can't accept new action goals. Controller is not running.")
         if not (math.isfinite(wanted.position) and math.isfinite(wanted.max_effort)):
-            return self._reject(goal, f"The goal is not finite: position {wanted.position}, max_effort "
-                                      f"{wanted.max_effort}")
+            return self._reject(goal, f"The goal is not finite: position {wanted.position}, max_effort {wanted.max_effort}")
         with self._lock:
             self._replace(goal, "Replaced by another goal")
             self._command = (wanted.position, wanted.max_effort)

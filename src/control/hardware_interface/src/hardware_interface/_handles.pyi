@@ -3,6 +3,7 @@
 ``_addresses`` are those of the numbers, in the order in which they are declared here, 0 for what is not there; ``_look_at`` makes a
 handle a view of numbers that ``keeper`` keeps.
 """
+
 from typing import Any, Optional, Sequence, Tuple
 
 _Addresses = Tuple[int, int, int, int, int, int]
@@ -19,8 +20,15 @@ class JointStateHandle:
     effort: float
     absolute_position: Optional[float]
     torque_sensor: Optional[float]
-    def __init__(self, name: str, position: float = ..., velocity: float = ..., effort: float = ...,
-                 absolute_position: Optional[float] = ..., torque_sensor: Optional[float] = ...) -> None: ...
+    def __init__(
+        self,
+        name: str,
+        position: float = ...,
+        velocity: float = ...,
+        effort: float = ...,
+        absolute_position: Optional[float] = ...,
+        torque_sensor: Optional[float] = ...,
+    ) -> None: ...
     @property
     def name(self) -> str: ...
     @property
@@ -71,8 +79,9 @@ class PosVelAccJointHandle(PosVelJointHandle):
     """A joint commanded in position, velocity and acceleration."""
 
     command_acceleration: float
-    def __init__(self, state: JointStateHandle, command_position: float = ..., command_velocity: float = ...,
-                 command_acceleration: float = ...) -> None: ...
+    def __init__(
+        self, state: JointStateHandle, command_position: float = ..., command_velocity: float = ..., command_acceleration: float = ...
+    ) -> None: ...
 
 class PositionVelocityTorqueGainsJointHandle(PosVelJointHandle):
     """A joint whose drive closes the loop itself: set points, feed-forward effort and the gains kp, kd."""
@@ -80,8 +89,15 @@ class PositionVelocityTorqueGainsJointHandle(PosVelJointHandle):
     command_effort: float
     kp: float
     kd: float
-    def __init__(self, state: JointStateHandle, command_position: float = ..., command_velocity: float = ...,
-                 command_effort: float = ..., kp: float = ..., kd: float = ...) -> None: ...
+    def __init__(
+        self,
+        state: JointStateHandle,
+        command_position: float = ...,
+        command_velocity: float = ...,
+        command_effort: float = ...,
+        kp: float = ...,
+        kd: float = ...,
+    ) -> None: ...
 
 class ImuSensorHandle:
     """An inertial measurement unit. What the sensor does not measure stays None.
@@ -100,11 +116,17 @@ class ImuSensorHandle:
     angular_velocity_covariance: Optional[Sequence[float]]
     linear_acceleration: Optional[Sequence[float]]
     linear_acceleration_covariance: Optional[Sequence[float]]
-    def __init__(self, name: str, frame_id: str = ..., orientation: Optional[Sequence[float]] = ...,
-                 orientation_covariance: Optional[Sequence[float]] = ..., angular_velocity: Optional[Sequence[float]] = ...,
-                 angular_velocity_covariance: Optional[Sequence[float]] = ...,
-                 linear_acceleration: Optional[Sequence[float]] = ...,
-                 linear_acceleration_covariance: Optional[Sequence[float]] = ...) -> None: ...
+    def __init__(
+        self,
+        name: str,
+        frame_id: str = ...,
+        orientation: Optional[Sequence[float]] = ...,
+        orientation_covariance: Optional[Sequence[float]] = ...,
+        angular_velocity: Optional[Sequence[float]] = ...,
+        angular_velocity_covariance: Optional[Sequence[float]] = ...,
+        linear_acceleration: Optional[Sequence[float]] = ...,
+        linear_acceleration_covariance: Optional[Sequence[float]] = ...,
+    ) -> None: ...
     @property
     def name(self) -> str: ...
     @property
@@ -124,8 +146,9 @@ class ForceTorqueSensorHandle:
 
     force: Optional[Sequence[float]]
     torque: Optional[Sequence[float]]
-    def __init__(self, name: str, frame_id: str = ..., force: Optional[Sequence[float]] = ...,
-                 torque: Optional[Sequence[float]] = ...) -> None: ...
+    def __init__(
+        self, name: str, frame_id: str = ..., force: Optional[Sequence[float]] = ..., torque: Optional[Sequence[float]] = ...
+    ) -> None: ...
     @property
     def name(self) -> str: ...
     @property

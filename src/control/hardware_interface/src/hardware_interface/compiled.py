@@ -5,6 +5,7 @@ numbers of Python's handles, for a robot written in C++ that robot itself. ``Com
 Python's controllers; its handles are views of the robot's own numbers. So controllers of both languages work side by side on
 either.
 """
+
 from __future__ import annotations
 
 from typing import Any, Dict, List, Optional, Sequence, Tuple
@@ -34,7 +35,8 @@ _KNOWN: Dict[str, Tuple[type, type, Optional[type]]] = {
         (_interfaces.EffortActuatorInterface, "ActuatorHandle", "ActuatorStateHandle"),
         (_interfaces.ImuSensorInterface, "ImuSensorHandle", None),
         (_interfaces.ForceTorqueSensorInterface, "ForceTorqueSensorHandle", None),
-    )}
+    )
+}
 
 
 def _record(handle: Any) -> Record:
@@ -82,8 +84,10 @@ def twin(robot: RobotHW) -> Robot:
 
 
 def _infos(controllers: Sequence[ControllerInfo]) -> List[Tuple[str, str, List[Tuple[str, List[str]]]]]:
-    return [(info.name, info.type, [(claimed.hardware_interface, list(claimed.resources)) for claimed in info.claimed_resources])
-            for info in controllers]
+    return [
+        (info.name, info.type, [(claimed.hardware_interface, list(claimed.resources)) for claimed in info.claimed_resources])
+        for info in controllers
+    ]
 
 
 class CompiledRobotHW(RobotHW):

@@ -1,4 +1,5 @@
 """The robot description: one reading of its text for limits, transmissions and geometry."""
+
 from __future__ import annotations
 
 from functools import lru_cache

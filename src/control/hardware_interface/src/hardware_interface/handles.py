@@ -2,17 +2,36 @@
 
 The numbers lie in memory that C++ handles point at (``core/handles.cpp``), so compiled controllers and robots see the same ones.
 """
+
 from __future__ import annotations
 
 from enum import IntEnum
 
-from ._handles import (ForceTorqueSensorHandle, ImuSensorHandle, JointHandle, JointStateHandle,
-                       PositionVelocityTorqueGainsJointHandle, PosVelAccJointHandle, PosVelJointHandle)
+from ._handles import (
+    ForceTorqueSensorHandle,
+    ImuSensorHandle,
+    JointHandle,
+    JointStateHandle,
+    PositionVelocityTorqueGainsJointHandle,
+    PosVelAccJointHandle,
+    PosVelJointHandle,
+)
 from ._handles import JointModeHandle as _JointModeHandle
 
-__all__ = ["ActuatorHandle", "ActuatorStateHandle", "ForceTorqueSensorHandle", "ImuSensorHandle", "JointHandle", "JointMode",
-           "JointModeHandle", "JointStateHandle", "PosVelAccJointHandle", "PosVelJointHandle",
-           "PositionVelocityTorqueGainsJointHandle", "addresses"]
+__all__ = [
+    "ActuatorHandle",
+    "ActuatorStateHandle",
+    "ForceTorqueSensorHandle",
+    "ImuSensorHandle",
+    "JointHandle",
+    "JointMode",
+    "JointModeHandle",
+    "JointStateHandle",
+    "PosVelAccJointHandle",
+    "PosVelJointHandle",
+    "PositionVelocityTorqueGainsJointHandle",
+    "addresses",
+]
 
 
 def addresses(handle) -> "tuple[int, ...]":

@@ -2,6 +2,7 @@
 
 ``type_name`` is the C++ name that users see in list_controllers and write (with a slash) in transmissions.
 """
+
 from __future__ import annotations
 
 from typing import Any, Dict, List, Set
@@ -44,8 +45,9 @@ class HardwareInterface:
         try:
             handle = self._handles[name]
         except KeyError:
-            raise ResourceError(f"Could not find resource '{name}' in '{self.type_name}'; it has: "
-                                f"{', '.join(self.names()) or 'none'}") from None
+            raise ResourceError(
+                f"Could not find resource '{name}' in '{self.type_name}'; it has: {', '.join(self.names()) or 'none'}"
+            ) from None
         if self.claiming:
             self.claim(name)
         return handle

@@ -1,4 +1,5 @@
 """RobotHW: what a robot offers to the controller manager."""
+
 from __future__ import annotations
 
 from dataclasses import dataclass, field

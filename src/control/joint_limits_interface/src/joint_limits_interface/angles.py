@@ -1,4 +1,5 @@
 """Angles in rad."""
+
 from math import isfinite, nan, pi, remainder
 
 

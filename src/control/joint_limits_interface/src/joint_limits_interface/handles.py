@@ -2,6 +2,7 @@
 
 Their law is that of ``limit_law.h``, where the equations stand; C++'s handles have the same.
 """
+
 from __future__ import annotations
 
 import time
@@ -37,8 +38,7 @@ class _LimitHandle:
         self._warned = -inf
         for kind in self.requires:
             if not getattr(limits, f"has_{kind}_limits"):
-                raise JointLimitsError(f"Cannot enforce limits for joint '{joint.name}': it has no {kind} limits "
-                                       f"specification")
+                raise JointLimitsError(f"Cannot enforce limits for joint '{joint.name}': it has no {kind} limits specification")
         self.law = CommandLimiter(self.kind, limits, soft)
 
     @property
@@ -62,8 +62,13 @@ class _LimitHandle:
         now = time.monotonic()
         if now - self._warned >= _WARN_PERIOD:
             self._warned = now
-            rospy.logwarn("Joint '%s' was commanded %s, which is no usable number; holding %g. Look at the controller "
-                          "or the message that it was sent.", self.name, command, self.joint.command)
+            rospy.logwarn(
+                "Joint '%s' was commanded %s, which is no usable number; holding %g. Look at the controller "
+                "or the message that it was sent.",
+                self.name,
+                command,
+                self.joint.command,
+            )
 
 
 class _SoftLimitHandle(_LimitHandle):

@@ -1,4 +1,5 @@
 """Limits of a joint, from its URDF description and from parameters. Meant order: URDF first, parameters override."""
+
 from __future__ import annotations
 
 import math
@@ -40,8 +41,13 @@ class SoftJointLimits:
 
 
 #: kind -> the values that a ``has_<kind>_limits`` parameter needs beside it
-_VALUES = {"position": ("min_position", "max_position"), "velocity": ("max_velocity",),
-           "acceleration": ("max_acceleration",), "jerk": ("max_jerk",), "effort": ("max_effort",)}
+_VALUES = {
+    "position": ("min_position", "max_position"),
+    "velocity": ("max_velocity",),
+    "acceleration": ("max_acceleration",),
+    "jerk": ("max_jerk",),
+    "effort": ("max_effort",),
+}
 
 
 def limits_from_urdf(joint: JointDescription, limits: JointLimits = JointLimits()) -> Optional[JointLimits]:
@@ -49,11 +55,18 @@ def limits_from_urdf(joint: JointDescription, limits: JointLimits = JointLimits(
     if joint.limit is None:
         return None
     bounded = joint.kind in ("revolute", "prismatic")
-    return replace(limits, has_position_limits=bounded, has_velocity_limits=True, has_effort_limits=True,
-                   has_acceleration_limits=False, angle_wraparound=joint.kind == "continuous",
-                   min_position=joint.limit.lower if bounded else limits.min_position,
-                   max_position=joint.limit.upper if bounded else limits.max_position,
-                   max_velocity=joint.limit.velocity, max_effort=joint.limit.effort)
+    return replace(
+        limits,
+        has_position_limits=bounded,
+        has_velocity_limits=True,
+        has_effort_limits=True,
+        has_acceleration_limits=False,
+        angle_wraparound=joint.kind == "continuous",
+        min_position=joint.limit.lower if bounded else limits.min_position,
+        max_position=joint.limit.upper if bounded else limits.max_position,
+        max_velocity=joint.limit.velocity,
+        max_effort=joint.limit.effort,
+    )
 
 
 def soft_limits_from_urdf(joint: JointDescription) -> Optional[SoftJointLimits]:

@@ -1,4 +1,5 @@
 """The joints of a URDF, as far as controllers and limits need them."""
+
 from __future__ import annotations
 
 import re
@@ -83,11 +84,13 @@ def _joint(element: ElementTree.Element) -> JointDescription:
     name = element.get("name", "")
     limit, safety = element.find("limit"), element.find("safety_controller")
     return JointDescription(
-        name, element.get("type", ""),
-        None if limit is None else Limit(*(_number(limit, key, name) for key in
-                                           ("lower", "upper", "velocity", "effort"))),
-        None if safety is None else Safety(*(_number(safety, key, name) for key in
-                                             ("soft_lower_limit", "soft_upper_limit", "k_position", "k_velocity"))))
+        name,
+        element.get("type", ""),
+        None if limit is None else Limit(*(_number(limit, key, name) for key in ("lower", "upper", "velocity", "effort"))),
+        None
+        if safety is None
+        else Safety(*(_number(safety, key, name) for key in ("soft_lower_limit", "soft_upper_limit", "k_position", "k_velocity"))),
+    )
 
 
 def read_joints(urdf: str) -> Dict[str, JointDescription]:

@@ -1,4 +1,5 @@
 """JointStateController."""
+
 from __future__ import annotations
 
 from typing import Any, Dict, List
@@ -36,8 +37,7 @@ class JointStateController(Controller):
         if extra is None:
             return
         if not isinstance(extra, list):
-            rospy.logerr("parameter %s must be a list of maps with name, position, velocity, effort; ignored",
-                         nh.resolve("extra_joints"))
+            rospy.logerr("parameter %s must be a list of maps with name, position, velocity, effort; ignored", nh.resolve("extra_joints"))
             return
         for index, entry in enumerate(extra):
             problem = self._problem(entry)

@@ -1,12 +1,17 @@
 """The joint trajectory controller; what it writes to the hardware is left to its variants."""
+
 from __future__ import annotations
 
 import math
 from typing import Any, Callable, List, Optional, Sequence, Tuple
 
 import rospy
-from control_msgs.msg import (FollowJointTrajectoryAction, FollowJointTrajectoryFeedback, FollowJointTrajectoryResult,
-                              JointTrajectoryControllerState)
+from control_msgs.msg import (
+    FollowJointTrajectoryAction,
+    FollowJointTrajectoryFeedback,
+    FollowJointTrajectoryResult,
+    JointTrajectoryControllerState,
+)
 from control_msgs.srv import QueryTrajectoryState, QueryTrajectoryStateResponse
 from controller_interface import NodeHandle, ParameterError, RateGate, RealtimePublisher, to_stamp
 from controller_interface.action_controller import ActionController
@@ -43,8 +48,7 @@ class JointTrajectoryController(ActionController):
     def start_output(self) -> None:
         """Write the first command; the joints are to stay where they are."""
 
-    def write_output(self, desired: List[Tuple[float, float, float]], errors: List[Tuple[float, float]],
-                     period: float) -> None:
+    def write_output(self, desired: List[Tuple[float, float, float]], errors: List[Tuple[float, float]], period: float) -> None:
         """Write the commands of this cycle.
 
         :param desired: position, velocity, acceleration of each joint
@@ -64,8 +68,7 @@ class JointTrajectoryController(ActionController):
         self._monitor_period = 1.0 / _positive(controller_nh, "action_monitor_rate", 20.0)
         self._stop_duration = controller_nh.param("stop_trajectory_duration", 0.0)
         if not 0.0 <= self._stop_duration < math.inf:
-            raise ParameterError(f"parameter {self._name}/stop_trajectory_duration must not be negative, it is "
-                                 f"{self._stop_duration}")
+            raise ParameterError(f"parameter {self._name}/stop_trajectory_duration must not be negative, it is {self._stop_duration}")
         self._partial = controller_nh.param("allow_partial_joints_goal", False)
         try:
             self._tolerances = tolerances.from_parameters(self._joints, controller_nh.param("constraints", {}))
@@ -101,8 +104,11 @@ class JointTrajectoryController(ActionController):
             self._next_monitor = 0.0
             self._known = self._hold_measured(None)
             if not self._known:
-                rospy.logerr("%s: the hardware reports no position for %s yet; waiting for it before moving",
-                             self._name, ", ".join(s.name for s in self._states if not math.isfinite(s.position)))
+                rospy.logerr(
+                    "%s: the hardware reports no position for %s yet; waiting for it before moving",
+                    self._name,
+                    ", ".join(s.name for s in self._states if not math.isfinite(s.position)),
+                )
             self._gate.restart(0.0)
             self._running = True
         self.start_output()
@@ -141,8 +147,7 @@ class JointTrajectoryController(ActionController):
             self._next_monitor = max(self._next_monitor + self._monitor_period, uptime)
             goal.feedback(self._fill(FollowJointTrajectoryFeedback(), time, uptime, first, desired, errors))
         if publish and self._state_publisher.has_subscribers:
-            self._state_publisher.publish(
-                self._fill(JointTrajectoryControllerState(), time, uptime, first, desired, errors))
+            self._state_publisher.publish(self._fill(JointTrajectoryControllerState(), time, uptime, first, desired, errors))
 
     def write_positions_to(self, handles: Sequence[Any]) -> None:
         """For a variant that writes desired positions and nothing else: ordinary cycles write them without ``write_output``."""
@@ -152,8 +157,16 @@ class JointTrajectoryController(ActionController):
             self._sampler.add_command(joint, addresses(handle)[0])
         self._writes = True
 
-    def _sample(self, uptime: float, trajectory: List[List[Segment]], cursor: List[int], next_start: List[float],
-                goal: Optional[RealtimeGoal], done: List[bool], publish: bool):
+    def _sample(
+        self,
+        uptime: float,
+        trajectory: List[List[Segment]],
+        cursor: List[int],
+        next_start: List[float],
+        goal: Optional[RealtimeGoal],
+        done: List[bool],
+        publish: bool,
+    ):
         """Every joint at ``uptime``, and what becomes of the goal: (desired states, errors, the goal or None if it was aborted)."""
         need_errors = self.feeds_back or goal is not None or publish
         desired = []
@@ -186,8 +199,7 @@ class JointTrajectoryController(ActionController):
                         goal = None
         return desired, errors, goal
 
-    def _remember(self, trajectory: List[List[Segment]], cursor: List[int], next_start: List[float],
-                  goal: Optional[RealtimeGoal]) -> None:
+    def _remember(self, trajectory: List[List[Segment]], cursor: List[int], next_start: List[float], goal: Optional[RealtimeGoal]) -> None:
         """Hand the segments that are under way to the sampler, which answers from then on until something happens."""
         if self._sampler is None:
             return
@@ -197,8 +209,7 @@ class JointTrajectoryController(ActionController):
                 continue
             segment = trajectory[joint][index]
             path = segment.tolerances.path
-            self._sampler.follow(joint, segment, next_start[joint], goal is not None and segment.goal is goal,
-                                 path.position, path.velocity)
+            self._sampler.follow(joint, segment, next_start[joint], goal is not None and segment.goal is goal, path.position, path.velocity)
         self._sampled = trajectory, goal, list(cursor)
 
     def _fill(self, message, time: float, uptime: float, segment: Segment, desired, errors):
@@ -238,17 +249,21 @@ class JointTrajectoryController(ActionController):
         positions = [state.position for state in self._states]
         if not all(map(math.isfinite, positions)):
             return False
-        self._follow([[stop_segment(self._uptime, position, 0.0, 0.0, goal, default)]
-                      for position, default in zip(positions, self._tolerances)])
+        self._follow(
+            [[stop_segment(self._uptime, position, 0.0, 0.0, goal, default)] for position, default in zip(positions, self._tolerances)]
+        )
         return True
 
     def _hold(self, goal: Optional[RealtimeGoal]) -> None:
         if self._stop_duration == 0.0 and self._hold_measured(goal):
             return
-        states = [segments[max(active_index(segments, self._uptime), 0)].sample(self._uptime)
-                  for segments in self._trajectory]
-        self._follow([[stop_segment(self._uptime, position, velocity, self._stop_duration, goal, default)]
-                      for (position, velocity, _), default in zip(states, self._tolerances)])
+        states = [segments[max(active_index(segments, self._uptime), 0)].sample(self._uptime) for segments in self._trajectory]
+        self._follow(
+            [
+                [stop_segment(self._uptime, position, velocity, self._stop_duration, goal, default)]
+                for (position, velocity, _), default in zip(states, self._tolerances)
+            ]
+        )
 
     # -- commands, in threads of rospy ---------------------------------------------------------------------------------
 
@@ -271,16 +286,17 @@ class JointTrajectoryController(ActionController):
             code = getattr(error, "code", Result.INVALID_GOAL)
             goal.reject(Result(error_code=code, error_string=str(error)), str(error))
 
-    def _take(self, message: JointTrajectory, goal: Optional[RealtimeGoal],
-              wanted: List[tolerances.JointTolerances], named: bool) -> None:
+    def _take(self, message: JointTrajectory, goal: Optional[RealtimeGoal], wanted: List[tolerances.JointTolerances], named: bool) -> None:
         """Join a message to the running motion; its goal, or none, takes the place of the active one.
 
         :param named: whether an empty trajectory must name the joints, as that of an action goal
         :raises InvalidTrajectory: the motion goes on as it was
         """
         if not self._running:
-            raise InvalidTrajectory(Result.INVALID_GOAL, f"Can't accept new {'action goals' if named else 'commands'}. "
-                                                         "Controller is not running; start it first")
+            raise InvalidTrajectory(
+                Result.INVALID_GOAL,
+                f"Can't accept new {'action goals' if named else 'commands'}. Controller is not running; start it first",
+            )
         if not self._known:
             raise InvalidTrajectory(Result.INVALID_GOAL, "The hardware has not reported where the joints are yet")
         command = None
@@ -295,18 +311,22 @@ class JointTrajectoryController(ActionController):
             else:
                 next_uptime = self._uptime + self._period
                 start = next_uptime + (stamp - self._time - self._period if stamp else 0.0)
-                self._follow(splice(self._trajectory, command, start, self._uptime, next_uptime, self._continuous,
-                                    wanted, goal))
+                self._follow(splice(self._trajectory, command, start, self._uptime, next_uptime, self._continuous, wanted, goal))
             self._replace(goal, "Replaced by " + ("another goal" if goal else "a trajectory from the command topic"))
             self._done = [False] * len(self._joints)
             self._next_monitor = self._uptime
         # a first point at 0 s that starts at once says where the motion begins: nobody misses it
         if command is not None and command.first > (0 if stamp or command.times[0] != 0.0 else 1):
-            rospy.logwarn("%s: Dropping first %d trajectory point(s) out of %d, as they occur before the current time.",
-                          self._name, command.first, len(command.times))
+            rospy.logwarn(
+                "%s: Dropping first %d trajectory point(s) out of %d, as they occur before the current time.",
+                self._name,
+                command.first,
+                len(command.times),
+            )
         if command is not None and command.surplus:
-            rospy.logwarn_throttle(5.0, f"{self._name}: points with {command.surplus} value(s) more than joints are named; "
-                                        "the last ones are left out")
+            rospy.logwarn_throttle(
+                5.0, f"{self._name}: points with {command.surplus} value(s) more than joints are named; the last ones are left out"
+            )
 
     def _on_query(self, request) -> QueryTrajectoryStateResponse:
         with self._lock:
@@ -315,8 +335,9 @@ class JointTrajectoryController(ActionController):
             trajectory = self._trajectory
             time = self._uptime + request.time.to_sec() - self._time
         if any(active_index(segments, time) < 0 for segments in trajectory):
-            raise rospy.ServiceException(f"{self._name}: Requested sample time precedes trajectory start time: "
-                                         f"{request.time.to_sec():.3f} s")
+            raise rospy.ServiceException(
+                f"{self._name}: Requested sample time precedes trajectory start time: {request.time.to_sec():.3f} s"
+            )
         samples = [segments[active_index(segments, time)].sample(time) for segments in trajectory]
         return QueryTrajectoryStateResponse(self._joints, *map(list, zip(*samples)))
 

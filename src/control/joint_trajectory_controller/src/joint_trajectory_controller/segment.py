@@ -1,4 +1,5 @@
 """One polynomial piece of the trajectory of one joint, in the controller's own time (seconds since it was started)."""
+
 from __future__ import annotations
 
 from typing import List, NamedTuple, Optional, Sequence
@@ -29,8 +30,16 @@ class Segment(Spline):
 
     __slots__ = ("point_time", "goal", "tolerances")
 
-    def __init__(self, start: float, first: State, end: float, last: State, point_time: float = 0.0,
-                 goal=None, tolerances: JointTolerances = JointTolerances()):
+    def __init__(
+        self,
+        start: float,
+        first: State,
+        end: float,
+        last: State,
+        point_time: float = 0.0,
+        goal=None,
+        tolerances: JointTolerances = JointTolerances(),
+    ):
         super().__init__(start, first, end, last)
         self.point_time = point_time
         self.goal = goal

@@ -1,4 +1,5 @@
 """From trajectory messages to segments, joined to the motion that is running."""
+
 from __future__ import annotations
 
 import math
@@ -71,14 +72,14 @@ class Command:
         width = len(columns)
         length = max(len(points[self.first].positions), width)
         self.surplus = length - width
-        for number, point in enumerate(points[self.first:], self.first):
+        for number, point in enumerate(points[self.first :], self.first):
             _check_point(number, point, width, length)
         self.states: Dict[int, List[State]] = {}
         self.segments: Dict[int, List[Segment]] = {}
         for column, joint in enumerate(columns):
-            states = [_state(point, column) for point in points[self.first:]]
+            states = [_state(point, column) for point in points[self.first :]]
             self.states[joint] = states
-            self.segments[joint] = point_segments(states, self.times[self.first:])
+            self.segments[joint] = point_segments(states, self.times[self.first :])
 
     def first_after(self, elapsed: float) -> int:
         """Index of the first point later than ``elapsed`` seconds after the start of the message."""
@@ -86,9 +87,11 @@ class Command:
             if not has_passed(time, elapsed):
                 return index
         raise Late(
-            INVALID_GOAL, f"Dropping all {len(self.times)} trajectory points, as they occur before the current time. "
+            INVALID_GOAL,
+            f"Dropping all {len(self.times)} trajectory points, as they occur before the current time. "
             f"Last point is {elapsed - self.times[-1]:.6f}s in the past; give points a time_from_start after the start "
-            "of motion, and a header.stamp of 0 to start at once.")
+            "of motion, and a header.stamp of 0 to start at once.",
+        )
 
 
 def check_times(times: Sequence[float]) -> None:
@@ -96,38 +99,51 @@ def check_times(times: Sequence[float]) -> None:
     for index in range(1, len(times)):
         if times[index] <= times[index - 1]:
             raise InvalidTrajectory(
-                INVALID_GOAL, "Trajectory message contains waypoints that are not strictly increasing in time: point "
-                f"{index} at {times[index]:g} s follows {times[index - 1]:g} s")
+                INVALID_GOAL,
+                "Trajectory message contains waypoints that are not strictly increasing in time: point "
+                f"{index} at {times[index]:g} s follows {times[index - 1]:g} s",
+            )
 
 
 def _check_point(number: int, point, width: int, length: int) -> None:
     """:param width: number of joints named; ``length``: number of values that every point has"""
     if len(point.positions) != length:
         raise InvalidTrajectory(
-            INVALID_GOAL, f"Point {number} has {len(point.positions)} positions for {width} joints; every point needs one "
-            "position per joint")
+            INVALID_GOAL,
+            f"Point {number} has {len(point.positions)} positions for {width} joints; every point needs one position per joint",
+        )
     for name, values in (("velocities", point.velocities), ("accelerations", point.accelerations)):
         if values and len(values) != length:
-            raise InvalidTrajectory(
-                INVALID_GOAL, f"Point {number} has {len(values)} {name} for {width} joints; give one per joint or none")
-    for name, values in (("positions", point.positions), ("velocities", point.velocities),
-                         ("accelerations", point.accelerations)):
+            raise InvalidTrajectory(INVALID_GOAL, f"Point {number} has {len(values)} {name} for {width} joints; give one per joint or none")
+    for name, values in (("positions", point.positions), ("velocities", point.velocities), ("accelerations", point.accelerations)):
         wrong = next((value for value in values[:width] if not abs(value) <= LARGEST), None)
         if wrong is not None:
             raise InvalidTrajectory(
-                INVALID_GOAL, f"Point {number} has {name} that are not finite numbers: {wrong}" if not math.isfinite(wrong)
-                else f"Point {number} has {name} beyond {LARGEST:g}, which no joint can follow: {wrong:g}")
+                INVALID_GOAL,
+                f"Point {number} has {name} that are not finite numbers: {wrong}"
+                if not math.isfinite(wrong)
+                else f"Point {number} has {name} beyond {LARGEST:g}, which no joint can follow: {wrong:g}",
+            )
 
 
 def _state(point, column: int) -> State:
-    return State(point.positions[column],
-                 point.velocities[column] if point.velocities else None,
-                 point.accelerations[column] if point.accelerations else None)
+    return State(
+        point.positions[column],
+        point.velocities[column] if point.velocities else None,
+        point.accelerations[column] if point.accelerations else None,
+    )
 
 
-def splice(current: Sequence[Sequence[Segment]], command: Command, start: float, uptime: float, next_uptime: float,
-           continuous: Sequence[bool], tolerances: Sequence[JointTolerances], goal: Optional[object]
-           ) -> List[List[Segment]]:
+def splice(
+    current: Sequence[Sequence[Segment]],
+    command: Command,
+    start: float,
+    uptime: float,
+    next_uptime: float,
+    continuous: Sequence[bool],
+    tolerances: Sequence[JointTolerances],
+    goal: Optional[object],
+) -> List[List[Segment]]:
     """The running motion continued by ``command``. Uses ``command`` up.
 
     The old motion runs on to the joining instant; a bridge leads from its desired state there to the first way-point:
@@ -151,14 +167,12 @@ def splice(current: Sequence[Sequence[Segment]], command: Command, start: float,
             result.append([segment.owned_by(goal) for segment in segments[active:]])
             continue
         last = max(active_index(segments, join), active)
-        spliced = [segment.owned_by(goal) for segment in segments[active:last + 1]]
+        spliced = [segment.owned_by(goal) for segment in segments[active : last + 1]]
         now = State(*segments[last].sample(join))
         target = states[skip]
         offset = turns_to_add(now.position, target.position) if continuous[joint] else 0.0
         target = target._replace(position=target.position + offset)
-        spliced.append(Segment(join, now, start + command.times[command.first + skip], target, 0.0, goal,
-                               tolerances[joint]))
-        spliced.extend(segment.moved(start, offset, goal, tolerances[joint])
-                       for segment in command.segments[joint][skip:])
+        spliced.append(Segment(join, now, start + command.times[command.first + skip], target, 0.0, goal, tolerances[joint]))
+        spliced.extend(segment.moved(start, offset, goal, tolerances[joint]) for segment in command.segments[joint][skip:])
         result.append(spliced)
     return result

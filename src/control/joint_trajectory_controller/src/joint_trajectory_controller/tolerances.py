@@ -1,4 +1,5 @@
 """How far a joint may be from its trajectory: parameters, overridden by what an action goal asks for."""
+
 from __future__ import annotations
 
 import math
@@ -22,8 +23,7 @@ class StateTolerance(NamedTuple):
 
         The acceleration of joints is not measured: its error counts as 0, which no tolerance forbids.
         """
-        return (violation("position", position_error, self.position)
-                or violation("velocity", velocity_error, self.velocity) or None)
+        return violation("position", position_error, self.position) or violation("velocity", velocity_error, self.velocity) or None
 
 
 class JointTolerances(NamedTuple):
@@ -49,10 +49,13 @@ def from_parameters(joints: Sequence[str], constraints: Dict) -> List[JointToler
         values = constraints.get(joint, {})
         if not isinstance(values, dict):
             raise ValueError(f"constraints/{joint} must hold 'trajectory' and 'goal', it is {values!r}")
-        result.append(JointTolerances(
-            StateTolerance(position=of_kind(f"constraints/{joint}/trajectory", values.get("trajectory", 0.0), float)),
-            StateTolerance(position=of_kind(f"constraints/{joint}/goal", values.get("goal", 0.0), float), velocity=stopped),
-            goal_time))
+        result.append(
+            JointTolerances(
+                StateTolerance(position=of_kind(f"constraints/{joint}/trajectory", values.get("trajectory", 0.0), float)),
+                StateTolerance(position=of_kind(f"constraints/{joint}/goal", values.get("goal", 0.0), float), velocity=stopped),
+                goal_time,
+            )
+        )
     return result
 
 
@@ -68,12 +71,19 @@ def overridden(defaults: Sequence[JointTolerances], joints: Sequence[str], goal)
             if any(math.isnan(v) for v in (tolerance.position, tolerance.velocity, tolerance.acceleration)):
                 raise ValueError(f"{kind}_tolerance of joint '{tolerance.name}' is NaN; use -1 to switch it off")
     goal_time = goal.goal_time_tolerance.to_sec()
-    return [JointTolerances(_override(default.path, path.get(joint)), _override(default.goal, end.get(joint)),
-                            law_of_override(default.goal_time, goal_time)) for default, joint in zip(defaults, joints)]
+    return [
+        JointTolerances(
+            _override(default.path, path.get(joint)), _override(default.goal, end.get(joint)), law_of_override(default.goal_time, goal_time)
+        )
+        for default, joint in zip(defaults, joints)
+    ]
 
 
 def _override(default: StateTolerance, message) -> StateTolerance:
     if message is None:
         return default
-    return StateTolerance(law_of_override(default.position, message.position), law_of_override(default.velocity, message.velocity),
-                          law_of_override(default.acceleration, message.acceleration))
+    return StateTolerance(
+        law_of_override(default.position, message.position),
+        law_of_override(default.velocity, message.velocity),
+        law_of_override(default.acceleration, message.acceleration),
+    )

@@ -1,4 +1,5 @@
 """What the trajectory controllers write to each kind of joint."""
+
 from __future__ import annotations
 
 import math
@@ -6,8 +7,14 @@ from typing import ClassVar, Type
 
 from control_toolbox import load_pid
 from controller_interface import ParameterError
-from hardware_interface import (EffortJointInterface, HardwareInterface, PosVelAccJointInterface, PosVelJointInterface,
-                                PositionJointInterface, VelocityJointInterface)
+from hardware_interface import (
+    EffortJointInterface,
+    HardwareInterface,
+    PositionJointInterface,
+    PosVelAccJointInterface,
+    PosVelJointInterface,
+    VelocityJointInterface,
+)
 
 from .controller import JointTrajectoryController
 
@@ -61,8 +68,9 @@ class _FeedbackTrajectoryController(JointTrajectoryController):
     feeds_back = True
 
     def init_output(self, handles, controller_nh):
-        self._outputs = [(handle, load_pid(controller_nh.sub(f"gains/{handle.name}")),
-                          _feed_forward(controller_nh, handle.name)) for handle in handles]
+        self._outputs = [
+            (handle, load_pid(controller_nh.sub(f"gains/{handle.name}")), _feed_forward(controller_nh, handle.name)) for handle in handles
+        ]
 
     def start_output(self):
         for handle, pid, _ in self._outputs:

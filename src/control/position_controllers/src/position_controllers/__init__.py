@@ -1,4 +1,5 @@
 """Controllers for joints that take position commands."""
+
 from .controllers import JointGroupPositionController, JointPositionController
 
 __all__ = ["JointGroupPositionController", "JointPositionController"]

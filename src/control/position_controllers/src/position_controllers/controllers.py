@@ -1,4 +1,5 @@
 """Forwarding of positions (rad or m). A controller starts with the position that the joint has, so nothing jumps."""
+
 from forward_command_controller import ForwardCommandController, ForwardJointGroupCommandController
 from hardware_interface import JointHandle, PositionJointInterface
 

@@ -1,7 +1,8 @@
 """Publishing from a control loop without blocking it."""
-from .prompt import make_prompt
+
 from node_signals.rates import RateGate
 
+from .prompt import make_prompt
 from .publisher import RealtimePublisher
 
 __all__ = ["RateGate", "RealtimePublisher", "make_prompt"]

@@ -1,4 +1,5 @@
 """Action server whose goals are finished by a control loop without blocking it."""
+
 from __future__ import annotations
 
 import queue
@@ -61,11 +62,15 @@ class RealtimeActionServer:
     :param on_cancel: called with the id of a goal that a client wants cancelled
     """
 
-    def __init__(self, name: str, action: type, on_goal: Callable[[RealtimeGoal], None],
-                 on_cancel: Callable[[str], None]):
+    def __init__(self, name: str, action: type, on_goal: Callable[[RealtimeGoal], None], on_cancel: Callable[[str], None]):
         self._outbox: queue.SimpleQueue = queue.SimpleQueue()
-        self._server = _Server(name, action, lambda handle: on_goal(RealtimeGoal(handle, self._outbox)),
-                               lambda handle: on_cancel(handle.get_goal_id().id), auto_start=False)
+        self._server = _Server(
+            name,
+            action,
+            lambda handle: on_goal(RealtimeGoal(handle, self._outbox)),
+            lambda handle: on_cancel(handle.get_goal_id().id),
+            auto_start=False,
+        )
         self._thread = threading.Thread(target=self._publish, name=f"action {name}", daemon=True)
         self._thread.start()
         self._server.start()

@@ -1,4 +1,5 @@
 """Makes a rospy publisher fit for a loop that calls it 1000 times a second and more."""
+
 from __future__ import annotations
 
 import socket

@@ -1,4 +1,5 @@
 """A publisher for control loops."""
+
 from __future__ import annotations
 
 from typing import Any

@@ -11,12 +11,23 @@ A robot driver whose hardware speaks actuator coordinates::
 
 A type of one's own is a class with the methods of ``Transmission``, exported for ``transmission_interface``.
 """
+
 from .loader import RobotTransmissions, TransmissionInterfaceLoader
 from .parser import ActuatorInfo, JointInfo, TransmissionInfo, parse_transmissions
 from .pipelines import TransmissionPipeline
-from .transmissions import (DifferentialTransmission, FourBarLinkageTransmission, SimpleTransmission, Transmission,
-                            TransmissionError)
+from .transmissions import DifferentialTransmission, FourBarLinkageTransmission, SimpleTransmission, Transmission, TransmissionError
 
-__all__ = ["ActuatorInfo", "DifferentialTransmission", "FourBarLinkageTransmission", "JointInfo", "RobotTransmissions",
-           "SimpleTransmission", "Transmission", "TransmissionError", "TransmissionInfo", "TransmissionInterfaceLoader",
-           "TransmissionPipeline", "parse_transmissions"]
+__all__ = [
+    "ActuatorInfo",
+    "DifferentialTransmission",
+    "FourBarLinkageTransmission",
+    "JointInfo",
+    "RobotTransmissions",
+    "SimpleTransmission",
+    "Transmission",
+    "TransmissionError",
+    "TransmissionInfo",
+    "TransmissionInterfaceLoader",
+    "TransmissionPipeline",
+    "parse_transmissions",
+]

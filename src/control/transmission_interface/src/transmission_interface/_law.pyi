@@ -12,8 +12,7 @@ class Law:
     @overload
     def __init__(self, law: Law, /) -> None: ...
     @overload
-    def __init__(self, coupling: Coupling, n: Sequence[float], m: Sequence[float], offset: Sequence[float],
-                 crosswise: bool, /) -> None: ...
+    def __init__(self, coupling: Coupling, n: Sequence[float], m: Sequence[float], offset: Sequence[float], crosswise: bool, /) -> None: ...
     def position_to_joint(self, a: Sequence[float]) -> Sequence[float]: ...
     def velocity_to_joint(self, a: Sequence[float]) -> Sequence[float]: ...
     def effort_to_joint(self, a: Sequence[float]) -> Sequence[float]: ...
@@ -24,10 +23,11 @@ class Law:
 
 Part = Tuple[str, str, Optional[str], Optional[str], bool]  # name, role, <mechanicalReduction>, <offset>, <ignore...Encoder>
 
-def plan(coupling: Coupling, name: str, type: str, actuators: Sequence[Part],
-         joints: Sequence[Part]) -> Tuple[Law, List[int], List[int]]:
+def plan(coupling: Coupling, name: str, type: str, actuators: Sequence[Part], joints: Sequence[Part]) -> Tuple[Law, List[int], List[int]]:
     """A transmission, and the indices of its actuators and joints in its order. :raises TransmissionError: it cannot be"""
+
 def asked_for(written: str) -> Tuple[str, bool]:
     """(position, velocity, effort, state or "" for unknown; both ways) of a <hardwareInterface>."""
+
 def known_interfaces(name: str, interfaces: Sequence[Sequence[str]]) -> List[str]:
     """:param interfaces: of each joint. :raises TransmissionError: they differ, or none is known"""

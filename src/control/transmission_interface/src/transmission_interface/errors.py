@@ -1,4 +1,5 @@
 """What can go wrong with a transmission."""
+
 from hardware_interface import ControlError
 
 

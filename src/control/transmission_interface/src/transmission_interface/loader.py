@@ -1,4 +1,5 @@
 """Transmissions of a URDF, brought to life between the actuators and the joint interfaces of a robot."""
+
 from __future__ import annotations
 
 from functools import lru_cache
@@ -6,10 +7,21 @@ from math import nan
 from typing import Dict, List, Sequence, Tuple, Type
 
 import rospy
-from hardware_interface import (ActuatorStateInterface, EffortActuatorInterface, EffortJointInterface,
-                                HardwareInterface, JointHandle, JointStateHandle, JointStateInterface,
-                                PositionActuatorInterface, PositionJointInterface, ResourceError, RobotHW,
-                                VelocityActuatorInterface, VelocityJointInterface)
+from hardware_interface import (
+    ActuatorStateInterface,
+    EffortActuatorInterface,
+    EffortJointInterface,
+    HardwareInterface,
+    JointHandle,
+    JointStateHandle,
+    JointStateInterface,
+    PositionActuatorInterface,
+    PositionJointInterface,
+    ResourceError,
+    RobotHW,
+    VelocityActuatorInterface,
+    VelocityJointInterface,
+)
 from plugin_loader import PluginClass, PluginError, find_plugins
 
 from ._law import asked_for, known_interfaces
@@ -81,8 +93,9 @@ class TransmissionInterfaceLoader:
         """Load one transmission. :raises TransmissionError: it cannot be."""
         plugin = self._types.get(info.type)
         if plugin is None:
-            raise TransmissionError(f"transmission '{info.name}': type '{info.type}' does not exist; there are: "
-                                    f"{', '.join(sorted(self._types)) or 'none'}")
+            raise TransmissionError(
+                f"transmission '{info.name}': type '{info.type}' does not exist; there are: {', '.join(sorted(self._types)) or 'none'}"
+            )
         try:
             transmission, actuator_order, joint_order = plugin.load().from_info(info)
         except PluginError as error:
@@ -113,8 +126,15 @@ class TransmissionInterfaceLoader:
         for problem in problems:
             rospy.logerr("%s", problem)
 
-    def _connect(self, kind: str, bidirectional: bool, info: TransmissionInfo, transmission: Transmission,
-                 actuators: Sequence[str], states: Sequence[JointStateHandle]) -> None:
+    def _connect(
+        self,
+        kind: str,
+        bidirectional: bool,
+        info: TransmissionInfo,
+        transmission: Transmission,
+        actuators: Sequence[str],
+        states: Sequence[JointStateHandle],
+    ) -> None:
         joint_interface, actuator_interface = _KINDS[kind]
         actuator_handles = self._actuators(actuator_interface, actuators, info)
         interface = self._interface(joint_interface)
@@ -144,8 +164,9 @@ class TransmissionInterfaceLoader:
     def _actuators(self, interface: Type[HardwareInterface], names: Sequence[str], info: TransmissionInfo) -> List:
         found = self._hw.get(interface)
         if found is None:
-            raise TransmissionError(f"transmission '{info.name}' needs actuators with {interface.type_name}, which "
-                                    f"this robot does not have")
+            raise TransmissionError(
+                f"transmission '{info.name}' needs actuators with {interface.type_name}, which this robot does not have"
+            )
         try:
             return [found.get_handle(name) for name in names]
         except ResourceError as error:

@@ -1,4 +1,5 @@
 """``<transmission>`` elements of a URDF. Bad ones are left out one by one, each with a line saying why."""
+
 from __future__ import annotations
 
 from dataclasses import dataclass, field
@@ -64,10 +65,15 @@ def _parse_one(element: ElementTree.Element, name: str, problems: List[str]) -> 
             raise _Skip("a <joint> in it has no name attribute")
         interfaces = _interfaces(entry)
         if not joint or not interfaces:
-            problems.append(f"transmission '{name}': joint '{joint}' is left out: " + (
-                "its name is empty" if not joint else
-                "it has no <hardwareInterface>, which belongs into <joint> (the one in <actuator> does not count), "
-                "e.g. <hardwareInterface>hardware_interface/EffortJointInterface</hardwareInterface>"))
+            problems.append(
+                f"transmission '{name}': joint '{joint}' is left out: "
+                + (
+                    "its name is empty"
+                    if not joint
+                    else "it has no <hardwareInterface>, which belongs into <joint> (the one in <actuator> does not count), "
+                    "e.g. <hardwareInterface>hardware_interface/EffortJointInterface</hardwareInterface>"
+                )
+            )
             continue
         joints.append(JointInfo(joint, interfaces, _text(entry, "role"), entry))
     if not joints:
@@ -82,7 +88,7 @@ def _parse_one(element: ElementTree.Element, name: str, problems: List[str]) -> 
             continue
         actuators.append(ActuatorInfo(actuator, _interfaces(entry), _text(entry, "role"), entry))
     if not actuators:
-        raise _Skip("it has no <actuator name=\"...\">")
+        raise _Skip('it has no <actuator name="...">')
     return TransmissionInfo(name, kind, tuple(joints), tuple(actuators))
 
 

@@ -1,4 +1,5 @@
 """Moving states and commands through transmissions, once per cycle."""
+
 from __future__ import annotations
 
 from typing import Any, Callable, Dict, List, Sequence, Tuple
@@ -39,8 +40,10 @@ class TransmissionPipeline:
         :param actuators, joints: handles in the transmission's order (state handles for states, else command handles).
         """
         sources, targets = (actuators, joints) if self._target == "joint" else (joints, actuators)
-        self._entries[name] = [(field, getattr(transmission, f"{kind}_to_{self._target}"), list(sources), list(targets))
-                               for field, kind in self._fields.items()]
+        self._entries[name] = [
+            (field, getattr(transmission, f"{kind}_to_{self._target}"), list(sources), list(targets))
+            for field, kind in self._fields.items()
+        ]
 
     def names(self) -> List[str]:
         """Of the transmissions, in the order of their registration."""

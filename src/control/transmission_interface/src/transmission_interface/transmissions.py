@@ -2,6 +2,7 @@
 
 Every method takes and gives one value per actuator or joint, in SI units.
 """
+
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, List, Sequence, Tuple
@@ -59,8 +60,9 @@ class _Lawful(Law, Transmission):
 
     @classmethod
     def from_info(cls, info):
-        law, actuators, joints = plan(cls._coupling, info.name, info.type, *(
-            [_part(entry) for entry in entries] for entries in (info.actuators, info.joints)))
+        law, actuators, joints = plan(
+            cls._coupling, info.name, info.type, *([_part(entry) for entry in entries] for entries in (info.actuators, info.joints))
+        )
         made = cls.__new__(cls)
         Law.__init__(made, law)
         return made, actuators, joints
@@ -84,8 +86,13 @@ class DifferentialTransmission(_Lawful):
     num_actuators = num_joints = 2
     _coupling = Coupling.DIFFERENTIAL
 
-    def __init__(self, actuator_reduction: Sequence[float], joint_reduction: Sequence[float] = (1.0, 1.0),
-                 joint_offset: Sequence[float] = (0.0, 0.0), crosswise: bool = False):
+    def __init__(
+        self,
+        actuator_reduction: Sequence[float],
+        joint_reduction: Sequence[float] = (1.0, 1.0),
+        joint_offset: Sequence[float] = (0.0, 0.0),
+        crosswise: bool = False,
+    ):
         super().__init__(self._coupling, actuator_reduction, joint_reduction, joint_offset, crosswise)
 
 
@@ -95,8 +102,9 @@ class FourBarLinkageTransmission(_Lawful):
     num_actuators = num_joints = 2
     _coupling = Coupling.FOUR_BAR
 
-    def __init__(self, actuator_reduction: Sequence[float], joint_reduction: Sequence[float] = (1.0, 1.0),
-                 joint_offset: Sequence[float] = (0.0, 0.0)):
+    def __init__(
+        self, actuator_reduction: Sequence[float], joint_reduction: Sequence[float] = (1.0, 1.0), joint_offset: Sequence[float] = (0.0, 0.0)
+    ):
         super().__init__(self._coupling, actuator_reduction, joint_reduction, joint_offset, False)
 
 
@@ -105,5 +113,10 @@ def _part(entry) -> "Part":
     element = entry.element
     if element is None:
         return entry.name, entry.role, None, None, False
-    return (entry.name, entry.role, element.findtext("mechanicalReduction"), element.findtext("offset"),
-            element.find("ignoreTransmissionAbsoluteEncoder") is not None)
+    return (
+        entry.name,
+        entry.role,
+        element.findtext("mechanicalReduction"),
+        element.findtext("offset"),
+        element.find("ignoreTransmissionAbsoluteEncoder") is not None,
+    )

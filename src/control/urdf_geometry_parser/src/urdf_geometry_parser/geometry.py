@@ -1,4 +1,5 @@
 """Joints and wheels of a URDF."""
+
 from __future__ import annotations
 
 import math
@@ -45,8 +46,9 @@ class RobotGeometry:
             raise GeometryError(f"{source} is not a URDF: its root element is <{robot.tag}>, not <robot>")
         self._joints: Dict[str, UrdfJoint] = {}
         for element in robot.iterfind("joint"):
-            joint = UrdfJoint(element.get("name", ""), element.get("type", ""), _link(element, "parent"),
-                              _link(element, "child"), self._origin(element))
+            joint = UrdfJoint(
+                element.get("name", ""), element.get("type", ""), _link(element, "parent"), _link(element, "child"), self._origin(element)
+            )
             self._joints[joint.name] = joint
         self._links = {element.get("name", ""): element for element in robot.iterfind("link")}
 
@@ -56,8 +58,7 @@ class RobotGeometry:
         try:
             x, y, z = map(float, text.split())
         except ValueError:
-            raise GeometryError(f"joint '{joint.get('name')}' in {self._source}: origin xyz=\"{text}\" is not three "
-                                "numbers") from None
+            raise GeometryError(f"joint '{joint.get('name')}' in {self._source}: origin xyz=\"{text}\" is not three numbers") from None
         return x, y, z
 
     def joint(self, name: str) -> UrdfJoint:
@@ -68,8 +69,7 @@ class RobotGeometry:
         try:
             return self._joints[name]
         except KeyError:
-            raise GeometryError(f"joint '{name}' is not in {self._source}; it has: "
-                                f"{', '.join(sorted(self._joints)) or 'none'}") from None
+            raise GeometryError(f"joint '{name}' is not in {self._source}; it has: {', '.join(sorted(self._joints)) or 'none'}") from None
 
     def position(self, joint: str, ancestor: str) -> Vector:
         """Position of a joint in the frame of link ``ancestor``, m, adding up the origins on the way.
@@ -84,8 +84,9 @@ class RobotGeometry:
         visited = set()
         while entry.parent != ancestor:
             if entry.parent not in parents or entry.name in visited:
-                raise GeometryError(f"link '{ancestor}' is not above joint '{joint}' in {self._source}; set "
-                                    "base_frame_id to the robot's base link")
+                raise GeometryError(
+                    f"link '{ancestor}' is not above joint '{joint}' in {self._source}; set base_frame_id to the robot's base link"
+                )
             visited.add(entry.name)
             entry = parents[entry.parent]
             x, y, z = x + entry.origin[0], y + entry.origin[1], z + entry.origin[2]
@@ -115,8 +116,10 @@ class RobotGeometry:
             if radius > 0.0:
                 return radius
         found = "none" if geometry is None or not len(geometry) else f"a {geometry[0].tag}"
-        raise GeometryError(f"wheel link '{name}' of joint '{joint}' needs a collision geometry that is a "
-                            f"{' or '.join(shapes)} with a radius, it has {found}; or set the radius by parameter")
+        raise GeometryError(
+            f"wheel link '{name}' of joint '{joint}' needs a collision geometry that is a "
+            f"{' or '.join(shapes)} with a radius, it has {found}; or set the radius by parameter"
+        )
 
 
 def _link(joint: ET.Element, role: str) -> str:

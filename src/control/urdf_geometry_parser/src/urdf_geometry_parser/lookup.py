@@ -1,4 +1,5 @@
 """The robot description on the parameter server."""
+
 from __future__ import annotations
 
 import rospy

@@ -1,4 +1,5 @@
 """Forwarding of velocities (rad/s or m/s), and position control by velocities."""
+
 from effort_controllers import PidPositionController
 from forward_command_controller import ForwardCommandController, ForwardJointGroupCommandController
 from hardware_interface import VelocityJointInterface
