@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """The driver with a board on a pseudo-terminal: wheels, servos and pins over the real protocol."""
+
 import subprocess
 import time
 import unittest
@@ -21,14 +22,29 @@ WIDTH, TICKS = 0.26, 4100
 class Board(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.board = BoardSimulator(servo_ids=(4,), encoders=(2 ** 31 - 50, -2 ** 31 + 50))  # about to wrap
+        cls.board = BoardSimulator(servo_ids=(4,), encoders=(2**31 - 50, -(2**31) + 50))  # about to wrap
         cls.board.registers[BOARD][18 + 2] = 200
-        rospy.set_param("/arbotix", {
-            "port": cls.board.port, "timeout": 1.0,
-            "joints": {"pan": {"id": 4}},
-            "analog_sensors": {"battery": {"pin": 2, "rate": 10}},
-            "controllers": {"base": {"type": "diff_controller", "base_width": WIDTH, "ticks_meter": TICKS, "Kp": 12,
-                                     "Kd": 12, "Ki": 0, "Ko": 50, "accel_limit": 1.0}}})
+        rospy.set_param(
+            "/arbotix",
+            {
+                "port": cls.board.port,
+                "timeout": 1.0,
+                "joints": {"pan": {"id": 4}},
+                "analog_sensors": {"battery": {"pin": 2, "rate": 10}},
+                "controllers": {
+                    "base": {
+                        "type": "diff_controller",
+                        "base_width": WIDTH,
+                        "ticks_meter": TICKS,
+                        "Kp": 12,
+                        "Kd": 12,
+                        "Ki": 0,
+                        "Ko": 50,
+                        "accel_limit": 1.0,
+                    }
+                },
+            },
+        )
         cls.driver = subprocess.Popen(["rosrun", "arbotix_python", "arbotix_driver"])
 
     @classmethod
@@ -51,8 +67,10 @@ class Board(unittest.TestCase):
             commands.publish(twist)
             time.sleep(0.01)
         odometry.wait_for(lambda m: m.twist.twist.linear.x > 0.2, "motion")
-        odometry.wait_for(lambda m: len(odometry.messages) > 30 and m is odometry.messages[-1]
-                          and m.twist.twist.linear.x == 0, "stop after the time-out of 1 s")
+        odometry.wait_for(
+            lambda m: len(odometry.messages) > 30 and m is odometry.messages[-1] and m.twist.twist.linear.x == 0,
+            "stop after the time-out of 1 s",
+        )
         self.assertEqual(self.board.gains, [12, 12, 0, 50])
         for before, after in zip(self.board.wheel_speeds, self.board.wheel_speeds[1:]):
             self.assertLessEqual(max(abs(a - b) for a, b in zip(after, before)), TICKS / 10)
@@ -61,7 +79,7 @@ class Board(unittest.TestCase):
         turned = sum(right - left for left, right in self.board.wheel_speeds) * 3 / TICKS / WIDTH
         chord = odometry.messages[-1].pose.pose.position
         self.assertGreater(turned, 0)
-        self.assertAlmostEqual((chord.x ** 2 + chord.y ** 2) ** 0.5, way, delta=0.05 * way)
+        self.assertAlmostEqual((chord.x**2 + chord.y**2) ** 0.5, way, delta=0.05 * way)
 
     def test_servo(self):
         states = Collector("/joint_states", JointState)
@@ -77,6 +95,7 @@ class Board(unittest.TestCase):
         def reported(message):
             pairs = {pair.key: pair.value for entry in message.status if entry.name == "pan" for pair in entry.values}
             return pairs.get("Voltage") == "11.8" and pairs.get("Temperature") == "31"
+
         diagnostics.wait_for(reported, "voltage and temperature")
 
     def test_pin(self):

@@ -1,4 +1,5 @@
 """An ArbotiX board on a pseudo-terminal: bus servos that jump to their goal, wheels with encoders, pins."""
+
 import os
 import select
 import struct
@@ -6,8 +7,19 @@ import threading
 import tty
 
 from arbotix_python.ax12 import (
-    AX_CONTROL_SETUP, AX_CONTROL_STAT, AX_CONTROL_WRITE, AX_PING, AX_READ_DATA, AX_SYNC_READ, AX_SYNC_WRITE,
-    AX_WRITE_DATA, P_GOAL_POSITION_L, P_PRESENT_POSITION_L, P_PRESENT_TEMPERATURE, P_PRESENT_VOLTAGE)
+    AX_CONTROL_SETUP,
+    AX_CONTROL_STAT,
+    AX_CONTROL_WRITE,
+    AX_PING,
+    AX_READ_DATA,
+    AX_SYNC_READ,
+    AX_SYNC_WRITE,
+    AX_WRITE_DATA,
+    P_GOAL_POSITION_L,
+    P_PRESENT_POSITION_L,
+    P_PRESENT_TEMPERATURE,
+    P_PRESENT_VOLTAGE,
+)
 from arbotix_python.packets import decode, encode
 
 BOARD, EVERYONE = 253, 254
@@ -24,7 +36,7 @@ class BoardSimulator(threading.Thread):
         self.port = os.ttyname(self._slave)
         self.registers = {index: bytearray(128) for index in (*servo_ids, BOARD)}
         for index in servo_ids:
-            self.registers[index][P_PRESENT_POSITION_L:P_PRESENT_POSITION_L + 2] = struct.pack("<H", 512)
+            self.registers[index][P_PRESENT_POSITION_L : P_PRESENT_POSITION_L + 2] = struct.pack("<H", 512)
             self.registers[index][P_PRESENT_VOLTAGE] = 118
             self.registers[index][P_PRESENT_TEMPERATURE] = 31
         self.gains = None
@@ -61,26 +73,24 @@ class BoardSimulator(threading.Thread):
 
     def _write(self, index, start, values):
         registers = self.registers[index]
-        registers[start:start + len(values)] = bytes(values)
+        registers[start : start + len(values)] = bytes(values)
         if index != BOARD:
-            registers[P_PRESENT_POSITION_L:P_PRESENT_POSITION_L + 2] = \
-                registers[P_GOAL_POSITION_L:P_GOAL_POSITION_L + 2]
+            registers[P_PRESENT_POSITION_L : P_PRESENT_POSITION_L + 2] = registers[P_GOAL_POSITION_L : P_GOAL_POSITION_L + 2]
 
     def _obey(self, index, instruction, parameters):
         if index == EVERYONE and instruction == AX_SYNC_WRITE:
             start, length = parameters[:2]
             for place in range(2, len(parameters), length + 1):
-                self._write(parameters[place], start, parameters[place + 1:place + 1 + length])
+                self._write(parameters[place], start, parameters[place + 1 : place + 1 + length])
         elif index == EVERYONE and instruction == AX_SYNC_READ:
             start, length = parameters[:2]
             if all(servo in self.registers for servo in parameters[2:]):
-                self._answer(BOARD, [byte for servo in parameters[2:]
-                                     for byte in self.registers[servo][start:start + length]])
+                self._answer(BOARD, [byte for servo in parameters[2:] for byte in self.registers[servo][start : start + length]])
         elif index not in self.registers:
             return  # nobody there
         elif instruction == AX_READ_DATA:
             start, length = parameters
-            self._answer(index, self.registers[index][start:start + length])
+            self._answer(index, self.registers[index][start : start + length])
         elif instruction == AX_WRITE_DATA:
             self._write(index, parameters[0], parameters[1:])
             self._answer(index)
@@ -95,5 +105,5 @@ class BoardSimulator(threading.Thread):
         elif instruction == AX_CONTROL_STAT:
             for wheel in (0, 1):
                 moved = self._encoders[wheel] + FRAMES_PER_POLL * self.wheel_speeds[-1][wheel]
-                self._encoders[wheel] = (moved + 2 ** 31) % 2 ** 32 - 2 ** 31
+                self._encoders[wheel] = (moved + 2**31) % 2**32 - 2**31
             self._answer(index, struct.pack("<ll", *self._encoders))

@@ -1,4 +1,5 @@
 """What the rostests share: a simulated clock, and waiting for messages with time running."""
+
 import threading
 
 import rospy
@@ -49,8 +50,10 @@ class Collector:
 
     def wait_for(self, condition, what):
         """The first message, old or new, for which `condition` holds; AssertionError after a minute of wall time."""
+
         def found():
             return next((message for message in list(self.messages) if condition(message)), None)
+
         with self._changed:
             assert self._changed.wait_for(lambda: found() is not None, timeout=60), what + " did not come"
             return found()

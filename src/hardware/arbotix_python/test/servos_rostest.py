@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Simulated servos: single commands at limited speed, whole ticks, torque services, trajectories."""
+
 import math
 import unittest
 
@@ -33,8 +34,7 @@ class Servos(unittest.TestCase):
 
     def arrive(self, joint, angle, tick):
         self.states.messages.clear()
-        return self.states.wait_for(lambda m: abs(place_of(m, joint) - angle) <= tick / 2 + 1e-9,
-                                    "%s at %s" % (joint, angle))
+        return self.states.wait_for(lambda m: abs(place_of(m, joint) - angle) <= tick / 2 + 1e-9, "%s at %s" % (joint, angle))
 
     def publisher(self, joint):
         publisher = rospy.Publisher("/%s/command" % joint, Float64, queue_size=1, latch=True)
@@ -44,8 +44,7 @@ class Servos(unittest.TestCase):
     def goal(self, *points, joints=("pan", "tilt")):
         goal = FollowJointTrajectoryGoal()
         goal.trajectory.joint_names = joints
-        goal.trajectory.points = [JointTrajectoryPoint(positions=places, time_from_start=rospy.Duration(time))
-                                  for time, places in points]
+        goal.trajectory.points = [JointTrajectoryPoint(positions=places, time_from_start=rospy.Duration(time)) for time, places in points]
         return goal
 
     def test_command_at_limited_speed(self):
@@ -85,8 +84,9 @@ class Servos(unittest.TestCase):
         self.arrive("tilt", 0.3, TILT_TICK)
 
     def test_trajectory(self):
-        self.assertEqual(self.client.send_goal_and_wait(
-            self.goal((1.0, (0.4, -0.4)), (2.0, (-0.3, 0.6))), rospy.Duration(300)), GoalStatus.SUCCEEDED)
+        self.assertEqual(
+            self.client.send_goal_and_wait(self.goal((1.0, (0.4, -0.4)), (2.0, (-0.3, 0.6))), rospy.Duration(300)), GoalStatus.SUCCEEDED
+        )
         state = self.arrive("tilt", 0.6, TILT_TICK)
         self.assertAlmostEqual(place_of(state, "pan"), -0.3, delta=PAN_TICK)
         most = max(place_of(m, "pan") for m in self.states.messages)
@@ -94,9 +94,15 @@ class Servos(unittest.TestCase):
 
     def test_bad_goals_are_refused(self):
         nan, far = float("nan"), 1e308
-        for goal in (self.goal((1.0, (0.1,)), joints=("pan",)), self.goal(), self.goal((1.0, (0.1,))),
-                     self.goal((1.0, (nan, 0.1))), self.goal((1.0, (0.1, far))), self.goal((-1e9, (0.1, 0.1))),
-                     self.goal((1.0, (0.1, 0.1)), (0.5, (0.2, 0.2)))):
+        for goal in (
+            self.goal((1.0, (0.1,)), joints=("pan",)),
+            self.goal(),
+            self.goal((1.0, (0.1,))),
+            self.goal((1.0, (nan, 0.1))),
+            self.goal((1.0, (0.1, far))),
+            self.goal((-1e9, (0.1, 0.1))),
+            self.goal((1.0, (0.1, 0.1)), (0.5, (0.2, 0.2))),
+        ):
             self.assertEqual(self.client.send_goal_and_wait(goal, rospy.Duration(300)), GoalStatus.ABORTED)
 
     def test_cancel(self):

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """The driver without a board: odometry from velocity commands, frames, joint states, bad configuration."""
+
 import math
 import signal
 import subprocess
@@ -41,7 +42,8 @@ class SimulatedBase(unittest.TestCase):
 
         last = run[-1].pose.pose.position
         message = transforms.wait_for(
-            lambda m: abs(m.transforms[0].transform.translation.x - last.x) < 1e-12, "transform of the last odometry")
+            lambda m: abs(m.transforms[0].transform.translation.x - last.x) < 1e-12, "transform of the last odometry"
+        )
         transform = message.transforms[0]
         self.assertEqual((transform.header.frame_id, transform.child_frame_id), ("odom", "base_footprint"))
         self.assertAlmostEqual(transform.transform.translation.y, last.y, places=12)
@@ -71,15 +73,22 @@ class SimulatedBase(unittest.TestCase):
         self.assertEqual([pair.key for pair in status.values], ["dX", "dR"])
 
     def test_bad_configuration_is_named_and_left_out(self):
-        rospy.set_param("/broken", {"sim": True, "controllers": {
-            "wings": {"type": "flapping_controller"}, "narrow": {"type": "diff_controller", "ticks_meter": 4100},
-            "head": {"type": "follow_controller", "joints": ["neck"], "action_name": "nod"},
-            "still": {"type": "diff_controller", "ticks_meter": 4100, "base_width": 0.2, "rate": 0},
-            "wordy": {"type": "diff_controller", "ticks_meter": "many", "base_width": 0.2},
-            "tail": {"type": "follow_controller", "joints": "neck"}},
-            "joints": {"endless": {"id": 1, "range": math.inf}}})
-        driver = subprocess.Popen(["rosrun", "arbotix_python", "arbotix_driver", "__name:=broken"],
-                                  stderr=subprocess.PIPE, text=True)
+        rospy.set_param(
+            "/broken",
+            {
+                "sim": True,
+                "controllers": {
+                    "wings": {"type": "flapping_controller"},
+                    "narrow": {"type": "diff_controller", "ticks_meter": 4100},
+                    "head": {"type": "follow_controller", "joints": ["neck"], "action_name": "nod"},
+                    "still": {"type": "diff_controller", "ticks_meter": 4100, "base_width": 0.2, "rate": 0},
+                    "wordy": {"type": "diff_controller", "ticks_meter": "many", "base_width": 0.2},
+                    "tail": {"type": "follow_controller", "joints": "neck"},
+                },
+                "joints": {"endless": {"id": 1, "range": math.inf}},
+            },
+        )
+        driver = subprocess.Popen(["rosrun", "arbotix_python", "arbotix_driver", "__name:=broken"], stderr=subprocess.PIPE, text=True)
         try:
             states = Collector("/joint_states", JointState)
             states.wait_for(lambda m: m._connection_header["callerid"] == "/broken", "joint states all the same")
@@ -97,11 +106,11 @@ class SimulatedBase(unittest.TestCase):
 
     def test_a_driver_that_cannot_start_says_why(self):
         rospy.set_param("/halted", {"sim": True, "read_rate": "often"})
-        driver = subprocess.run(["rosrun", "arbotix_python", "arbotix_driver", "__name:=halted"], stderr=subprocess.PIPE,
-                                text=True, timeout=60)
+        driver = subprocess.run(
+            ["rosrun", "arbotix_python", "arbotix_driver", "__name:=halted"], stderr=subprocess.PIPE, text=True, timeout=60
+        )
         self.assertEqual(driver.returncode, 1)
-        self.assertRegex(driver.stderr, "arbotix cannot start: parameter /halted/read_rate must be a number above 0, it is "
-                                        "'often'")
+        self.assertRegex(driver.stderr, "arbotix cannot start: parameter /halted/read_rate must be a number above 0, it is 'often'")
         self.assertNotIn("Traceback", driver.stderr)
 
 

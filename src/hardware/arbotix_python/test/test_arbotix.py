@@ -1,4 +1,5 @@
 """The serial protocol, and ArbotiX against a board on a pseudo-terminal."""
+
 import io
 import os
 import pathlib
@@ -41,12 +42,12 @@ def test_decode_refuses_damage(parameters, data):
 @given(st.lists(BYTES, max_size=10), st.data())
 def test_decode_refuses_the_incomplete(parameters, data):
     packet = encode(7, 0, parameters)
-    assert decode(io.BytesIO(packet[:data.draw(st.integers(0, len(packet) - 1))]).read) is None
+    assert decode(io.BytesIO(packet[: data.draw(st.integers(0, len(packet) - 1))]).read) is None
 
 
 def test_counter_wraps():
-    assert ticks_moved(-2 ** 31 + 4, 2 ** 31 - 6) == 10
-    assert ticks_moved(2 ** 31 - 6, -2 ** 31 + 4) == -10
+    assert ticks_moved(-(2**31) + 4, 2**31 - 6) == 10
+    assert ticks_moved(2**31 - 6, -(2**31) + 4) == -10
 
 
 @pytest.fixture

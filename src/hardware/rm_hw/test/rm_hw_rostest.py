@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """rm_hw driving motors of the bench through a serial port, with every fault while it runs, and every way to end."""
+
 import math
 import os
 import re
@@ -21,8 +22,7 @@ from test_support import wait_until
 
 PATIENCE = 60.0
 GEAR = 19.2032
-CONTROLLERS = ("joint_states_controller", "arm_position", "arm_velocity", "arm_effort", "wheel_effort", "yaw_effort",
-               "arm_broken")
+CONTROLLERS = ("joint_states_controller", "arm_position", "arm_velocity", "arm_effort", "wheel_effort", "yaw_effort", "arm_broken")
 
 
 class Watch:
@@ -78,8 +78,7 @@ class RmHwTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.watch = Watch()
-        cls.commands = {name: rospy.Publisher(f"/{name}/command", Float64, queue_size=1, latch=True)
-                        for name in CONTROLLERS[1:-1]}
+        cls.commands = {name: rospy.Publisher(f"/{name}/command", Float64, queue_size=1, latch=True) for name in CONTROLLERS[1:-1]}
         rospy.wait_for_service("/motor_bench/command", PATIENCE)
         cls.start()
 
@@ -87,8 +86,9 @@ class RmHwTest(unittest.TestCase):
     def start(cls):
         cls.watch.state = None
         with open(cls.watch.log.name, "a") as log:
-            cls.process = subprocess.Popen(["rosrun", "rm_hw", "rm_hw", "__name:=rm_hw"], stdout=log, stderr=log,
-                                           env={**os.environ, "PYTHONUNBUFFERED": "1"})
+            cls.process = subprocess.Popen(
+                ["rosrun", "rm_hw", "rm_hw", "__name:=rm_hw"], stdout=log, stderr=log, env={**os.environ, "PYTHONUNBUFFERED": "1"}
+            )
         wait_until(lambda: cls.watch.truth and cls.watch.state and not any(cls.watch.state.halted), "all motors answer")
         for name in CONTROLLERS:
             assert rospy.ServiceProxy("/controller_manager/load_controller", LoadController)(name).ok
@@ -102,8 +102,7 @@ class RmHwTest(unittest.TestCase):
     def run_only(self, *names):
         """Switch so that exactly these controllers run."""
         stop, start = [n for n in self.running if n not in names], [n for n in names if n not in self.running]
-        self.assertTrue(rospy.ServiceProxy("/controller_manager/switch_controller", SwitchController)(
-            start, stop, 2, True, 0.0).ok)
+        self.assertTrue(rospy.ServiceProxy("/controller_manager/switch_controller", SwitchController)(start, stop, 2, True, 0.0).ok)
         type(self).running = list(names)
 
     def setUp(self):
@@ -148,16 +147,17 @@ class RmHwTest(unittest.TestCase):
 
         def arm(field):
             return getattr(self.watch.joints, field)[self.watch.joints.name.index("arm")]
+
         # what is left over is gravity (at most 0.981 Nm) and dry friction (0.14 Nm) over p = 30
-        wait_until(lambda: abs(arm("position") - target) < 1.15 / 30 and abs(arm("velocity")) < 0.01,
-                   "the arm is there")
+        wait_until(lambda: abs(arm("position") - target) < 1.15 / 30 and abs(arm("velocity")) < 0.01, "the arm is there")
         # joint_states and actuator_states are of different moments: they agree when the arm rests
-        wait_until(lambda: abs(self.watch.of("arm_motor", "executed_effort") * GEAR - 30 * (target - arm("position"))) < 0.05,
-                   "the effort is the controller's")
+        wait_until(
+            lambda: abs(self.watch.of("arm_motor", "executed_effort") * GEAR - 30 * (target - arm("position"))) < 0.05,
+            "the effort is the controller's",
+        )
         truth = self.watch.real("arm_motor", "position")
         self.drive("arm_velocity", 3.1415)
-        wait_until(lambda: self.watch.real("arm_motor", "position") > truth + 4 * math.pi,
-                   "two turns at velocity control")
+        wait_until(lambda: self.watch.real("arm_motor", "position") > truth + 4 * math.pi, "two turns at velocity control")
 
     def test_effort_is_limited_and_stops_with_its_controller(self):
         bench("hold arm_motor")

@@ -1,11 +1,12 @@
 """Counts to SI units, turns, silence, heat, limits."""
+
 import math
 import os
 
 import pytest
 import yaml
-from hypothesis import given, settings, strategies as st
-
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from rm_hw.actuator import Actuator
 from rm_hw.coefficients import Coefficients, ConfigError
 from rm_hw.frames import CheetahReply, Feedback
@@ -40,8 +41,7 @@ def test_turns_are_counted_over_any_path(steps, first):
     assert actuator.circle == total // 8192
 
 
-@pytest.mark.parametrize("type_name, per_turn", [("rm_3508", 2 * math.pi), ("rm_6020", 2 * math.pi),
-                                                 ("rm_2006", 2 * math.pi / 36)])
+@pytest.mark.parametrize("type_name, per_turn", [("rm_3508", 2 * math.pi), ("rm_6020", 2 * math.pi), ("rm_2006", 2 * math.pi / 36)])
 def test_a_thousand_turns_keep_their_length(type_name, per_turn):
     actuator = make(type_name, 0x205)
     feed(actuator, range(0, 1000 * 8192 + 1, 2048), interval=0.001)
@@ -120,7 +120,7 @@ def test_heat_disables():
 
 def test_cheetah_range_is_unwrapped():
     actuator = make("cheetah", 1)
-    counts = [60000, 65000, (65000 + 2000) % 65536]      # crosses the end of the 25 rad range
+    counts = [60000, 65000, (65000 + 2000) % 65536]  # crosses the end of the 25 rad range
     for i, position in enumerate(counts):
         actuator.on_cheetah(CheetahReply(1, position, 2048, 2048), 1.0 + 0.001 * i, 1.0 + 0.001 * i)
     assert actuator.circle == 1

@@ -1,18 +1,17 @@
 """The bench as a driver sees it: through python-can's own slcan back-end, with every fault."""
+
 import random
 import time
 
 import can
 import pytest
-
 from rm_hw import protocol_lines
 from rm_hw.bench.bus import Bench, BenchError
 from rm_hw.bench.replay import Replay
 from rm_hw.candump import format_frame
 from rm_hw.frames import pack_command, pack_feedback, unpack_feedback
 
-FREE = {"motors": {"a": {"bus": "can0", "id": 0x201, "type": "rm_3508"},
-                   "b": {"bus": "can0", "id": 0x205, "type": "rm_6020"}}}
+FREE = {"motors": {"a": {"bus": "can0", "id": 0x201, "type": "rm_3508"}, "b": {"bus": "can0", "id": 0x205, "type": "rm_6020"}}}
 
 
 @pytest.fixture
@@ -24,8 +23,7 @@ def bench(tmp_path):
 
 def connect(bench, prefix="lines://", suffix=""):
     protocol_lines.register()
-    bus = can.Bus(interface="slcan", channel=f"{prefix}{bench.directory}/can0{suffix}", bitrate=1000000,
-                  sleep_after_open=0)
+    bus = can.Bus(interface="slcan", channel=f"{prefix}{bench.directory}/can0{suffix}", bitrate=1000000, sleep_after_open=0)
     while not any(port.open for port in bench.buses["can0"].ports if port.path.endswith("can0" + suffix)):
         bench.listen()
     return bus
@@ -105,7 +103,7 @@ def test_garbage_is_counted_and_frames_go_on(bench):
         bench.command("garbage can0 200")
         bench.tick()
         bench.tick()
-        received = take(bus, 3)            # noise may swallow the first frame behind it, never the next ones
+        received = take(bus, 3)  # noise may swallow the first frame behind it, never the next ones
         assert received[-1] is not None and set(ids(received)) == {0x201, 0x205}
         while bus.recv(0.002):
             pass
@@ -151,7 +149,7 @@ def test_faults_of_one_motor_leave_the_other_alone(bench):
     bench.command("late a 0")
     bench.command("rate b 250")
     tick(100)
-    late = 10                              # frames of a that were still under way
+    late = 10  # frames of a that were still under way
     assert ids(take(bus, 125 + late)).count(0x205) == 25
     bus.shutdown()
 
@@ -194,20 +192,33 @@ def test_an_arm_is_held_until_somebody_listens(tmp_path):
     bench.close()
 
 
-@pytest.mark.parametrize("line, remedy", [
-    ("jump a", "no bench command"), ("leave c", "there are a, b"), ("turn a", "turn MOTOR RADIANS"),
-    ("rate a 333", "1000, 500, 250 and 125"), ("busoff a", "there are can0"), ("", "no bench command")])
+@pytest.mark.parametrize(
+    "line, remedy",
+    [
+        ("jump a", "no bench command"),
+        ("leave c", "there are a, b"),
+        ("turn a", "turn MOTOR RADIANS"),
+        ("rate a 333", "1000, 500, 250 and 125"),
+        ("busoff a", "there are can0"),
+        ("", "no bench command"),
+    ],
+)
 def test_wrong_commands_say_how_it_is_done(bench, line, remedy):
     with pytest.raises(BenchError, match=remedy):
         bench.command(line)
 
 
-@pytest.mark.parametrize("motors, remedy", [
-    ({}, "no motors"), ({"a": {"bus": "can0", "id": 1}}, "no type"),
-    ({"a": {"bus": "can0", "id": 0x201, "type": "rm_9000"}}, "known: rm_3508"),
-    ({"a": {"bus": "can0", "id": 1, "type": "rm_3508"}}, "0x201..0x20B"),
-    ({name: {"bus": "can0", "id": 0x201, "type": "rm_3508"} for name in "ab"}, "twice"),
-    ({"a": {"bus": "can0", "id": 0x201, "type": "rm_3508", "load": {"weight": 3}}}, "weight")])
+@pytest.mark.parametrize(
+    "motors, remedy",
+    [
+        ({}, "no motors"),
+        ({"a": {"bus": "can0", "id": 1}}, "no type"),
+        ({"a": {"bus": "can0", "id": 0x201, "type": "rm_9000"}}, "known: rm_3508"),
+        ({"a": {"bus": "can0", "id": 1, "type": "rm_3508"}}, "0x201..0x20B"),
+        ({name: {"bus": "can0", "id": 0x201, "type": "rm_3508"} for name in "ab"}, "twice"),
+        ({"a": {"bus": "can0", "id": 0x201, "type": "rm_3508", "load": {"weight": 3}}}, "weight"),
+    ],
+)
 def test_wrong_configurations_are_named(tmp_path, motors, remedy):
     with pytest.raises(BenchError, match=remedy):
         Bench({"motors": motors}, str(tmp_path))
@@ -223,6 +234,7 @@ def test_same_seed_same_frames(tmp_path):
             bench.tick()
         bench.close()
         return seen
+
     assert record() == record()
 
 
@@ -234,8 +246,9 @@ def test_a_recording_replays_what_the_motors_said(tmp_path, suffix):
         for i in range(50):
             for identifier in (0x200, 0x201):
                 data = bytes(rng.randrange(32) for _ in range(8))
-                logger.on_message_received(can.Message(timestamp=100 + i * 0.001, arbitration_id=identifier, data=data,
-                                                       is_extended_id=False, channel="can0"))
+                logger.on_message_received(
+                    can.Message(timestamp=100 + i * 0.001, arbitration_id=identifier, data=data, is_extended_id=False, channel="can0")
+                )
                 if identifier == 0x201:
                     sent.append(data)
     replay = Replay(path, str(tmp_path))

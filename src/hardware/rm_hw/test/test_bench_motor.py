@@ -1,8 +1,8 @@
 """The simulated motors against figures that can be worked out by hand."""
+
 import math
 
 import pytest
-
 from rm_hw.bench.motor import SPECS, TUTORIAL_ARM, Load, Motor
 
 MS = 0.001
@@ -25,12 +25,12 @@ def test_no_load_figures_of_the_data_sheets():
 
 def test_acceleration_is_torque_over_inertia():
     spec, load = SPECS["rm_3508"], Load(inertia=0.5)
-    motor = Motor(spec, load, command=8192)                     # 10 A, 3 Nm at the output
+    motor = Motor(spec, load, command=8192)  # 10 A, 3 Nm at the output
     run(motor, 0.05)
     before = motor.output_speed
     run(motor, 0.02)
-    inertia = 0.5 + spec.inertia * motor.gear ** 2
-    torque = 10 * 0.3 - spec.coulomb * motor.gear - spec.viscous * motor.gear ** 2 * before
+    inertia = 0.5 + spec.inertia * motor.gear**2
+    torque = 10 * 0.3 - spec.coulomb * motor.gear - spec.viscous * motor.gear**2 * before
     assert (motor.output_speed - before) / 0.02 == pytest.approx(torque / inertia, rel=0.01)
 
 
@@ -50,13 +50,15 @@ def test_arm_swings_down_and_settles_hanging():
 
 def test_energy_of_a_frictionless_arm_is_kept():
     from dataclasses import replace
+
     spec = replace(SPECS["rm_3508"], coulomb=0.0, viscous=0.0)
     load = Load(inertia=TUTORIAL_ARM.inertia, gravity=TUTORIAL_ARM.gravity)
     arm = Motor(spec, load, gear=19.2032)
-    inertia = load.inertia + spec.inertia * arm.gear ** 2
+    inertia = load.inertia + spec.inertia * arm.gear**2
 
     def energy():
-        return inertia * arm.output_speed ** 2 / 2 - load.gravity * math.sin(arm.output_angle)
+        return inertia * arm.output_speed**2 / 2 - load.gravity * math.sin(arm.output_angle)
+
     energies = []
     for _ in range(3000):
         arm.step(MS)

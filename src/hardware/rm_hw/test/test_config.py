@@ -1,4 +1,5 @@
 """The node's parameters: defaults with a line, what is left out, what is refused."""
+
 import copy
 import math
 import os
@@ -6,15 +7,19 @@ from dataclasses import fields, is_dataclass
 
 import pytest
 import yaml
-
 from rm_hw.coefficients import ConfigError
 from rm_hw.config import parse
 
 with open(os.path.join(os.path.dirname(__file__), "..", "config", "actuator_coefficient.yaml")) as _file:
     TABLE = yaml.safe_load(_file)["actuator_coefficient"]
 # as the tutorial writes it
-GOOD = {"bus": ["can0"], "loop_frequency": 1000, "cycle_time_error_threshold": 0.001, "actuator_coefficient": TABLE,
-        "actuators": {"joint1_motor": {"bus": "can0", "id": 0x201, "type": "rm_3508"}}}
+GOOD = {
+    "bus": ["can0"],
+    "loop_frequency": 1000,
+    "cycle_time_error_threshold": 0.001,
+    "actuator_coefficient": TABLE,
+    "actuators": {"joint1_motor": {"bus": "can0", "id": 0x201, "type": "rm_3508"}},
+}
 
 
 def changed(**changes):
@@ -67,15 +72,21 @@ def test_wrong_buses_are_left_out():
     assert "which parameter 'bus' does not list (it has can1)" in texts(parse(params, {}), "error")[0]
 
 
-@pytest.mark.parametrize("changes, remedy", [
-    ({"loop_frequency": 0}, "above zero"), ({"loop_frequency": "fast"}, "above zero"),
-    ({"thread_priority": 100}, "1 to 99"), ({"bus": "can0"}, r"write a list"), ({"actuators": [1]}, "mapping"),
-    ({"bus": ["can0", "can0"]}, "twice"),
-    ({"bus": ["can0", "can1"], "interface": "slcan", "channel": "/dev/ttyACM0"}, "tty_{bus}"),
-    ({"actuators": {"a": {"bus": "can0", "id": 0x201, "type": "rm_9999"}}},
-     "known types: cheetah, rm_2006, rm_3508, rm_6020"),
-    ({"actuators": {"a": {"bus": "can0", "id": 0x300, "type": "rm_3508"}}}, "actuator a: 0x300 .* 0x201..0x20B"),
-    ({"actuators": {n: {"bus": "can0", "id": 0x201, "type": "rm_3508"} for n in "ab"}}, "a and b both have id 0x201")])
+@pytest.mark.parametrize(
+    "changes, remedy",
+    [
+        ({"loop_frequency": 0}, "above zero"),
+        ({"loop_frequency": "fast"}, "above zero"),
+        ({"thread_priority": 100}, "1 to 99"),
+        ({"bus": "can0"}, r"write a list"),
+        ({"actuators": [1]}, "mapping"),
+        ({"bus": ["can0", "can0"]}, "twice"),
+        ({"bus": ["can0", "can1"], "interface": "slcan", "channel": "/dev/ttyACM0"}, "tty_{bus}"),
+        ({"actuators": {"a": {"bus": "can0", "id": 0x201, "type": "rm_9999"}}}, "known types: cheetah, rm_2006, rm_3508, rm_6020"),
+        ({"actuators": {"a": {"bus": "can0", "id": 0x300, "type": "rm_3508"}}}, "actuator a: 0x300 .* 0x201..0x20B"),
+        ({"actuators": {n: {"bus": "can0", "id": 0x201, "type": "rm_3508"} for n in "ab"}}, "a and b both have id 0x201"),
+    ],
+)
 def test_nonsense_is_refused_in_one_line(changes, remedy):
     with pytest.raises(ConfigError, match=remedy) as error:
         parse(changed(**changes), {})
@@ -83,15 +94,55 @@ def test_nonsense_is_refused_in_one_line(changes, remedy):
 
 
 FULL = changed(
-    interface="slcan", channel="/dev/tty_{bus}", bitrate=1000000, thread_priority=95,
+    interface="slcan",
+    channel="/dev/tty_{bus}",
+    bitrate=1000000,
+    thread_priority=95,
     bus=[{"name": "can0", "interface": "virtual", "channel": "x", "bitrate": 500000}],
-    actuators={"motor": {"bus": "can0", "id": 0x201, "type": "rm_3508", "need_calibration": False,
-                         "lp_cutoff_frequency": 60.0, "timeout": 0.1}},
-    imus={"base": {"bus": "can0", "id": 0x300, "frame_id": "base_imu", "accel_coeff": 0.002, "angular_vel_coeff": 0.001,
-                   "temp_coeff": 0.125, "temp_offset": 23.0, "angular_vel_offset": [0.0, 0.0, 0.0],
-                   "orientation_covariance_diagonal": [0.1, 0.1, 0.1]}})
-STRANGE = [None, "", "text", "/", True, False, 0, -1, 3, 2 ** 40, 1e308, -1e308, math.nan, math.inf, -math.inf,
-           [], [1, 2], ["a"], [[]], [None], [math.nan] * 3, ["x"] * 3, {}, {"a": 1}, {"name": ["can0"]}]
+    actuators={
+        "motor": {"bus": "can0", "id": 0x201, "type": "rm_3508", "need_calibration": False, "lp_cutoff_frequency": 60.0, "timeout": 0.1}
+    },
+    imus={
+        "base": {
+            "bus": "can0",
+            "id": 0x300,
+            "frame_id": "base_imu",
+            "accel_coeff": 0.002,
+            "angular_vel_coeff": 0.001,
+            "temp_coeff": 0.125,
+            "temp_offset": 23.0,
+            "angular_vel_offset": [0.0, 0.0, 0.0],
+            "orientation_covariance_diagonal": [0.1, 0.1, 0.1],
+        }
+    },
+)
+STRANGE = [
+    None,
+    "",
+    "text",
+    "/",
+    True,
+    False,
+    0,
+    -1,
+    3,
+    2**40,
+    1e308,
+    -1e308,
+    math.nan,
+    math.inf,
+    -math.inf,
+    [],
+    [1, 2],
+    ["a"],
+    [[]],
+    [None],
+    [math.nan] * 3,
+    ["x"] * 3,
+    {},
+    {"a": 1},
+    {"name": ["can0"]},
+]
 
 
 def places(tree, path=()):
@@ -126,13 +177,16 @@ def test_whatever_stands_where_is_taken_or_refused_in_one_line(place):
         except ConfigError as error:
             assert "\n" not in str(error) and len(str(error)) < 400
         else:
-            assert all(map(math.isfinite, numbers([config.buses, config.actuators, config.imus, config.loop_frequency,
-                                                   config.cycle_time_error_threshold]))), (place, value)
+            assert all(
+                map(
+                    math.isfinite,
+                    numbers([config.buses, config.actuators, config.imus, config.loop_frequency, config.cycle_time_error_threshold]),
+                )
+            ), (place, value)
 
 
 def test_imu_defaults_are_said():
-    imu = {"bus": "can0", "id": 0x300, "frame_id": "base_imu", "accel_coeff": 0.002,
-           "angular_velocity_covariance": [1, 2, 3]}
+    imu = {"bus": "can0", "id": 0x300, "frame_id": "base_imu", "accel_coeff": 0.002, "angular_velocity_covariance": [1, 2, 3]}
     config = parse(changed(imus={"base": imu}), {})
     assert config.imus[0].accel_coeff == 0.002 and config.imus[0].angular_velocity_covariance == (1.0, 2.0, 3.0)
     assert any("imus/base/temp_coeff" in text for text in texts(config, "info"))

@@ -1,7 +1,8 @@
 """Frames survive a round trip, and their bytes are where the speed controllers' manuals put them."""
-import pytest
-from hypothesis import given, strategies as st
 
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from rm_hw import frames
 
 int16 = st.integers(-32768, 32767)
@@ -41,9 +42,10 @@ def test_any_bytes_are_feedback_or_refused(data):
         assert "feedback frame" in str(error)
 
 
-@pytest.mark.parametrize("feedback_id, expected", [
-    (0x201, (0x200, 0)), (0x204, (0x200, 3)), (0x205, (0x1FF, 0)), (0x208, (0x1FF, 3)), (0x209, (0x2FF, 0)),
-    (0x20B, (0x2FF, 2))])
+@pytest.mark.parametrize(
+    "feedback_id, expected",
+    [(0x201, (0x200, 0)), (0x204, (0x200, 3)), (0x205, (0x1FF, 0)), (0x208, (0x1FF, 3)), (0x209, (0x2FF, 0)), (0x20B, (0x2FF, 2))],
+)
 def test_command_slot(feedback_id, expected):
     assert frames.command_slot(feedback_id) == expected
 

@@ -1,8 +1,8 @@
 """The IMU's orientation against motions whose outcome is known."""
+
 import math
 
 import pytest
-
 from rm_hw.config import ImuConfig
 from rm_hw.frames import ImuAccel, ImuGyro
 from rm_hw.imu import Imu
@@ -15,7 +15,7 @@ def make():
 def test_turning_by_the_gyroscope():
     imu = make()
     for i in range(1001):
-        imu.on_gyro(ImuGyro(0, 0, 1571, 0), i * 0.001)        # pi/2 rad/s about z for a second
+        imu.on_gyro(ImuGyro(0, 0, 1571, 0), i * 0.001)  # pi/2 rad/s about z for a second
     x, y, z, w = imu.handle.orientation
     assert 2 * math.atan2(z, w) == pytest.approx(math.pi / 2, rel=1e-3) and abs(x) + abs(y) < 1e-9
     assert imu.handle.angular_velocity == pytest.approx((0, 0, 1.571))

@@ -1,15 +1,16 @@
 """Real-time priority for every thread of the process."""
+
 import errno
 import os
 
 import pytest
-
 from rm_hw import loop
 
 
 @pytest.fixture
 def become_realtime(monkeypatch):
     """become_realtime() in a process with threads 1 to 4; returns who got the priority, and the lines of the log."""
+
     def become_realtime(errors):
         raised, lines = [], []
 
@@ -24,6 +25,7 @@ def become_realtime(monkeypatch):
         monkeypatch.setattr(loop.sys, "setswitchinterval", lambda interval: None)
         loop.become_realtime(95)
         return raised, lines
+
     return become_realtime
 
 

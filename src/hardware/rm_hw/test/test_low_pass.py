@@ -1,11 +1,11 @@
 """The velocity filter against scipy's Butterworth design and against uneven sampling."""
+
 import math
 
 import numpy as np
 import pytest
-from scipy import signal
-
 from rm_hw.low_pass import LowPass
+from scipy import signal
 
 
 def run(low_pass, values, stamps):
@@ -17,14 +17,14 @@ def test_even_samples_match_scipy():
     values = np.random.default_rng(0).normal(size=n)
     ours = run(LowPass(cutoff), values, np.arange(n) / rate)
     theirs = signal.lfilter(*signal.butter(2, cutoff, fs=rate), values)
-    np.testing.assert_allclose(ours[60:], theirs[60:], atol=1e-6)   # at the start ours takes the first sample whole
+    np.testing.assert_allclose(ours[60:], theirs[60:], atol=1e-6)  # at the start ours takes the first sample whole
 
 
 def test_default_cutoff_is_a_quarter_of_the_sample_rate():
     rate, n = 1000.0, 4000
     stamps = np.arange(n) / rate
     out = run(LowPass(), np.sin(2 * math.pi * rate / 4 * stamps), stamps)
-    assert np.ptp(out[n // 2:]) / 2 == pytest.approx(math.sqrt(0.5), rel=1e-3)
+    assert np.ptp(out[n // 2 :]) / 2 == pytest.approx(math.sqrt(0.5), rel=1e-3)
 
 
 @pytest.mark.parametrize("cutoff", [-1.0, 5.0, 100.0, 1e6])

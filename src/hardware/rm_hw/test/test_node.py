@@ -1,8 +1,8 @@
 """Ways out of the node rm_hw that no test can force from outside: the motors are off before the buses close."""
+
 from types import SimpleNamespace
 
 import pytest
-
 from rm_hw import node
 
 
@@ -18,25 +18,32 @@ class Robot:
             self.calls.append(method)
             if method == self.failing:
                 raise self.error
+
         return call
 
 
 @pytest.fixture
 def run(monkeypatch):
     """main() with a robot instead of motors; returns exit code, calls of the robot, lines of the log."""
+
     def run(failing, error):
         robot, lines = Robot(failing, error), []
         monkeypatch.setattr(node, "RmRobotHW", lambda: robot)
-        monkeypatch.setattr(node, "ControllerManager", lambda hw: SimpleNamespace(update=lambda *_: None,
-                                                                                  shutdown=lambda: None))
+        monkeypatch.setattr(node, "ControllerManager", lambda hw: SimpleNamespace(update=lambda *_: None, shutdown=lambda: None))
         monkeypatch.setattr(node, "NodeHandle", lambda *_: None)
         monkeypatch.setattr(node, "become_realtime", lambda priority: None)
-        for name, value in (("init_node", None), ("get_param", ""), ("get_name", "/rm_hw"), ("on_shutdown", None),
-                            ("signal_shutdown", None)):
+        for name, value in (
+            ("init_node", None),
+            ("get_param", ""),
+            ("get_name", "/rm_hw"),
+            ("on_shutdown", None),
+            ("signal_shutdown", None),
+        ):
             monkeypatch.setattr(node.rospy, name, lambda *_, value=value, **__: value)
         monkeypatch.setattr(node.rospy, "logfatal", lambda text, *values: lines.append(text % values))
         monkeypatch.setattr(node.signal, "signal", lambda *_: None)
         return node.main(), robot.calls, lines
+
     return run
 
 

@@ -1,4 +1,5 @@
 """What compiled controllers of rm_common's interfaces see of the motors, and what they write comes back."""
+
 from hardware_interface import ActuatorStateHandle, ActuatorStateInterface
 from hardware_interface.compiled import CompiledRobotHW, twin
 from rm_hw.actuator import Actuator
@@ -24,9 +25,14 @@ def robot():
 
 def test_the_interfaces_have_the_names_that_controllers_ask_for():
     names = CompiledRobotHW(twin(robot())).interface_names()
-    assert names == ["hardware_interface::ActuatorStateInterface", "rm_control::ActuatorExtraInterface",
-                     "rm_control::GpioCommandInterface", "rm_control::GpioStateInterface", "rm_control::RmImuSensorInterface",
-                     "rm_control::RobotStateInterface"]
+    assert names == [
+        "hardware_interface::ActuatorStateInterface",
+        "rm_control::ActuatorExtraInterface",
+        "rm_control::GpioCommandInterface",
+        "rm_control::GpioStateInterface",
+        "rm_control::RmImuSensorInterface",
+        "rm_control::RobotStateInterface",
+    ]
 
 
 def test_motors_both_ways():

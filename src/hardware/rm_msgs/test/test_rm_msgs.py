@@ -1,4 +1,5 @@
 """The wire types are upstream's: a recorded bag or a node built against the original messages must connect."""
+
 from rm_msgs.msg import ActuatorState
 from rm_msgs.srv import EnableImuTrigger
 

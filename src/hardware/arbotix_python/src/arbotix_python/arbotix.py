@@ -1,12 +1,30 @@
 """Talking to an ArbotiX board over its serial port. The method names are those that ArbotiX programs use."""
+
 import struct
 import termios
 import threading
 
 from .ax12 import (
-    AX_CONTROL_SETUP, AX_CONTROL_STAT, AX_CONTROL_WRITE, AX_READ_DATA, AX_SYNC_READ, AX_SYNC_WRITE, AX_WRITE_DATA,
-    P_BAUD_RATE, P_CCW_ANGLE_LIMIT_L, P_GOAL_POSITION_L, P_GOAL_SPEED_L, P_LED, P_MOVING, P_PRESENT_POSITION_L,
-    P_PRESENT_SPEED_L, P_PRESENT_TEMPERATURE, P_PRESENT_VOLTAGE, P_RETURN_LEVEL, P_TORQUE_ENABLE)
+    AX_CONTROL_SETUP,
+    AX_CONTROL_STAT,
+    AX_CONTROL_WRITE,
+    AX_READ_DATA,
+    AX_SYNC_READ,
+    AX_SYNC_WRITE,
+    AX_WRITE_DATA,
+    P_BAUD_RATE,
+    P_CCW_ANGLE_LIMIT_L,
+    P_GOAL_POSITION_L,
+    P_GOAL_SPEED_L,
+    P_LED,
+    P_MOVING,
+    P_PRESENT_POSITION_L,
+    P_PRESENT_SPEED_L,
+    P_PRESENT_TEMPERATURE,
+    P_PRESENT_VOLTAGE,
+    P_RETURN_LEVEL,
+    P_TORQUE_ENABLE,
+)
 from .packets import decode, encode
 
 BOARD = 253  # id of the board itself
@@ -42,6 +60,7 @@ class ArbotiX:
 
     def __init__(self, port="/dev/ttyUSB0", baud=115200, timeout=0.1, open_port=True):
         import serial  # here, so that nobody needs it who only simulates a board
+
         self._serial_error = serial.SerialException
         self._mutex = threading.Lock()
         self._ser = serial.Serial()
@@ -152,7 +171,7 @@ class ArbotiX:
 
     def disableWheelMode(self, index, resolution=10):
         """Back to angles; `resolution` is the encoder's number of bits (12 for MX servos)."""
-        self.write(index, P_CCW_ANGLE_LIMIT_L, word(2 ** resolution - 1))
+        self.write(index, P_CCW_ANGLE_LIMIT_L, word(2**resolution - 1))
 
     def setWheelSpeed(self, index, direction, speed):
         """In wheel mode: FORWARD or BACKWARD, speed 0..1023."""

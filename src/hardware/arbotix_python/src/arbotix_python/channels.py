@@ -1,4 +1,5 @@
 """Single pins of the board as topics."""
+
 import rospy
 from arbotix_msgs.msg import Analog, Digital
 

@@ -1,4 +1,5 @@
 """What the driver's main loop asks of a controller."""
+
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 
 

@@ -1,4 +1,5 @@
 """Differential drive: velocity commands in, odometry out."""
+
 import math
 
 import rospy
@@ -19,7 +20,7 @@ def approach(value, target, step):
 
 def ticks_moved(now, before):
     """Difference of two 32-bit counters that may have wrapped round in between."""
-    return (now - before + 2 ** 31) % 2 ** 32 - 2 ** 31
+    return (now - before + 2**31) % 2**32 - 2**31
 
 
 class DiffController(Controller):
@@ -35,8 +36,7 @@ class DiffController(Controller):
         self._base_width = float(number(prefix + "base_width", above=0))
         self._base_frame = rospy.get_param(prefix + "base_frame_id", "base_link")
         self._odom_frame = rospy.get_param(prefix + "odom_frame_id", "odom")
-        self._gains = [number(prefix + key, default)
-                       for key, default in (("Kp", 5), ("Kd", 1), ("Ki", 0), ("Ko", 50))]
+        self._gains = [number(prefix + key, default) for key, default in (("Kp", 5), ("Kd", 1), ("Ki", 0), ("Ko", 50))]
         self._ramp = max(1, int(number(prefix + "accel_limit", 0.1) * self._ticks_meter / rate))
 
         self.joint_names = ["base_l_wheel_joint", "base_r_wheel_joint"]
@@ -53,8 +53,7 @@ class DiffController(Controller):
         self._odometry = rospy.Publisher("odom", Odometry, queue_size=5)
         self._transforms = tf2_ros.TransformBroadcaster()
         rospy.Subscriber("cmd_vel", Twist, self._command)
-        rospy.loginfo("Started DiffController (%s). Geometry: %sm wide, %s ticks/m.", name, self._base_width,
-                      self._ticks_meter)
+        rospy.loginfo("Started DiffController (%s). Geometry: %sm wide, %s ticks/m.", name, self._base_width, self._ticks_meter)
 
     def startup(self):
         if not self.device.fake:
@@ -62,16 +61,14 @@ class DiffController(Controller):
 
     def _command(self, twist):
         if not usable(twist.linear.x, twist.angular.z):
-            rospy.logwarn_throttle(1.0, "%s: %s m/s and %s rad/s are no command; ignored." % (
-                self.name, twist.linear.x, twist.angular.z))
+            rospy.logwarn_throttle(1.0, "%s: %s m/s and %s rad/s are no command; ignored." % (self.name, twist.linear.x, twist.angular.z))
             return
         self._last_command = rospy.Time.now()
         if self.device.fake:
             self._forwards, self._turn = twist.linear.x, twist.angular.z
         else:
             half = twist.angular.z * self._base_width / 2.0
-            self._wanted = [int(speed * self._ticks_meter / FRAMES)
-                            for speed in (twist.linear.x - half, twist.linear.x + half)]
+            self._wanted = [int(speed * self._ticks_meter / FRAMES) for speed in (twist.linear.x - half, twist.linear.x + half)]
 
     def update(self, now):
         if not self._every.due(now.to_nsec()):
@@ -93,8 +90,7 @@ class DiffController(Controller):
             self._drive(now)
 
     def _integrate(self, encoders, elapsed):
-        left, right = (ticks_moved(count, before) / self._ticks_meter
-                       for count, before in zip(encoders, self._encoders or encoders))
+        left, right = (ticks_moved(count, before) / self._ticks_meter for count, before in zip(encoders, self._encoders or encoders))
         self._encoders = encoders
         way, turned = (left + right) / 2, (right - left) / self._base_width
         self._x += way * math.cos(self._heading + turned / 2)

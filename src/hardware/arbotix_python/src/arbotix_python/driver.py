@@ -1,4 +1,5 @@
 """The node arbotix: joints, controllers and pins of one board."""
+
 import sys
 from typing import Optional
 
@@ -18,8 +19,12 @@ from .servo_controller import ServoController
 from .servos import DynamixelServo, HobbyServo
 
 JOINT_TYPES = {"dynamixel": DynamixelServo, "hobby_servo": HobbyServo, "calibrated_linear": LinearJoint}
-CONTROLLER_TYPES = {"diff_controller": DiffController, "follow_controller": FollowController,
-                    "linear_controller": LinearControllerAbsolute, "linear_controller_i": LinearControllerIncremental}
+CONTROLLER_TYPES = {
+    "diff_controller": DiffController,
+    "follow_controller": FollowController,
+    "linear_controller": LinearControllerAbsolute,
+    "linear_controller_i": LinearControllerIncremental,
+}
 
 
 class Driver:
@@ -29,8 +34,12 @@ class Driver:
         if self.fake:
             rospy.loginfo("ArbotiX being simulated.")
         else:
-            self.board = ArbotiX(rospy.get_param("~port", "/dev/ttyUSB0"), int(number("~baud", 115200, above=0)),
-                                 float(number("~timeout", 0.1, above=0)), open_port=False)
+            self.board = ArbotiX(
+                rospy.get_param("~port", "/dev/ttyUSB0"),
+                int(number("~baud", 115200, above=0)),
+                float(number("~timeout", 0.1, above=0)),
+                open_port=False,
+            )
             self._connect(self.board)
         self._rate = number("~rate", 100.0, above=0)
         self._joint_states = rospy.Publisher("joint_states", JointState, queue_size=5)
@@ -88,16 +97,14 @@ class Driver:
             for name in rospy.get_param("~" + group, {}):
                 prefix = "~%s/%s/" % (group, name)
                 try:
-                    pin, value, length = (int(number(prefix + key, default))
-                                          for key, default in (("pin", 1), ("value", 0), ("length", 1)))
+                    pin, value, length = (int(number(prefix + key, default)) for key, default in (("pin", 1), ("value", 0), ("length", 1)))
                     self._channels[name] = kind(self.board, name, pin, value, number(prefix + "rate", 10, above=0), length)
                 except ParameterError as error:
                     rospy.logerr("Pin %s left out: %s.", name, error)
 
     def _setup_channel(self, kind, request):
         if not self.fake:
-            self._channels[request.topic_name] = kind(self.board, request.topic_name, request.pin, request.value,
-                                                      max(1, request.rate))
+            self._channels[request.topic_name] = kind(self.board, request.topic_name, request.pin, request.value, max(1, request.rate))
         return SetupChannelResponse()
 
     def run(self):

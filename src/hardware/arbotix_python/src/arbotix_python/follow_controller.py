@@ -1,4 +1,5 @@
 """A chain of joints that follows trajectories: action and topic."""
+
 import actionlib
 import rospy
 from control_msgs.msg import FollowJointTrajectoryAction
@@ -18,16 +19,24 @@ class FollowController(Controller):
         self._joints = names(prefix + "joints")
         for joint in self._joints:
             if joint not in device.joints:
-                raise ParameterError("joint %s of %s is not among the joints %s" % (
-                    joint, rospy.resolve_name(prefix + "joints"), sorted(device.joints)))
+                raise ParameterError(
+                    "joint %s of %s is not among the joints %s" % (joint, rospy.resolve_name(prefix + "joints"), sorted(device.joints))
+                )
             device.joints[joint].controller = self
         self._executing = False
         self._server = actionlib.SimpleActionServer(
-            rospy.get_param(prefix + "action_name", "follow_joint_trajectory"), FollowJointTrajectoryAction,
-            execute_cb=self._goal, auto_start=False)
+            rospy.get_param(prefix + "action_name", "follow_joint_trajectory"),
+            FollowJointTrajectoryAction,
+            execute_cb=self._goal,
+            auto_start=False,
+        )
         rospy.Subscriber(name + "/command", JointTrajectory, self._command)
-        rospy.loginfo("Started FollowController (%s). Joints: %s on C%s", name, self._joints,
-                      rospy.get_param(prefix + "index", len(device.controllers)))
+        rospy.loginfo(
+            "Started FollowController (%s). Joints: %s on C%s",
+            name,
+            self._joints,
+            rospy.get_param(prefix + "index", len(device.controllers)),
+        )
 
     def startup(self):
         self._server.start()

@@ -1,4 +1,5 @@
 """A linear actuator: a motor on three pins, with an analogue sensor or an incremental encoder."""
+
 import bisect
 import math
 import struct
@@ -29,8 +30,9 @@ class LinearJoint:
         try:
             self._table = sorted((int(reading), float(position)) for reading, position in table.items())
         except (AttributeError, TypeError, ValueError):
-            raise ParameterError("%scalibration_data must map readings, whole numbers, to positions in m"
-                                     % rospy.resolve_name(prefix)) from None
+            raise ParameterError(
+                "%scalibration_data must map readings, whole numbers, to positions in m" % rospy.resolve_name(prefix)
+            ) from None
         if len(self._table) < 2:
             raise ParameterError("%scalibration_data needs two readings at least" % rospy.resolve_name(prefix))
         self.position = self.velocity = 0.0
@@ -41,8 +43,7 @@ class LinearJoint:
 
     def go_to(self, position):
         if not self._low <= position <= self._high:  # also false for NaN
-            rospy.logerr("%s: requested position %s is out of range %s to %s; ignored.", self.name, position, self._low,
-                         self._high)
+            rospy.logerr("%s: requested position %s is out of range %s to %s; ignored.", self.name, position, self._low, self._high)
         elif self.device.fake:
             self.position = position
         else:
@@ -62,7 +63,7 @@ class LinearJoint:
             rospy.logerr("%s: reading %s is outside calibration_data.", self.name, reading)
             return
         place = min(max(bisect.bisect_right(readings, reading), 1), len(readings) - 1)
-        (low, start), (high, end) = self._table[place - 1:place + 1]
+        (low, start), (high, end) = self._table[place - 1 : place + 1]
         now, before = rospy.Time.now(), self.position
         self.position = start + (end - start) * (reading - low) / (high - low)
         elapsed = (now - self._measured).to_sec()
@@ -80,8 +81,7 @@ class LinearControllerAbsolute(Controller):
     def __init__(self, device, name):
         super().__init__(device, name)
         prefix = "~controllers/%s/" % name
-        self._motor = [int(number(prefix + key, default))
-                       for key, default in (("motor_a", 29), ("motor_b", 30), ("motor_pwm", 31))]
+        self._motor = [int(number(prefix + key, default)) for key, default in (("motor_a", 29), ("motor_b", 30), ("motor_pwm", 31))]
         self._analog = int(number(prefix + "feedback", 0))
         self._every = every(number(prefix + "rate", 10.0, above=0))
         joint = get(prefix + "joint")

@@ -2,6 +2,7 @@
 
 `kind` is an instruction on the way out and the error bits on the way back; length counts kind, parameters and checksum.
 """
+
 import collections
 
 Packet = collections.namedtuple("Packet", "id kind parameters")  # ints and a list of ints

@@ -1,4 +1,5 @@
 """Small things that all parts of the driver use."""
+
 import reprlib
 
 import rospy
@@ -14,8 +15,10 @@ def number(name, default=None, above=None):
     """
     value = get(name) if default is None else get(name, default)
     if not is_number(value, above=above):
-        raise ParameterError("parameter %s must be a number%s, it is %s" % (
-            rospy.resolve_name(name), "" if above is None else " above %g" % above, reprlib.repr(value)))
+        raise ParameterError(
+            "parameter %s must be a number%s, it is %s"
+            % (rospy.resolve_name(name), "" if above is None else " above %g" % above, reprlib.repr(value))
+        )
     return value
 
 

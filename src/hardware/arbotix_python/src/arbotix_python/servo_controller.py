@@ -1,4 +1,5 @@
 """Reads and writes all servos at their rates."""
+
 import rospy
 from arbotix_msgs.srv import Enable, EnableResponse, Relax, RelaxResponse
 
@@ -46,7 +47,7 @@ class ServoController(Controller):
             answers = [(servo, self.device.board.read(servo.id, start, 2)) for servo in servos]
             return [(servo, values) for servo, values in answers if values != -1]
         values = self.device.board.syncRead([servo.id for servo in servos], start, 2)
-        return [(servo, values[2 * place:2 * place + 2]) for place, servo in enumerate(servos)] if values else []
+        return [(servo, values[2 * place : 2 * place + 2]) for place, servo in enumerate(servos)] if values else []
 
     def _send(self, goals):
         goals = [(servo.id, ticks) for servo, ticks in goals if ticks is not None]

@@ -1,4 +1,5 @@
 """Servo joints: angles in rad outside, ticks on the wire."""
+
 import math
 
 import rospy
@@ -162,10 +163,17 @@ class DynamixelServo(Servo):
             level, message = DiagnosticStatus.WARN, "OVERHEATING"
         else:
             level, message = DiagnosticStatus.OK, "OK"
-        return status(self.name, message, level, Position=self.position, Temperature=self.temperature,
-                      Voltage=self.voltage, Reads=self._reads,
-                      Error_Rate="%.1f%%" % (100.0 * self._errors / max(1, self._reads)),
-                      Torque="ON" if self._holding else "OFF")
+        return status(
+            self.name,
+            message,
+            level,
+            Position=self.position,
+            Temperature=self.temperature,
+            Voltage=self.voltage,
+            Reads=self._reads,
+            Error_Rate="%.1f%%" % (100.0 * self._errors / max(1, self._reads)),
+            Torque="ON" if self._holding else "OFF",
+        )
 
 
 class HobbyServo(Servo):

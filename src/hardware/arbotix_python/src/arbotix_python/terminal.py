@@ -1,4 +1,5 @@
 """arbotix_terminal: looking at servos and setting them by hand."""
+
 import sys
 
 from .arbotix import BOARD, ArbotiX, ArbotiXException
@@ -23,10 +24,14 @@ def baud_code(text):
 class Terminal:
     def __init__(self, board):
         self._board = board
-        self._getters = {"pos": board.getPosition, "position": board.getPosition, "spd": board.getGoalSpeed,
-                         "speed": board.getGoalSpeed, "temp": board.getTemperature}
-        self._setters = {"pos": board.setPosition, "position": board.setPosition, "spd": board.setSpeed,
-                         "speed": board.setSpeed}
+        self._getters = {
+            "pos": board.getPosition,
+            "position": board.getPosition,
+            "spd": board.getGoalSpeed,
+            "speed": board.getGoalSpeed,
+            "temp": board.getTemperature,
+        }
+        self._setters = {"pos": board.setPosition, "position": board.setPosition, "spd": board.setSpeed, "speed": board.setSpeed}
 
     def run(self, words):
         """Carries out one command, a list of words; returns the text to print. ValueError: not understood."""
@@ -35,8 +40,7 @@ class Terminal:
         if words[0] == "ls" and len(words) <= 3:
             if len(words) == 3:
                 self._board.setBaud(BOARD, baud_code(words[2]))
-            found = [str(index) for index in range(1, int(words[1]) + 1 if len(words) > 1 else 19)
-                     if self._board.getPosition(index) != -1]
+            found = [str(index) for index in range(1, int(words[1]) + 1 if len(words) > 1 else 19) if self._board.getPosition(index) != -1]
             return " ".join(found) or "no servo answers"
         if words[0] == "mv" and len(words) == 3:
             return self._done(self._board.write(int(words[1]), P_ID, [int(words[2])]))

@@ -1,4 +1,5 @@
 """One motor on a bus: its feedback in SI units, its turns, whether it answers, and the command it gets."""
+
 from __future__ import annotations
 
 import math
@@ -8,9 +9,9 @@ from rm_hw.coefficients import Coefficients
 from rm_hw.frames import CheetahReply, Feedback
 from rm_hw.low_pass import LowPass
 
-SILENCE = 0.1            # s without a frame after which a motor counts as gone
-TOO_HOT = 99             # degrees Celsius, above it a motor is not commanded
-WARM = 80                # degrees Celsius, above it a warning is due
+SILENCE = 0.1  # s without a frame after which a motor counts as gone
+TOO_HOT = 99  # degrees Celsius, above it a motor is not commanded
+WARM = 80  # degrees Celsius, above it a warning is due
 _SHORTEST_INTERVAL = 0.0005
 _CHEETAH_RANGE = 8.0 * math.pi
 
@@ -25,8 +26,17 @@ class Actuator:
     :param feedback_id: CAN id of the feedback frame; for ``cheetah`` the motor id.
     """
 
-    def __init__(self, name: str, type_name: str, bus: str, feedback_id: int, coefficients: Coefficients,
-                 need_calibration: bool = False, cutoff: float = -1.0, timeout: float = SILENCE) -> None:
+    def __init__(
+        self,
+        name: str,
+        type_name: str,
+        bus: str,
+        feedback_id: int,
+        coefficients: Coefficients,
+        need_calibration: bool = False,
+        cutoff: float = -1.0,
+        timeout: float = SILENCE,
+    ) -> None:
         self.name, self.type, self.bus, self.id = name, type_name, bus, feedback_id
         self.coefficients = coefficients
         self.need_calibration = need_calibration
@@ -94,7 +104,7 @@ class Actuator:
         interval = stamp - self.stamp
         if 0.0 <= interval < _SHORTEST_INTERVAL:
             return False
-        self.frequency = 1.0 / interval if interval > 0.0 else 0.0   # negative: the clock was set back
+        self.frequency = 1.0 / interval if interval > 0.0 else 0.0  # negative: the clock was set back
         self.stamp = stamp
         self._heard = now
         return True
@@ -116,11 +126,14 @@ class Actuator:
         if silent:
             self.filter.reset()
             self.frequency = 0.0
-            return (f"{label} has sent nothing for {self.timeout:g} s and is disabled: check its power, its CAN plug "
-                    "and its id; it is used again as soon as frames return")
+            return (
+                f"{label} has sent nothing for {self.timeout:g} s and is disabled: check its power, its CAN plug "
+                "and its id; it is used again as soon as frames return"
+            )
         if hot:
-            return (f"{label} is at {self.temperature} C, above {TOO_HOT} C, and is disabled until it has cooled: "
-                    "let it rest, lower the load")
+            return (
+                f"{label} is at {self.temperature} C, above {TOO_HOT} C, and is disabled until it has cooled: let it rest, lower the load"
+            )
         return f"{label} is answering"
 
     def command_counts(self, effort: float) -> int:

@@ -1,4 +1,5 @@
 """One CAN bus through python-can: opening, draining, sending, and opening again after it was lost."""
+
 from __future__ import annotations
 
 import os
@@ -11,10 +12,10 @@ import can
 from rm_hw import protocol_lines
 
 BITRATE = 1000000
-RETRY = 0.5              # s between attempts to open an interface
-SEND_TIMEOUT = 0.002     # s
-_GARBAGE_PAUSE = 1.0     # s between two lines about garbage
-_PATIENCE = 0.05         # s during which nothing can be sent before the bus counts as lost
+RETRY = 0.5  # s between attempts to open an interface
+SEND_TIMEOUT = 0.002  # s
+_GARBAGE_PAUSE = 1.0  # s between two lines about garbage
+_PATIENCE = 0.05  # s during which nothing can be sent before the bus counts as lost
 
 OPEN_ERRORS = (OSError, ValueError, can.CanError)
 
@@ -44,8 +45,7 @@ class CanBus:
     :param report: called with (level, line); level is info, warn or error.
     """
 
-    def __init__(self, name: str, interface: str, channel: str, report: Callable[[str, str], None],
-                 bitrate: int = BITRATE) -> None:
+    def __init__(self, name: str, interface: str, channel: str, report: Callable[[str, str], None], bitrate: int = BITRATE) -> None:
         self.name, self.interface, self.channel = name, interface, channel
         self._bitrate = bitrate
         self._report = report
@@ -78,8 +78,10 @@ class CanBus:
         except OPEN_ERRORS as error:
             if not self._told:
                 self._told = True
-                self._report("error", f"Unable to select CAN interface {self.name}: I/O control error: "
-                             f"{self._remedy(error)}; trying again every {RETRY:g} s")
+                self._report(
+                    "error",
+                    f"Unable to select CAN interface {self.name}: I/O control error: {self._remedy(error)}; trying again every {RETRY:g} s",
+                )
             return False
         self._told = False
         self._rejected = 0
@@ -90,8 +92,7 @@ class CanBus:
     def _remedy(self, error: Exception) -> str:
         if self.interface == "socketcan":
             if getattr(error, "errno", None) == 97:
-                return (f"this kernel has no CAN support ({error}); use a USB adapter with 'interface: slcan', or "
-                        "'rosrun rm_hw motor_bench'")
+                return f"this kernel has no CAN support ({error}); use a USB adapter with 'interface: slcan', or 'rosrun rm_hw motor_bench'"
             return f"{error}; run 'sudo ip link set {self.name} up type can bitrate {self._bitrate}'"
         return f"{error}; is the adapter plugged in and its device name '{self.channel}' right?"
 
@@ -112,8 +113,11 @@ class CanBus:
         port = getattr(bus, "serialPortOrig", None)
         if port is not None and port.rejected != self._rejected and time.monotonic() >= self._next_garbage_line:
             self._next_garbage_line = time.monotonic() + _GARBAGE_PAUSE
-            self._report("warn", f"{self.name}: {port.rejected - self._rejected} lines from {self.channel} are no CAN "
-                         "frames and were ignored: check the adapter's cable and baud rate")
+            self._report(
+                "warn",
+                f"{self.name}: {port.rejected - self._rejected} lines from {self.channel} are no CAN "
+                "frames and were ignored: check the adapter's cable and baud rate",
+            )
             self._rejected = port.rejected
 
     def send(self, identifier: int, data: bytes) -> bool:
@@ -143,8 +147,10 @@ class CanBus:
         bus, self._bus = self._bus, None
         if bus is None:
             return
-        self._report("error", f"{self.name} is lost ({error}): its motors are disabled until it is back; check the "
-                     "adapter, the cable and the termination")
+        self._report(
+            "error",
+            f"{self.name} is lost ({error}): its motors are disabled until it is back; check the adapter, the cable and the termination",
+        )
         self._close(bus)
         if not self._stop.is_set():
             self._told = True
@@ -165,4 +171,4 @@ class CanBus:
         try:
             bus.shutdown()
         except (OSError, can.CanError):
-            return               # it is gone already; there is nothing left to release
+            return  # it is gone already; there is nothing left to release

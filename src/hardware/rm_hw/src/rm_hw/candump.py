@@ -1,4 +1,5 @@
 """``rosrun rm_hw candump can0``: print the frames of a bus as candump of can-utils does, also from the motor bench."""
+
 from __future__ import annotations
 
 import argparse
@@ -9,8 +10,8 @@ from typing import List, Optional, Tuple
 
 import can
 
-from rm_hw.config import BENCH_DIRECTORY
 from rm_hw.can_bus import OPEN_ERRORS, open_interface
+from rm_hw.config import BENCH_DIRECTORY
 
 
 def format_frame(channel: str, message: can.Message) -> str:
@@ -45,8 +46,11 @@ def main(arguments: Optional[List[str]] = None) -> int:
         bus, _ = open_bus(options.bus, options.interface, options.channel)
         logger = can.Logger(options.log) if options.log else None
     except OPEN_ERRORS as error:
-        print(f"candump: cannot open {options.bus}: {error}; is the interface up (ip link set {options.bus} up type "
-              f"can bitrate 1000000), or 'rosrun rm_hw motor_bench' running?", file=sys.stderr)
+        print(
+            f"candump: cannot open {options.bus}: {error}; is the interface up (ip link set {options.bus} up type "
+            f"can bitrate 1000000), or 'rosrun rm_hw motor_bench' running?",
+            file=sys.stderr,
+        )
         return 1
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     seen = 0
@@ -78,4 +82,4 @@ def _close(bus: can.BusABC) -> None:
     try:
         bus.shutdown()
     except can.CanError:
-        return                  # the adapter went before us
+        return  # the adapter went before us

@@ -1,4 +1,5 @@
 """Actuator types: factors between bus counts and SI units."""
+
 from __future__ import annotations
 
 import reprlib
@@ -62,8 +63,9 @@ class Coefficients:
         for field in fields(cls):
             if field.name not in params:
                 if field.default is MISSING:
-                    raise ConfigError(f"actuator_coefficient/{type_name} has no '{field.name}': add it, or load "
-                                      "rm_hw/config/actuator_coefficient.yaml")
+                    raise ConfigError(
+                        f"actuator_coefficient/{type_name} has no '{field.name}': add it, or load rm_hw/config/actuator_coefficient.yaml"
+                    )
                 continue
             values[field.name] = number(params[field.name], f"actuator_coefficient/{type_name}/{field.name}")
         return cls(**values)

@@ -1,4 +1,5 @@
 """Which frames a set of actuators needs each cycle, and the frames that switch them off."""
+
 from __future__ import annotations
 
 from typing import Dict, Iterable, List, Optional, Tuple
@@ -6,7 +7,7 @@ from typing import Dict, Iterable, List, Optional, Tuple
 from rm_hw.actuator import Actuator
 from rm_hw.frames import command_slot, pack_cheetah_command, pack_command
 
-_HALTED_PERIOD = 0.1     # s between frames to motors that do not answer
+_HALTED_PERIOD = 0.1  # s between frames to motors that do not answer
 
 Frame = Tuple[int, bytes]
 
@@ -35,8 +36,7 @@ class CommandFrames:
         frames = []
         for command_id, group in self._groups.items():
             if self._wanted(command_id, any(a is not None and not a.halted for a in group), now):
-                frames.append((command_id, pack_command(
-                    [0 if a is None else a.command_counts(a.executed_effort) for a in group])))
+                frames.append((command_id, pack_command([0 if a is None else a.command_counts(a.executed_effort) for a in group])))
         for actuator in self._cheetahs:
             if self._wanted(actuator.id, not actuator.halted, now):
                 frames.append(self._cheetah(actuator, 0.0 if actuator.halted else actuator.executed_effort))
@@ -56,6 +56,7 @@ class CommandFrames:
     def _cheetah(actuator: Actuator, effort: float) -> Frame:
         k = actuator.coefficients
         if effort - effort != 0.0:
-            effort = 0.0         # not a finite number
-        return actuator.id, pack_cheetah_command(k.pos2act * -k.act2pos_offset, k.vel2act * -k.act2vel_offset, 0.0, 0.0,
-                                                 round(k.effort2act * (effort - k.act2effort_offset)))
+            effort = 0.0  # not a finite number
+        return actuator.id, pack_cheetah_command(
+            k.pos2act * -k.act2pos_offset, k.vel2act * -k.act2vel_offset, 0.0, 0.0, round(k.effort2act * (effort - k.act2effort_offset))
+        )

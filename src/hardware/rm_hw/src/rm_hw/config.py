@@ -1,4 +1,5 @@
 """The node's private parameters, checked. Knows no ROS: takes a mapping, returns values and lines to log."""
+
 from __future__ import annotations
 
 import os
@@ -50,8 +51,8 @@ class ImuConfig:
     bus: str
     id: int
     frame_id: str
-    angular_vel_coeff: float = 0.0010652644       # 2000 deg/s over 32768 counts
-    accel_coeff: float = 0.0017944335             # 6 g over 32768 counts
+    angular_vel_coeff: float = 0.0010652644  # 2000 deg/s over 32768 counts
+    accel_coeff: float = 0.0017944335  # 6 g over 32768 counts
     temp_coeff: float = 0.125
     temp_offset: float = 23.0
     angular_vel_offset: Tuple[float, float, float] = (0.0, 0.0, 0.0)
@@ -140,8 +141,9 @@ def _buses(params: Mapping[str, Any], lines: List[Tuple[str, str]]) -> List[BusC
         default = os.path.join(BENCH_DIRECTORY, name) if interface == "slcan" else name
         channel = str(entry.get("channel", params.get("channel") or default)).replace("{bus}", name)
         if any(other.name == name or other.channel == channel for other in buses):
-            raise ConfigError(f"bus {name} (channel {channel}) is listed twice: give each bus a channel of its own, "
-                              "for example channel: /dev/tty_{bus}")
+            raise ConfigError(
+                f"bus {name} (channel {channel}) is listed twice: give each bus a channel of its own, for example channel: /dev/tty_{{bus}}"
+            )
         bitrate = int(_positive(entry.get("bitrate", params.get("bitrate", BITRATE)), f"bitrate of {name}"))
         buses.append(BusConfig(name, interface, channel, bitrate))
     return buses
@@ -155,13 +157,13 @@ def _complete(kind: str, name: str, entry: Any, keys: Tuple[str, ...], config: C
     if missing:
         return False
     if isinstance(entry["id"], bool) or not isinstance(entry["id"], int):
-        config.lines.append(("error", f"{kind} {name}: id is {entry['id']!r}, write a whole number such as 0x201: "
-                             "it is left out"))
+        config.lines.append(("error", f"{kind} {name}: id is {entry['id']!r}, write a whole number such as 0x201: it is left out"))
         return False
     if entry["bus"] not in [bus.name for bus in config.buses]:
         listed = ", ".join(bus.name for bus in config.buses) or "none"
-        config.lines.append(("error", f"{kind} {name} is on bus '{entry['bus']}', which parameter 'bus' does not list "
-                             f"(it has {listed}): it is left out"))
+        config.lines.append(
+            ("error", f"{kind} {name} is on bus '{entry['bus']}', which parameter 'bus' does not list (it has {listed}): it is left out")
+        )
         return False
     return True
 
@@ -171,21 +173,31 @@ def _add_actuator(config: Config, name: str, entry: Any, coefficients: Mapping[s
         return
     type_name, identifier = str(entry["type"]), entry["id"]
     if type_name not in coefficients or not ("rm" in type_name or "cheetah" in type_name):
-        raise ConfigError(f"Unknown actuator type '{type_name}' of actuator {name}; known types: "
-                          f"{', '.join(sorted(map(str, coefficients)))}")
+        raise ConfigError(
+            f"Unknown actuator type '{type_name}' of actuator {name}; known types: {', '.join(sorted(map(str, coefficients)))}"
+        )
     for other in config.actuators:
         if other.bus == entry["bus"] and other.id == identifier:
-            raise ConfigError(f"actuators {other.name} and {name} both have id 0x{identifier:X} on {other.bus}: set "
-                              "another id at one of the motors")
+            raise ConfigError(
+                f"actuators {other.name} and {name} both have id 0x{identifier:X} on {other.bus}: set another id at one of the motors"
+            )
     if "rm" in type_name:
         try:
             command_slot(identifier)
         except ValueError as error:
             raise ConfigError(f"actuator {name}: {error}") from None
-    config.actuators.append(ActuatorConfig(
-        name, entry["bus"], identifier, type_name, Coefficients.from_params(type_name, coefficients[type_name]),
-        bool(entry.get("need_calibration", False)), number(entry.get("lp_cutoff_frequency", -1.0), f"actuators/{name}/lp_cutoff_frequency"),
-        _positive(entry.get("timeout", SILENCE), f"actuators/{name}/timeout")))
+    config.actuators.append(
+        ActuatorConfig(
+            name,
+            entry["bus"],
+            identifier,
+            type_name,
+            Coefficients.from_params(type_name, coefficients[type_name]),
+            bool(entry.get("need_calibration", False)),
+            number(entry.get("lp_cutoff_frequency", -1.0), f"actuators/{name}/lp_cutoff_frequency"),
+            _positive(entry.get("timeout", SILENCE), f"actuators/{name}/timeout"),
+        )
+    )
 
 
 def _triple(value: Any, what: str) -> Tuple[float, float, float]:
@@ -199,8 +211,9 @@ def _add_imu(config: Config, name: str, entry: Any) -> None:
     if not _complete("IMU", name, entry, ("bus", "id", "frame_id"), config):
         return
     values: Dict[str, Any] = {}
-    for key, default in ((f.name, f.default) for f in ImuConfig.__dataclass_fields__.values()
-                         if f.name not in ("name", "bus", "id", "frame_id")):
+    for key, default in (
+        (f.name, f.default) for f in ImuConfig.__dataclass_fields__.values() if f.name not in ("name", "bus", "id", "frame_id")
+    ):
         given = entry.get(key + "_diagonal", entry.get(key))
         if given is None:
             config.lines.append(("info", f"parameter 'imus/{name}/{key}' is not set: using {default}"))

@@ -2,6 +2,7 @@
 
 All identifiers are standard 11-bit ones, all frames have 8 data bytes unless stated otherwise.
 """
+
 from __future__ import annotations
 
 import struct

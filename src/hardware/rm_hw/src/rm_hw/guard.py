@@ -3,6 +3,7 @@
 Speed controllers go on with the last current they were told. A process that ends by SIGKILL, a crash of the interpreter
 or a lack of memory cannot say goodbye; this one notices, because its pipe closes.
 """
+
 from __future__ import annotations
 
 import json
@@ -17,8 +18,8 @@ import can
 from rm_hw.can_bus import OPEN_ERRORS, SEND_TIMEOUT, open_interface
 
 _GOODBYE = b"goodbye\n"
-_REPEAT = 20             # times, 5 ms apart
-_ATTEMPTS = 50           # to open a bus, 20 ms apart
+_REPEAT = 20  # times, 5 ms apart
+_ATTEMPTS = 50  # to open a bus, 20 ms apart
 
 
 class Guard:
@@ -28,10 +29,12 @@ class Guard:
     """
 
     def __init__(self, buses: Sequence[Tuple[str, str, int, List[Tuple[int, bytes]]]]) -> None:
-        task = json.dumps([[interface, channel, bitrate, [[i, data.hex()] for i, data in frames]]
-                           for interface, channel, bitrate, frames in buses])
-        self._process = subprocess.Popen([sys.executable, "-m", "rm_hw.guard", task], stdin=subprocess.PIPE,
-                                         stdout=subprocess.DEVNULL, start_new_session=True)
+        task = json.dumps(
+            [[interface, channel, bitrate, [[i, data.hex()] for i, data in frames]] for interface, channel, bitrate, frames in buses]
+        )
+        self._process = subprocess.Popen(
+            [sys.executable, "-m", "rm_hw.guard", task], stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, start_new_session=True
+        )
 
     def dismiss(self) -> None:
         """The motors are off; the guard may go."""
@@ -50,7 +53,7 @@ def _switch_off(task: Sequence[Sequence]) -> None:
                 try:
                     open_buses[index] = open_interface(interface, channel, bitrate)
                 except OPEN_ERRORS:
-                    continue         # another attempt, as long as there are some
+                    continue  # another attempt, as long as there are some
         if len(open_buses) == len(task):
             break
         time.sleep(0.02)
@@ -58,10 +61,9 @@ def _switch_off(task: Sequence[Sequence]) -> None:
         for index, bus in open_buses.items():
             for identifier, data in task[index][3]:
                 try:
-                    bus.send(can.Message(arbitration_id=identifier, data=bytes.fromhex(data), is_extended_id=False),
-                             timeout=SEND_TIMEOUT)
+                    bus.send(can.Message(arbitration_id=identifier, data=bytes.fromhex(data), is_extended_id=False), timeout=SEND_TIMEOUT)
                 except (OSError, can.CanError):
-                    continue         # the bus is gone; the others must still be told
+                    continue  # the bus is gone; the others must still be told
         time.sleep(0.005)
 
 

@@ -1,4 +1,5 @@
 """RmRobotHW: the motors on the CAN buses as a robot of the control stack."""
+
 from __future__ import annotations
 
 import math
@@ -10,11 +11,28 @@ import can
 import rospkg
 import rospy
 import yaml
-from hardware_interface import (ActuatorHandle, ActuatorStateHandle, ActuatorStateInterface, EffortActuatorInterface,
-                                EffortJointInterface, ImuSensorInterface, RobotHW)
-from joint_limits_interface import (DescriptionError, EffortJointSaturationHandle, EffortJointSoftLimitsHandle,
-                                    JointLimits, JointLimitsError, JointLimitsInterface, limits_from_params,
-                                    limits_from_urdf, read_joints, soft_limits_from_params, soft_limits_from_urdf)
+from hardware_interface import (
+    ActuatorHandle,
+    ActuatorStateHandle,
+    ActuatorStateInterface,
+    EffortActuatorInterface,
+    EffortJointInterface,
+    ImuSensorInterface,
+    RobotHW,
+)
+from joint_limits_interface import (
+    DescriptionError,
+    EffortJointSaturationHandle,
+    EffortJointSoftLimitsHandle,
+    JointLimits,
+    JointLimitsError,
+    JointLimitsInterface,
+    limits_from_params,
+    limits_from_urdf,
+    read_joints,
+    soft_limits_from_params,
+    soft_limits_from_urdf,
+)
 from realtime_tools import RealtimePublisher
 from rm_msgs.msg import ActuatorState
 from rm_msgs.srv import EnableImuTrigger, EnableImuTriggerResponse
@@ -30,11 +48,30 @@ from rm_hw.guard import Guard
 from rm_hw.imu import Imu
 
 _LOG = {"info": rospy.loginfo, "warn": rospy.logwarn, "error": rospy.logerr}
-_PUBLISH_PERIOD = 0.01   # s
-_COOLED = 5              # degrees Celsius below WARM before a motor is warned about again
-_ARRAYS = ("name", "type", "bus", "id", "halted", "need_calibration", "calibrated", "calibration_reading",
-           "position_raw", "velocity_raw", "temperature", "circle", "last_position_raw", "frequency", "position",
-           "velocity", "effort", "commanded_effort", "executed_effort", "offset")
+_PUBLISH_PERIOD = 0.01  # s
+_COOLED = 5  # degrees Celsius below WARM before a motor is warned about again
+_ARRAYS = (
+    "name",
+    "type",
+    "bus",
+    "id",
+    "halted",
+    "need_calibration",
+    "calibrated",
+    "calibration_reading",
+    "position_raw",
+    "velocity_raw",
+    "temperature",
+    "circle",
+    "last_position_raw",
+    "frequency",
+    "position",
+    "velocity",
+    "effort",
+    "commanded_effort",
+    "executed_effort",
+    "offset",
+)
 
 
 def report(level: str, text: str) -> None:
@@ -96,8 +133,11 @@ class _Bus:
                 self.cheetahs[reply.motor_id].on_cheetah(reply, stamp, now)
         elif identifier not in self._unknown:
             self._unknown.add(identifier)
-            report("error", f"Can not find defined device, id: 0x{identifier:X} on bus: {self.can_bus.name}; if it is "
-                   "a motor of yours, add it to rm_hw/actuators")
+            report(
+                "error",
+                f"Can not find defined device, id: 0x{identifier:X} on bus: {self.can_bus.name}; if it is "
+                "a motor of yours, add it to rm_hw/actuators",
+            )
 
     def write(self, now: float) -> None:
         if self.can_bus.connected:
@@ -142,11 +182,17 @@ class RmRobotHW(RobotHW):
         self._service = robot_hw_nh.service("imu_trigger", EnableImuTrigger, self._enable_imu_trigger)
         for bus in self.config.buses:
             can_bus = CanBus(bus.name, bus.interface, bus.channel, report, bus.bitrate)
-            self._buses.append(_Bus(can_bus, [a for a, _, _ in self._actuators if a.bus == bus.name],
-                                    [imu for imu in self._imus.values() if imu.config.bus == bus.name]))
+            self._buses.append(
+                _Bus(
+                    can_bus,
+                    [a for a, _, _ in self._actuators if a.bus == bus.name],
+                    [imu for imu in self._imus.values() if imu.config.bus == bus.name],
+                )
+            )
             can_bus.start()
-        self._guard = Guard([(bus.interface, bus.channel, bus.bitrate, made.commands.zero())
-                             for bus, made in zip(self.config.buses, self._buses)])
+        self._guard = Guard(
+            [(bus.interface, bus.channel, bus.bitrate, made.commands.zero()) for bus, made in zip(self.config.buses, self._buses)]
+        )
         return True
 
     def _make_actuators(self) -> None:
@@ -171,12 +217,13 @@ class RmRobotHW(RobotHW):
     def _load_description(self, root_nh) -> None:
         urdf = rospy.get_param("/robot_description", None)
         if not isinstance(urdf, str) or not urdf.strip():
-            raise ConfigError("parameter /robot_description is empty: load the URDF in the launch file, before rm_hw "
-                              'starts: <param name="robot_description" command="$(find xacro)/xacro FILE"/>')
+            raise ConfigError(
+                "parameter /robot_description is empty: load the URDF in the launch file, before rm_hw "
+                'starts: <param name="robot_description" command="$(find xacro)/xacro FILE"/>'
+            )
         if not TransmissionInterfaceLoader(self, self._transmissions).load(urdf):
             actuators = ", ".join(a.name for a, _, _ in self._actuators) or "none"
-            raise ConfigError("the transmissions of /robot_description cannot be used (see above); configured "
-                              f"actuators: {actuators}")
+            raise ConfigError(f"the transmissions of /robot_description cannot be used (see above); configured actuators: {actuators}")
         effort_joints = self.get(EffortJointInterface)
         self._joints = effort_joints.handles() if effort_joints else []
         try:
@@ -191,14 +238,17 @@ class RmRobotHW(RobotHW):
         limits = limits_from_urdf(description) if description else None
         limits = limits_from_params(root_nh, joint.name, limits or JointLimits()) or limits
         if limits is None:
-            report("warn", f"joint '{joint.name}' has no <limit> in the URDF and no joint_limits/{joint.name}: only "
-                   "the motor limits its effort")
+            report(
+                "warn",
+                f"joint '{joint.name}' has no <limit> in the URDF and no joint_limits/{joint.name}: only the motor limits its effort",
+            )
             return
         soft = soft_limits_from_params(root_nh, joint.name)
         if soft is None and description:
             soft = soft_limits_from_urdf(description)
-        self._limits.register_handle(EffortJointSoftLimitsHandle(joint, limits, soft) if soft
-                                     else EffortJointSaturationHandle(joint, limits))
+        self._limits.register_handle(
+            EffortJointSoftLimitsHandle(joint, limits, soft) if soft else EffortJointSaturationHandle(joint, limits)
+        )
 
     def compiled_part(self) -> Any:
         """The interfaces of rm_common."""
@@ -233,8 +283,11 @@ class RmRobotHW(RobotHW):
         """Joint efforts, limited, to frames."""
         for joint in self._joints:
             if not math.isfinite(joint.command):
-                rospy.logerr_throttle(1.0, f"the command to joint '{joint.name}' is {joint.command}: sending 0 Nm "
-                                      "instead; look for a division by zero or an unset value in its controller")
+                rospy.logerr_throttle(
+                    1.0,
+                    f"the command to joint '{joint.name}' is {joint.command}: sending 0 Nm "
+                    "instead; look for a division by zero or an unset value in its controller",
+                )
                 joint.command = 0.0
         efforts = self._transmissions.joint_to_actuator_effort
         efforts.propagate()
@@ -275,8 +328,10 @@ class RmRobotHW(RobotHW):
     def _watch_temperature(self, actuator: Actuator) -> None:
         if actuator.temperature > WARM and actuator.name not in self._warned_warm:
             self._warned_warm.add(actuator.name)
-            report("warn", f"actuator '{actuator.name}' is at {actuator.temperature} C: above 99 C it is disabled; "
-                   "lower the load or let it rest")
+            report(
+                "warn",
+                f"actuator '{actuator.name}' is at {actuator.temperature} C: above 99 C it is disabled; lower the load or let it rest",
+            )
         elif actuator.temperature < WARM - _COOLED:
             self._warned_warm.discard(actuator.name)
 

@@ -8,6 +8,7 @@ with the speed w (rad/s), the current i (A), the torque constant k (Nm/A), visco
 friction c (Nm). Each window of the log gives one such equation, least squares the three unknowns. Sums instead of
 derivatives: the speed comes in whole revolutions per minute, differences of it are mostly noise.
 """
+
 from __future__ import annotations
 
 import argparse
@@ -25,10 +26,10 @@ from rm_hw.candump import open_bus
 from rm_hw.frames import command_slot, pack_command, unpack_feedback
 
 AMPERES_PER_COUNT = {"rm_3508": 20.0 / 16384.0, "rm_2006": 1.0e-3}
-_WINDOW = 0.05           # s
-_SLOW = 5.0              # rad/s; below it dry friction may hold instead of brake
-_MISSING = 1.5           # frames by which a window may fall short
-_RATE = 500.0            # Hz of commands
+_WINDOW = 0.05  # s
+_SLOW = 5.0  # rad/s; below it dry friction may hold instead of brake
+_MISSING = 1.5  # frames by which a window may fall short
+_RATE = 500.0  # Hz of commands
 
 
 @dataclass(frozen=True)
@@ -56,18 +57,20 @@ def sending_times(arrivals: np.ndarray, period: float) -> np.ndarray:
     return slots + np.minimum.accumulate((arrivals - slots)[::-1])[::-1]
 
 
-def read_log(path: str, feedback_id: int, type_name: str,
-             rate: float = 1000.0) -> Tuple[np.ndarray, np.ndarray, np.ndarray]:
+def read_log(path: str, feedback_id: int, type_name: str, rate: float = 1000.0) -> Tuple[np.ndarray, np.ndarray, np.ndarray]:
     """(time s, speed rad/s, current A) of one motor, each (N,).
 
     :param rate: Hz, of the motor's frames.
     :raises ValueError: there are too few frames of it.
     """
-    samples = [(m.timestamp, f.rpm, f.current) for m in can.LogReader(path) if m.arbitration_id == feedback_id
-               for f in (unpack_feedback(bytes(m.data)),)]
+    samples = [
+        (m.timestamp, f.rpm, f.current)
+        for m in can.LogReader(path)
+        if m.arbitration_id == feedback_id
+        for f in (unpack_feedback(bytes(m.data)),)
+    ]
     if len(samples) < 100:
-        raise ValueError(f"{path} has {len(samples)} frames of id 0x{feedback_id:03X}: record some seconds of that "
-                         "motor")
+        raise ValueError(f"{path} has {len(samples)} frames of id 0x{feedback_id:03X}: record some seconds of that motor")
     stamps, rpm, counts = np.array(samples, dtype=float).T
     return sending_times(stamps, 1.0 / rate), rpm * (math.pi / 30.0), counts * AMPERES_PER_COUNT[type_name]
 
@@ -83,15 +86,18 @@ def fit(stamps: np.ndarray, speed: np.ndarray, current: np.ndarray, inertia: flo
 
     def integral(values: np.ndarray) -> np.ndarray:
         return np.concatenate(([0.0], np.cumsum((values[1:] + values[:-1]) / 2.0 * dt)))
+
     edges = np.searchsorted(stamps, np.arange(stamps[0], stamps[-1], _WINDOW))
     slow = np.concatenate(([0], np.cumsum(np.abs(speed) < _SLOW)))
-    pairs = [(a, b) for a, b in zip(edges[:-1], edges[1:]) if b > a and slow[b] == slow[a]
-             and abs((stamps[b] - stamps[a]) * rate - (b - a)) < _MISSING]
+    pairs = [
+        (a, b)
+        for a, b in zip(edges[:-1], edges[1:])
+        if b > a and slow[b] == slow[a] and abs((stamps[b] - stamps[a]) * rate - (b - a)) < _MISSING
+    ]
     if len(pairs) < 20 or np.ptp(speed) < 20.0 * _SLOW:
         raise ValueError("the motor hardly moves in this log: use more current, longer, and in both directions")
     a, b = np.array(pairs).T
-    columns = np.column_stack([np.diff([integral(v)[a], integral(v)[b]], axis=0)[0]
-                               for v in (current, -np.sign(speed), -speed)])
+    columns = np.column_stack([np.diff([integral(v)[a], integral(v)[b]], axis=0)[0] for v in (current, -np.sign(speed), -speed)])
     momentum = inertia * (speed[b] - speed[a])
     scale = np.abs(columns).max(axis=0)
     solution, squares, rank, _ = np.linalg.lstsq(columns / scale, momentum, rcond=None)
@@ -100,12 +106,11 @@ def fit(stamps: np.ndarray, speed: np.ndarray, current: np.ndarray, inertia: flo
     variance = squares[0] / (len(pairs) - 3)
     errors = np.sqrt(variance * np.diag(np.linalg.inv((columns / scale).T @ (columns / scale)))) / scale
     values = solution / scale
-    residual = math.sqrt(squares[0] / np.sum(momentum ** 2))
+    residual = math.sqrt(squares[0] / np.sum(momentum**2))
     return Identified(float(values[0]), float(values[1]), float(values[2]), tuple(errors), residual)
 
 
-def predict(stamps: np.ndarray, speed: np.ndarray, current: np.ndarray, inertia: float,
-            found: Identified) -> np.ndarray:
+def predict(stamps: np.ndarray, speed: np.ndarray, current: np.ndarray, inertia: float, found: Identified) -> np.ndarray:
     """(N,) rad/s: the speed that the identified motor would have had with the recorded current."""
     result, w = np.empty_like(speed), float(speed[0])
     for k in range(len(stamps)):
@@ -118,19 +123,24 @@ def predict(stamps: np.ndarray, speed: np.ndarray, current: np.ndarray, inertia:
     return result
 
 
-def plot(path: str, stamps: np.ndarray, speed: np.ndarray, current: np.ndarray, predicted: np.ndarray,
-         found: Identified) -> None:
+def plot(path: str, stamps: np.ndarray, speed: np.ndarray, current: np.ndarray, predicted: np.ndarray, found: Identified) -> None:
     """Write a picture of speed, predicted speed and current."""
     import matplotlib
+
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
+
     _, (above, below) = plt.subplots(2, 1, sharex=True, figsize=(9, 5))
     seconds = stamps - stamps[0]
     above.plot(seconds, speed, label="measured")
     above.plot(seconds, predicted, "--", label="identified model, same current")
-    above.set(ylabel="rotor speed, rad/s", title=(
-        f"k = {found.torque_constant:.5f} Nm/A, dry friction {1000 * found.coulomb:.2f} mNm, "
-        f"viscous {1e6 * found.viscous:.2f} uNm s/rad"))
+    above.set(
+        ylabel="rotor speed, rad/s",
+        title=(
+            f"k = {found.torque_constant:.5f} Nm/A, dry friction {1000 * found.coulomb:.2f} mNm, "
+            f"viscous {1e6 * found.viscous:.2f} uNm s/rad"
+        ),
+    )
     above.legend()
     below.plot(seconds, current, color="tab:red")
     below.set(ylabel="current, A", xlabel="s")
@@ -166,8 +176,11 @@ def _excite(options: argparse.Namespace) -> None:
 def _fit(options: argparse.Namespace) -> None:
     stamps, speed, current = read_log(options.log, options.id, options.type, options.rate)
     found = fit(stamps, speed, current, options.inertia, options.rate)
-    for label, value, error in zip(("torque constant Nm/A", "dry friction Nm", "viscous friction Nm s/rad"),
-                                   (found.torque_constant, found.coulomb, found.viscous), found.errors):
+    for label, value, error in zip(
+        ("torque constant Nm/A", "dry friction Nm", "viscous friction Nm s/rad"),
+        (found.torque_constant, found.coulomb, found.viscous),
+        found.errors,
+    ):
         print(f"{label:26} {value:11.4e} +- {error:.1e}")
     print(f"unexplained                {100 * found.residual:.2f} % of the momentum")
     if options.plot:
@@ -184,8 +197,9 @@ def main(arguments: Optional[List[str]] = None) -> int:
     excite.add_argument("--seconds", type=float, default=10.0)
     excite.set_defaults(run=_excite)
     fitting = commands.add_parser("fit", help="torque constant and friction from a log")
-    fitting.add_argument("--inertia", type=float, required=True, help="kg m^2 at the rotor: its own, and the load's "
-                         "divided by the square of the gear ratio")
+    fitting.add_argument(
+        "--inertia", type=float, required=True, help="kg m^2 at the rotor: its own, and the load's divided by the square of the gear ratio"
+    )
     fitting.add_argument("--rate", type=float, default=1000.0, help="of the motor's frames in Hz (%(default)g)")
     fitting.add_argument("--plot", metavar="FILE", help="write a picture")
     fitting.set_defaults(run=_fit)

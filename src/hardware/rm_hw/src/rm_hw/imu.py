@@ -1,4 +1,5 @@
 """An IMU board on a CAN bus: counts to SI units, and its orientation by a complementary filter."""
+
 from __future__ import annotations
 
 import math
@@ -9,9 +10,9 @@ from hardware_interface import ImuSensorHandle
 from rm_hw.config import ImuConfig
 from rm_hw.frames import ImuAccel, ImuGyro
 
-_GAIN = 0.01             # share of the accelerometer's idea of "down" that is believed per sample
+_GAIN = 0.01  # share of the accelerometer's idea of "down" that is believed per sample
 _GRAVITY = 9.81
-_TOLERANCE = 0.3         # relative; beyond it the accelerometer measures motion rather than gravity
+_TOLERANCE = 0.3  # relative; beyond it the accelerometer measures motion rather than gravity
 
 Quaternion = Tuple[float, float, float, float]
 
@@ -19,8 +20,12 @@ Quaternion = Tuple[float, float, float, float]
 def _multiply(a: Quaternion, b: Quaternion) -> Quaternion:
     ax, ay, az, aw = a
     bx, by, bz, bw = b
-    return (aw * bx + ax * bw + ay * bz - az * by, aw * by - ax * bz + ay * bw + az * bx,
-            aw * bz + ax * by - ay * bx + az * bw, aw * bw - ax * bx - ay * by - az * bz)
+    return (
+        aw * bx + ax * bw + ay * bz - az * by,
+        aw * by - ax * bz + ay * bw + az * bx,
+        aw * bz + ax * by - ay * bx + az * bw,
+        aw * bw - ax * bx - ay * by - az * bz,
+    )
 
 
 def _rotation(x: float, y: float, z: float) -> Quaternion:
@@ -44,9 +49,15 @@ class Imu:
         self.camera_trigger = self.trigger_enabled = False
         self._orientation: Quaternion = (0.0, 0.0, 0.0, 1.0)
         self.handle = ImuSensorHandle(
-            config.name, config.frame_id, self._orientation, _diagonal(config.orientation_covariance),
-            (0.0, 0.0, 0.0), _diagonal(config.angular_velocity_covariance),
-            (0.0, 0.0, 0.0), _diagonal(config.linear_acceleration_covariance))
+            config.name,
+            config.frame_id,
+            self._orientation,
+            _diagonal(config.orientation_covariance),
+            (0.0, 0.0, 0.0),
+            _diagonal(config.angular_velocity_covariance),
+            (0.0, 0.0, 0.0),
+            _diagonal(config.linear_acceleration_covariance),
+        )
         self._stamp: Optional[float] = None
 
     @property
@@ -76,10 +87,13 @@ class Imu:
         if abs(norm - _GRAVITY) > _TOLERANCE * _GRAVITY:
             return
         x, y, z, w = self._orientation
-        up = (2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y))     # the world's z in the sensor frame
+        up = (2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y))  # the world's z in the sensor frame
         measured = tuple(v / norm for v in a)
-        error = (measured[1] * up[2] - measured[2] * up[1], measured[2] * up[0] - measured[0] * up[2],
-                 measured[0] * up[1] - measured[1] * up[0])
+        error = (
+            measured[1] * up[2] - measured[2] * up[1],
+            measured[2] * up[0] - measured[0] * up[2],
+            measured[0] * up[1] - measured[1] * up[0],
+        )
         correction = _rotation(*(_GAIN * e for e in error))
         self._orientation = self.handle.orientation = _normalized(_multiply(self._orientation, correction))
 

@@ -1,4 +1,5 @@
 """The control loop: read, update, write, a thousand times a second, and what to do when that fails."""
+
 from __future__ import annotations
 
 import gc
@@ -9,8 +10,8 @@ from typing import Callable, Optional
 
 import rospy
 
-_SWITCH_INTERVAL = 0.0002    # s; Python's own 5 ms would let a service thread hold up the loop for five cycles
-_WARNING_PAUSE = 1.0         # s between two warnings about late cycles
+_SWITCH_INTERVAL = 0.0002  # s; Python's own 5 ms would let a service thread hold up the loop for five cycles
+_WARNING_PAUSE = 1.0  # s between two warnings about late cycles
 
 
 def become_realtime(priority: int) -> None:
@@ -28,10 +29,12 @@ def become_realtime(priority: int) -> None:
         except OSError as error:
             refused = error
     if refused is not None:
-        rospy.logerr("Set scheduler failed, RUN THIS NODE AS SUPER USER. (%s) It runs on at normal priority, which is "
-                     "enough for the motor bench; for a robot allow real-time priority: put '@realtime - rtprio 99' "
-                     "into /etc/security/limits.d/realtime.conf, 'sudo usermod -aG realtime $USER', and log in again",
-                     refused.strerror)
+        rospy.logerr(
+            "Set scheduler failed, RUN THIS NODE AS SUPER USER. (%s) It runs on at normal priority, which is "
+            "enough for the motor bench; for a robot allow real-time priority: put '@realtime - rtprio 99' "
+            "into /etc/security/limits.d/realtime.conf, 'sudo usermod -aG realtime $USER', and log in again",
+            refused.strerror,
+        )
     sys.setswitchinterval(_SWITCH_INTERVAL)
 
 
@@ -44,8 +47,9 @@ class ControlLoop:
     :param watch: called with each cycle's duration in s, for measurements.
     """
 
-    def __init__(self, frequency: float, threshold: float, cycle: Callable[[float, float], None],
-                 watch: Optional[Callable[[float], None]] = None) -> None:
+    def __init__(
+        self, frequency: float, threshold: float, cycle: Callable[[float, float], None], watch: Optional[Callable[[float], None]] = None
+    ) -> None:
         self._period = 1.0 / frequency
         self._threshold = threshold
         self._cycle, self._watch = cycle, watch
@@ -60,7 +64,7 @@ class ControlLoop:
     def run(self) -> None:
         """Until :meth:`stop`."""
         gc.collect()
-        gc.freeze()              # what start-up has made need not be searched for garbage again
+        gc.freeze()  # what start-up has made need not be searched for garbage again
         last = due = time.monotonic()
         while self._running:
             due += self._period
@@ -68,7 +72,7 @@ class ControlLoop:
             if now < due:
                 time.sleep(due - now)
             else:
-                due = now        # do not run after lost time in a burst
+                due = now  # do not run after lost time in a burst
             now = time.monotonic()
             elapsed, last = now - last, now
             self._check(elapsed, now)
@@ -84,7 +88,12 @@ class ControlLoop:
         if now < self._next_warning:
             return
         self._next_warning = now + _WARNING_PAUSE
-        rospy.logwarn("Cycle time exceeded error threshold by: %.6fs, cycle time: %.6fs, threshold: %.6fs (%d late "
-                      "cycles so far). If it happens often: stop other programs, lower loop_frequency, or use a "
-                      "real-time kernel",
-                      excess, elapsed, self._threshold, self._late)
+        rospy.logwarn(
+            "Cycle time exceeded error threshold by: %.6fs, cycle time: %.6fs, threshold: %.6fs (%d late "
+            "cycles so far). If it happens often: stop other programs, lower loop_frequency, or use a "
+            "real-time kernel",
+            excess,
+            elapsed,
+            self._threshold,
+            self._late,
+        )

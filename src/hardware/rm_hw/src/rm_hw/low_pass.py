@@ -1,13 +1,14 @@
 """Second-order Butterworth low pass for samples that arrive at uneven intervals."""
+
 from __future__ import annotations
 
 import math
 from typing import Optional
 
 _ROOT = math.sqrt(2.0)
-_NOTHING = 1e-12         # standing still reads 0, not ever smaller numbers
-_SMALLEST_TAN = 0.01     # a floor under the corner: about 3 Hz at 1 kHz
-_LARGEST_PHASE = math.pi / 4.0     # the corner is at most a quarter of the rate: after a gap the slope stays moderate
+_NOTHING = 1e-12  # standing still reads 0, not ever smaller numbers
+_SMALLEST_TAN = 0.01  # a floor under the corner: about 3 Hz at 1 kHz
+_LARGEST_PHASE = math.pi / 4.0  # the corner is at most a quarter of the rate: after a gap the slope stays moderate
 
 
 class LowPass:

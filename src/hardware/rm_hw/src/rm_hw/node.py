@@ -1,4 +1,5 @@
 """The node rm_hw."""
+
 from __future__ import annotations
 
 import signal
@@ -74,5 +75,5 @@ def _run(hw: RmRobotHW, manager: ControllerManager, log: CycleLog) -> None:
     loop = ControlLoop(hw.config.loop_frequency, hw.config.cycle_time_error_threshold, cycle, log.add)
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, loop.stop)
-    rospy.on_shutdown(loop.stop)             # rosnode kill, or another node of this name
+    rospy.on_shutdown(loop.stop)  # rosnode kill, or another node of this name
     loop.run()

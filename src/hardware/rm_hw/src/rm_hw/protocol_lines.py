@@ -7,6 +7,7 @@ nothing else, counts the rest in ``rejected``, and writes a line whole. It is op
 as ``lines:///dev/ttyACM0`` once :func:`register` has been called; pyserial wants this module to be called
 ``protocol_lines``.
 """
+
 from __future__ import annotations
 
 import os
@@ -56,7 +57,7 @@ class LineSerial(serial.Serial):
                 select.select([self.fd], [], [], self._read_timeout)
             self._fill()
         start, self._position = self._position, min(len(self._ready), self._position + size)
-        return self._ready[start:self._position]
+        return self._ready[start : self._position]
 
     def write(self, data: bytes) -> int:
         """Write all of ``data``.
@@ -95,7 +96,7 @@ class LineSerial(serial.Serial):
             raise serial.SerialException(f"the adapter is gone: {error}") from error
         if not data:
             return
-        data = self._partial + data.replace(b"\a", b"\r")       # a bell ends a line too: the stick refused something
+        data = self._partial + data.replace(b"\a", b"\r")  # a bell ends a line too: the stick refused something
         *lines, self._partial = data.split(b"\r")
         if len(self._partial) > _LONGEST_LINE:
             self._partial = b""
@@ -111,7 +112,7 @@ class LineSerial(serial.Serial):
 
 def serial_class_for_url(url: str) -> Tuple[str, type]:
     """pyserial's hook: (device path, class)."""
-    return url[len("lines://"):], LineSerial
+    return url[len("lines://") :], LineSerial
 
 
 def register() -> None:

@@ -1,4 +1,5 @@
 """Interfaces of the package rm_common, for compiled controllers that ask for them (rm_controllers)."""
+
 from __future__ import annotations
 
 from typing import Any, Dict, List, Sequence, Tuple
@@ -25,7 +26,8 @@ class RmControlPart:
             motor.calibrated, motor.offset = actuator.calibrated, actuator.offset
             self._motors.append((actuator, motor))
         self._imus: List[Tuple[Imu, Any]] = [
-            (imu, self._core.add_imu(name, imu.config.frame_id, imu.handle._addresses)) for name, imu in imus.items()]
+            (imu, self._core.add_imu(name, imu.config.frame_id, imu.handle._addresses)) for name, imu in imus.items()
+        ]
         self.robot = Robot(self._core.address, self._core)
 
     def take(self) -> None:

@@ -1,4 +1,5 @@
 """``rosrun rm_hw motor_bench``: the bench in real time, with keys, ROS topics and a CAN log."""
+
 from __future__ import annotations
 
 import argparse
@@ -19,9 +20,9 @@ from rm_hw.bench.keys import HELP, Keys
 from rm_hw.bench.replay import Replay
 from rm_hw.config import BENCH_DIRECTORY
 
-_FURTHEST_BEHIND = 0.05      # s; a bench that was suspended longer than this does not catch up
+_FURTHEST_BEHIND = 0.05  # s; a bench that was suspended longer than this does not catch up
 _PRIORITY = 50
-_PUBLISH_EVERY = 10          # ticks
+_PUBLISH_EVERY = 10  # ticks
 _STATUS_EVERY = 200
 
 
@@ -38,9 +39,11 @@ class Recorder:
 
     def __call__(self, bus: str, frame: Frame) -> None:
         if self._logger and self.bench is not None:
-            self._logger.on_message_received(can.Message(
-                timestamp=self._start + self.bench.time, arbitration_id=frame.id, data=frame.data, channel=bus,
-                is_extended_id=False))
+            self._logger.on_message_received(
+                can.Message(
+                    timestamp=self._start + self.bench.time, arbitration_id=frame.id, data=frame.data, channel=bus, is_extended_id=False
+                )
+            )
 
     def close(self) -> None:
         if self._logger:
@@ -54,6 +57,7 @@ class RosFace:
         import rospy
         from sensor_msgs.msg import JointState
         from std_msgs.msg import Float64
+
         from rm_hw.srv import BenchCommand, BenchCommandResponse
 
         rospy.init_node("motor_bench", disable_signals=True)
@@ -66,8 +70,10 @@ class RosFace:
             return BenchCommandResponse(*answer.get())
 
         self._service = rospy.Service("~command", BenchCommand, lambda request: carry_out(request.command))
-        self._turns = [rospy.Subscriber(f"~turn/{name}", Float64, lambda m, name=name: commands.put(
-            (f"turn {name} {m.data}", None))) for name in bench.devices]
+        self._turns = [
+            rospy.Subscriber(f"~turn/{name}", Float64, lambda m, name=name: commands.put((f"turn {name} {m.data}", None)))
+            for name in bench.devices
+        ]
 
     def publish(self) -> None:
         motors = {name: device.motor for name, device in self._bench.devices.items()}
@@ -83,16 +89,25 @@ class RosFace:
 
 
 def _arguments(arguments: List[str]) -> argparse.Namespace:
-    parser = argparse.ArgumentParser(prog="motor_bench", description=__doc__.splitlines()[0], epilog=HELP,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--config", metavar="FILE", help="YAML: motors: {NAME: {bus, id, type, gear, load}}; without "
-                        "it the motor of rm_controls_tutorials with its arm")
-    parser.add_argument("--dir", default=BENCH_DIRECTORY,
-                        help="folder for the serial ports, BUS and BUS.monitor (%(default)s)")
+    parser = argparse.ArgumentParser(
+        prog="motor_bench", description=__doc__.splitlines()[0], epilog=HELP, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument(
+        "--config",
+        metavar="FILE",
+        help="YAML: motors: {NAME: {bus, id, type, gear, load}}; without it the motor of rm_controls_tutorials with its arm",
+    )
+    parser.add_argument("--dir", default=BENCH_DIRECTORY, help="folder for the serial ports, BUS and BUS.monitor (%(default)s)")
     parser.add_argument("--log", metavar="FILE", help="record all frames (.log, .asc, .blf, .csv)")
     parser.add_argument("--replay", metavar="FILE", help="play the motors of a log instead of simulating some")
-    parser.add_argument("--at", nargs=2, action="append", default=[], metavar=("SECONDS", "COMMAND"),
-                        help="carry out a bench command at that time; may be repeated")
+    parser.add_argument(
+        "--at",
+        nargs=2,
+        action="append",
+        default=[],
+        metavar=("SECONDS", "COMMAND"),
+        help="carry out a bench command at that time; may be repeated",
+    )
     parser.add_argument("--no-ros", action="store_true", help="keys only, do not look for a roscore")
     return parser.parse_args(arguments)
 
@@ -103,8 +118,10 @@ def _status(bench: Union[Bench, Replay], selected: Optional[str]) -> str:
         motor = device.motor
         state = "" if device.present else " GONE"
         state += " held" if motor.held else ""
-        parts.append(f"{'>' if name == selected else ' '}{name} {math.degrees(motor.output_angle):8.1f} deg "
-                     f"{motor.output_speed:7.2f} rad/s {motor.current:6.2f} A {motor.temperature:4.0f} C{state}")
+        parts.append(
+            f"{'>' if name == selected else ' '}{name} {math.degrees(motor.output_angle):8.1f} deg "
+            f"{motor.output_speed:7.2f} rad/s {motor.current:6.2f} A {motor.temperature:4.0f} C{state}"
+        )
     return " |".join(parts)
 
 
@@ -129,6 +146,7 @@ class App:
         self._ros = None
         if not options.no_ros:
             import rosgraph
+
             if rosgraph.is_master_online():
                 self._ros = RosFace(self.bench, self._commands)
             else:
@@ -142,8 +160,7 @@ class App:
     def run(self) -> None:
         """Until :meth:`stop`, the key q, or the end of a recording."""
         for name, bus in self.bench.buses.items():
-            print(f"motor_bench: {name} is {bus.ports[0].path} (interface: slcan); "
-                  f"look on with 'rosrun rm_hw candump {name}'", flush=True)
+            print(f"motor_bench: {name} is {bus.ports[0].path} (interface: slcan); look on with 'rosrun rm_hw candump {name}'", flush=True)
         keys = Keys(self.bench) if sys.stdin.isatty() and sys.stdout.isatty() else None
         with keys or contextlib.nullcontext():
             if keys:
@@ -157,7 +174,7 @@ class App:
             self._ros.shutdown()
 
     def _loop(self, keys: Optional[Keys]) -> None:
-        with contextlib.suppress(PermissionError):       # a motor is never late; the bench tries to be like it
+        with contextlib.suppress(PermissionError):  # a motor is never late; the bench tries to be like it
             os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(_PRIORITY))
         due = time.monotonic()
         while not self._stopped:

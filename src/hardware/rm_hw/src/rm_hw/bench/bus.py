@@ -1,4 +1,5 @@
 """Motors, ports and faults joined into CAN buses. No clock of its own: ``tick`` is one millisecond."""
+
 from __future__ import annotations
 
 import random
@@ -111,8 +112,13 @@ class Bench:
     :param watch: called with (bus, frame) for every frame that passes a bus.
     """
 
-    def __init__(self, config: Optional[dict] = None, directory: str = "/tmp/rm_bench", seed: int = 0,
-                 watch: Callable[[str, Frame], None] = lambda bus, frame: None) -> None:
+    def __init__(
+        self,
+        config: Optional[dict] = None,
+        directory: str = "/tmp/rm_bench",
+        seed: int = 0,
+        watch: Callable[[str, Frame], None] = lambda bus, frame: None,
+    ) -> None:
         self.time = 0.0
         self.ticks = 0
         self.directory = directory
@@ -134,13 +140,18 @@ class Bench:
             raise BenchError(f"motor '{name}': type '{entry['type']}' is not simulated; known: {', '.join(SPECS)}")
         bus, load = str(entry["bus"]), entry.get("load", {})
         try:
-            motor = Motor(SPECS[entry["type"]], TUTORIAL_ARM if load == "tutorial_arm" else Load(**load),
-                          entry.get("gear"), float(entry.get("start", 0.0)), float(entry.get("ambient", 25.0)))
+            motor = Motor(
+                SPECS[entry["type"]],
+                TUTORIAL_ARM if load == "tutorial_arm" else Load(**load),
+                entry.get("gear"),
+                float(entry.get("start", 0.0)),
+                float(entry.get("ambient", 25.0)),
+            )
             device = Device(name, int(entry["id"]), motor)
         except (TypeError, ValueError) as error:
             raise BenchError(f"motor '{name}': {error}") from None
         motor.temperature = motor.ambient
-        if motor.load.gravity:   # a hand holds the arm until somebody listens, so that its zero is known
+        if motor.load.gravity:  # a hand holds the arm until somebody listens, so that its zero is known
             motor.held = device.hold_until_opened = True
         if bus not in self.buses:
             self.buses[bus] = Bus(bus, self.directory, self._watch)
@@ -185,8 +196,7 @@ class Bench:
         of_bus = verb in ("garbage", "busoff", "recover", "unplug", "plug")
         targets: Mapping[str, object] = self.buses if of_bus else self.devices
         if not arguments or arguments[0] not in targets:
-            raise BenchError(f"{verb}: '{' '.join(arguments[:1])}' is not on the bench; there are {', '.join(targets)} "
-                             f"({_USAGE[verb]})")
+            raise BenchError(f"{verb}: '{' '.join(arguments[:1])}' is not on the bench; there are {', '.join(targets)} ({_USAGE[verb]})")
         needs_number = verb in ("turn", "drop", "late", "heat", "garbage", "rate")
         try:
             number = float(arguments[1]) if needs_number else 0.0
@@ -216,7 +226,7 @@ class Bench:
             motor.held, device.hold_until_opened = verb == "hold", False
         elif verb in ("leave", "return"):
             device.present = verb == "return"
-            motor.command = 0                       # without power there is no current
+            motor.command = 0  # without power there is no current
         elif verb == "drop":
             device.drop = number
         elif verb == "late":

@@ -1,4 +1,5 @@
 """Keys of the motor bench: a terminal in character mode, and what each key does."""
+
 from __future__ import annotations
 
 import os

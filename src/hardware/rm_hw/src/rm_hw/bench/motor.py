@@ -2,6 +2,7 @@
 
 Angles and torques with the suffix ``rotor`` are before the gearbox, those with ``out`` behind it.
 """
+
 from __future__ import annotations
 
 import math
@@ -54,15 +55,47 @@ class MotorSpec:
 # M2006: 0.18 Nm/A behind 36, 0.461 ohm, no load 500 rpm and 0.6 A.
 # GM6020: 0.741 Nm/A, 1.8 ohm, 5.7 mH, no load 320 rpm.
 SPECS = {
-    "rm_3508": MotorSpec(torque_constant=0.3 / 19.2032, back_emf=0.0246, resistance=0.194, inertia=1.8e-5,
-                         coulomb=0.006, viscous=6.4e-6, gear=3591.0 / 187.0, counts_per_unit=16384 / 20.0,
-                         counts_per_ampere=16384 / 20.0, max_counts=16384),
-    "rm_2006": MotorSpec(torque_constant=0.18 / 36.0, back_emf=0.0126, resistance=0.461, inertia=4.0e-6, coulomb=0.0015,
-                         viscous=8.0e-7, gear=36.0, counts_per_unit=1000.0, counts_per_ampere=1000.0, max_counts=10000,
-                         reports_temperature=False, heat_capacity=40.0, heat_resistance=8.0),
-    "rm_6020": MotorSpec(torque_constant=0.741, back_emf=0.70, resistance=1.8, inertia=2.3e-4, coulomb=0.05,
-                         viscous=1.0e-3, gear=1.0, counts_per_unit=30000 / 24.0, counts_per_ampere=16384 / 3.0,
-                         max_counts=30000, current_lag=0.0032, voltage_command=True),
+    "rm_3508": MotorSpec(
+        torque_constant=0.3 / 19.2032,
+        back_emf=0.0246,
+        resistance=0.194,
+        inertia=1.8e-5,
+        coulomb=0.006,
+        viscous=6.4e-6,
+        gear=3591.0 / 187.0,
+        counts_per_unit=16384 / 20.0,
+        counts_per_ampere=16384 / 20.0,
+        max_counts=16384,
+    ),
+    "rm_2006": MotorSpec(
+        torque_constant=0.18 / 36.0,
+        back_emf=0.0126,
+        resistance=0.461,
+        inertia=4.0e-6,
+        coulomb=0.0015,
+        viscous=8.0e-7,
+        gear=36.0,
+        counts_per_unit=1000.0,
+        counts_per_ampere=1000.0,
+        max_counts=10000,
+        reports_temperature=False,
+        heat_capacity=40.0,
+        heat_resistance=8.0,
+    ),
+    "rm_6020": MotorSpec(
+        torque_constant=0.741,
+        back_emf=0.70,
+        resistance=1.8,
+        inertia=2.3e-4,
+        coulomb=0.05,
+        viscous=1.0e-3,
+        gear=1.0,
+        counts_per_unit=30000 / 24.0,
+        counts_per_ampere=16384 / 3.0,
+        max_counts=30000,
+        current_lag=0.0032,
+        voltage_command=True,
+    ),
 }
 
 
@@ -82,7 +115,7 @@ class Load:
 
 
 # link2 and joint1 of rm_controls_tutorials: 0.5 kg at 0.2 m, joint damping 0.01 and friction 0.02
-TUTORIAL_ARM = Load(inertia=0.0108333 + 0.5 * 0.2 ** 2, gravity=0.5 * 9.81 * 0.2, damping=0.01, friction=0.02)
+TUTORIAL_ARM = Load(inertia=0.0108333 + 0.5 * 0.2**2, gravity=0.5 * 9.81 * 0.2, damping=0.01, friction=0.02)
 
 
 @dataclass
@@ -114,9 +147,9 @@ class Motor:
         self.ratio = self.gear = self.spec.gear if self.gear is None else self.gear
         if self.ratio == 0.0:
             raise ValueError("gear is 0: write the rotor turns per output turn, for example 19.2032")
-        self._inertia = self.spec.inertia + self.load.inertia / self.ratio ** 2
+        self._inertia = self.spec.inertia + self.load.inertia / self.ratio**2
         self._coulomb = self.spec.coulomb + self.load.friction / abs(self.ratio)
-        self._viscous = self.spec.viscous + self.load.damping / self.ratio ** 2
+        self._viscous = self.spec.viscous + self.load.damping / self.ratio**2
 
     @property
     def output_angle(self) -> float:
@@ -142,11 +175,11 @@ class Motor:
             emf = spec.back_emf * self.speed
             if spec.voltage_command:
                 target = (wanted - emf) / spec.resistance
-            else:                        # the current loop runs out of voltage at speed
+            else:  # the current loop runs out of voltage at speed
                 target = max((-spec.supply - emf) / spec.resistance, min((spec.supply - emf) / spec.resistance, wanted))
             self.current += lag * (target - self.current)
             self._move(dt)
-        heat = spec.resistance * self.current ** 2 - (self.temperature - self.ambient) / spec.heat_resistance
+        heat = spec.resistance * self.current**2 - (self.temperature - self.ambient) / spec.heat_resistance
         self.temperature += duration * heat / spec.heat_capacity
 
     def _move(self, dt: float) -> None:
@@ -170,5 +203,4 @@ class Motor:
         counts = math.floor(self.angle * COUNTS_PER_TURN / (2.0 * math.pi)) % COUNTS_PER_TURN
         current = round(self.current * self.spec.counts_per_ampere)
         temperature = max(0, min(255, int(self.temperature))) if self.spec.reports_temperature else 0
-        return Feedback(counts, max(-32768, min(32767, round(self.speed * _RPM))),
-                        max(-32768, min(32767, current)), temperature)
+        return Feedback(counts, max(-32768, min(32767, round(self.speed * _RPM))), max(-32768, min(32767, current)), temperature)

@@ -1,4 +1,5 @@
 """Frames of a CAN log on the bench's ports, at the pace they were recorded."""
+
 from __future__ import annotations
 
 from typing import Dict, Iterator, Optional
@@ -8,7 +9,7 @@ import can
 from rm_hw.bench.bus import TICK, BenchError, Bus, Device, Frame
 from rm_hw.frames import RM_COMMAND_IDS
 
-_LINGER = 0.5            # s between the last frame and the end
+_LINGER = 0.5  # s between the last frame and the end
 
 
 class Replay:
@@ -22,8 +23,7 @@ class Replay:
         try:
             messages = list(can.LogReader(path))
         except (OSError, ValueError) as error:
-            raise BenchError(f"cannot replay {path}: {error}; .log, .asc, .blf and .csv files of python-can are read") \
-                from None
+            raise BenchError(f"cannot replay {path}: {error}; .log, .asc, .blf and .csv files of python-can are read") from None
         if not messages:
             raise BenchError(f"cannot replay {path}: there is no frame in it")
         self._start = messages[0].timestamp
@@ -34,8 +34,7 @@ class Replay:
             if name not in self.buses:
                 self.buses[name] = Bus(name, directory, watch)
         self.devices: Dict[str, Device] = {}
-        self._messages: Iterator[can.Message] = iter(
-            m for m in messages if not m.is_error_frame and m.arbitration_id not in RM_COMMAND_IDS)
+        self._messages: Iterator[can.Message] = iter(m for m in messages if not m.is_error_frame and m.arbitration_id not in RM_COMMAND_IDS)
         self._since_last = 0.0
         self._next: Optional[can.Message] = next(self._messages, None)
 

@@ -1,4 +1,5 @@
 """One serial port of the bench: a pseudo-terminal that speaks SLCAN (the Lawicel protocol of USB-CAN sticks)."""
+
 from __future__ import annotations
 
 import errno
@@ -60,7 +61,7 @@ class SlcanPort:
         except OSError as error:
             if error.errno != errno.EIO:
                 raise
-            self.open, self._buffer = False, b""       # nobody has the terminal open
+            self.open, self._buffer = False, b""  # nobody has the terminal open
             return []
         *lines, self._buffer = self._buffer.split(_OK)
         if len(self._buffer) > _LONGEST_LINE:
@@ -86,13 +87,13 @@ class SlcanPort:
         elif command == b"C":
             self.open = False
         elif command == b"S":
-            return _OK if line == b"S8" and not self.open else _BELL      # RoboMaster buses run at 1 Mbit/s
+            return _OK if line == b"S8" and not self.open else _BELL  # RoboMaster buses run at 1 Mbit/s
         elif command == b"V":
             return b"V1013\r"
         elif command == b"N":
             return b"NRMHW\r"
         elif command == b"F":
-            return b"F00\r" if bus_works else b"F80\r"                     # bit 7: bus error
+            return b"F00\r" if bus_works else b"F80\r"  # bit 7: bus error
         elif command:
             return _BELL
         return _OK
