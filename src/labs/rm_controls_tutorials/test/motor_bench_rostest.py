@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """The tutorial's commands as they are typed, with mon, against the motor bench."""
+
 import os
 import signal
 import subprocess
@@ -17,26 +18,31 @@ POSITION, VELOCITY = (f"controllers/joint1_{kind}_controller" for kind in ("posi
 
 
 def shell(command):
-    return subprocess.run(["bash", "-c", f"source {SETUP}; {command}"], capture_output=True, text=True,
-                          timeout=120).stdout
+    return subprocess.run(["bash", "-c", f"source {SETUP}; {command}"], capture_output=True, text=True, timeout=120).stdout
 
 
 def switch(start, stop):
-    return shell("rosservice call /controller_manager/switch_controller \"start_controllers:\n"
-                 f"- '{start}'\nstop_controllers:\n- '{stop}'\nstrictness: 1\nstart_asap: true\ntimeout: 0.0\"")
+    return shell(
+        'rosservice call /controller_manager/switch_controller "start_controllers:\n'
+        f"- '{start}'\nstop_controllers:\n- '{stop}'\nstrictness: 1\nstart_asap: true\ntimeout: 0.0\""
+    )
 
 
 class TutorialTest(unittest.TestCase):
     def mon(self, words):
         """``mon launch`` in a shell of its own; returns its log, which is read while it runs."""
         log = f"/tmp/{rospy.get_name().strip('/')}_{os.getpid()}_{words.split()[0]}.log"
-        process = subprocess.Popen(["bash", "-c", f"source {SETUP}; mon launch --flush-log --log={log} "
-                                    f"rm_controls_tutorials {words}"], start_new_session=True, stdin=subprocess.DEVNULL)
+        process = subprocess.Popen(
+            ["bash", "-c", f"source {SETUP}; mon launch --flush-log --log={log} rm_controls_tutorials {words}"],
+            start_new_session=True,
+            stdin=subprocess.DEVNULL,
+        )
 
         def end():
             os.killpg(process.pid, signal.SIGINT)
             process.wait()
             os.remove(log)
+
         self.addCleanup(end)
 
         def read():
@@ -44,13 +50,13 @@ class TutorialTest(unittest.TestCase):
                 return ""
             with open(log) as file:
                 return file.read()
+
         return read
 
     def test_commands_of_the_tutorial(self):
         states, joints = [], []
         rospy.Subscriber("/actuator_states", ActuatorState, states.append)
-        rospy.Subscriber("/joint_states", JointState,
-                         lambda m: joints.append((m.position[0], m.velocity[0], m.header.stamp.to_sec())))
+        rospy.Subscriber("/joint_states", JointState, lambda m: joints.append((m.position[0], m.velocity[0], m.header.stamp.to_sec())))
         said = self.mon("load_rm_hw.launch interface:=slcan")
         wait_until(lambda: "Successfully connected to can0" in said(), "rm_hw is connected")
         said = self.mon("load_controllers.launch")
@@ -61,8 +67,10 @@ class TutorialTest(unittest.TestCase):
         wait_until(lambda: states[-1].position[0] > 19.2 and abs(states[-1].velocity[0]) < 0.01, "the arm hangs")
         before, count = states[-1].position[0], len(states)
         shell("rostopic pub -1 /motor_bench/turn/joint1_motor std_msgs/Float64 'data: 0.5'")
-        wait_until(lambda: max((s.position[0] for s in states[count:]), default=0.0) > before + 0.4 * 19.2,
-                   "the rotor is turned by hand, before the weight takes it back")
+        wait_until(
+            lambda: max((s.position[0] for s in states[count:]), default=0.0) > before + 0.4 * 19.2,
+            "the rotor is turned by hand, before the weight takes it back",
+        )
 
         self.assertIn("ok: True", switch("controllers/joint_state_controller", ""))
         wait_until(lambda: joints, "joint states")

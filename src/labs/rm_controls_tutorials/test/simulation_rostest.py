@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """The tutorial's session: load, start, hold level with a PD's sag, turn round and round."""
+
 import time
 import unittest
 
@@ -18,8 +19,10 @@ STIFFNESS = 30.0  # N m/rad, gain p of the position controller
 
 class Simulation(unittest.TestCase):
     def switch(self, start, stop):
-        request = {"start_controllers": ["controllers/" + name for name in start],
-                   "stop_controllers": ["controllers/" + name if name else "" for name in stop]}
+        request = {
+            "start_controllers": ["controllers/" + name for name in start],
+            "stop_controllers": ["controllers/" + name if name else "" for name in stop],
+        }
         switch = rospy.ServiceProxy("/controller_manager/switch_controller", SwitchController)
         self.assertTrue(switch(strictness=1, start_asap=True, timeout=0.0, **request).ok)
 
@@ -33,8 +36,7 @@ class Simulation(unittest.TestCase):
         controllers = rospy.ServiceProxy("/controller_manager/list_controllers", ListControllers)
         while len(controllers().controller) < 3:
             time.sleep(0.1)  # simulated time stands still
-        self.assertEqual({c.name: c.state for c in controllers().controller},
-                         {"controllers/" + name: "initialized" for name in NAMES})
+        self.assertEqual({c.name: c.state for c in controllers().controller}, {"controllers/" + name: "initialized" for name in NAMES})
         states = Topic("/joint_states", JointState)
         rospy.ServiceProxy("/gazebo/unpause_physics", Empty)()
         self.switch(["joint_state_controller"], [""])

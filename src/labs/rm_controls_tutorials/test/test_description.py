@@ -1,4 +1,5 @@
 """The tutorial robot: what its pendulum depends on, and controllers that fit it."""
+
 import pathlib
 import xml.etree.ElementTree as ET
 
@@ -25,7 +26,7 @@ def test_pendulum(text):
     lever = numbers(link.find("origin").get("xyz"))[2]
     about_centre = float(link.find("inertia").get("iyy"))
     assert (mass, lever) == (0.5, pytest.approx(0.2))
-    assert about_centre + mass * lever ** 2 == pytest.approx(0.030833, abs=1e-6)
+    assert about_centre + mass * lever**2 == pytest.approx(0.030833, abs=1e-6)
     along_bar = pose_of(text, "link2", "world")[:3, 2]
     assert along_bar == pytest.approx((1, 0, 0), abs=1e-3)  # 1.57 is not quite a right angle
 

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """arm_controller_node against a clock and joint states of our own: what it sends, what it prints, what it refuses."""
+
 import re
 import subprocess
 import threading
@@ -41,11 +42,11 @@ class ArmControllerNode(unittest.TestCase):
             got[index].append(message.data)
             if all(len(values) >= 5 for values in got.values()):
                 enough.set()
+
         for index in got:
             rospy.Subscriber("/arm/joint%d_position_controller/command" % index, Float64, receive, index)
 
-        node = subprocess.Popen([*NODE, "1", "-0.5", "0.25", "2e0"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                                text=True)
+        node = subprocess.Popen([*NODE, "1", "-0.5", "0.25", "2e0"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         try:
             state = JointState(name=["j0", "j1", "j2", "j3"], position=[0.1, 0.2, 0.3, 0.4])
             sim_time = 0.0

@@ -3,6 +3,7 @@
 All lengths are millimetres in the frame of the link that shows the part; only the servo is stored in centimetres,
 because the URDF scales it by 0.01. Joint axes and the plates that meet are where the joints of arm.urdf.xacro put them.
 """
+
 import pathlib
 import sys
 
@@ -20,16 +21,18 @@ def base_link():
         for sy in (-1, 1):
             foot = rod("z", 7, -31.3, -28.3, (sx * 38.2, sy * 37.9, 0), 12)
             legs.append(foot)
-            legs.append(hull(rod("z", 4, -29, -27, (sx * 38.2, sy * 38.0, 0), 16),
-                             rod("z", 4, 6, 9, (sx * 35, sy * 38, 0), 16)))
-            legs.append(hull(rod("z", 4, 6, 9, (sx * 35, sy * 38, 0), 16),
-                             rod("z", 4, 27, 29, (sx * 31, sy * 37, 0), 16)))
-            legs.append(hull(rod("z", 4, 27, 29, (sx * 31, sy * 37, 0), 16),
-                             rod("z", 4, 43, 46, (sx * 27, sy * 35, 0), 16)))
+            legs.append(hull(rod("z", 4, -29, -27, (sx * 38.2, sy * 38.0, 0), 16), rod("z", 4, 6, 9, (sx * 35, sy * 38, 0), 16)))
+            legs.append(hull(rod("z", 4, 6, 9, (sx * 35, sy * 38, 0), 16), rod("z", 4, 27, 29, (sx * 31, sy * 37, 0), 16)))
+            legs.append(hull(rod("z", 4, 27, 29, (sx * 31, sy * 37, 0), 16), rod("z", 4, 43, 46, (sx * 27, sy * 35, 0), 16)))
     lower = hull(*(rod("z", 5.2, -9, -6, (sx * 40, sy * 39.7, 0), 12) for sx in (-1, 1) for sy in (-1, 1)))
     deck = box((-40, -43, 6), (12, 43, 9))  # ends behind what the camera sees
-    board = [box((-30, -30, -3.5), (30, 30, -2)), box((-12, -10, -2), (6, 8, 1)), box((14, -28, -2), (28, -18, 6)),
-             box((12, 16, -2), (27, 28, 4)), box((-29, -22, -2), (-22, 24, 5))]
+    board = [
+        box((-30, -30, -3.5), (30, 30, -2)),
+        box((-12, -10, -2), (6, 8, 1)),
+        box((14, -28, -2), (28, -18, 6)),
+        box((12, 16, -2), (27, 28, 4)),
+        box((-29, -22, -2), (-22, 24, 5)),
+    ]
     board += [rod("z", 1.8, -6, -2, (sx * 27, sy * 27, 0), 12) for sx in (-1, 1) for sy in (-1, 1)]
     rims = mirrored(box((-38, 40, 9), (12, 43, 15)), "y") + [box((-40, -40, 9), (-37, 40, 29))]
     top = [box((-31.5, -39.5, 45.7), (31.5, 39.5, 48.7)), *mirrored(box((-31.5, 36.5, 38), (31.5, 39.5, 46)), "y")]
@@ -42,8 +45,12 @@ def base_link():
 
 def base_turn():
     """The bearing plate under the turntable; its axis is at y = 15.5."""
-    plate = hull(rod("z", 6, -1.9, 1.2, (-22.5, -21.9, 0)), rod("z", 6, -1.9, 1.2, (25.5, -21.9, 0)),
-                 rod("z", 6, -1.9, 1.2, (-22.5, 44.4, 0)), rod("z", 6, -1.9, 1.2, (25.5, 44.4, 0)))
+    plate = hull(
+        rod("z", 6, -1.9, 1.2, (-22.5, -21.9, 0)),
+        rod("z", 6, -1.9, 1.2, (25.5, -21.9, 0)),
+        rod("z", 6, -1.9, 1.2, (-22.5, 44.4, 0)),
+        rod("z", 6, -1.9, 1.2, (25.5, 44.4, 0)),
+    )
     races = [ring("z", 22, 28, 1.2, 3.4, (0, 15.5, 0), 48), ring("z", 10, 26, 3.4, 5.1, (0, 15.5, 0), 48)]
     screws = [rod("z", 2.2, 1.2, 2.6, (x, y, 0), 16) for x in (-23, 26) for y in (-22, 45)]
     return [plate, *races, *screws]
@@ -55,16 +62,18 @@ def base_turn_table_rot():
     groove = ring("z", 20, 26, -7.1, -6.2, (0, 0, 0), 48)
     cradle = [box((-16, -20, -2), (16, 20, 0))]
     cradle += mirrored(hull(box((-16, 18, -2), (16, 20, 1)), box((-11, 18, 12.6), (11, 20, 13.6))), "y")
-    screws = [rod("z", 1.8, -2, -0.6, (21.5 * np.cos(a), 21.5 * np.sin(a), 0), 16)
-              for a in np.radians([15, 75, 105, 165, 195, 255, 285, 345])]
+    screws = [
+        rod("z", 1.8, -2, -0.6, (21.5 * np.cos(a), 21.5 * np.sin(a), 0), 16) for a in np.radians([15, 75, 105, 165, 195, 255, 285, 345])
+    ]
     return [disc, groove, *cradle, *screws]
 
 
 def dyn():
     """A bus servo, 50 x 32 x 40: horn and idler on the z axis, body towards +x."""
+
     def slab(z0, z1, inset):
-        return hull(*(rod("z", 3, z0, z1, (x, y, 0), 16)
-                      for x in (-8.5 + inset, 35.5 - inset) for y in (-13 + inset, 13 - inset)))
+        return hull(*(rod("z", 3, z0, z1, (x, y, 0), 16) for x in (-8.5 + inset, 35.5 - inset) for y in (-13 + inset, 13 - inset)))
+
     body = [slab(-14.5, 16, 0)]
     body += [hull(slab(16, 16.5, 0), slab(17.5, 18, 1.5)), hull(slab(-15, -14.5, 0), slab(-17, -16, 1.5))]
     seam = hull(*(rod("z", 3, -1, 1, (x, y, 0), 16) for x in (-8.5, 35.5) for y in (-13, 13)))
@@ -104,8 +113,7 @@ def wrist():
 
 def the_crawer_base():
     """The T plate of the gripper, with the rail on which the fingers run."""
-    stem = hull(rod("z", 4, -2, 0.6, (-12.8, -20, 0)), rod("z", 4, -2, 0.6, (12.8, -20, 0)),
-                box((-16.8, -4, -2), (16.8, 0, 0.6)))
+    stem = hull(rod("z", 4, -2, 0.6, (-12.8, -20, 0)), rod("z", 4, -2, 0.6, (12.8, -20, 0)), box((-16.8, -4, -2), (16.8, 0, 0.6)))
     bar = hull(*(rod("z", 5, -2, 0.6, (sx * 47.2, y, 0)) for sx in (-1, 1) for y in (0, 28.8)))
     rails = [box((-48, y, 0.6), (48, y + 2, 3)) for y in (0, 28)]
     hub = ring("z", 4, 9, 0.6, 1.8, (0, 15, 0))

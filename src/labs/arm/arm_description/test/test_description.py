@@ -1,4 +1,5 @@
 """The arm's description: frames, limits, inertias, meshes, and generated files in step with their sources."""
+
 import pathlib
 import subprocess
 import sys
@@ -34,11 +35,18 @@ def robot():
     return ET.fromstring(xacro())
 
 
-@pytest.mark.parametrize("angle, link, origin", [
-    (0.0, "dyn2", (-0.0011, 0.0045, 0.1015)), (0.0, "dyn3", (-0.0002, 0.0045, 0.2130)),
-    (0.0, "dyn4", (0.0017, 0.0048, 0.3240)), (0.0, "crawer_base", (0.0007, -0.0102, 0.3875)),
-    (1.0, "dyn3", (0.0783, -0.0454, 0.1618)), (1.0, "dyn4", (0.1644, -0.0984, 0.1158)),
-    (1.0, "crawer_base", (0.1590, -0.0959, 0.0508))])
+@pytest.mark.parametrize(
+    "angle, link, origin",
+    [
+        (0.0, "dyn2", (-0.0011, 0.0045, 0.1015)),
+        (0.0, "dyn3", (-0.0002, 0.0045, 0.2130)),
+        (0.0, "dyn4", (0.0017, 0.0048, 0.3240)),
+        (0.0, "crawer_base", (0.0007, -0.0102, 0.3875)),
+        (1.0, "dyn3", (0.0783, -0.0454, 0.1618)),
+        (1.0, "dyn4", (0.1644, -0.0984, 0.1158)),
+        (1.0, "crawer_base", (0.1590, -0.0959, 0.0508)),
+    ],
+)
 def test_frames(angle, link, origin):
     pose = pose_of(xacro(), link, "base_link", dict.fromkeys(MOVING, angle))
     assert pose[:3, 3] == pytest.approx(origin, abs=6e-5)  # the figures have four decimals
@@ -61,7 +69,7 @@ def test_every_inertia_is_that_of_a_solid_body(robot):
 
 
 def test_bolted_or_free():
-    assert "<link name=\"world\"/>" in xacro()
+    assert '<link name="world"/>' in xacro()
     free = ET.fromstring(xacro("bolted:=false"))
     assert "world" not in {link.get("name") for link in free.findall("link")}
 
@@ -87,8 +95,9 @@ def test_meshes_are_in_step(tmp_path):
         shipped, drawn = (trimesh.load(folder / (name + ".stl")) for folder in (PACKAGE / "meshes", tmp_path))
         assert len(shipped.faces) == len(drawn.faces), name
         for measure in ("bounds", "area", "volume", "moment_inertia"):  # which way a cap is cut into triangles may differ
-            np.testing.assert_allclose(getattr(shipped, measure), getattr(drawn, measure), rtol=1e-5, atol=1e-3,
-                                       err_msg=f"{name} {measure}")
+            np.testing.assert_allclose(
+                getattr(shipped, measure), getattr(drawn, measure), rtol=1e-5, atol=1e-3, err_msg=f"{name} {measure}"
+            )
 
 
 @pytest.mark.parametrize("name", BOUNDS)

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """The lab's main job: the arm goes to (1, 1, 1, 1) at its speed limit, exactly, and the links follow."""
+
 import unittest
 
 import numpy as np
@@ -22,8 +23,9 @@ class ArmGazebo(unittest.TestCase):
         states = Topic("/arm/joint_states", JointState)
         states.wait_for(lambda m: True, "joint states")
         run_free()
-        publishers = [rospy.Publisher("/arm/joint%d_position_controller/command" % index, Float64, queue_size=1,
-                                      latch=True) for index in range(4)]
+        publishers = [
+            rospy.Publisher("/arm/joint%d_position_controller/command" % index, Float64, queue_size=1, latch=True) for index in range(4)
+        ]
         for publisher in publishers:
             publisher.publish(1.0)
         states.wait_for(lambda m: min(m.position) == 1.0, "all joints at 1 rad")
@@ -51,10 +53,12 @@ class ArmGazebo(unittest.TestCase):
         with self.assertRaises(rospy.ROSException):
             rospy.wait_for_service("/arm/controller_manager/load_controller", timeout=0.2)
         answer = rospy.ServiceProxy("/gazebo/spawn_urdf_model", SpawnModel)(
-            "arm", rospy.get_param("/robot_description"), "/", Pose(orientation=Quaternion(w=1.0)), "")
+            "arm", rospy.get_param("/robot_description"), "/", Pose(orientation=Quaternion(w=1.0)), ""
+        )
         self.assertTrue(answer.success, answer.status_message)
         again = rospy.ServiceProxy("/gazebo/spawn_urdf_model", SpawnModel)(
-            "arm", rospy.get_param("/robot_description"), "/", Pose(orientation=Quaternion(w=1.0)), "")
+            "arm", rospy.get_param("/robot_description"), "/", Pose(orientation=Quaternion(w=1.0)), ""
+        )
         self.assertFalse(again.success, "a second model of that name is refused")
         load = rospy.ServiceProxy("/arm/controller_manager/load_controller", LoadController)
         load.wait_for_service(60)
@@ -62,8 +66,9 @@ class ArmGazebo(unittest.TestCase):
         switch = rospy.ServiceProxy("/arm/controller_manager/switch_controller", SwitchController)
         self.assertTrue(switch(names, [], SwitchControllerRequest.STRICT, False, 0.0).ok)
         states = Topic("/arm/joint_states", JointState)
-        publishers = [rospy.Publisher("/arm/joint%d_position_controller/command" % index, Float64, queue_size=1,
-                                      latch=True) for index in range(4)]
+        publishers = [
+            rospy.Publisher("/arm/joint%d_position_controller/command" % index, Float64, queue_size=1, latch=True) for index in range(4)
+        ]
         for publisher, value in zip(publishers, (0.2, float("nan"), 0.2, float("inf"))):
             publisher.publish(value)
         states.wait_for(lambda m: m.position[0] == 0.2 and m.position[2] == 0.2, "j0 and j2 at 0.2 rad")

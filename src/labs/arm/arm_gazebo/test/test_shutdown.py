@@ -1,4 +1,5 @@
 """Ctrl-C on the launch file ends every process it started."""
+
 import os
 import signal
 import socket
@@ -23,9 +24,14 @@ def test_ctrl_c_leaves_no_process(tmp_path, port):
     environment = dict(os.environ, ROS_MASTER_URI="http://localhost:%d" % port, ROS_HOME=str(tmp_path))
     log = tmp_path / "launch.log"
     with open(log, "w") as out:
-        launch = subprocess.Popen(["roslaunch", "-p", str(port), "arm_gazebo", "arm_gazebo.launch", "gui:=false", "rviz:=false"],
-                                  env=environment, stdout=out, stderr=subprocess.STDOUT, start_new_session=True,
-                                  preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
+        launch = subprocess.Popen(
+            ["roslaunch", "-p", str(port), "arm_gazebo", "arm_gazebo.launch", "gui:=false", "rviz:=false"],
+            env=environment,
+            stdout=out,
+            stderr=subprocess.STDOUT,
+            start_new_session=True,
+            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+        )
     try:
         end = time.monotonic() + 120
         while "Started controllers" not in log.read_text():

@@ -1,4 +1,5 @@
 """For tests that run a lab in the simulator."""
+
 import threading
 import time
 
@@ -14,7 +15,8 @@ def run_free(times_real=None):
     now = rospy.ServiceProxy("/gazebo/get_physics_properties", GetPhysicsProperties)()
     rate = times_real / now.time_step if times_real else 0.0
     rospy.ServiceProxy("/gazebo/set_physics_properties", SetPhysicsProperties)(
-        time_step=now.time_step, max_update_rate=rate, gravity=now.gravity, ode_config=now.ode_config)
+        time_step=now.time_step, max_update_rate=rate, gravity=now.gravity, ode_config=now.ode_config
+    )
 
 
 class Topic:

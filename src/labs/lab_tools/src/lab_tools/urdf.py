@@ -1,4 +1,5 @@
 """Looking into a robot description, for tests and scripts."""
+
 import pathlib
 import subprocess
 import xml.etree.ElementTree as ET
@@ -10,8 +11,7 @@ from trimesh.transformations import euler_matrix, rotation_matrix, translation_m
 def expand(path, *arguments):
     """The URDF text that xacro makes of the file at `path`, run in its folder with `arguments` (name:=value)."""
     path = pathlib.Path(path)
-    return subprocess.run(["xacro", path.name, *arguments], cwd=path.parent, check=True, stdout=subprocess.PIPE,
-                          text=True).stdout
+    return subprocess.run(["xacro", path.name, *arguments], cwd=path.parent, check=True, stdout=subprocess.PIPE, text=True).stdout
 
 
 def check(text, folder):
@@ -32,6 +32,7 @@ def pose_of(text, link, root, positions=None):
     :param positions: dict of joint name to angle (rad); joints that are not named stand at 0.
     :returns: (4, 4) X_RL, the pose of `link` in `root`.
     """
+
     def part(joint, tag):
         found = joint.find(tag)
         if found is None:
@@ -46,8 +47,7 @@ def pose_of(text, link, root, positions=None):
         step = np.eye(4)
         if origin is not None:
             roll, pitch, yaw = numbers(origin.get("rpy", "0 0 0"))
-            step = translation_matrix(numbers(origin.get("xyz", "0 0 0"))) @ \
-                euler_matrix(roll, pitch, yaw, "sxyz")
+            step = translation_matrix(numbers(origin.get("xyz", "0 0 0"))) @ euler_matrix(roll, pitch, yaw, "sxyz")
         angle = (positions or {}).get(joint.get("name"), 0.0)
         if angle:
             step = step @ rotation_matrix(angle, numbers(part(joint, "axis").get("xyz")))

@@ -2,6 +2,7 @@
 
 Millimetres; the sensor bar lies along x, the lenses look along -y, z is up; centred on the bounding box.
 """
+
 import pathlib
 import sys
 
@@ -17,8 +18,7 @@ FRONT = -36.3  # y of the lenses' rims
 
 
 def kinect():
-    ends = [rod("x", 4, *sorted((s * 131, s * 139.3)), (0, y, z), 16)
-            for s in (-1, 1) for y in (-27, 27) for z in (1, 31)]
+    ends = [rod("x", 4, *sorted((s * 131, s * 139.3)), (0, y, z), 16) for s in (-1, 1) for y in (-27, 27) for z in (1, 31)]
     bar = hull(*ends, box((-134, -31, -3), (134, 31, 35)))
     face = hull(box((-130, -33.5, 2), (130, -31, 30)), box((-126, -34, 5), (126, -31, 27)))
     lenses, glass = [], []

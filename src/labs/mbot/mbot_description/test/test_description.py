@@ -1,4 +1,5 @@
 """Every variant of the robot: valid, standing on the floor, sensors in place; generated files in step."""
+
 import pathlib
 import subprocess
 import sys
@@ -33,10 +34,16 @@ def test_check_urdf_accepts(path, tmp_path):
 def test_stands_on_the_floor(path):
     """Wheels (0.06 m) and casters (0.015 m) all touch z = 0; left is +y, front is +x."""
     text = expand(path)
-    places = {name: pose_of(text, name + "_link", "base_footprint")[:3, 3]
-              for name in ("left_wheel", "right_wheel", "front_caster", "back_caster")}
-    expected = {"left_wheel": (0, 0.19, 0.06), "right_wheel": (0, -0.19, 0.06),
-                "front_caster": (0.18, 0, 0.015), "back_caster": (-0.18, 0, 0.015)}
+    places = {
+        name: pose_of(text, name + "_link", "base_footprint")[:3, 3]
+        for name in ("left_wheel", "right_wheel", "front_caster", "back_caster")
+    }
+    expected = {
+        "left_wheel": (0, 0.19, 0.06),
+        "right_wheel": (0, -0.19, 0.06),
+        "front_caster": (0.18, 0, 0.015),
+        "back_caster": (-0.18, 0, 0.015),
+    }
     for name, place in places.items():
         assert place == pytest.approx(expected[name]), name
 
@@ -72,8 +79,7 @@ def test_drive_plugin_fits_the_wheels():
     assert [plugin.find(side + "Joint").text for side in ("left", "right")] == ["left_wheel_joint", "right_wheel_joint"]
 
 
-@pytest.mark.parametrize("name, sensor", [
-    ("base", "none"), ("with_camera", "camera"), ("with_kinect", "kinect"), ("with_laser", "laser")])
+@pytest.mark.parametrize("name, sensor", [("base", "none"), ("with_camera", "camera"), ("with_kinect", "kinect"), ("with_laser", "laser")])
 def test_plain_urdf_is_in_step(name, sensor, tmp_path):
     folder = PACKAGE / "urdf" / "urdf"
     text = (folder / ("mbot_%s.urdf" % name)).read_text()

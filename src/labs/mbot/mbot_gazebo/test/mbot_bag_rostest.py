@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """A slow drive through the room, recorded as one would for mapping: the bag holds every scan, and replays them."""
+
 import os
 import signal
 import subprocess
@@ -26,8 +27,7 @@ RECORDED = 15.0  # s of the simulation: more than the drive takes
 
 def content(scan):
     """What has to survive the bag."""
-    return (scan.header.stamp, scan.header.frame_id, scan.angle_min, scan.angle_increment, scan.range_max, scan.ranges,
-            scan.intensities)
+    return (scan.header.stamp, scan.header.frame_id, scan.angle_min, scan.angle_increment, scan.range_max, scan.ranges, scan.intensities)
 
 
 def wait_for_recorder():
@@ -55,6 +55,7 @@ class MbotBag(unittest.TestCase):
 
         def there(message):
             return message.pose.pose.position.x > SPEED * SECONDS
+
         odometry.wait_for(there, "way")
         commands.publish(Twist())
         end = odometry.wait_for(lambda m: there(m) and m.twist.twist.linear.x < 1e-3, "rest")
@@ -68,8 +69,9 @@ class MbotBag(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             file = os.path.join(folder, "room.bag")
             # the recorder ends by its own count of the time: a signal of ours would cost what it has not yet read
-            recorder = subprocess.Popen(["rosbag", "record", "-q", "-O", file, f"--duration={RECORDED}", "/scan", "/odom",
-                                         "/tf", "/tf_static", "__name:=recorder"])
+            recorder = subprocess.Popen(
+                ["rosbag", "record", "-q", "-O", file, f"--duration={RECORDED}", "/scan", "/odom", "/tf", "/tf_static", "__name:=recorder"]
+            )
             try:
                 wait_for_recorder()
                 run_free(5)
@@ -101,9 +103,28 @@ class MbotBag(unittest.TestCase):
         scans, odometry = Topic("/replayed/scan", LaserScan), Topic("/replayed/odom", Odometry)
         clock = Topic("/replayed/clock", Clock)
         # a clock of its own: the simulator's still runs
-        subprocess.run(["rosbag", "play", "-q", "--clock", "--rate", "4", "--queue", "10000", "--wait-for-subscribers",
-                        "--prefix", "/replayed", file, "--topics", "/scan", "/odom", "/clock:=/replayed/clock"],
-                       check=True, timeout=PATIENCE)
+        subprocess.run(
+            [
+                "rosbag",
+                "play",
+                "-q",
+                "--clock",
+                "--rate",
+                "4",
+                "--queue",
+                "10000",
+                "--wait-for-subscribers",
+                "--prefix",
+                "/replayed",
+                file,
+                "--topics",
+                "/scan",
+                "/odom",
+                "/clock:=/replayed/clock",
+            ],
+            check=True,
+            timeout=PATIENCE,
+        )
         last = recorded[-1].header.stamp
         scans.wait_for(lambda m: m.header.stamp == last, "the last scan")
         # rosbag play tells the times at which messages were recorded. It leaves with the last message, and where it was late, the

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """How exactly the robot drives: the way and the turns that were commanded, and none while it is parked. In simulated time."""
+
 import math
 import time
 import unittest
@@ -56,6 +57,7 @@ class MbotDriving(unittest.TestCase):
         def changed():
             now = self.wait(0.01).twist
             return abs(now.linear.x - before.linear.x) > 0.005 or abs(now.angular.z - before.angular.z) > 0.01
+
         self.until(changed, "effect of the command")
         return self.state("mbot", "").header.stamp.to_sec()
 
@@ -96,7 +98,8 @@ class MbotDriving(unittest.TestCase):
         spawn = rospy.ServiceProxy("/gazebo/spawn_sdf_model", SpawnModel)
         self.assertTrue(spawn("ramp", RAMP, "", Pose(Point(0, 20, 1), turned), "").success)
         rospy.ServiceProxy("/gazebo/set_model_state", SetModelState)(
-            ModelState("mbot", Pose(Point(0, 20, 1.05 / math.cos(slope) + 0.001), turned), Twist(), "world"))
+            ModelState("mbot", Pose(Point(0, 20, 1.05 / math.cos(slope) + 0.001), turned), Twist(), "world")
+        )
         start = self.wait(1).pose.position
         end = self.wait(20).pose.position
         self.assertGreater(start.z, 0.9)

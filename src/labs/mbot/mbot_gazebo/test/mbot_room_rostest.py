@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """The robot in the room: its laser measures the walls, it drives straight, turns, and all joints are reported."""
+
 import math
 import unittest
 
@@ -29,9 +30,11 @@ class MbotRoom(unittest.TestCase):
 
         :returns: odometry of the first and last moment at full speed, and the seconds between them.
         """
+
         def steady(odometry):
             twist = odometry.twist.twist
             return abs(twist.linear.x - forwards) < 1e-3 and abs(twist.angular.z - turn) < 1e-2
+
         self.odometry.messages.clear()
         self.command(forwards, turn)
         start = self.odometry.wait_for(steady, "full speed")

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Types into mbot_teleop.py, in a real pseudo-terminal and through a pipe, and watches /cmd_vel."""
+
 import queue
 import subprocess
 import unittest

@@ -1,4 +1,5 @@
 """Keys to velocities: directions, ramps, speeds, stopping."""
+
 import pytest
 from keyboard_teleop.driving import ANGULAR_RAMP, DIRECTIONS, HELP, LINEAR_RAMP, Driver
 
@@ -10,9 +11,10 @@ def held(key, turns, driver=None):
     return driver
 
 
-@pytest.mark.parametrize("key, linear, angular", [
-    ("i", 0.2, 0), ("o", 0.2, -1), ("j", 0, 1), ("l", 0, -1), ("u", 0.2, 1), (",", -0.2, 0), (".", -0.2, 1),
-    ("m", -0.2, -1)])
+@pytest.mark.parametrize(
+    "key, linear, angular",
+    [("i", 0.2, 0), ("o", 0.2, -1), ("j", 0, 1), ("l", 0, -1), ("u", 0.2, 1), (",", -0.2, 0), (".", -0.2, 1), ("m", -0.2, -1)],
+)
 def test_directions(key, linear, angular):
     driver = held(key, 20)
     assert (driver.linear, driver.angular) == pytest.approx((linear, angular))
@@ -45,8 +47,7 @@ def test_rolls_to_a_stop_after_the_fifth_idle_turn():
     assert driver.at_rest()
 
 
-@pytest.mark.parametrize("key, speed, turn", [
-    ("q", 1.1, 1.1), ("z", 0.9, 0.9), ("w", 1.1, 1), ("x", 0.9, 1), ("e", 1, 1.1), ("c", 1, 0.9)])
+@pytest.mark.parametrize("key, speed, turn", [("q", 1.1, 1.1), ("z", 0.9, 0.9), ("w", 1.1, 1), ("x", 0.9, 1), ("e", 1, 1.1), ("c", 1, 0.9)])
 def test_speed_keys(key, speed, turn):
     driver = Driver()
     assert driver.turn(key) == driver.status()

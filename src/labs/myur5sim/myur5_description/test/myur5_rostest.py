@@ -1,13 +1,18 @@
 #!/usr/bin/env python3
 """The UR5 on its pedestal follows a trajectory goal; the calibration topic says that it may."""
+
 import unittest
 
 import actionlib
 import numpy as np
 import rospy
 import rostest
-from control_msgs.msg import (FollowJointTrajectoryAction, FollowJointTrajectoryActionResult, FollowJointTrajectoryGoal,
-                              JointTrajectoryControllerState)
+from control_msgs.msg import (
+    FollowJointTrajectoryAction,
+    FollowJointTrajectoryActionResult,
+    FollowJointTrajectoryGoal,
+    JointTrajectoryControllerState,
+)
 from lab_tools.simulation import PATIENCE, Topic, run_free
 from std_msgs.msg import Bool
 from trajectory_msgs.msg import JointTrajectoryPoint
@@ -27,8 +32,7 @@ class MyUr5(unittest.TestCase):
         self.assertTrue(client.wait_for_server(rospy.Duration(1000)))
         goal = FollowJointTrajectoryGoal()
         goal.trajectory.joint_names = JOINTS
-        goal.trajectory.points = [JointTrajectoryPoint(positions=TARGET, velocities=[0] * 6,
-                                                       time_from_start=rospy.Duration(2))]
+        goal.trajectory.points = [JointTrajectoryPoint(positions=TARGET, velocities=[0] * 6, time_from_start=rospy.Duration(2))]
         client.send_goal(goal)
         self.assertTrue(client.wait_for_result(rospy.Duration(1000)))
         result = client.get_result()
@@ -36,8 +40,9 @@ class MyUr5(unittest.TestCase):
         # The server's stamp: this process's clock may lag behind a simulator that runs as fast as it can.
         arrived = results.wait_for(lambda m: True, "result").header.stamp
         tolerance = rospy.get_param("~tolerance")  # the integral of the effort interface takes a while to carry the weight
-        states.wait_for(lambda m: m.header.stamp > arrived
-                        and np.abs(np.subtract(m.actual.positions, TARGET)).max() <= tolerance, "rest at the target")
+        states.wait_for(
+            lambda m: m.header.stamp > arrived and np.abs(np.subtract(m.actual.positions, TARGET)).max() <= tolerance, "rest at the target"
+        )
 
 
 if __name__ == "__main__":

@@ -1,4 +1,5 @@
 """The UR5 on its pedestal: one tree from `world`, the arm on top."""
+
 import pathlib
 import xml.etree.ElementTree as ET
 
@@ -16,5 +17,6 @@ def test_arm_stands_on_the_pedestal(tmp_path):
 
 def test_interface_argument():
     robot = ET.fromstring(expand(XACRO, "transmission_hw_interface:=hardware_interface/EffortJointInterface"))
-    assert {element.text for element in robot.findall("transmission/joint/hardwareInterface")} == \
-        {"hardware_interface/EffortJointInterface"}
+    assert {element.text for element in robot.findall("transmission/joint/hardwareInterface")} == {
+        "hardware_interface/EffortJointInterface"
+    }

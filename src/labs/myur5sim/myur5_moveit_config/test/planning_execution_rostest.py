@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """The UR5 on its pedestal plans and moves in simulation, as the course types it."""
+
 import sys
 import threading
 import unittest
@@ -8,8 +9,8 @@ import moveit_commander
 import numpy as np
 import rospy
 import rostest
-from controller_manager_tests.client import ManagerClient
 from control_msgs.msg import FollowJointTrajectoryActionGoal
+from controller_manager_tests.client import ManagerClient
 from geometry_msgs.msg import Pose
 from moveit_msgs.msg import MoveItErrorCodes
 
@@ -24,8 +25,7 @@ class PlanningExecution(unittest.TestCase):
         cls.arm = moveit_commander.MoveGroupCommander("manipulator", wait_for_servers=60.0)
         ManagerClient().wait_until_running("arm_controller")
         cls.goals = []
-        cls.subscriber = rospy.Subscriber("/arm_controller/follow_joint_trajectory/goal",
-                                          FollowJointTrajectoryActionGoal, cls.goals.append)
+        cls.subscriber = rospy.Subscriber("/arm_controller/follow_joint_trajectory/goal", FollowJointTrajectoryActionGoal, cls.goals.append)
 
     def setUp(self):
         self.scene.clear()
@@ -58,8 +58,7 @@ class PlanningExecution(unittest.TestCase):
         self.arm.set_pose_target(pose)
         self.assertTrue(self.arm.go(wait=True))
         there = self.arm.get_current_pose().pose.position
-        np.testing.assert_allclose([there.x, there.y, there.z],
-                                   [pose.position.x, pose.position.y, pose.position.z], atol=0.005)
+        np.testing.assert_allclose([there.x, there.y, there.z], [pose.position.x, pose.position.y, pose.position.z], atol=0.005)
         down = Pose(pose.position, pose.orientation)
         down.position.z -= 0.1
         plan, fraction = self.arm.compute_cartesian_path([down], 0.01, 0.0)
@@ -112,8 +111,10 @@ class PlanningExecution(unittest.TestCase):
         good, plan, _, _ = self.arm.plan()
         self.assertTrue(good)
         column = plan.joint_trajectory.joint_names
-        straight = all(np.allclose([point.positions[column.index(name)] for name in JOINTS[1:]], goal[1:], atol=0.02)
-                       for point in plan.joint_trajectory.points)
+        straight = all(
+            np.allclose([point.positions[column.index(name)] for name in JOINTS[1:]], goal[1:], atol=0.02)
+            for point in plan.joint_trajectory.points
+        )
         self.assertFalse(straight, "the plan goes through the box")
         self.assertTrue(self.arm.execute(plan, wait=True))
         self.assert_at(goal)

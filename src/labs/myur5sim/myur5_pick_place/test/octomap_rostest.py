@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """The simulated depth camera sees table, post and block; motions go round what nobody put into the planning scene."""
+
 import sys
 import time
 import unittest

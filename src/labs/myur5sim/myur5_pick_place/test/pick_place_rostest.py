@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """The gripper picks the block up and puts it down elsewhere: in the simulator, not only in the planning scene."""
+
 import sys
 import unittest
 

@@ -3,6 +3,7 @@
 Millimetres in the frame of the link. Each joint is a stubby housing; the housing whose motor drives the next joint
 carries a blue-grey cap, and where two links meet there is a dark seam.
 """
+
 import pathlib
 import sys
 
@@ -17,8 +18,7 @@ SEAM = (0.05, 0.05, 0.05)
 def housing(axis, radius, start, end, centre=(0, 0, 0)):
     """A joint housing from its flange at `start` to its rounded back at `end`."""
     sign = 1 if end > start else -1
-    back = [(end - sign * 12, radius), (end - sign * 6, 0.965 * radius), (end - sign * 2, 0.86 * radius),
-            (end, 0.70 * radius)]
+    back = [(end - sign * 12, radius), (end - sign * 6, 0.965 * radius), (end - sign * 2, 0.86 * radius), (end, 0.70 * radius)]
     profile = [(start, 0.93 * radius), (start + sign * 3, 0.93 * radius), (start + sign * 4, radius), *back]
     return turned(axis, profile if sign > 0 else profile[::-1], centre, 48)
 
@@ -28,10 +28,20 @@ def capped(axis, radius, start, end, centre=(0, 0, 0)):
     sign = 1 if end > start else -1
     thick = 0.24 * radius
     lid = end - sign * thick
-    body = turned(axis, sorted([(start, 0.93 * radius), (start + sign * 3, 0.93 * radius),
-                                (start + sign * 4, radius), (lid - sign * 1.5, radius)]), centre, 48)
-    cap = turned(axis, sorted([(lid, radius), (end - sign * 0.12 * radius, 0.985 * radius),
-                               (end - sign * 0.04 * radius, 0.90 * radius), (end, 0.74 * radius)]), centre, 48)
+    body = turned(
+        axis,
+        sorted([(start, 0.93 * radius), (start + sign * 3, 0.93 * radius), (start + sign * 4, radius), (lid - sign * 1.5, radius)]),
+        centre,
+        48,
+    )
+    cap = turned(
+        axis,
+        sorted(
+            [(lid, radius), (end - sign * 0.12 * radius, 0.985 * radius), (end - sign * 0.04 * radius, 0.90 * radius), (end, 0.74 * radius)]
+        ),
+        centre,
+        48,
+    )
     gap = rod(axis, 0.96 * radius, *sorted((lid - sign * 1.5, lid)), centre, 48)
     return body, cap, gap
 
@@ -71,16 +81,19 @@ def forearm():
     body, cap, gap = capped("y", 39, 45, -57.2, (0, 0, 392.25))
     tube = turned("z", [(30, 47), (62, 47), (84, 42), (110, 38), (320, 37), (370, 37)], (0, 0, 0), 48)
     rims = [rod("z", 48.5, 58, 63, sections=48), rod("z", 38.2, 346, 351, sections=48)]
-    return {JOINT: [elbow, body], CAP: [cap], TUBE: [tube, *rims],
-            SEAM: [gap, flange("y", 58, 52, 54.5), flange("y", 39, 44.5, 47, (0, 0, 392.25))]}
+    return {
+        JOINT: [elbow, body],
+        CAP: [cap],
+        TUBE: [tube, *rims],
+        SEAM: [gap, flange("y", 58, 52, 54.5), flange("y", 39, 44.5, 47, (0, 0, 392.25))],
+    }
 
 
 def wrist(along, across, centre, start):
     """Both wrist elements: a housing along one axis, crossed at its middle by the motor of the next joint."""
     tube = housing(along, 38.7, start + 2, 132.9)
     motor, cap, gap = capped(across, 38.7, 45.5, -57.2, centre)
-    return {JOINT: [tube, motor], CAP: [cap],
-            SEAM: [gap, flange(along, 38.7, start, start + 2.5), flange(across, 38.7, 45, 47.5, centre)]}
+    return {JOINT: [tube, motor], CAP: [cap], SEAM: [gap, flange(along, 38.7, start, start + 2.5), flange(across, 38.7, 45, 47.5, centre)]}
 
 
 def wrist1():
@@ -103,8 +116,7 @@ def outline(name):
         "base": [rod("z", 73.6, -3, 15), rod("z", 58, 15, 21), rod("y", 9, -110, -60, (0, 0, 8), 16)],
         "shoulder": [rod("z", 58, -65.2, 68.5), rod("y", 59.4, -59.7, 70.5)],
         "upperarm": [rod("y", 59.7, -65.2, 68.6), rod("y", 59.7, -65.2, 68.6, (0, 0, 425)), rod("z", 54, 30, 395)],
-        "forearm": [rod("y", 58, -57.2, 54.5), rod("y", 39, -57.2, 47, (0, 0, 392.25)), rod("z", 47, 30, 100),
-                    rod("z", 38, 100, 370)],
+        "forearm": [rod("y", 58, -57.2, 54.5), rod("y", 39, -57.2, 47, (0, 0, 392.25)), rod("z", 47, 30, 100), rod("z", 38, 100, 370)],
         "wrist1": [rod("y", 38.7, 47.5, 132.9), rod("z", 38.7, -57.2, 47.5, (0, 93, 0))],
         "wrist2": [rod("z", 38.7, 49.1, 132.9), rod("y", 38.7, -57.2, 47.5, (0, 0, 94.65))],
         "wrist3": [rod("y", 37.5, 47.3, 81.8), box((-8, 56, 30), (8, 70, 43))],
@@ -124,5 +136,4 @@ def main(directory):
 
 
 if __name__ == "__main__":
-    main(pathlib.Path(sys.argv[1]) if len(sys.argv) > 1
-         else pathlib.Path(__file__).resolve().parents[1] / "meshes" / "ur5")
+    main(pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else pathlib.Path(__file__).resolve().parents[1] / "meshes" / "ur5")

@@ -1,4 +1,5 @@
 """The UR5's description: kinematics, limits, transmissions, meshes."""
+
 import pathlib
 import subprocess
 import sys
@@ -29,8 +30,10 @@ def xacro(name="ur5_robot", *arguments):
 
 
 def limits(text):
-    return {joint.get("name"): (float(joint.find("limit").get("lower")), float(joint.find("limit").get("upper")))
-            for joint in ET.fromstring(text).findall("joint[@type='revolute']")}
+    return {
+        joint.get("name"): (float(joint.find("limit").get("lower")), float(joint.find("limit").get("upper")))
+        for joint in ET.fromstring(text).findall("joint[@type='revolute']")
+    }
 
 
 @pytest.mark.parametrize("name", ["ur5_robot", "ur5_joint_limited_robot"])
@@ -46,13 +49,18 @@ def test_stretched_out_along_x(tip):
 def test_against_denavit_hartenberg():
     """The same pose by the arm's Denavit-Hartenberg table, from the frame `base` to `tool0`."""
     angles = (0.3, -1.1, 1.4, -0.6, 0.8, 2.0)
-    table = ((0, 0.089159, np.pi / 2), (-0.425, 0, 0), (-0.39225, 0, 0), (0, 0.10915, np.pi / 2),
-             (0, 0.09465, -np.pi / 2), (0, 0.0823, 0))  # a, d, alpha
+    table = (
+        (0, 0.089159, np.pi / 2),
+        (-0.425, 0, 0),
+        (-0.39225, 0, 0),
+        (0, 0.10915, np.pi / 2),
+        (0, 0.09465, -np.pi / 2),
+        (0, 0.0823, 0),
+    )  # a, d, alpha
     expected = np.eye(4)
     for q, (a, d, alpha) in zip(angles, table):
         c, s, ca, sa = np.cos(q), np.sin(q), np.cos(alpha), np.sin(alpha)
-        expected = expected @ np.array([[c, -s * ca, s * sa, a * c], [s, c * ca, -c * sa, a * s],
-                                        [0, sa, ca, d], [0, 0, 0, 1]])
+        expected = expected @ np.array([[c, -s * ca, s * sa, a * c], [s, c * ca, -c * sa, a * s], [0, sa, ca, d], [0, 0, 0, 1]])
     positions = {stem + "_joint": q for stem, q in zip(JOINTS, angles)}
     pose = np.linalg.inv(pose_of(xacro(), "base", "base_link")) @ pose_of(xacro(), "tool0", "base_link", positions)
     np.testing.assert_allclose(pose, expected, atol=1e-9)
@@ -84,11 +92,11 @@ def test_macro_parameters(tmp_path):
     safety = robot.find("joint[@name='left_elbow_joint']/safety_controller")
     assert float(safety.get("soft_lower_limit")) == pytest.approx(-1.35)
     assert robot.find("joint[@name='right_elbow_joint']/safety_controller") is None
-    interfaces = {joint.get("name"): joint.find("hardwareInterface").text
-                  for joint in robot.findall("transmission/joint")}
+    interfaces = {joint.get("name"): joint.find("hardwareInterface").text for joint in robot.findall("transmission/joint")}
     assert interfaces == {
         **{"left_%s_joint" % stem: "hardware_interface/PositionJointInterface" for stem in JOINTS},
-        **{"right_%s_joint" % stem: "hardware_interface/EffortJointInterface" for stem in JOINTS}}
+        **{"right_%s_joint" % stem: "hardware_interface/EffortJointInterface" for stem in JOINTS},
+    }
 
 
 @pytest.mark.parametrize("name", OUTLINES)
@@ -106,5 +114,6 @@ def test_meshes_are_in_step(tmp_path):
         again = trimesh.load(drawn, force="mesh")
         assert len(shipped.faces) == len(again.faces), drawn
         for measure in ("bounds", "area", "volume", "moment_inertia"):  # which way a cap is cut into triangles may differ
-            np.testing.assert_allclose(getattr(shipped, measure), getattr(again, measure), rtol=1e-4, atol=1e-8,
-                                       err_msg=f"{drawn} {measure}")
+            np.testing.assert_allclose(
+                getattr(shipped, measure), getattr(again, measure), rtol=1e-4, atol=1e-8, err_msg=f"{drawn} {measure}"
+            )

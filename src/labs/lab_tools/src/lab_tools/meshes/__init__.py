@@ -2,6 +2,7 @@
 
 Every solid is a `trimesh.Trimesh` in the unit of the drawing; axes are named "x", "y" or "z".
 """
+
 from .files import save_dae, save_stl
 from .solids import box, hull, mirrored, ring, rod, turned
 

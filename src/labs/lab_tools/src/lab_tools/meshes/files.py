@@ -1,4 +1,5 @@
 """Writers. What they write depends on the shapes alone, so a drawing gives the same file every time."""
+
 import datetime
 
 import collada
@@ -45,8 +46,15 @@ def save_dae(path, coloured, scale=1.0):
         mesh = trimesh.util.concatenate(parts)
         assert isinstance(mesh, trimesh.Trimesh)  # as its parts are
         mesh.apply_scale(scale)
-        effect = material.Effect("effect%d" % index, [], "phong", ambient=(*colour, 1.0), diffuse=(*colour, 1.0),
-                                 specular=(0.15, 0.15, 0.15, 1.0), shininess=20.0)
+        effect = material.Effect(
+            "effect%d" % index,
+            [],
+            "phong",
+            ambient=(*colour, 1.0),
+            diffuse=(*colour, 1.0),
+            specular=(0.15, 0.15, 0.15, 1.0),
+            shininess=20.0,
+        )
         paint = material.Material("material%d" % index, "material%d" % index, effect)
         document.effects.append(effect)
         document.materials.append(paint)

@@ -1,4 +1,5 @@
 """Boxes, turned parts and convex hulls."""
+
 import numpy as np
 import trimesh
 

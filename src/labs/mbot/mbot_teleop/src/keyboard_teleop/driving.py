@@ -18,12 +18,22 @@ CTRL-C to quit
 """
 
 DIRECTIONS = {  # key: (forwards, turn to the left)
-    "u": (1, 1), "i": (1, 0), "o": (1, -1),
-    "j": (0, 1), "l": (0, -1),
-    "m": (-1, -1), ",": (-1, 0), ".": (-1, 1),
+    "u": (1, 1),
+    "i": (1, 0),
+    "o": (1, -1),
+    "j": (0, 1),
+    "l": (0, -1),
+    "m": (-1, -1),
+    ",": (-1, 0),
+    ".": (-1, 1),
 }
 SPEED_FACTORS = {  # key: (linear, angular)
-    "q": (1.1, 1.1), "z": (0.9, 0.9), "w": (1.1, 1), "x": (0.9, 1), "e": (1, 1.1), "c": (1, 0.9),
+    "q": (1.1, 1.1),
+    "z": (0.9, 0.9),
+    "w": (1.1, 1),
+    "x": (0.9, 1),
+    "e": (1, 1.1),
+    "c": (1, 0.9),
 }
 STOP = (" ", "k")
 IDLE_TURNS = 4  # turns without a known key in which the robot keeps its direction

@@ -1,4 +1,5 @@
 """Single keys from a terminal or a pipe."""
+
 import os
 import select
 import termios

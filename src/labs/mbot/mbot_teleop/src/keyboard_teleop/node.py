@@ -1,4 +1,5 @@
 """The node mbot_teleop: keys in, /cmd_vel out."""
+
 import sys
 
 import rospy

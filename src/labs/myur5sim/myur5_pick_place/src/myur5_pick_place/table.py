@@ -1,4 +1,5 @@
 """The things on the table of ``worlds/table.world``, for pick and place."""
+
 from __future__ import annotations
 
 from typing import Dict, List, Sequence, Tuple
@@ -12,8 +13,7 @@ from tf.transformations import quaternion_about_axis, quaternion_from_euler, qua
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
 #: sizes (m) of what the world file has; "table" is the table's top
-SIZES: Dict[str, Tuple[float, float, float]] = {
-    "table": (0.5, 1.2, 0.04), "post": (0.08, 0.08, 0.4), "block": (0.05, 0.05, 0.12)}
+SIZES: Dict[str, Tuple[float, float, float]] = {"table": (0.5, 1.2, 0.04), "post": (0.08, 0.08, 0.4), "block": (0.05, 0.05, 0.12)}
 #: from tool0 to the middle between the finger tips, m
 REACH = 0.095
 OPEN, SQUEEZE = 0.04, 0.005  # m: a finger that is open from the middle; how far it is sent into what it holds
@@ -65,8 +65,9 @@ def _vertical(sign: float, desired: float = 0.12, least: float = 0.08) -> Grippe
 
 def fingers(opening: float) -> JointTrajectory:
     """Both fingers ``opening`` m away from the middle, after a second."""
-    return JointTrajectory(joint_names=list(FINGERS), points=[JointTrajectoryPoint(
-        positions=[opening] * 2, time_from_start=rospy.Duration(1.0))])
+    return JointTrajectory(
+        joint_names=list(FINGERS), points=[JointTrajectoryPoint(positions=[opening] * 2, time_from_start=rospy.Duration(1.0))]
+    )
 
 
 def grasps(box: Pose, size: Sequence[float] = SIZES["block"]) -> List[Grasp]:
@@ -80,18 +81,33 @@ def grasps(box: Pose, size: Sequence[float] = SIZES["block"]) -> List[Grasp]:
         width = size[1 - number % 2]  # the fingers close along the hand's y axis
         if width > WIDEST:
             continue
-        turned = quaternion_multiply(quaternion_multiply(turn, quaternion_about_axis(number * np.pi / 2, (0, 0, 1))),
-                                     quaternion_from_euler(np.pi, 0, 0))
-        found.append(Grasp(id=f"from above, turned by {90 * number} degrees", grasp_quality=1.0 - 0.1 * number,
-                           grasp_pose=_stamped(at[0], at[1], at[2] + size[2] / 2 - 0.04 + REACH, turned),
-                           pre_grasp_posture=fingers(OPEN), grasp_posture=fingers(max(0.0, width / 2 - SQUEEZE)),
-                           pre_grasp_approach=_vertical(-1.0), post_grasp_retreat=_vertical(1.0)))
+        turned = quaternion_multiply(
+            quaternion_multiply(turn, quaternion_about_axis(number * np.pi / 2, (0, 0, 1))), quaternion_from_euler(np.pi, 0, 0)
+        )
+        found.append(
+            Grasp(
+                id=f"from above, turned by {90 * number} degrees",
+                grasp_quality=1.0 - 0.1 * number,
+                grasp_pose=_stamped(at[0], at[1], at[2] + size[2] / 2 - 0.04 + REACH, turned),
+                pre_grasp_posture=fingers(OPEN),
+                grasp_posture=fingers(max(0.0, width / 2 - SQUEEZE)),
+                pre_grasp_approach=_vertical(-1.0),
+                post_grasp_retreat=_vertical(1.0),
+            )
+        )
     return found
 
 
 def places(x: float, y: float, z: float) -> List[PlaceLocation]:
     """Ways to put the block down with its middle at x, y, z, turned by any quarter."""
-    return [PlaceLocation(id=f"turned by {90 * number} degrees", quality=1.0 - 0.1 * number,
-                          place_pose=_stamped(x, y, z, quaternion_about_axis(number * np.pi / 2, (0, 0, 1))),
-                          post_place_posture=fingers(OPEN), pre_place_approach=_vertical(-1.0),
-                          post_place_retreat=_vertical(1.0)) for number in range(4)]
+    return [
+        PlaceLocation(
+            id=f"turned by {90 * number} degrees",
+            quality=1.0 - 0.1 * number,
+            place_pose=_stamped(x, y, z, quaternion_about_axis(number * np.pi / 2, (0, 0, 1))),
+            post_place_posture=fingers(OPEN),
+            pre_place_approach=_vertical(-1.0),
+            post_place_retreat=_vertical(1.0),
+        )
+        for number in range(4)
+    ]

@@ -1,13 +1,15 @@
 """What RViz's tab Manipulation asks for: the things on the table come into the planning scene (action ``recognize_objects``, of
 the simulator, which knows them), and a block is gripped from above (service ``plan_grasps``)."""
+
 import actionlib
 import node_signals
 import rospy
 from moveit_commander import PlanningSceneInterface
 from moveit_msgs.msg import MoveItErrorCodes
 from moveit_msgs.srv import GraspPlanning, GraspPlanningResponse
-from myur5_pick_place import table
 from object_recognition_msgs.msg import ObjectRecognitionAction, ObjectRecognitionResult, RecognizedObject
+
+from myur5_pick_place import table
 
 
 def plan_grasps(request):
